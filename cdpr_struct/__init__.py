@@ -1,0 +1,1 @@
+"""Cable-driven parallel robots: predict deflection and vibration, check the prediction, diagnose measurements."""
