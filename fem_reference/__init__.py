@@ -1,0 +1,51 @@
+"""The independent referee: a finite-element model of cables and cable robots made of two-node bars.
+
+Plain arrays, SI units, z up. Imports NumPy and SciPy only and shares no formula with what it judges.
+"""
+
+from fem_reference.cable import CableData, CableEquilibrium
+from fem_reference.cable_modes import CableModes, cable_count_below, cable_modes, end_dynamic_stiffness
+from fem_reference.cable_statics import solve_cable
+from fem_reference.errors import (
+    CableNotConvergedError,
+    CompressedBarError,
+    FemError,
+    FoldedCableError,
+    MissedModesError,
+    RobotNotConvergedError,
+    UnstableEquilibriumError,
+)
+from fem_reference.extrapolation import Extrapolation, extrapolate
+from fem_reference.rigid_platform import PlatformData
+from fem_reference.robot import PointForce, RobotData, RobotEquilibrium
+from fem_reference.robot_dynamics import count_below, platform_dynamic_stiffness
+from fem_reference.robot_modes import RobotModes, robot_modes
+from fem_reference.robot_statics import solve_robot
+
+__all__ = [
+    "CableData",
+    "CableEquilibrium",
+    "CableModes",
+    "CableNotConvergedError",
+    "CompressedBarError",
+    "Extrapolation",
+    "FemError",
+    "FoldedCableError",
+    "MissedModesError",
+    "PlatformData",
+    "PointForce",
+    "RobotData",
+    "RobotEquilibrium",
+    "RobotModes",
+    "RobotNotConvergedError",
+    "UnstableEquilibriumError",
+    "cable_count_below",
+    "cable_modes",
+    "count_below",
+    "end_dynamic_stiffness",
+    "extrapolate",
+    "platform_dynamic_stiffness",
+    "robot_modes",
+    "solve_cable",
+    "solve_robot",
+]

@@ -1,0 +1,211 @@
+"""Where does a cable of bars hang, and with which forces? Many cables between held ends in one go.
+
+Equilibrium of the interior nodes fixes all bar forces but one: from bar to bar the tension vector changes by
+the weight of a node, t_j = p - (j - (n - 1)/2) w, so the vector p at mid-length is the only unknown. Each bar
+then has its direction t_j / N_j and, by Hooke, its length L0 (1 + N_j / EA), and p is right when the bars
+lead from start to end. These are the same discrete equations as for node displacements, written in forces.
+The gap is the gradient of the complementary energy sum L0 (N_j + N_j^2 / 2EA) - p . chord, which is convex:
+Newton with a line search finds the one state in which all bars pull, whatever the sag, and the precision
+of p does not suffer from a large EA / L0. The Hessian is the flexibility of the cable between its ends.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from fem_reference.arrays import element_count, fixed_array
+from fem_reference.bar_element import internal_forces
+from fem_reference.cable import CableData, CableEquilibrium
+from fem_reference.errors import CableNotConvergedError, CompressedBarError, FemError, FoldedCableError
+
+STANDARD_GRAVITY = (0.0, 0.0, -9.81)
+MAX_ITERATIONS = 200
+EPS = float(np.finfo(float).eps)
+
+
+@dataclass(frozen=True, eq=False)
+class CableBatch:
+    """m cables of n bars each, as arrays: lengths, EA (m,), weight of one bar (m, 3) [N]."""
+
+    cables: tuple[CableData, ...]
+    elements: int
+    gravity: np.ndarray
+    element_length: np.ndarray
+    axial_stiffness: np.ndarray
+    element_weight: np.ndarray
+
+    @classmethod
+    def of(cls, cables: tuple[CableData, ...], elements: int, gravity: ArrayLike) -> CableBatch:
+        """Collect the arrays from cable data; gravity (3,) [m/s^2], world."""
+        elements, acceleration = element_count(elements), fixed_array("gravity", gravity, (3,))
+        length = np.array([cable.unstrained_length for cable in cables]) / elements
+        density = np.array([cable.linear_density for cable in cables])
+        return cls(cables, elements, acceleration, length,
+                   np.array([cable.axial_stiffness for cable in cables]),
+                   (density * length)[:, None] * acceleration)
+
+    @property
+    def unstrained_length(self) -> np.ndarray:
+        """Whole lengths (m,) [m]."""
+        return self.element_length * self.elements
+
+    @property
+    def slack_tension(self) -> np.ndarray:
+        """Tension (m,) [N] below which a bar has no direction worth the name."""
+        return 1e-12 * np.linalg.norm(self.element_weight, axis=-1) + 1e-16 * self.axial_stiffness
+
+    def tension_vectors(self, mid_force: np.ndarray) -> np.ndarray:
+        """Tension vectors (m, n, 3) [N] that leave every interior node in balance."""
+        offsets = np.arange(self.elements) - 0.5 * (self.elements - 1)
+        return mid_force[:, None, :] - offsets[:, None] * self.element_weight[:, None, :]
+
+
+@dataclass(frozen=True, eq=False)
+class ChainState:
+    """The m chains for trial forces `mid_force` (m, 3) [N].
+
+    gap    : (m, 3) [m], by how much the chain overshoots its end
+    flexibility : (m, 3, 3) [m/N], derivative of the gap by the force
+    energy : (m,) [J], complementary energy
+    """
+
+    mid_force: np.ndarray
+    tension_vectors: np.ndarray
+    gap: np.ndarray
+    flexibility: np.ndarray
+    energy: np.ndarray
+
+
+def chain_state(batch: CableBatch, chord: np.ndarray, mid_force: np.ndarray) -> ChainState:
+    """Evaluate the chains with mid forces (m, 3) [N] against their chords (m, 3) [m]."""
+    length, stiffness = batch.element_length[:, None], batch.axial_stiffness[:, None]
+    vectors = batch.tension_vectors(mid_force)
+    tension = np.maximum(np.linalg.norm(vectors, axis=-1), batch.slack_tension[:, None])
+    directions = vectors / tension[..., None]
+    gap = np.einsum("mn,mnk->mk", length * (1.0 + tension / stiffness), directions) - chord
+    across = length / tension
+    flexibility = -np.einsum("mnk,mn,mnl->mkl", directions, across, directions)
+    flexibility += (across + length / stiffness).sum(axis=1)[:, None, None] * np.eye(3)
+    energy = (length * (tension + 0.5 * tension**2 / stiffness)).sum(axis=1) - (mid_force * chord).sum(axis=1)
+    return ChainState(mid_force, vectors, gap, flexibility, energy)
+
+
+def starting_force(batch: CableBatch, chord: np.ndarray) -> np.ndarray:
+    """First guess (m, 3) [N]: Hooke along the straight chord, or the shallow parabola of the spare length."""
+    span = np.linalg.norm(chord, axis=-1)
+    weight = np.linalg.norm(batch.element_weight, axis=-1) * batch.elements
+    strain = span / batch.unstrained_length - 1.0
+    stretched = np.maximum(batch.axial_stiffness * strain, 0.0) + np.cbrt(batch.axial_stiffness * weight**2 / 24.0)
+    hanging = weight / np.sqrt(24.0 * np.maximum(-strain, EPS))
+    size = np.where(strain < 0.0, np.minimum(stretched, hanging), stretched)
+    return size[:, None] * chord / np.maximum(span, 1e-300)[:, None]
+
+
+def solve_chains(batch: CableBatch, starts: np.ndarray, ends: np.ndarray,
+                 first: np.ndarray | None = None) -> tuple[ChainState, int]:
+    """Equilibrium of all cables between starts and ends (m, 3) [m]; `first` (m, 3) [N] warms the start.
+
+    Returns the state and the number of Newton steps.
+
+    Raises
+    ------
+    FoldedCableError : a slack cable folds within one bar.
+    CableNotConvergedError : any other failure, with the remaining gap.
+    """
+    chord = ends - starts
+    state = chain_state(batch, chord, starting_force(batch, chord) if first is None else first)
+    reach = (np.abs(starts).max(axis=1) + np.abs(ends).max(axis=1)) / batch.unstrained_length + 1.0
+    noise = 8.0 * EPS * batch.axial_stiffness * reach
+    for iteration in range(MAX_ITERATIONS):
+        step = -np.linalg.solve(state.flexibility, state.gap[..., None])[..., 0]
+        largest = np.linalg.norm(state.tension_vectors, axis=-1).max(axis=1)
+        done = np.linalg.norm(step, axis=-1) <= np.maximum(1e-13 * largest, noise)
+        if done.all():
+            return _refuse_folds(batch, chain_state(batch, chord, state.mid_force + step)), iteration + 1
+        state = _searched(batch, chord, state, step, done)
+    raise _failure(batch, state, int(np.argmin(done)))
+
+
+def _searched(batch: CableBatch, chord: np.ndarray, state: ChainState, step: np.ndarray,
+              done: np.ndarray) -> ChainState:
+    """Halve each cable's step until its energy falls (or, at round-off, its gap shrinks)."""
+    scale = np.ones(len(step))
+    slope = (state.gap * step).sum(axis=1)
+    gap = np.linalg.norm(state.gap, axis=1)
+    for _ in range(60):
+        trial = chain_state(batch, chord, state.mid_force + scale[:, None] * step)
+        falls = trial.energy <= state.energy + 1e-4 * scale * slope
+        settled = falls | done | (np.linalg.norm(trial.gap, axis=1) <= 0.9 * gap)
+        if settled.all():
+            break
+        scale = np.where(settled, scale, 0.5 * scale)
+    return trial
+
+
+def _refuse_folds(batch: CableBatch, state: ChainState) -> ChainState:
+    """Pass a solved state on, unless some bar is without tension."""
+    tensions = np.linalg.norm(state.tension_vectors, axis=-1)
+    limit = 100.0 * batch.slack_tension[:, None]
+    if (tensions <= limit).any():
+        cable, element = (int(index) for index in np.argwhere(tensions <= limit)[0])
+        raise FoldedCableError(cable, element, float(tensions[cable, element]), float(tensions[cable].max()))
+    return state
+
+
+def _failure(batch: CableBatch, state: ChainState, cable: int) -> FemError:
+    tensions = np.linalg.norm(state.tension_vectors[cable], axis=-1)
+    weakest = int(np.argmin(tensions))
+    if tensions[weakest] < 2.0 * np.linalg.norm(batch.element_weight[cable]):
+        return FoldedCableError(cable, weakest, float(tensions[weakest]), float(tensions.max()))
+    gap = float(np.linalg.norm(state.gap[cable]))
+    return CableNotConvergedError(cable, gap, MAX_ITERATIONS, state.mid_force[cable])
+
+
+def equilibria(batch: CableBatch, starts: np.ndarray, state: ChainState, iterations: int) -> tuple[CableEquilibrium, ...]:
+    """Turn solved chains into one CableEquilibrium a cable, each checked from its node positions."""
+    return tuple(_equilibrium(batch, index, starts[index], state, iterations) for index in range(len(starts)))
+
+
+def _equilibrium(batch: CableBatch, index: int, start: np.ndarray, state: ChainState,
+                 iterations: int) -> CableEquilibrium:
+    cable, vectors = batch.cables[index], state.tension_vectors[index]
+    length, weight = float(batch.element_length[index]), batch.element_weight[index]
+    tensions = np.linalg.norm(vectors, axis=-1)
+    steps = vectors * (length * (1.0 / tensions + 1.0 / cable.axial_stiffness))[:, None]
+    nodes = np.vstack([start, start + np.cumsum(steps, axis=0)])
+    left_over = internal_forces(nodes, length, cable.axial_stiffness)[1:-1] - weight
+    weakest = int(np.argmin(np.linalg.norm(np.diff(nodes, axis=0), axis=-1)))
+    stretch = float(np.linalg.norm(nodes[weakest + 1] - nodes[weakest])) / length - 1.0
+    if stretch < -64.0 * EPS * (1.0 + np.abs(nodes).max() / length):
+        raise CompressedBarError(index, weakest, cable.axial_stiffness * stretch)
+    frozen = (nodes, vectors, -vectors[0] - 0.5 * weight, vectors[-1] - 0.5 * weight)
+    nodes, vectors, start_force, end_force = (fixed_array("state", part, (None,) * part.ndim) for part in frozen)
+    return CableEquilibrium(cable, batch.gravity, nodes, vectors, start_force, end_force,
+                            float(np.linalg.norm(left_over, axis=-1).max()), iterations)
+
+
+def solve_cable(cable: CableData, start: ArrayLike, end: ArrayLike, elements: int,
+                gravity: ArrayLike = STANDARD_GRAVITY) -> CableEquilibrium:
+    """Static equilibrium of a cable of `elements` bars between two held ends.
+
+    Parameters
+    ----------
+    cable : CableData.
+    start, end : (3,) [m], world.
+    elements : number n of bars, at least 2.
+    gravity : (3,) [m/s^2], world; z is up by default.
+
+    Raises
+    ------
+    FoldedCableError : an exactly vertical slack cable that folds inside a bar.
+    CableNotConvergedError : the iteration stopped.
+    ValueError : wrong shapes or numbers.
+    """
+    batch = CableBatch.of((cable,), elements, gravity)
+    starts = fixed_array("start", start, (3,))[None]
+    ends = fixed_array("end", end, (3,))[None]
+    state, iterations = solve_chains(batch, starts, ends)
+    return equilibria(batch, starts, state, iterations)[0]

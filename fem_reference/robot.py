@@ -1,0 +1,130 @@
+"""A cable robot as plain arrays, and its state at rest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from fem_reference.arrays import fixed_array
+from fem_reference.bar_element import MassModel
+from fem_reference.cable import CableData, CableEquilibrium
+from fem_reference.rigid_platform import PlatformData, point_motion, rotating_arm_stiffness
+
+
+@dataclass(frozen=True, eq=False)
+class RobotData:
+    """m cables between a frame and one rigid platform.
+
+    frame_anchors    : (m, 3) [m], world, held
+    platform_anchors : (m, 3) [m], platform frame
+    cables           : m CableData, each from its frame anchor (start) to its platform anchor (end)
+    platform         : PlatformData
+    gravity          : (3,) [m/s^2], world, z up
+    """
+
+    frame_anchors: np.ndarray
+    platform_anchors: np.ndarray
+    cables: tuple[CableData, ...]
+    platform: PlatformData
+    gravity: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -9.81]))
+
+    def __post_init__(self) -> None:
+        cables = tuple(self.cables)
+        if not cables:
+            raise ValueError("RobotData.cables must hold at least one cable, got none")
+        object.__setattr__(self, "cables", cables)
+        for name in ("frame_anchors", "platform_anchors"):
+            object.__setattr__(self, name, fixed_array(f"RobotData.{name}", getattr(self, name), (len(cables), 3)))
+        object.__setattr__(self, "gravity", fixed_array("RobotData.gravity", self.gravity, (3,)))
+
+
+@dataclass(frozen=True, eq=False)
+class PointForce:
+    """A constant force on the platform.
+
+    force : (3,) [N], world; keeps its direction when the platform turns
+    point : (3,) [m], where it acts, platform frame
+    """
+
+    force: np.ndarray
+    point: np.ndarray = field(default_factory=lambda: np.zeros(3))
+
+    def __post_init__(self) -> None:
+        for name in ("force", "point"):
+            object.__setattr__(self, name, fixed_array(f"PointForce.{name}", getattr(self, name), (3,)))
+
+
+@dataclass(frozen=True, eq=False)
+class DeadLoads:
+    """Constant forces on the platform, weight first: forces (k, 3) [N] world, points (k, 3) [m] platform frame."""
+
+    forces: np.ndarray
+    points: np.ndarray
+
+    @classmethod
+    def on(cls, robot: RobotData, external_force: PointForce | None) -> DeadLoads:
+        """Weight of the platform at its centre of mass, and the external force if there is one."""
+        forces = [robot.platform.mass * robot.gravity]
+        points = [robot.platform.center_of_mass]
+        if external_force is not None:
+            if not isinstance(external_force, PointForce):
+                raise ValueError(f"external_force must be a PointForce or None, got {external_force!r}")
+            forces.append(external_force.force)
+            points.append(external_force.point)
+        return cls(np.array(forces), np.array(points))
+
+
+@dataclass(frozen=True, eq=False)
+class RobotEquilibrium:
+    """A robot at rest (or held at a pose).
+
+    robot, external_force : what it was solved for
+    position, rotation    : (3,) [m], (3, 3) platform to world
+    cables                : m CableEquilibrium
+    residual_wrench       : (6,) [N, N m], world, about the reference point, of all forces on the platform;
+                            zero but for round-off if the platform was free, else what would have to hold it
+    iterations            : Newton steps on the pose
+    """
+
+    robot: RobotData
+    external_force: PointForce | None
+    position: np.ndarray
+    rotation: np.ndarray
+    cables: tuple[CableEquilibrium, ...]
+    residual_wrench: np.ndarray
+    iterations: int
+
+    @property
+    def elements(self) -> int:
+        """Number n of bars of every cable."""
+        return self.cables[0].elements
+
+    @property
+    def arms(self) -> np.ndarray:
+        """Lever arms (m, 3) [m] from the reference point to the platform anchors, world axes."""
+        return self.robot.platform_anchors @ self.rotation.T
+
+    def end_motion(self) -> np.ndarray:
+        """Motion (m, 3, 6) of the cable ends per small platform motion."""
+        return point_motion(self.arms)
+
+    def geometric_stiffness(self) -> np.ndarray:
+        """Stiffness (6, 6) of the turning lever arms of cable forces, weight and external force.
+
+        Symmetric part only: the rest is half the unbalanced moment, which vanishes at rest, and no
+        conservative support could supply it to a platform that is held.
+        """
+        loads = DeadLoads.on(self.robot, self.external_force)
+        arms = np.vstack([self.arms, loads.points @ self.rotation.T])
+        pulls = np.array([-cable.end_force for cable in self.cables])
+        stiffness = rotating_arm_stiffness(arms, np.vstack([pulls, loads.forces]))
+        return 0.5 * (stiffness + stiffness.T)
+
+    def element_stiffness(self) -> np.ndarray:
+        """Tangent stiffness (m, n, 6, 6) [N/m] of all bars."""
+        return np.array([cable.element_stiffness() for cable in self.cables])
+
+    def element_mass(self, mass: MassModel = "lumped") -> np.ndarray:
+        """Mass matrices (m, n, 6, 6) [kg] of all bars."""
+        return np.array([cable.element_mass(mass) for cable in self.cables])

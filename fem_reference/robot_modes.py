@@ -1,0 +1,113 @@
+"""Eigenfrequencies and shapes of platform and cables together, and what part of the mass moves in each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import block_diag, csc_array, eye_array, hstack, vstack
+
+from fem_reference.bar_element import MassModel
+from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
+from fem_reference.errors import MissedModesError
+from fem_reference.rigid_platform import platform_mass_matrix
+from fem_reference.robot import RobotEquilibrium
+from fem_reference.robot_dynamics import count_below
+from fem_reference.sparse_chain import chain_matrix
+
+SPARE_MODES = 4  # solved beyond the asked ones, so that the count can be checked in a gap
+
+
+@dataclass(frozen=True, eq=False)
+class RobotModes:
+    """Modes of a robot with held lengths, ascending; modal mass 1 kg.
+
+    frequencies_hz  : (k,) [Hz]
+    platform_shapes : (k, 6) displacement of the reference point and rotation, world axes
+    cable_shapes    : (k, m, n - 1, 3) displacement of the interior nodes, world
+    platform_energy : (k,) share of the kinetic energy in the platform
+    cable_energy    : (k, m) share of the kinetic energy in each cable, its last half element included
+    """
+
+    frequencies_hz: np.ndarray
+    platform_shapes: np.ndarray
+    cable_shapes: np.ndarray
+    platform_energy: np.ndarray
+    cable_energy: np.ndarray
+
+
+def node_motion(equilibrium: RobotEquilibrium) -> csc_array:
+    """Motion of all nodes 1 ... n of all cables per unknown: sparse (3 m n, 3 m (n - 1) + 6).
+
+    The unknowns are the interior nodes, cable by cable, and at the end the six of the platform.
+    """
+    interior, ends = 3 * (equilibrium.elements - 1), equilibrium.end_motion()
+    own = vstack([eye_array(interior), csc_array((3, interior))])
+    moved = [vstack([csc_array((interior, 6)), csc_array(end)]) for end in ends]
+    return csc_array(hstack([block_diag([own] * len(ends)), vstack(moved)]))
+
+
+def robot_matrices(equilibrium: RobotEquilibrium, mass: MassModel = "lumped") -> tuple[csc_array, csc_array]:
+    """Tangent stiffness and mass of the whole robot in the unknowns of `node_motion`, sparse."""
+    motion, robot = node_motion(equilibrium), equilibrium.robot
+    elements = (equilibrium.element_stiffness(), equilibrium.element_mass(mass))
+    on_platform = (equilibrium.geometric_stiffness(),
+                   platform_mass_matrix(robot.platform, equilibrium.rotation))
+    cables = motion.shape[1] - 6
+    stiffness, inertia = (
+        csc_array(motion.T @ chain_matrix(matrices) @ motion + block_diag([csc_array((cables, cables)), added]))
+        for matrices, added in zip(elements, on_platform, strict=True))
+    return stiffness, inertia
+
+
+def robot_modes(equilibrium: RobotEquilibrium, count: int, mass: MassModel = "lumped") -> RobotModes:
+    """Lowest `count` modes; the number of frequencies found is certified by `count_below`.
+
+    Raises
+    ------
+    ValueError : count above the number of unknowns, or an unknown mass model.
+    UnstableEquilibriumError : the platform does not rest stably.
+    MissedModesError : the sign count contradicts the eigensolver.
+    """
+    stiffness, inertia = robot_matrices(equilibrium, mass)
+    if not 1 <= count <= stiffness.shape[0]:
+        raise ValueError(f"count must be between 1 and {stiffness.shape[0]}, got {count!r}")
+    solved = min(count + SPARE_MODES, stiffness.shape[0])
+    values, vectors = lowest_eigenpairs(stiffness, inertia, solved, _shift(equilibrium))
+    _certify(equilibrium, values, count, mass)
+    vectors = vectors[:, :count]
+    cables, interior = len(equilibrium.cables), equilibrium.elements - 1
+    platform_energy, cable_energy = _energy_shares(equilibrium, vectors, mass)
+    return RobotModes(frequencies_hz(values[:count]), vectors[-6:].T.copy(),
+                      vectors[:-6].T.reshape(count, cables, interior, 3), platform_energy, cable_energy)
+
+
+def _shift(equilibrium: RobotEquilibrium) -> float:
+    """A small negative eigenvalue [rad^2/s^2], well below what a string of this robot has."""
+    strings = [float(cable.tensions.min()) / (cable.cable.linear_density * cable.cable.unstrained_length**2)
+               for cable in equilibrium.cables]
+    return -1e-3 * min(strings)
+
+
+def _certify(equilibrium: RobotEquilibrium, values: np.ndarray, count: int, mass: MassModel) -> None:
+    """Compare with the inertia count in the widest gap at or after the last mode asked for."""
+    if len(values) <= count:
+        return
+    roots = np.sqrt(np.maximum(values, 0.0))
+    last = count - 1 + int(np.argmax(np.diff(roots[count - 1:])))
+    omega = 0.5 * float(roots[last] + roots[last + 1])
+    counted = count_below(equilibrium, omega, mass)
+    if counted != last + 1:
+        raise MissedModesError(last + 1, counted, omega / (2.0 * np.pi))
+
+
+def _energy_shares(equilibrium: RobotEquilibrium, vectors: np.ndarray,
+                   mass: MassModel) -> tuple[np.ndarray, np.ndarray]:
+    """Shares (k,) of the platform and (k, m) of the cables in the kinetic energy of vectors (dofs, k)."""
+    moved = node_motion(equilibrium) @ vectors
+    held = chain_matrix(equilibrium.element_mass(mass)) @ moved
+    in_cables = (moved * held).reshape(len(equilibrium.cables), -1, vectors.shape[1]).sum(axis=1).T
+    matrix = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
+    in_platform = np.einsum("ak,ab,bk->k", vectors[-6:], matrix, vectors[-6:])
+    total = in_platform + in_cables.sum(axis=1)
+    return in_platform / total, in_cables / total[:, None]

@@ -1,0 +1,148 @@
+"""Where does the platform rest when all cable lengths are fixed?
+
+The cables are solved to equilibrium for every trial pose, so the pose is the only unknown. Newton with the
+exact tangent, cable flexibility and turning lever arms included, descends on the total potential energy:
+what it finds is a stable rest position, not merely a balance of forces.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from fem_reference.arrays import fixed_array
+from fem_reference.cable_statics import EPS, CableBatch, ChainState, equilibria, solve_chains
+from fem_reference.errors import RobotNotConvergedError
+from fem_reference.rigid_platform import point_motion, rotating_arm_stiffness, turned
+from fem_reference.robot import DeadLoads, PointForce, RobotData, RobotEquilibrium
+
+MAX_ITERATIONS = 100
+LARGEST_TURN = 0.3  # rad a step
+
+
+@dataclass(frozen=True, eq=False)
+class PlatformState:
+    """Everything known at one trial pose.
+
+    wrench  : (6,) [N, N m] of all forces on the platform
+    tangent : (6, 6) minus the derivative of the wrench by (displacement, rotation)
+    energy  : [J] total potential energy
+    """
+
+    position: np.ndarray
+    rotation: np.ndarray
+    chains: ChainState
+    chain_iterations: int
+    wrench: np.ndarray
+    tangent: np.ndarray
+    energy: float
+
+
+def platform_state(robot: RobotData, batch: CableBatch, loads: DeadLoads, position: np.ndarray,
+                   rotation: np.ndarray, first: np.ndarray | None = None) -> PlatformState:
+    """Solve the cables at a pose and sum what they and the loads do to the platform."""
+    arms = robot.platform_anchors @ rotation.T
+    load_arms = loads.points @ rotation.T
+    ends = position + arms
+    chains, iterations = solve_chains(batch, robot.frame_anchors, ends, first)
+    half_weight = 0.5 * batch.elements * batch.element_weight
+    pulls = half_weight - chains.mid_force
+    forces, levers = np.vstack([pulls, loads.forces]), np.vstack([arms, load_arms])
+    wrench = np.concatenate([forces.sum(axis=0), np.cross(levers, forces).sum(axis=0)])
+    motion = point_motion(arms)
+    tangent = np.einsum("mka,mkb->ab", motion, np.linalg.solve(chains.flexibility, motion))
+    tangent += rotating_arm_stiffness(levers, forces)
+    cable_energy = -chains.energy - (half_weight * (robot.frame_anchors + ends)).sum(axis=1)
+    load_energy = (loads.forces * (position + load_arms)).sum()
+    energy = float(cable_energy.sum() - load_energy)
+    return PlatformState(position, rotation, chains, iterations, wrench, tangent, energy)
+
+
+def _step(state: PlatformState, reach: float) -> np.ndarray:
+    """Newton step (6,) that goes downhill even where the tangent is not positive, of limited size."""
+    scale = np.array([1.0] * 3 + [1.0 / reach] * 3)
+    tangent = scale[:, None] * 0.5 * (state.tangent + state.tangent.T) * scale
+    values, vectors = np.linalg.eigh(tangent)
+    values = np.maximum(np.abs(values), 1e-12 * np.abs(values).max())
+    step = scale * (vectors @ (vectors.T @ (scale * state.wrench) / values))
+    turn, shift = np.linalg.norm(step[3:]), np.linalg.norm(step[:3])
+    return step * min(1.0, LARGEST_TURN / max(turn, 1e-300), LARGEST_TURN * reach / max(shift, 1e-300))
+
+
+def _tolerances(batch: CableBatch, loads: DeadLoads, state: PlatformState, ends_reach: float,
+                arm: float) -> tuple[float, float]:
+    """Force [N] and moment [N m] below which a wrench is round-off, for the present forces."""
+    tensions = np.linalg.norm(state.chains.tension_vectors, axis=-1).max(axis=1)
+    scale = tensions.sum() + np.linalg.norm(loads.forces, axis=-1).sum()
+    noise = (batch.axial_stiffness * (1.0 + ends_reach / batch.unstrained_length)).sum()
+    force = float(max(1e-12 * scale, 16.0 * EPS * noise))
+    return force, force * arm
+
+
+def _reach(robot: RobotData, loads: DeadLoads) -> float:
+    """Lever arm [m] that makes rotations comparable with displacements."""
+    arms = np.vstack([robot.platform_anchors, loads.points])
+    inertia = float(np.trace(robot.platform.inertia)) / (2.0 * robot.platform.mass)
+    return float(max(np.linalg.norm(arms, axis=-1).max(), np.sqrt(inertia)))
+
+
+def _descend(robot: RobotData, batch: CableBatch, loads: DeadLoads, state: PlatformState,
+             step: np.ndarray, floor: float) -> PlatformState:
+    """Halve the step until the energy falls, or at round-off until the wrench does not grow."""
+    slope, size = float(state.wrench @ step), float(np.abs(state.wrench).max())
+    scale = 1.0
+    for _ in range(40):
+        trial = platform_state(robot, batch, loads, state.position + scale * step[:3],
+                               turned(state.rotation, scale * step[3:]), state.chains.mid_force)
+        lower = trial.energy <= state.energy - 1e-4 * scale * slope
+        if lower or float(np.abs(trial.wrench).max()) <= max(0.5 * size, floor):
+            break
+        scale *= 0.5
+    return trial
+
+
+def solve_robot(robot: RobotData, position: ArrayLike, rotation: ArrayLike, elements: int,
+                hold_pose: bool = False, external_force: PointForce | None = None) -> RobotEquilibrium:
+    """Static equilibrium of the robot with all unstrained lengths fixed.
+
+    Parameters
+    ----------
+    robot : RobotData.
+    position, rotation : (3,) [m] and (3, 3) platform to world: first guess of the pose, or the pose itself.
+    elements : bars per cable.
+    hold_pose : keep the platform where it is; `residual_wrench` then reports what is out of balance.
+    external_force : a further constant force on the platform.
+
+    Raises
+    ------
+    RobotNotConvergedError : forces and moments did not balance; carries the last pose and wrench.
+    FoldedCableError, CableNotConvergedError : a cable has no equilibrium that bars can show.
+    ValueError : wrong shapes or numbers.
+    """
+    place, turn = fixed_array("position", position, (3,)), fixed_array("rotation", rotation, (3, 3))
+    if np.abs(turn @ turn.T - np.eye(3)).max() > 1e-9 or np.linalg.det(turn) < 0.0:
+        raise ValueError(f"rotation must be a proper rotation matrix, got {turn.tolist()!r}")
+    batch, loads = CableBatch.of(robot.cables, elements, robot.gravity), DeadLoads.on(robot, external_force)
+    state, iterations = platform_state(robot, batch, loads, place, turn), 0
+    if not hold_pose:
+        state, iterations = _balanced(robot, batch, loads, state)
+    cables = equilibria(batch, robot.frame_anchors, state.chains, state.chain_iterations)
+    fixed = (fixed_array("pose", part, (None,) * part.ndim) for part in (state.position, state.rotation))
+    return RobotEquilibrium(robot, external_force, *fixed, cables,
+                            fixed_array("residual_wrench", state.wrench, (6,)), iterations)
+
+
+def _balanced(robot: RobotData, batch: CableBatch, loads: DeadLoads,
+              state: PlatformState) -> tuple[PlatformState, int]:
+    """Newton steps until the wrench is round-off."""
+    reach = _reach(robot, loads)
+    far = float(np.abs(robot.frame_anchors).max()) + reach
+    for iteration in range(MAX_ITERATIONS):
+        force, moment = _tolerances(batch, loads, state, far + float(np.abs(state.position).max()), reach)
+        sizes = np.linalg.norm(state.wrench[:3]), np.linalg.norm(state.wrench[3:])
+        if sizes[0] <= force and sizes[1] <= moment:
+            return state, iteration
+        state = _descend(robot, batch, loads, state, _step(state, reach), force)
+    raise RobotNotConvergedError(state.wrench, force, MAX_ITERATIONS, state.position, state.rotation)
