@@ -15,7 +15,8 @@ def fixed_array(name: str, value: ArrayLike, shape: tuple[int | None, ...]) -> n
     """
     array = np.array(value, dtype=float)
     fits = array.ndim == len(shape) and all(
-        want in (None, have) for want, have in zip(shape, array.shape, strict=True))
+        want in (None, have) for want, have in zip(shape, array.shape, strict=True)
+    )
     if not fits:
         raise ValueError(f"{name} must have shape {shape}, got {array.shape}")
     if not np.isfinite(array).all():

@@ -15,7 +15,7 @@ MassModel = Literal["lumped", "consistent"]
 
 
 def bar_tensions(nodes: np.ndarray, element_length: float, axial_stiffness: float) -> np.ndarray:
-    """Tension vectors (n, 3) [N] of the bars between nodes (n + 1, 3) [m], each along its bar to the next node."""
+    """Tension vectors (n, 3) [N] of the bars between nodes (n + 1, 3) [m], each towards the next node."""
     steps = np.diff(nodes, axis=0)
     lengths = np.linalg.norm(steps, axis=-1, keepdims=True)
     return axial_stiffness * (lengths / element_length - 1.0) * steps / lengths
@@ -30,8 +30,9 @@ def internal_forces(nodes: np.ndarray, element_length: float, axial_stiffness: f
     return forces
 
 
-def bar_stiffness(directions: np.ndarray, tensions: np.ndarray, element_length: np.ndarray,
-                  axial_stiffness: np.ndarray) -> np.ndarray:
+def bar_stiffness(
+    directions: np.ndarray, tensions: np.ndarray, element_length: np.ndarray, axial_stiffness: np.ndarray
+) -> np.ndarray:
     """Tangent stiffness of bars: material part along the bar, geometric part N / l across it.
 
     Parameters

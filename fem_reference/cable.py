@@ -79,8 +79,12 @@ class CableEquilibrium:
     def element_stiffness(self) -> np.ndarray:
         """Tangent stiffness (n, 6, 6) [N/m] of every bar in this state."""
         tensions = self.tensions
-        return bar_stiffness(self.tension_vectors / tensions[:, None], tensions,
-                             np.array(self.element_length), np.array(self.cable.axial_stiffness))
+        return bar_stiffness(
+            self.tension_vectors / tensions[:, None],
+            tensions,
+            np.array(self.element_length),
+            np.array(self.cable.axial_stiffness),
+        )
 
     def element_mass(self, mass: MassModel = "lumped") -> np.ndarray:
         """Mass matrix (n, 6, 6) [kg] of every bar."""

@@ -49,7 +49,9 @@ def cable_frame(equilibrium: CableEquilibrium) -> np.ndarray:
     return np.array([across, np.cross(normal, across), normal])
 
 
-def clamped_matrices(equilibrium: CableEquilibrium, mass: MassModel = "lumped") -> tuple[csc_array, csc_array]:
+def clamped_matrices(
+    equilibrium: CableEquilibrium, mass: MassModel = "lumped"
+) -> tuple[csc_array, csc_array]:
     """Stiffness [N/m] and mass [kg] of the cable with both ends held, sparse, each 3 (n - 1) square."""
     stiffness = chain_matrix(equilibrium.element_stiffness()[None])[:-3, :-3]
     return csc_array(stiffness), csc_array(chain_matrix(equilibrium.element_mass(mass)[None])[:-3, :-3])
@@ -73,14 +75,18 @@ def cable_modes(equilibrium: CableEquilibrium, count: int, mass: MassModel = "lu
     for axes in (frame[:2], frame[2:]):
         basis = csc_array(kron(eye_array(interior), axes.T))
         stiffness, inertia = (csc_array(basis.T @ matrix @ basis) for matrix in matrices)
-        found, vectors = lowest_eigenpairs(stiffness, inertia, min(count, len(axes) * interior),
-                                           -1e-3 * _string_eigenvalue(equilibrium))
+        found, vectors = lowest_eigenpairs(
+            stiffness, inertia, min(count, len(axes) * interior), -1e-3 * _string_eigenvalue(equilibrium)
+        )
         values.append(found)
         shapes.append((basis @ vectors).T.reshape(len(found), interior, 3))
         shares.append(np.full(len(found), float(len(axes) == 2)))
     order = np.argsort(np.concatenate(values), kind="stable")[:count]
-    return CableModes(frequencies_hz(np.concatenate(values)[order]), np.concatenate(shapes)[order],
-                      np.concatenate(shares)[order])
+    return CableModes(
+        frequencies_hz(np.concatenate(values)[order]),
+        np.concatenate(shapes)[order],
+        np.concatenate(shares)[order],
+    )
 
 
 def _string_eigenvalue(equilibrium: CableEquilibrium) -> float:
@@ -95,8 +101,13 @@ def cable_count_below(equilibrium: CableEquilibrium, omega: float, mass: MassMod
     return int(condensed_and_counted(matrices)[1])
 
 
-def end_dynamic_stiffness(equilibrium: CableEquilibrium, omegas: ArrayLike, mass: MassModel = "lumped",
-                          damping_ratio: float = 0.0, reference_omega: float | None = None) -> np.ndarray:
+def end_dynamic_stiffness(
+    equilibrium: CableEquilibrium,
+    omegas: ArrayLike,
+    mass: MassModel = "lumped",
+    damping_ratio: float = 0.0,
+    reference_omega: float | None = None,
+) -> np.ndarray:
     """Force at the end node per displacement of the end node, start held, in steady vibration.
 
     Parameters

@@ -43,9 +43,14 @@ class CableBatch:
         elements, acceleration = element_count(elements), fixed_array("gravity", gravity, (3,))
         length = np.array([cable.unstrained_length for cable in cables]) / elements
         density = np.array([cable.linear_density for cable in cables])
-        return cls(cables, elements, acceleration, length,
-                   np.array([cable.axial_stiffness for cable in cables]),
-                   (density * length)[:, None] * acceleration)
+        return cls(
+            cables,
+            elements,
+            acceleration,
+            length,
+            np.array([cable.axial_stiffness for cable in cables]),
+            (density * length)[:, None] * acceleration,
+        )
 
     @property
     def unstrained_length(self) -> np.ndarray:
@@ -98,14 +103,16 @@ def starting_force(batch: CableBatch, chord: np.ndarray) -> np.ndarray:
     span = np.linalg.norm(chord, axis=-1)
     weight = np.linalg.norm(batch.element_weight, axis=-1) * batch.elements
     strain = span / batch.unstrained_length - 1.0
-    stretched = np.maximum(batch.axial_stiffness * strain, 0.0) + np.cbrt(batch.axial_stiffness * weight**2 / 24.0)
+    stretched = np.maximum(batch.axial_stiffness * strain, 0.0)
+    stretched = stretched + np.cbrt(batch.axial_stiffness * weight**2 / 24.0)
     hanging = weight / np.sqrt(24.0 * np.maximum(-strain, EPS))
     size = np.where(strain < 0.0, np.minimum(stretched, hanging), stretched)
     return size[:, None] * chord / np.maximum(span, 1e-300)[:, None]
 
 
-def solve_chains(batch: CableBatch, starts: np.ndarray, ends: np.ndarray,
-                 first: np.ndarray | None = None) -> tuple[ChainState, int]:
+def solve_chains(
+    batch: CableBatch, starts: np.ndarray, ends: np.ndarray, first: np.ndarray | None = None
+) -> tuple[ChainState, int]:
     """Equilibrium of all cables between starts and ends (m, 3) [m]; `first` (m, 3) [N] warms the start.
 
     Returns the state and the number of Newton steps.
@@ -129,8 +136,9 @@ def solve_chains(batch: CableBatch, starts: np.ndarray, ends: np.ndarray,
     raise _failure(batch, state, int(np.argmin(done)))
 
 
-def _searched(batch: CableBatch, chord: np.ndarray, state: ChainState, step: np.ndarray,
-              done: np.ndarray) -> ChainState:
+def _searched(
+    batch: CableBatch, chord: np.ndarray, state: ChainState, step: np.ndarray, done: np.ndarray
+) -> ChainState:
     """Halve each cable's step until its energy falls (or, at round-off, its gap shrinks)."""
     scale = np.ones(len(step))
     slope = (state.gap * step).sum(axis=1)
@@ -164,13 +172,16 @@ def _failure(batch: CableBatch, state: ChainState, cable: int) -> FemError:
     return CableNotConvergedError(cable, gap, MAX_ITERATIONS, state.mid_force[cable])
 
 
-def equilibria(batch: CableBatch, starts: np.ndarray, state: ChainState, iterations: int) -> tuple[CableEquilibrium, ...]:
+def equilibria(
+    batch: CableBatch, starts: np.ndarray, state: ChainState, iterations: int
+) -> tuple[CableEquilibrium, ...]:
     """Turn solved chains into one CableEquilibrium a cable, each checked from its node positions."""
     return tuple(_equilibrium(batch, index, starts[index], state, iterations) for index in range(len(starts)))
 
 
-def _equilibrium(batch: CableBatch, index: int, start: np.ndarray, state: ChainState,
-                 iterations: int) -> CableEquilibrium:
+def _equilibrium(
+    batch: CableBatch, index: int, start: np.ndarray, state: ChainState, iterations: int
+) -> CableEquilibrium:
     cable, vectors = batch.cables[index], state.tension_vectors[index]
     length, weight = float(batch.element_length[index]), batch.element_weight[index]
     tensions = np.linalg.norm(vectors, axis=-1)
@@ -181,14 +192,21 @@ def _equilibrium(batch: CableBatch, index: int, start: np.ndarray, state: ChainS
     stretch = float(np.linalg.norm(nodes[weakest + 1] - nodes[weakest])) / length - 1.0
     if stretch < -64.0 * EPS * (1.0 + np.abs(nodes).max() / length):
         raise CompressedBarError(index, weakest, cable.axial_stiffness * stretch)
-    frozen = (nodes, vectors, -vectors[0] - 0.5 * weight, vectors[-1] - 0.5 * weight)
-    nodes, vectors, start_force, end_force = (fixed_array("state", part, (None,) * part.ndim) for part in frozen)
-    return CableEquilibrium(cable, batch.gravity, nodes, vectors, start_force, end_force,
-                            float(np.linalg.norm(left_over, axis=-1).max()), iterations)
+    return CableEquilibrium(
+        cable,
+        batch.gravity,
+        fixed_array("nodes", nodes, (None, 3)),
+        fixed_array("tensions", vectors, (None, 3)),
+        start_force=fixed_array("start_force", -vectors[0] - 0.5 * weight, (3,)),
+        end_force=fixed_array("end_force", vectors[-1] - 0.5 * weight, (3,)),
+        residual_norm=float(np.linalg.norm(left_over, axis=-1).max()),
+        iterations=iterations,
+    )
 
 
-def solve_cable(cable: CableData, start: ArrayLike, end: ArrayLike, elements: int,
-                gravity: ArrayLike = STANDARD_GRAVITY) -> CableEquilibrium:
+def solve_cable(
+    cable: CableData, start: ArrayLike, end: ArrayLike, elements: int, gravity: ArrayLike = STANDARD_GRAVITY
+) -> CableEquilibrium:
     """Static equilibrium of a cable of `elements` bars between two held ends.
 
     Parameters

@@ -10,8 +10,9 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from fem_reference.errors import UnstableEquilibriumError
 
 
-def lowest_eigenpairs(stiffness: csc_array, mass: csc_array, count: int,
-                      shift: float) -> tuple[np.ndarray, np.ndarray]:
+def lowest_eigenpairs(
+    stiffness: csc_array, mass: csc_array, count: int, shift: float
+) -> tuple[np.ndarray, np.ndarray]:
     """Lowest `count` eigenvalues omega^2 (k,) [rad^2/s^2], ascending, and M-normalised vectors (dofs, k).
 
     Shift-invert Lanczos about `shift` [rad^2/s^2], which is negative and small beside the eigenvalues of
@@ -27,7 +28,9 @@ def lowest_eigenpairs(stiffness: csc_array, mass: csc_array, count: int,
     if not 1 <= count <= dofs:
         raise ValueError(f"count must be between 1 and the {dofs} unknowns of the mesh, got {count!r}")
     if dofs <= max(90, 3 * count):
-        values, vectors = scipy.linalg.eigh(stiffness.toarray(), mass.toarray(), subset_by_index=(0, count - 1))
+        values, vectors = scipy.linalg.eigh(
+            stiffness.toarray(), mass.toarray(), subset_by_index=(0, count - 1)
+        )
     else:
         values, vectors = _shift_invert(stiffness, mass, count, shift)
     order = np.argsort(values)
@@ -36,14 +39,27 @@ def lowest_eigenpairs(stiffness: csc_array, mass: csc_array, count: int,
     return values[order], vectors[:, order]
 
 
-def _shift_invert(stiffness: csc_array, mass: csc_array, count: int,
-                  shift: float) -> tuple[np.ndarray, np.ndarray]:
-    factors = splu(csc_array(stiffness - shift * mass), permc_spec="NATURAL", diag_pivot_thresh=0.0,
-                   options={"SymmetricMode": True})
+def _shift_invert(
+    stiffness: csc_array, mass: csc_array, count: int, shift: float
+) -> tuple[np.ndarray, np.ndarray]:
+    factors = splu(
+        csc_array(stiffness - shift * mass),
+        permc_spec="NATURAL",
+        diag_pivot_thresh=0.0,
+        options={"SymmetricMode": True},
+    )
     inverse = LinearOperator(stiffness.shape, matvec=factors.solve, dtype=float)
     first = np.random.default_rng(20).standard_normal(stiffness.shape[0])
-    return eigsh(stiffness, k=count, M=mass, sigma=shift, which="LM", OPinv=inverse, v0=first,
-                 ncv=min(stiffness.shape[0], max(2 * count + 20, 30)))
+    return eigsh(
+        stiffness,
+        k=count,
+        M=mass,
+        sigma=shift,
+        which="LM",
+        OPinv=inverse,
+        v0=first,
+        ncv=min(stiffness.shape[0], max(2 * count + 20, 30)),
+    )
 
 
 def frequencies_hz(eigenvalues: np.ndarray) -> np.ndarray:

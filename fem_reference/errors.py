@@ -29,7 +29,8 @@ class FoldedCableError(FemError):
         self.cable, self.element, self.tension, self.largest = cable, element, tension, largest
         super().__init__(
             f"cable {cable}: element {element} carries {tension:.3g} N while the cable carries up to "
-            f"{largest:.3g} N: the slack cable folds there. Move the ends apart sideways, or shorten the cable."
+            f"{largest:.3g} N: the slack cable folds there. "
+            "Move the ends apart sideways, or shorten the cable."
         )
 
 
@@ -47,8 +48,14 @@ class CompressedBarError(FemError):
 class RobotNotConvergedError(FemError):
     """The search for the platform pose stopped before forces and moments balanced."""
 
-    def __init__(self, residual_wrench: np.ndarray, tolerance: float, iterations: int,
-                 position: np.ndarray, rotation: np.ndarray) -> None:
+    def __init__(
+        self,
+        residual_wrench: np.ndarray,
+        tolerance: float,
+        iterations: int,
+        position: np.ndarray,
+        rotation: np.ndarray,
+    ) -> None:
         self.residual_wrench, self.iterations = np.array(residual_wrench), iterations
         self.position, self.rotation = np.array(position), np.array(rotation)
         force, moment = np.linalg.norm(residual_wrench[:3]), np.linalg.norm(residual_wrench[3:])

@@ -23,7 +23,7 @@ class Extrapolation:
     limit          : extrapolated value
     order          : observed order p; nan where the last three values show none
     error_estimate : how far `limit` may be off, at least the round-off of the values
-    reason         : "" where an order was found, else why not ("noise floor", "not monotone", "order out of range")
+    reason         : "" where an order was found, else "noise floor", "not monotone" or "order out of range"
     """
 
     limit: np.ndarray
@@ -72,16 +72,20 @@ def _given_order(steps: np.ndarray, values: np.ndarray, order: np.ndarray) -> np
     return np.asarray(values[1] + (values[1] - values[0]) / (ratio - 1.0))
 
 
-def _three_point(steps: np.ndarray, values: np.ndarray,
-                 noise: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _three_point(
+    steps: np.ndarray, values: np.ndarray, noise: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Limit, order and reason from three meshes, coarse to fine."""
     coarse, fine = values[1] - values[0], values[2] - values[1]
     small = np.minimum(np.abs(coarse), np.abs(fine)) <= noise * np.abs(values[2])
     ratio = np.divide(coarse, fine, out=np.full_like(fine, np.nan), where=fine != 0.0)
     low, high = (_difference_ratio(steps, np.asarray(order)) for order in ORDER_RANGE)
     outside = ~((ratio > low) & (ratio < high))
-    reason = np.where(small, "noise floor", np.where(~(ratio > 0.0), "not monotone",
-                      np.where(outside, "order out of range", "")))
+    reason = np.where(
+        small,
+        "noise floor",
+        np.where(~(ratio > 0.0), "not monotone", np.where(outside, "order out of range", "")),
+    )
     usable = reason == ""
     order = _order(steps, np.where(usable, ratio, 0.5 * (low + high)))
     limit = np.where(usable, _given_order(steps[1:], values[1:], order), values[2])

@@ -35,7 +35,9 @@ class RobotData:
             raise ValueError("RobotData.cables must hold at least one cable, got none")
         object.__setattr__(self, "cables", cables)
         for name in ("frame_anchors", "platform_anchors"):
-            object.__setattr__(self, name, fixed_array(f"RobotData.{name}", getattr(self, name), (len(cables), 3)))
+            object.__setattr__(
+                self, name, fixed_array(f"RobotData.{name}", getattr(self, name), (len(cables), 3))
+            )
         object.__setattr__(self, "gravity", fixed_array("RobotData.gravity", self.gravity, (3,)))
 
 
@@ -57,7 +59,7 @@ class PointForce:
 
 @dataclass(frozen=True, eq=False)
 class DeadLoads:
-    """Constant forces on the platform, weight first: forces (k, 3) [N] world, points (k, 3) [m] platform frame."""
+    """Constant forces (k, 3) [N], world, at platform points (k, 3) [m], platform frame; the weight first."""
 
     forces: np.ndarray
     points: np.ndarray

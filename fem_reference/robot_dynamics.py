@@ -11,8 +11,9 @@ from fem_reference.robot import RobotEquilibrium
 from fem_reference.substructure import condensed_and_counted, dynamic_ends
 
 
-def platform_dynamic_stiffness(equilibrium: RobotEquilibrium, omegas: ArrayLike, mass: MassModel = "lumped",
-                               geometric_terms: bool = True) -> np.ndarray:
+def platform_dynamic_stiffness(
+    equilibrium: RobotEquilibrium, omegas: ArrayLike, mass: MassModel = "lumped", geometric_terms: bool = True
+) -> np.ndarray:
     """Wrench at the platform per small platform motion in steady vibration, cables condensed.
 
     Parameters
@@ -32,7 +33,8 @@ def platform_dynamic_stiffness(equilibrium: RobotEquilibrium, omegas: ArrayLike,
     ends = dynamic_ends(equilibrium.element_stiffness(), equilibrium.element_mass(mass), squares)
     motion = equilibrium.end_motion()
     matrix = np.einsum("mka,wmkl,mlb->wab", motion, ends, motion, optimize=True)
-    matrix = matrix - squares[:, None, None] * platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
+    platform = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
+    matrix = matrix - squares[:, None, None] * platform
     if geometric_terms:
         matrix = matrix + equilibrium.geometric_stiffness()
     return (0.5 * (matrix + np.swapaxes(matrix, -1, -2))).reshape(*omega.shape, 6, 6)

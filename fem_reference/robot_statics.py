@@ -40,8 +40,14 @@ class PlatformState:
     energy: float
 
 
-def platform_state(robot: RobotData, batch: CableBatch, loads: DeadLoads, position: np.ndarray,
-                   rotation: np.ndarray, first: np.ndarray | None = None) -> PlatformState:
+def platform_state(
+    robot: RobotData,
+    batch: CableBatch,
+    loads: DeadLoads,
+    position: np.ndarray,
+    rotation: np.ndarray,
+    first: np.ndarray | None = None,
+) -> PlatformState:
     """Solve the cables at a pose and sum what they and the loads do to the platform."""
     arms = robot.platform_anchors @ rotation.T
     load_arms = loads.points @ rotation.T
@@ -67,12 +73,13 @@ def _step(state: PlatformState, reach: float) -> np.ndarray:
     values, vectors = np.linalg.eigh(tangent)
     values = np.maximum(np.abs(values), 1e-12 * np.abs(values).max())
     step = scale * (vectors @ (vectors.T @ (scale * state.wrench) / values))
-    turn, shift = np.linalg.norm(step[3:]), np.linalg.norm(step[:3])
-    return step * min(1.0, LARGEST_TURN / max(turn, 1e-300), LARGEST_TURN * reach / max(shift, 1e-300))
+    size = float(max(np.linalg.norm(step[3:]), np.linalg.norm(step[:3]) / reach))
+    return step * min(1.0, LARGEST_TURN / max(size, 1e-300))
 
 
-def _tolerances(batch: CableBatch, loads: DeadLoads, state: PlatformState, ends_reach: float,
-                arm: float) -> tuple[float, float]:
+def _tolerances(
+    batch: CableBatch, loads: DeadLoads, state: PlatformState, ends_reach: float, arm: float
+) -> tuple[float, float]:
     """Force [N] and moment [N m] below which a wrench is round-off, for the present forces."""
     tensions = np.linalg.norm(state.chains.tension_vectors, axis=-1).max(axis=1)
     scale = tensions.sum() + np.linalg.norm(loads.forces, axis=-1).sum()
@@ -88,14 +95,26 @@ def _reach(robot: RobotData, loads: DeadLoads) -> float:
     return float(max(np.linalg.norm(arms, axis=-1).max(), np.sqrt(inertia)))
 
 
-def _descend(robot: RobotData, batch: CableBatch, loads: DeadLoads, state: PlatformState,
-             step: np.ndarray, floor: float) -> PlatformState:
+def _descend(
+    robot: RobotData,
+    batch: CableBatch,
+    loads: DeadLoads,
+    state: PlatformState,
+    step: np.ndarray,
+    floor: float,
+) -> PlatformState:
     """Halve the step until the energy falls, or at round-off until the wrench does not grow."""
     slope, size = float(state.wrench @ step), float(np.abs(state.wrench).max())
     scale = 1.0
     for _ in range(40):
-        trial = platform_state(robot, batch, loads, state.position + scale * step[:3],
-                               turned(state.rotation, scale * step[3:]), state.chains.mid_force)
+        trial = platform_state(
+            robot,
+            batch,
+            loads,
+            state.position + scale * step[:3],
+            turned(state.rotation, scale * step[3:]),
+            state.chains.mid_force,
+        )
         lower = trial.energy <= state.energy - 1e-4 * scale * slope
         if lower or float(np.abs(trial.wrench).max()) <= max(0.5 * size, floor):
             break
@@ -103,8 +122,14 @@ def _descend(robot: RobotData, batch: CableBatch, loads: DeadLoads, state: Platf
     return trial
 
 
-def solve_robot(robot: RobotData, position: ArrayLike, rotation: ArrayLike, elements: int,
-                hold_pose: bool = False, external_force: PointForce | None = None) -> RobotEquilibrium:
+def solve_robot(
+    robot: RobotData,
+    position: ArrayLike,
+    rotation: ArrayLike,
+    elements: int,
+    hold_pose: bool = False,
+    external_force: PointForce | None = None,
+) -> RobotEquilibrium:
     """Static equilibrium of the robot with all unstrained lengths fixed.
 
     Parameters
@@ -129,13 +154,20 @@ def solve_robot(robot: RobotData, position: ArrayLike, rotation: ArrayLike, elem
     if not hold_pose:
         state, iterations = _balanced(robot, batch, loads, state)
     cables = equilibria(batch, robot.frame_anchors, state.chains, state.chain_iterations)
-    fixed = (fixed_array("pose", part, (None,) * part.ndim) for part in (state.position, state.rotation))
-    return RobotEquilibrium(robot, external_force, *fixed, cables,
-                            fixed_array("residual_wrench", state.wrench, (6,)), iterations)
+    return RobotEquilibrium(
+        robot,
+        external_force,
+        fixed_array("position", state.position, (3,)),
+        fixed_array("rotation", state.rotation, (3, 3)),
+        cables,
+        fixed_array("residual_wrench", state.wrench, (6,)),
+        iterations,
+    )
 
 
-def _balanced(robot: RobotData, batch: CableBatch, loads: DeadLoads,
-              state: PlatformState) -> tuple[PlatformState, int]:
+def _balanced(
+    robot: RobotData, batch: CableBatch, loads: DeadLoads, state: PlatformState
+) -> tuple[PlatformState, int]:
     """Newton steps until the wrench is round-off."""
     reach = _reach(robot, loads)
     far = float(np.abs(robot.frame_anchors).max()) + reach

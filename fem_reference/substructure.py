@@ -26,7 +26,9 @@ class Pieces:
     @classmethod
     def of(cls, element_matrices: np.ndarray) -> Pieces:
         """Cut element matrices (..., n, 6, 6) into their blocks."""
-        return cls(element_matrices[..., :3, :3], element_matrices[..., :3, 3:], element_matrices[..., 3:, 3:])
+        return cls(
+            element_matrices[..., :3, :3], element_matrices[..., :3, 3:], element_matrices[..., 3:, 3:]
+        )
 
     def __len__(self) -> int:
         return int(self.first.shape[-3])
@@ -37,7 +39,9 @@ class Pieces:
 
     def joined(self, other: Pieces) -> Pieces:
         """The pieces of both, one list after the other."""
-        pairs = zip((self.first, self.between, self.last), (other.first, other.between, other.last), strict=True)
+        pairs = zip(
+            (self.first, self.between, self.last), (other.first, other.between, other.last), strict=True
+        )
         return Pieces(*(np.concatenate(pair, axis=-3) for pair in pairs))
 
 
@@ -49,8 +53,11 @@ def _merged(pieces: Pieces) -> tuple[Pieces, np.ndarray]:
     to_left, to_right = np.swapaxes(left.between, -1, -2), right.between
     solved = np.linalg.solve(pivots, np.concatenate([to_left, to_right], axis=-1))
     by_left, by_right = solved[..., :3], solved[..., 3:]
-    merged = Pieces(left.first - left.between @ by_left, -left.between @ by_right,
-                    right.last - np.swapaxes(to_right, -1, -2) @ by_right)
+    merged = Pieces(
+        left.first - left.between @ by_left,
+        -left.between @ by_right,
+        right.last - np.swapaxes(to_right, -1, -2) @ by_right,
+    )
     return (merged if paired == len(pieces) else merged.joined(pieces.part(slice(paired, None)))), pivots
 
 
@@ -89,6 +96,6 @@ def dynamic_ends(stiffness: np.ndarray, mass: np.ndarray, omega_squared: np.ndar
     kind = np.result_type(stiffness, omega_squared)
     ends = np.empty((len(omega_squared), *stiffness.shape[:-3], 3, 3), dtype=kind)
     for begin in range(0, len(omega_squared), chunk):
-        squares = omega_squared[begin:begin + chunk].reshape((-1,) + (1,) * stiffness.ndim)
-        ends[begin:begin + chunk] = condensed_ends(stiffness - squares * mass)
+        squares = omega_squared[begin : begin + chunk].reshape((-1,) + (1,) * stiffness.ndim)
+        ends[begin : begin + chunk] = condensed_ends(stiffness - squares * mass)
     return ends

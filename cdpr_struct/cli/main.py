@@ -1,0 +1,45 @@
+"""The program `cdpr-struct`: one subcommand a file, and the one place that turns errors into exit codes."""
+
+import sys
+
+import typer
+from typer.exceptions import Abort, TyperException
+
+from cdpr_struct.cli import cable, derive, inverse, robots, verify
+from cdpr_struct.errors import CdprError, InputError
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    help="Deflection and vibration of cable-driven parallel robots, checked against an independent FEM.",
+)
+for command in (robots, cable, inverse, verify, derive):
+    app.command(name=command.NAME)(command.run)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line and exit: 0 done, 1 done but it does not hold, 2 unusable input."""
+    sys.exit(_run(arguments))
+
+
+def _run(arguments: list[str] | None) -> int:
+    try:
+        return int(app(args=arguments, standalone_mode=False) or 0)
+    except TyperException as error:
+        return _fail(2, error.format_message().replace("\n", " ") + " See cdpr-struct --help.")
+    except InputError as error:
+        return _fail(2, str(error))
+    except CdprError as error:
+        return _fail(1, str(error))
+    except (Abort, KeyboardInterrupt):
+        return _fail(130, "interrupted; nothing was written")
+    except Exception as error:
+        if type(error).__module__.partition(".")[0] == "fem_reference":
+            return _fail(1, f"FEM reference: {error}")
+        raise
+
+
+def _fail(code: int, message: str) -> int:
+    print(f"cdpr-struct: {message}", file=sys.stderr)
+    return code

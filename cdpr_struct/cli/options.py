@@ -1,0 +1,64 @@
+"""Options that several commands share, and how their text is read."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from cdpr_struct.errors import InputError
+
+if TYPE_CHECKING:
+    from cdpr_struct.robot.pose import Pose
+    from cdpr_struct.robot.robot import Robot
+
+RobotName = Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in name or path to a robot file.")]
+Out = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="DIR", help="Write result.json, tables, figures and report.html here."),
+]
+Json = Annotated[bool, typer.Option("--json", help="Print result.json to stdout, nothing else.")]
+PoseText = Annotated[
+    str | None, typer.Option("--pose", metavar="X,Y,Z[,RX,RY,RZ]", help="Pose [m, deg]; default: the robot's home pose.")
+]
+Payload = Annotated[float, typer.Option("--payload", metavar="KG", help="Point load at the platform origin [kg].")]
+Mass = Annotated[float | None, typer.Option("--mass", metavar="KG", help="Replaces the platform's mass [kg].")]
+
+
+def read_numbers(text: str, option: str, counts: tuple[int, ...] | None = None, what: str = "numbers") -> list[float]:
+    """Finite numbers of a comma-separated option.
+
+    Raises
+    ------
+    InputError : not numbers, not finite, or not as many as `counts` admits.
+    """
+    wanted = "" if counts is None else " or ".join(map(str, counts)) + " "
+    expected = f"give {wanted}comma-separated {what}"
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError as error:
+        raise InputError(option, "", text, expected) from error
+    if not all(abs(v) < float("inf") for v in values) or (counts is not None and len(values) not in counts):
+        raise InputError(option, "", text, expected)
+    return values
+
+
+def read_robot(name: str, payload: float = 0.0, mass: float | None = None) -> "Robot":
+    """The robot with its load."""
+    from cdpr_struct.robot.robot_file import load_robot
+
+    if not 0.0 <= payload < float("inf"):
+        raise InputError("--payload", "", payload, "give a mass in kg, zero or more")
+    if mass is not None and not 0.0 < mass < float("inf"):
+        raise InputError("--mass", "", mass, "give a mass in kg above zero")
+    return load_robot(name).with_load(payload, mass)
+
+
+def read_pose(text: str | None, robot: "Robot") -> "Pose":
+    """The pose that the option names, or the robot's home pose."""
+    from cdpr_struct.robot.pose import Pose
+
+    if text is not None:
+        return Pose.from_degrees(read_numbers(text, "--pose", (3, 6), "numbers x,y,z[,rx,ry,rz] in m and deg"))
+    if robot.home is None:
+        raise InputError("--pose", "", "nothing", f"robot {robot.name} has no home_pose, so give x,y,z[,rx,ry,rz]")
+    return robot.home

@@ -1,0 +1,222 @@
+"""The DSM model on trial before the finite-element referee, at one pose of one robot."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+
+import fem_reference as fem
+from cdpr_struct.crosscheck.determinant_minima import DeterminantScan, match_minima, scan_determinant
+from cdpr_struct.crosscheck.fem_robot import fem_shapes, sampling_mass, solve_in_fem
+from cdpr_struct.crosscheck.mode_pairing import clusters, modal_assurance, pair_modes
+from cdpr_struct.crosscheck.validity_limits import ValidityLimits, check_limits
+from cdpr_struct.dynamics.mode_shapes import mode_shapes
+from cdpr_struct.dynamics.natural_frequencies import natural_frequencies
+from cdpr_struct.dynamics.operating_point import OperatingPoint, taut_cables
+from cdpr_struct.dynamics.robot_dynamic_stiffness import (
+    Assembly,
+    platform_mass_matrix,
+    platform_static_stiffness,
+)
+
+SCAN_STEPS_HERTZ = (0.05, 0.02, 0.01, 0.005)
+_REPORTED_STEP = 0.01
+_SPARE_MODES = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Criteria:
+    """What must hold for the verdict.
+
+    relative_error   : largest deviation of a DSM frequency from the extrapolated FEM [-]
+    assurance        : smallest share of an FEM shape that must lie in the DSM's cluster it is paired with [-]
+    fem_uncertainty  : largest relative uncertainty of an extrapolated FEM frequency [-]
+    minimum_tolerance: a determinant minimum farther than this from a frequency does not stand for it [Hz]
+    """
+
+    relative_error: float = 0.01
+    assurance: float = 0.5
+    fem_uncertainty: float = 1e-3
+    minimum_tolerance: float = 0.03
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Verification:
+    """What the referee says about the DSM model; arrays over k modes in the order of the FEM frequencies.
+
+    fem_hertz         : (e, k) at each element count;  fem_limit_hertz, fem_uncertainty_hertz : (k,) extrapolated
+    observed_order    : (k,) of the convergence with element count
+    dsm_hertz         : (k,) the paired DSM frequency;  assurance : (k,) share of the FEM shape in its cluster
+    static_hertz      : (k,) frequency on massless cables where this is the platform mode it stands for, else nan
+    determinant_hertz : (k,) the minimum of the thesis's scan that stands for this mode, else nan
+    missed            : per scan step [Hz], how many of the k frequencies have no minimum of their own
+    """
+
+    point: OperatingPoint
+    assembly: Assembly
+    criteria: Criteria
+    elements: tuple[int, ...]
+    fem_hertz: np.ndarray
+    fem_limit_hertz: np.ndarray
+    fem_uncertainty_hertz: np.ndarray
+    observed_order: np.ndarray
+    dsm_hertz: np.ndarray
+    dsm_certified: bool
+    assurance: np.ndarray
+    kinds: tuple[str, ...]
+    static_hertz: np.ndarray
+    determinant_hertz: np.ndarray
+    scan: DeterminantScan
+    missed: dict[float, int]
+    limits: ValidityLimits
+
+    @property
+    def relative_error(self) -> np.ndarray:
+        """(k,) DSM against the extrapolated FEM, signed [-]."""
+        return self.dsm_hertz / self.fem_limit_hertz - 1.0
+
+    @property
+    def mesh_error(self) -> np.ndarray:
+        """(e, k) |FEM at this element count / its limit - 1| [-]."""
+        return np.abs(self.fem_hertz / self.fem_limit_hertz - 1.0)
+
+    @property
+    def missed_by_scan(self) -> int:
+        """Frequencies without a determinant minimum of their own, at the reported grid step."""
+        return self.missed[_REPORTED_STEP]
+
+    def objections(self) -> list[str]:
+        """Sentences, one per criterion that is not met; empty when the model holds."""
+        return [text for failed, text in _objections(self) if failed]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _FemSweep:
+    hertz: np.ndarray
+    shapes: np.ndarray
+    platform_shapes: np.ndarray
+
+
+def verify(
+    point: OperatingPoint,
+    elements: Sequence[int],
+    modes: int,
+    assembly: Assembly = "consistent",
+    criteria: Criteria | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Verification:
+    """Compare `modes` eigenfrequencies of the DSM model with those of the FEM at the same unstrained lengths.
+
+    Parameters
+    ----------
+    elements : ascending element counts per cable, at least three, each a multiple of the first
+    progress : called with what is being computed
+    """
+    criteria = criteria or Criteria()
+    stations = elements[0]
+    platform_mass = platform_mass_matrix(point.robot, point.rotation)
+    mass = sampling_mass(point.robot, point.cables.length, stations, platform_mass)
+    sweep = _sweep_elements(point, elements, modes, mass, progress)
+    progress("closed-form DSM")
+    dsm = natural_frequencies(point, modes + _SPARE_MODES, assembly)
+    shapes = mode_shapes(point, modes + _SPARE_MODES, np.arange(1, stations) / stations, assembly)
+    flat = np.concatenate(
+        [shapes.platform, shapes.cable_motion.reshape(len(shapes.hertz), -1)], axis=1
+    )
+    assurance = modal_assurance(sweep.shapes, flat, mass)
+    extrapolated = fem.extrapolate(elements, sweep.hertz)
+    partner = pair_modes(assurance, sweep.hertz[-1], dsm.hertz)
+    kinds = shapes.kinds()
+    progress("determinant scan")
+    scans = _scans(point, assembly, dsm.hertz[partner].max())
+    matched = {step: match_minima(s.minima_hertz, dsm.hertz[partner], criteria.minimum_tolerance) for step, s in scans.items()}
+    return Verification(
+        point=point,
+        assembly=assembly,
+        criteria=criteria,
+        elements=tuple(elements),
+        fem_hertz=sweep.hertz,
+        fem_limit_hertz=extrapolated.limit,
+        fem_uncertainty_hertz=extrapolated.error_estimate,
+        observed_order=extrapolated.order,
+        dsm_hertz=dsm.hertz[partner],
+        dsm_certified=dsm.certified,
+        assurance=_share_in_cluster(assurance, dsm.hertz, partner),
+        kinds=tuple(kinds[j] for j in partner),
+        static_hertz=_static_partners(point, assembly, sweep.platform_shapes, platform_mass),
+        determinant_hertz=matched[_REPORTED_STEP],
+        scan=scans[_REPORTED_STEP],
+        missed={step: int(np.isnan(m).sum()) for step, m in matched.items()},
+        limits=check_limits(point, taut_cables(point)),
+    )
+
+
+def _sweep_elements(
+    point: OperatingPoint, elements: Sequence[int], modes: int, mass: np.ndarray, progress: Callable[[str], None]
+) -> _FemSweep:
+    """FEM frequencies at every element count, each mode followed by its shape up to the finest mesh."""
+    found = []
+    for n in elements:
+        progress(f"FEM, {len(point.robot.cables)} x {n} elements")
+        spare = 0 if n == elements[-1] else _SPARE_MODES
+        available = 6 + 3 * len(point.robot.cables) * (n - 1)
+        found.append(fem.robot_modes(solve_in_fem(point, n), min(modes + spare, available - 1)))
+    finest = found[-1]
+    shapes = fem_shapes(finest, elements[0])
+    hertz = np.empty((len(elements), modes))
+    for row, coarse in zip(hertz, found, strict=True):
+        assurance = modal_assurance(shapes, fem_shapes(coarse, elements[0]), mass)
+        row[:] = coarse.frequencies_hz[pair_modes(assurance, finest.frequencies_hz, coarse.frequencies_hz)]
+    return _FemSweep(hertz, shapes, finest.platform_shapes)
+
+
+def _scans(point: OperatingPoint, assembly: Assembly, last: float) -> dict[float, DeterminantScan]:
+    return {step: scan_determinant(point, step, 1.05 * last, step, assembly) for step in SCAN_STEPS_HERTZ}
+
+
+def _share_in_cluster(assurance: np.ndarray, hertz: np.ndarray, partner: np.ndarray) -> np.ndarray:
+    label = clusters(hertz)
+    member = label[partner][:, None] == label[None, :]
+    return np.minimum((assurance * member).sum(axis=1), 1.0)
+
+
+def _static_partners(
+    point: OperatingPoint, assembly: Assembly, platform_shapes: np.ndarray, mass: np.ndarray
+) -> np.ndarray:
+    """For each FEM mode the frequency of the static mode it stands for; six modes get one, the others nan.
+
+    platform_shapes carry unit modal mass, so the overlap with a static shape is the share of the FEM mode's energy
+    that is this platform motion.
+    """
+    squared, static_shapes = scipy.linalg.eigh(platform_static_stiffness(point, assembly), mass)
+    overlap = (platform_shapes @ mass @ static_shapes) ** 2
+    result = np.full(len(platform_shapes), np.nan)
+    rows, columns = scipy.optimize.linear_sum_assignment(-overlap)
+    for i, j in zip(rows, columns, strict=True):
+        if squared[j] > 0.0:
+            result[i] = np.sqrt(squared[j]) / (2.0 * np.pi)
+    return result
+
+
+def _objections(v: Verification) -> list[tuple[bool, str]]:
+    worst = int(np.argmax(np.abs(v.relative_error)))
+    lost = int(np.argmin(v.assurance))
+    blurred = v.fem_uncertainty_hertz / v.fem_limit_hertz
+    return [
+        (
+            abs(v.relative_error[worst]) > v.criteria.relative_error,
+            f"mode {worst + 1}: DSM {v.dsm_hertz[worst]:.4f} Hz deviates by {100 * v.relative_error[worst]:+.2f} % from "
+            f"the FEM's {v.fem_limit_hertz[worst]:.4f} Hz, more than {100 * v.criteria.relative_error:g} %",
+        ),
+        (
+            v.assurance[lost] < v.criteria.assurance,
+            f"mode {lost + 1} at {v.fem_limit_hertz[lost]:.4f} Hz has no DSM partner of its shape "
+            f"(best share {v.assurance[lost]:.2f})",
+        ),
+        (
+            float(np.max(blurred)) > v.criteria.fem_uncertainty,
+            f"the FEM has not converged: its limit is uncertain by {100 * np.max(blurred):.2g} %; use more elements",
+        ),
+        (not v.dsm_certified, "the count of the DSM's natural frequencies could not be certified"),
+    ]

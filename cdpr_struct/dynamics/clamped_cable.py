@@ -1,0 +1,52 @@
+"""How many natural frequencies a taut cable with both ends held has below omega, and which they are.
+
+Out of plane Omega = n pi. In plane, antisymmetric Omega = 2 n pi; symmetric, the roots of Irvine's equation, of which
+exactly one lies between (2 n - 1) pi and (2 n + 1) pi.
+"""
+
+import numpy as np
+
+from cdpr_struct.dynamics.operating_point import TautCables
+from cdpr_struct.generated.cable_dsm import clamped_frequency_function
+
+
+def clamped_count(cables: TautCables, omega: np.ndarray) -> np.ndarray:
+    """Number of clamped natural frequencies strictly below omega, per cable.
+
+    Parameters
+    ----------
+    omega : broadcasts against (..., m) [rad/s]
+
+    Returns
+    -------
+    (..., m) integers.
+    """
+    parameter = omega / cables.frequency_scale
+    out_of_plane = _below(parameter / np.pi)
+    antisymmetric = _below(parameter / (2.0 * np.pi))
+    return out_of_plane + antisymmetric + _symmetric_count(parameter, cables.lambda_squared)
+
+
+def _below(ratio: np.ndarray) -> np.ndarray:
+    return np.maximum(np.ceil(ratio).astype(int) - 1, 0)
+
+
+def _symmetric_count(parameter: np.ndarray, lambda2: np.ndarray) -> np.ndarray:
+    interval = np.floor(parameter / (2.0 * np.pi) + 0.5).astype(int)
+    sign_before_root = np.where(interval % 2 == 1, 1.0, -1.0)
+    passed = clamped_frequency_function(parameter, lambda2) * sign_before_root < 0.0
+    return np.where(interval > 0, interval - 1 + passed, 0)
+
+
+def symmetric_roots(lambda2: np.ndarray, count: int) -> np.ndarray:
+    """First `count` symmetric in-plane frequency parameters Omega (..., count) by bisection of Irvine's equation."""
+    number = np.arange(1, count + 1)
+    lambda2 = np.asarray(lambda2)[..., None]
+    low = np.broadcast_to((2 * number - 1) * np.pi, (*lambda2.shape[:-1], count)).copy()
+    high = low + 2.0 * np.pi
+    sign = np.where(number % 2 == 1, 1.0, -1.0)
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        before = clamped_frequency_function(middle, lambda2) * sign > 0.0
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    return 0.5 * (low + high)

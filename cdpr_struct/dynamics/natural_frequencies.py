@@ -1,0 +1,88 @@
+"""Every natural frequency of the robot, with a count that proves that none is missing.
+
+Wittrick and Williams: the number of natural frequencies below omega is the number of those of the clamped cables
+plus the number of negative eigenvalues of the platform's dynamic stiffness. Bisection on this count isolates each
+frequency, whatever its multiplicity; a scan for determinant minima cannot.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.dynamics.clamped_cable import clamped_count
+from cdpr_struct.dynamics.operating_point import OperatingPoint, TautCables, taut_cables
+from cdpr_struct.dynamics.robot_dynamic_stiffness import (
+    Assembly,
+    platform_dynamic_stiffness,
+    platform_mass_matrix,
+    platform_static_stiffness,
+)
+from cdpr_struct.errors import CdprError
+
+_HALVINGS = 52
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NaturalFrequencies:
+    """The first k natural frequencies, multiplicities repeated.
+
+    hertz         : (k,) ascending
+    bracket_hertz : (k, 2) interval over which the count passes the number of the frequency
+    certified     : the count below the last bracket plus those inside equals k or more, from exact counts
+    """
+
+    hertz: np.ndarray
+    bracket_hertz: np.ndarray
+    certified: bool
+
+
+def count_below(
+    point: OperatingPoint, omega: np.ndarray, assembly: Assembly = "consistent", cables: TautCables | None = None
+) -> np.ndarray:
+    """Number of natural frequencies of the robot below each omega (k,) [rad/s] at one pose, DSM model."""
+    cables = taut_cables(point) if cables is None else cables
+    omega = np.asarray(omega, dtype=float)[..., None]
+    stiffness = platform_dynamic_stiffness(point, cables, omega**2, assembly)
+    dynamic = stiffness - (omega**2)[..., None] * platform_mass_matrix(point.robot, point.rotation)
+    negative = (np.linalg.eigvalsh(dynamic) < 0.0).sum(axis=-1)
+    return negative + clamped_count(cables, omega).sum(axis=-1)
+
+
+def natural_frequencies(point: OperatingPoint, count: int, assembly: Assembly = "consistent") -> NaturalFrequencies:
+    """First `count` undamped natural frequencies of the robot on dynamically stiff cables.
+
+    Raises
+    ------
+    CdprError : the equilibrium is unstable, so the lowest "frequencies" are not real.
+    """
+    cables = taut_cables(point)
+    if int(count_below(point, np.array([1e-6]), assembly, cables)[0]) > 0:
+        raise CdprError("the equilibrium is unstable: the platform stiffness has negative eigenvalues at rest")
+    number = np.arange(1, count + 1)
+    high_end = _upper_bound(point, cables, count, assembly)
+    low, high = np.zeros(count), np.full(count, high_end)
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        below = count_below(point, middle, assembly, cables) < number
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    bracket = np.stack([low, high], axis=-1) / (2.0 * np.pi)
+    certified = bool(
+        (count_below(point, low[1:], assembly, cables) < number[1:]).all()
+        and (count_below(point, high, assembly, cables) >= number).all()
+    )
+    return NaturalFrequencies(bracket.mean(axis=-1), bracket, certified)
+
+
+def static_frequencies(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
+    """Six frequencies [Hz] of the platform on massless cables (K_static); nan where the stiffness is negative."""
+    mass = platform_mass_matrix(point.robot, point.rotation)
+    lower = np.linalg.inv(np.linalg.cholesky(mass))
+    squared = np.linalg.eigvalsh(lower @ platform_static_stiffness(point, assembly) @ lower.T)
+    return np.sqrt(np.where(squared > 0.0, squared, np.nan)) / (2.0 * np.pi)
+
+
+def _upper_bound(point: OperatingPoint, cables: TautCables, count: int, assembly: Assembly) -> float:
+    high = float(np.min(cables.frequency_scale) * np.pi)
+    while int(count_below(point, np.array([high]), assembly, cables)[0]) < count:
+        high *= 1.5
+    return high

@@ -1,0 +1,85 @@
+"""Stiffness of the platform on its cables, static and dynamic (thesis section 3.3)."""
+
+from typing import Literal
+
+import numpy as np
+
+from cdpr_struct.dynamics.cable_dynamic_stiffness import cable_dynamic_stiffness
+from cdpr_struct.dynamics.operating_point import OperatingPoint, TautCables
+from cdpr_struct.generated import platform as generated
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.cable_state import static_stiffness
+
+Assembly = Literal["consistent", "thesis"]
+
+
+def platform_mass_matrix(robot: Robot, rotation: np.ndarray) -> np.ndarray:
+    """Mass matrix (..., 6, 6) of the platform about its origin, world axes [kg, kg m, kg m^2]."""
+    body = robot.platform
+    center = np.einsum("...ij,j->...i", rotation, body.center_of_mass)
+    inertia = rotation @ body.inertia @ np.swapaxes(rotation, -1, -2)
+    return generated.mass_matrix(
+        body.mass,
+        *(center[..., i] for i in range(3)),
+        *(inertia[..., i, i] for i in range(3)),
+        *(inertia[..., i, j] for i, j in ((0, 1), (0, 2), (1, 2))),
+    )
+
+
+def assemble(point: OperatingPoint, cable_stiffness: np.ndarray, assembly: Assembly = "consistent") -> np.ndarray:
+    """Platform stiffness from the stiffness of each cable's end.
+
+    Parameters
+    ----------
+    cable_stiffness : (..., m, 3, 3) [N/m], world axes
+    assembly : "thesis" is eq. (3.8); "consistent" adds what it leaves out, the work of the static cable forces and
+        of the weight on the second-order motion of the rotating lever arms
+
+    Returns
+    -------
+    (..., 6, 6), world axes, rotations about the platform origin [N/m, N, N m].
+    """
+    matrices = attachment(point)
+    stiffness = np.einsum("...mai,...mab,...mbj->...ij", matrices, cable_stiffness, matrices, optimize=True)
+    if assembly == "thesis":
+        return stiffness
+    stiffness[..., 3:, 3:] += geometric_stiffness(point)
+    return stiffness
+
+
+def geometric_stiffness(point: OperatingPoint) -> np.ndarray:
+    """(..., 3, 3) second-order rotational stiffness of the cable forces and of the weight [N m]."""
+    arms = _arms(point)
+    force = point.cables.force_on_platform
+    cables = generated.geometric_stiffness(
+        *(force[..., i] for i in range(3)), *(arms[..., i] for i in range(3))
+    ).sum(axis=-3)
+    body = point.robot.platform
+    center = np.einsum("...ij,j->...i", point.rotation, body.center_of_mass)
+    weight = -body.mass * point.robot.gravity
+    return cables + generated.geometric_stiffness(0.0, 0.0, weight, *(center[..., i] for i in range(3)))
+
+
+def platform_static_stiffness(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
+    """(..., 6, 6) stiffness with massless cable dynamics (K_static of the thesis, eqs 2.29 and 3.8)."""
+    return assemble(point, static_stiffness(point.cables, point.robot), assembly)
+
+
+def platform_dynamic_stiffness(
+    point: OperatingPoint, cables: TautCables, omega_c_squared: np.ndarray, assembly: Assembly = "consistent"
+) -> np.ndarray:
+    """(..., 6, 6) stiffness K_E(omega) of eq. (3.8) with the cables' closed-form DSM.
+
+    omega_c_squared broadcasts against (..., m); see `cable_dynamic_stiffness`.
+    """
+    return assemble(point, cable_dynamic_stiffness(cables, omega_c_squared), assembly)
+
+
+def _arms(point: OperatingPoint) -> np.ndarray:
+    return np.einsum("...ij,mj->...mi", point.rotation, point.robot.platform_anchors)
+
+
+def attachment(point: OperatingPoint) -> np.ndarray:
+    """Attachment matrices A_i (..., m, 3, 6), eq. (3.9) corrected: motion of anchor i is A_i times platform motion."""
+    arms = _arms(point)
+    return generated.attachment(*(arms[..., i] for i in range(3)))

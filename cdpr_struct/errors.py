@@ -1,0 +1,42 @@
+"""The errors that this package raises on purpose.
+
+`InputError` means that what the user gave cannot be used, `CdprError` that physics says no. Both carry the
+numbers and the next step; the command line turns them into exit codes 2 and 1.
+"""
+
+
+class CdprError(Exception):
+    """The request is well-posed, but the robot cannot do it."""
+
+
+class InputError(ValueError):
+    """Unusable input: where it is, what it was, and what would be right.
+
+    Parameters
+    ----------
+    source : file or command-line option.
+    field : the name inside the source ("" if the source as a whole is meant).
+    value : what was given.
+    expected : what would be right.
+    """
+
+    def __init__(self, source: str, field: str, value: object, expected: str) -> None:
+        self.source, self.field, self.value, self.expected = source, field, value, expected
+        place = f"{source}: {field}" if field else source
+        super().__init__(f"{place}: got {value!r}; {expected}")
+
+
+class UnholdablePoseError(CdprError):
+    """No tension distribution above the lower bound balances the load at this pose."""
+
+    def __init__(self, reason: str, cable: int | None = None, amount: float | None = None) -> None:
+        self.cable, self.amount = cable, amount
+        super().__init__(reason)
+
+
+class ConvergenceError(CdprError):
+    """An iteration stopped before it converged; holds the last residual."""
+
+    def __init__(self, what: str, residual: float, iterations: int, hint: str) -> None:
+        self.residual, self.iterations = residual, iterations
+        super().__init__(f"{what}: residual {residual:.3g} after {iterations} iterations. {hint}")

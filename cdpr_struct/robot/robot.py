@@ -1,0 +1,93 @@
+"""The robot: a platform on m cables in a frame."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cdpr_struct.robot.arrays import frozen_array, require_positive
+from cdpr_struct.robot.cable import Cable, Pulley
+from cdpr_struct.robot.platform import Platform
+from cdpr_struct.robot.pose import Pose
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Robot:
+    """Cable-driven parallel robot with m cables.
+
+    platform_anchors : (m, 3) A_i [m], platform frame
+    frame_anchors    : (m, 3) B_i [m], world frame; with a pulley, where the cable enters it
+    pulleys          : per cable a `Pulley` or None
+    gravity          : g [m/s^2], along world -z
+    home             : pose that commands use when none is given, or None
+    """
+
+    name: str
+    platform: Platform
+    cables: tuple[Cable, ...]
+    platform_anchors: np.ndarray
+    frame_anchors: np.ndarray
+    pulleys: tuple[Pulley | None, ...] = ()
+    gravity: float = 9.81
+    description: str = ""
+    home: Pose | None = None
+
+    def __post_init__(self) -> None:
+        require_positive(self, "gravity")
+        m = len(self.cables)
+        if m == 0:
+            raise ValueError("Robot.cables must hold at least one cable")
+        for name in ("platform_anchors", "frame_anchors"):
+            object.__setattr__(self, name, frozen_array(getattr(self, name), (m, 3), f"Robot.{name}"))
+        if not self.pulleys:
+            object.__setattr__(self, "pulleys", (None,) * m)
+        if len(self.pulleys) != m:
+            raise ValueError(f"Robot.pulleys must have one entry per cable ({m}), got {len(self.pulleys)}")
+
+    @property
+    def axial_stiffness(self) -> np.ndarray:
+        """(m,) EA [N]."""
+        return np.array([cable.axial_stiffness for cable in self.cables])
+
+    @property
+    def linear_density(self) -> np.ndarray:
+        """(m,) mu [kg/m]."""
+        return np.array([cable.linear_density for cable in self.cables])
+
+    @property
+    def damping_ratio(self) -> np.ndarray:
+        """(m,) xi [-]."""
+        return np.array([cable.damping_ratio for cable in self.cables])
+
+    @property
+    def weight_per_length(self) -> np.ndarray:
+        """(m,) mu g [N/m]."""
+        return self.linear_density * self.gravity
+
+    def with_load(self, payload: float = 0.0, mass: float | None = None) -> "Robot":
+        """Robot whose platform has another `mass` [kg] and/or a point load `payload` [kg] at its origin."""
+        platform = self.platform if mass is None else self.platform.with_mass(mass)
+        return replace(self, platform=platform.with_point_load(payload))
+
+
+def anchors_in_world(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Platform anchors in the world and their lever arms.
+
+    Parameters
+    ----------
+    position : (..., 3) r [m]
+    rotation : (..., 3, 3) platform to world
+
+    Returns
+    -------
+    points : (..., m, 3) r + R A_i [m], eq. (3.1)
+    arms : (..., m, 3) R A_i [m], world axes
+    """
+    arms = np.einsum("...ij,mj->...mi", rotation, robot.platform_anchors)
+    return position[..., None, :] + arms, arms
+
+
+def gravity_wrench(robot: Robot, rotation: np.ndarray) -> np.ndarray:
+    """Wrench (..., 6) of the platform's weight about its origin, world axes [N, N m]."""
+    center = np.einsum("...ij,j->...i", rotation, robot.platform.center_of_mass)
+    force = np.broadcast_to([0.0, 0.0, -robot.platform.mass * robot.gravity], center.shape)
+    return np.concatenate([force, np.cross(center, force)], axis=-1)
