@@ -37,6 +37,7 @@ class CableStatus(IntEnum):
     WEIGHTLESS_SLACK = 1  # w = 0 and the chord is shorter than the cable: no force at all
     FOLDED = 2  # exactly vertical and longer than its chord: hangs in a fold; forces are the limit x -> 0
     NOT_CONVERGED = 3
+    TENSION_TOO_LOW = 4  # asked for a tension that the cable weight alone exceeds (`solve_length`)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -159,9 +160,9 @@ def solve_end_forces(
     flat = [np.atleast_1d(a).reshape(-1) for a in arrays]
     _check(dict(zip(names, flat, strict=True)))
     force_x, force_z, iterations, status = _solve_flat(*flat)
-    reached_x, reached_z = end_point(force_x, force_z, *flat[2:])
-    residual = np.hypot(reached_x - flat[0], reached_z - flat[1])
-    residual[status == CableStatus.WEIGHTLESS_SLACK] = 0.0
+    idle = status == CableStatus.WEIGHTLESS_SLACK
+    reached_x, reached_z = end_point(force_x, np.where(idle, 1.0, force_z), *flat[2:])
+    residual = np.where(idle, 0.0, np.hypot(reached_x - flat[0], reached_z - flat[1]))
     stuck = (residual > RESIDUAL_TOLERANCE * flat[2]) & (status == CableStatus.CONVERGED)
     status[stuck] = CableStatus.NOT_CONVERGED
     return CatenaryForces(*(a.reshape(shape) for a in (force_x, force_z, residual, iterations, status)))

@@ -1,0 +1,239 @@
+"""The three cable models behind one interface: `sagging`, `spring`, `ideal`.
+
+`states` answers which force a cable of given length has between given points (forward), `hold` which length it has at
+given tension (inverse).
+"""
+
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from cdpr_struct.statics.cable_response import cable_response
+from cdpr_struct.statics.cable_state import CableStates, heading_and_span
+from cdpr_struct.statics.catenary import CableStatus, solve_end_forces
+from cdpr_struct.statics.catenary_length import SLACKEST, length_at_chord_tension
+from cdpr_struct.statics.pulley import pulley_exit, straight_exit
+from cdpr_struct.statics.robot_arrays import RobotArrays
+
+IDEAL_STIFFENING = 1e6  # an ideal cable at given length: spring with EA this many times larger
+_EXIT_ITERATIONS = 30
+_EXIT_TOLERANCE = 1e-14  # of the tension, or of the unit direction
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HeldCables:
+    """Cables chosen by their tension.
+
+    states      : CableStates (..., m)
+    force_rate  : (..., m, 3) derivative of the force on the platform with respect to the chord tension [-]
+    """
+
+    states: CableStates
+    force_rate: np.ndarray
+
+
+class CableModel(Protocol):
+    """What a cable does between its frame anchor and a point on the platform."""
+
+    name: str
+
+    def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
+        """State of cables of unstrained `length` (..., m) [m] that end at `points` (..., m, 3), world [m]."""
+
+    def hold(self, arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> HeldCables:
+        """Cables with chord tension (..., m) >= 0 [N] that end at `points`."""
+
+    def least_chord_tension(self, arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
+        """(..., m) smallest chord tension that `hold` accepts [N]."""
+
+
+class SpringModel:
+    """Straight weightless spring that cannot push."""
+
+    name = "spring"
+
+    def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
+        exit_ = _straight(arrays, points)
+        strained = exit_.chord + exit_.wrapped
+        excess = strained - length
+        slack = excess <= 0.0
+        tension = np.where(slack, 0.0, arrays.axial_stiffness * excess / length)
+        wrapped = exit_.wrapped / (1.0 + tension / arrays.axial_stiffness)
+        return _straight_states(arrays, exit_, tension, length - wrapped, wrapped)
+
+    def hold(self, arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> HeldCables:
+        exit_ = _straight(arrays, points)
+        stretch = 1.0 + chord_tension / arrays.axial_stiffness
+        states = _straight_states(arrays, exit_, chord_tension, exit_.chord / stretch, exit_.wrapped / stretch)
+        return HeldCables(states, -exit_.offset / exit_.chord[..., None])
+
+    def least_chord_tension(self, arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
+        return np.zeros(points.shape[:-1])
+
+
+class IdealModel(SpringModel):
+    """Straight, weightless, inextensible. At given lengths the forces are those of a spring `IDEAL_STIFFENING` times
+    stiffer: its stretch is below a micrometre for the cables of this field."""
+
+    name = "ideal"
+
+    def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
+        return super().states(_stiffened(arrays), points, length)
+
+    def hold(self, arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> HeldCables:
+        held = super().hold(arrays, points, chord_tension)
+        exit_ = _straight(arrays, points)
+        states = replace(held.states, length=exit_.chord, wrapped_length=exit_.wrapped)
+        return HeldCables(replace(states, axial_stiffness=_stiffened(arrays).axial_stiffness), held.force_rate)
+
+
+class SaggingModel:
+    """Elastic catenary, eqs. (2.11)-(2.12)."""
+
+    name = "sagging"
+
+    def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
+        offset = points - arrays.frame_anchors
+        if not arrays.has_pulleys:
+            return _catenary(arrays, offset, length, np.zeros_like(length))
+        return _catenary_over_pulley(arrays, offset, length)
+
+    def hold(self, arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> HeldCables:
+        offset = points - arrays.frame_anchors
+        if not arrays.has_pulleys:
+            cable = _catenary_at_tension(arrays, offset, chord_tension, np.zeros(offset.shape[:-1]))
+        else:
+            cable = _held_over_pulley(arrays, offset, chord_tension)
+        states, length_rate = cable
+        response = cable_response(arrays, states)
+        return HeldCables(states, -response.length_rate * length_rate[..., None])
+
+    def least_chord_tension(self, arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
+        chord = np.linalg.norm(points - arrays.frame_anchors, axis=-1)
+        return 0.5 * arrays.weight * chord / SLACKEST
+
+
+MODELS: dict[str, CableModel] = {m.name: m for m in (SaggingModel(), SpringModel(), IdealModel())}
+
+
+def cable_model(model: "str | CableModel") -> CableModel:
+    """Model by name.
+
+    Raises
+    ------
+    ValueError : no such model.
+    """
+    if not isinstance(model, str):
+        return model
+    if model not in MODELS:
+        raise ValueError(f"model must be one of {', '.join(MODELS)}, got {model!r}")
+    return MODELS[model]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _StraightCables:
+    offset: np.ndarray
+    chord: np.ndarray
+    wrapped: np.ndarray  # strained
+
+
+def _straight(arrays: RobotArrays, points: np.ndarray) -> _StraightCables:
+    offset = points - arrays.frame_anchors
+    if arrays.has_pulleys:
+        direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
+        exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
+        offset = offset - exit_.point
+        wrapped = arrays.pulley_radius * exit_.wrap_angle
+    else:
+        wrapped = np.zeros(offset.shape[:-1])
+    return _StraightCables(offset, np.linalg.norm(offset, axis=-1), wrapped)
+
+
+def _straight_states(
+    arrays: RobotArrays, exit_: _StraightCables, tension: np.ndarray, length: np.ndarray, wrapped: np.ndarray
+) -> CableStates:
+    heading, span = heading_and_span(exit_.offset)
+    status = np.where(tension > 0.0, CableStatus.CONVERGED, CableStatus.WEIGHTLESS_SLACK)
+    share = tension / exit_.chord
+    stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
+    return CableStates(
+        exit_.offset, heading, length, wrapped, share * span, share * exit_.offset[..., 2], stiff,
+        np.zeros_like(length), status,
+    )  # fmt: skip
+
+
+def _stiffened(arrays: RobotArrays) -> RobotArrays:
+    return replace(arrays, axial_stiffness=arrays.axial_stiffness * IDEAL_STIFFENING)
+
+
+def _catenary(arrays: RobotArrays, offset: np.ndarray, length: np.ndarray, wrapped: np.ndarray) -> CableStates:
+    heading, span = heading_and_span(offset)
+    stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
+    weight = np.broadcast_to(arrays.weight, length.shape)
+    forces = solve_end_forces(span, offset[..., 2], length, stiff, weight)
+    return CableStates(
+        offset, heading, length, wrapped, forces.force_x, forces.force_z, stiff, weight, forces.status
+    )
+
+
+def _catenary_over_pulley(arrays: RobotArrays, offset: np.ndarray, length: np.ndarray) -> CableStates:
+    """Newton on the tension vector at the exit: its direction places the exit, its size strains the wrapped piece."""
+    direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
+    tension = np.zeros(length.shape)
+    states = _leaving(arrays, offset, length, direction, tension)
+    for _ in range(_EXIT_ITERATIONS):
+        vector = states.force_at_frame
+        tension = np.linalg.norm(vector, axis=-1)
+        states = _leaving(arrays, offset, length, vector / tension[..., None], tension)
+        error = states.force_at_frame - vector
+        if (np.abs(error).max(axis=-1) <= _EXIT_TOLERANCE * tension).all():
+            break
+        step = np.linalg.solve(cable_response(arrays, states).frame_matrix, error[..., None])[..., 0]
+        vector = vector + step
+        tension = np.linalg.norm(vector, axis=-1)
+        states = _leaving(arrays, offset, length, vector / tension[..., None], tension)
+    return states
+
+
+def _leaving(
+    arrays: RobotArrays, offset: np.ndarray, length: np.ndarray, direction: np.ndarray, tension: np.ndarray
+) -> CableStates:
+    """Free catenary of a cable that leaves its pulley in `direction` under `tension`."""
+    exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
+    wrapped = arrays.pulley_radius * exit_.wrap_angle / (1.0 + tension / arrays.axial_stiffness)
+    free = np.maximum(length - wrapped, 1e-3 * length)
+    return _catenary(arrays, offset - exit_.point, free, wrapped)
+
+
+def _catenary_at_tension(
+    arrays: RobotArrays, offset: np.ndarray, chord_tension: np.ndarray, wrap: np.ndarray
+) -> tuple[CableStates, np.ndarray]:
+    """State, and rate of the length with the chord tension; `wrap` is the strained length on the pulley."""
+    heading, span = heading_and_span(offset)
+    cable = length_at_chord_tension(span, offset[..., 2], chord_tension, arrays.axial_stiffness, arrays.weight)
+    bottom = np.hypot(cable.force_x, cable.force_z - arrays.weight * cable.length)
+    wrapped = wrap / (1.0 + bottom / arrays.axial_stiffness)
+    stiff = np.broadcast_to(arrays.axial_stiffness, wrapped.shape)
+    weight = np.broadcast_to(arrays.weight, wrapped.shape)
+    states = CableStates(
+        offset, heading, cable.length, wrapped, np.where(span > 0.0, cable.force_x, 0.0), cable.force_z, stiff,
+        weight, cable.status,
+    )  # fmt: skip
+    return states, cable.length_rate
+
+
+def _held_over_pulley(
+    arrays: RobotArrays, offset: np.ndarray, chord_tension: np.ndarray
+) -> tuple[CableStates, np.ndarray]:
+    """Fixed point of the exit direction; contracts by about radius over chord."""
+    direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
+    for _ in range(_EXIT_ITERATIONS):
+        exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
+        wrap = arrays.pulley_radius * exit_.wrap_angle
+        states, length_rate = _catenary_at_tension(arrays, offset - exit_.point, chord_tension, wrap)
+        before = direction
+        direction = states.force_at_frame / states.tension_at_frame[..., None]
+        if np.abs(direction - before).max(initial=0.0) <= _EXIT_TOLERANCE:
+            break
+    return states, length_rate

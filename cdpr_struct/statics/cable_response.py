@@ -1,0 +1,65 @@
+"""How the force of a cable changes when its platform end moves or its length changes, its pulley included."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.statics.cable_state import CableStates, cable_stiffness
+from cdpr_struct.statics.pulley import exit_rates
+from cdpr_struct.statics.robot_arrays import RobotArrays
+
+_UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CableResponse:
+    """Derivatives of the pull on each cable at its platform end (minus the force on the platform), world.
+
+    stiffness    : (..., m, 3, 3) with respect to the position of the platform end [N/m]
+    length_rate  : (..., m, 3) with respect to the unstrained length paid out beyond the frame anchor [N/m]
+    frame_matrix : (..., m, 3, 3) Jacobian of the exit equation (identity without a pulley)
+    """
+
+    stiffness: np.ndarray
+    length_rate: np.ndarray
+    frame_matrix: np.ndarray
+
+
+def cable_response(arrays: RobotArrays, states: CableStates) -> CableResponse:
+    """Exact derivatives of the static cable forces.
+
+    Adding cable at the frame end adds it along the tension t there, so the free cable's length rate is
+    -K t (1 + T/EA). On a pulley, moving the platform end also turns t, which moves the exit point E and takes cable
+    on or off the wheel: the tension vector at E then solves a 3 x 3 linear system a cable.
+    """
+    free = cable_stiffness(states)
+    tension = np.where(states.slack, 1.0, states.tension_at_frame)
+    direction = states.force_at_frame / tension[..., None]
+    stretch = 1.0 + states.tension_at_frame / states.axial_stiffness
+    free_rate = -stretch[..., None] * np.einsum("...ij,...j->...i", free, direction)
+    if not arrays.has_pulleys:
+        return CableResponse(free, free_rate, np.broadcast_to(np.eye(3), free.shape))
+    top_rate = free_rate - states.weight[..., None] * _UP
+    length_from_tension, matrix = _exit_matrix(arrays, states, free, top_rate, tension)
+    inverse = np.linalg.inv(matrix)
+    weight_row = states.weight[..., None, None] * _UP[:, None] * length_from_tension[..., None, :]
+    back = np.eye(3) + weight_row
+    stiffness = back @ inverse @ free
+    at_exit = np.einsum("...ij,...j->...i", inverse, top_rate)
+    length_rate = np.einsum("...ij,...j->...i", back, at_exit) + states.weight[..., None] * _UP
+    return CableResponse(stiffness, length_rate, matrix)
+
+
+def _exit_matrix(
+    arrays: RobotArrays, states: CableStates, free: np.ndarray, top_rate: np.ndarray, tension: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """d(free length)/d(tension vector at E) (..., m, 3) and the Jacobian of the exit equation (..., m, 3, 3)."""
+    direction = states.force_at_frame / tension[..., None]
+    turn = (np.eye(3) - direction[..., :, None] * direction[..., None, :]) / tension[..., None, None]
+    moves, winds = exit_rates(direction, arrays.pulley_axis, arrays.pulley_radius)
+    stretch = (1.0 + states.tension_at_frame / states.axial_stiffness)[..., None]
+    winding = -np.einsum("...j,...jk->...k", winds, turn) / stretch
+    relaxing = direction * (states.wrapped_length / states.axial_stiffness)[..., None] / stretch
+    from_tension = winding + np.where(states.slack[..., None], 0.0, relaxing)
+    matrix = np.eye(3) + free @ moves @ turn - top_rate[..., :, None] * from_tension[..., None, :]
+    return from_tension, matrix

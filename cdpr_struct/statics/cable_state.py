@@ -1,0 +1,143 @@
+"""Static state of the cables of a robot, and how stiff each is."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.generated import catenary
+from cdpr_struct.generated.cable_compliance import compliance, stiffness
+
+_UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CableStates:
+    """Static state of m cables at each of a batch of poses; leading axes (...) are the batch.
+
+    offset          : (..., m, 3) platform anchor minus the point where the free cable starts (the frame anchor, or
+                      where it leaves its pulley), world [m]
+    heading         : (..., m, 3) horizontal unit vector from frame end to platform end, world
+    length          : (..., m) unstrained length of the free cable [m]
+    wrapped_length  : (..., m) unstrained length on the pulley [m]
+    force_x, force_z : (..., m) pull on the cable at its platform end, along `heading` and up [N]
+    axial_stiffness : (..., m) EA [N]
+    weight          : (..., m) w [N/m]; 0 for a straight, weightless cable
+    status          : (..., m) `CableStatus` values
+    """
+
+    offset: np.ndarray
+    heading: np.ndarray
+    length: np.ndarray
+    wrapped_length: np.ndarray
+    force_x: np.ndarray
+    force_z: np.ndarray
+    axial_stiffness: np.ndarray
+    weight: np.ndarray
+    status: np.ndarray
+
+    @property
+    def force_on_platform(self) -> np.ndarray:
+        """(..., m, 3) force the cable exerts on the platform, world [N]."""
+        return -self.force_x[..., None] * self.heading - self.force_z[..., None] * _UP
+
+    @property
+    def force_at_frame(self) -> np.ndarray:
+        """(..., m, 3) tension vector at the frame end, pointing from frame to platform, world [N]."""
+        return self.force_x[..., None] * self.heading + (self.force_z - self.weight * self.length)[..., None] * _UP
+
+    @property
+    def total_length(self) -> np.ndarray:
+        """(..., m) unstrained length paid out beyond the frame anchor, free and wrapped [m]."""
+        return self.length + self.wrapped_length
+
+    @property
+    def tension_at_platform(self) -> np.ndarray:
+        """(..., m) [N]."""
+        return np.hypot(self.force_x, self.force_z)
+
+    @property
+    def tension_at_frame(self) -> np.ndarray:
+        """(..., m) [N]."""
+        return np.hypot(self.force_x, self.force_z - self.weight * self.length)
+
+    @property
+    def slack(self) -> np.ndarray:
+        """(..., m) bool: the cable does not pull at all (straight models only; a sagging cable always does)."""
+        return (self.force_x == 0.0) & (self.force_z == 0.0) & (self.weight == 0.0)
+
+    @property
+    def span(self) -> np.ndarray:
+        """(..., m) horizontal distance of the ends [m]."""
+        return np.hypot(self.offset[..., 0], self.offset[..., 1])
+
+    @property
+    def chord(self) -> np.ndarray:
+        """(..., m) distance of the ends, eq. (2.13) [m]."""
+        return np.linalg.norm(self.offset, axis=-1)
+
+    @property
+    def inclination(self) -> np.ndarray:
+        """(..., m) angle of the chord above the horizontal [rad], > 0 if the platform end is the higher one."""
+        return np.arctan2(self.offset[..., 2], self.span)
+
+    @property
+    def tension(self) -> np.ndarray:
+        """(..., m) tau, tension where the cable is parallel to its chord, eq. (2.17) [N]."""
+        return np.where(self.slack, 0.0, catenary.chord_tension(*self._pulling))
+
+    @property
+    def sag(self) -> np.ndarray:
+        """(..., m) largest distance from the chord, eq. (2.22) [m]; nan for a slack straight cable."""
+        return np.where(self.slack, np.nan, catenary.sag(*self._pulling))
+
+    @property
+    def elongation(self) -> np.ndarray:
+        """(..., m) strained minus unstrained length, eq. (2.16) [m]."""
+        return np.where(self.slack, 0.0, catenary.elongation(*self._pulling))
+
+    def compliance_split(self) -> tuple[np.ndarray, np.ndarray]:
+        """Axial and sag part (2.28) of the compliance in the cable plane (heading, up): two (..., m, 2, 2) [m/N]."""
+        c_axial, c_xx, c_xz, c_zz = compliance(*self._pulling)
+        sag = np.stack([c_xx, c_xz, c_xz, c_zz], axis=-1).reshape((*c_xx.shape, 2, 2))
+        return c_axial[..., None, None] * np.eye(2), sag
+
+    @property
+    def _pulling(self) -> tuple[np.ndarray, ...]:
+        """Arguments of the generated functions, with a unit pull where the cable is slack."""
+        force_z = np.where(self.slack, 1.0, self.force_z)
+        return self.force_x, force_z, self.length, self.axial_stiffness, self.weight
+
+
+def cable_stiffness(states: CableStates) -> np.ndarray:
+    """Static stiffness of each free cable for a motion of its platform end, the frame end held.
+
+    Returns
+    -------
+    (..., m, 3, 3) symmetric, world [N/m]: eq. (2.29) in the cable plane, and force_x / span across it (for an exactly
+    vertical taut cable both horizontal directions are alike). Zero for a slack straight cable and across a fold.
+    """
+    k_xx, k_xz, k_zz = stiffness(*states._pulling)
+    span = states.span
+    vertical = span <= 1e-140 * states.length
+    across = np.where(vertical, k_xx, states.force_x / np.where(vertical, 1.0, span))
+    h = states.heading
+    matrix = np.empty((*span.shape, 3, 3))
+    for i in range(2):
+        for j in range(2):
+            along = h[..., i] * h[..., j]
+            matrix[..., i, j] = k_xx * along + across * (float(i == j) - along)
+        matrix[..., i, 2] = matrix[..., 2, i] = k_xz * h[..., i]
+    matrix[..., 2, 2] = k_zz
+    if (states.weight == 0.0).any():
+        matrix[states.slack] = 0.0
+    return matrix
+
+
+def heading_and_span(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Horizontal unit vector (..., 3) of offsets (..., 3), world x for a vertical one, and their span (...) [m]."""
+    span = np.hypot(offset[..., 0], offset[..., 1])
+    safe = np.where(span > 0.0, span, 1.0)
+    heading = np.zeros_like(offset)
+    heading[..., 0] = np.where(span > 0.0, offset[..., 0] / safe, 1.0)
+    heading[..., 1] = offset[..., 1] / safe
+    return heading, span
