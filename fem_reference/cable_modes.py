@@ -76,7 +76,7 @@ def cable_modes(equilibrium: CableEquilibrium, count: int, mass: MassModel = "lu
         basis = csc_array(kron(eye_array(interior), axes.T))
         stiffness, inertia = (csc_array(basis.T @ matrix @ basis) for matrix in matrices)
         found, vectors = lowest_eigenpairs(
-            stiffness, inertia, min(count, len(axes) * interior), -1e-3 * _string_eigenvalue(equilibrium)
+            stiffness, inertia, min(count, len(axes) * interior), -1e-3 * string_eigenvalue(equilibrium)
         )
         values.append(found)
         shapes.append((basis @ vectors).T.reshape(len(found), interior, 3))
@@ -89,7 +89,7 @@ def cable_modes(equilibrium: CableEquilibrium, count: int, mass: MassModel = "lu
     )
 
 
-def _string_eigenvalue(equilibrium: CableEquilibrium) -> float:
+def string_eigenvalue(equilibrium: CableEquilibrium) -> float:
     """Order of magnitude [rad^2/s^2] of the lowest eigenvalue: that of a string with the smallest tension."""
     cable = equilibrium.cable
     return float(equilibrium.tensions.min()) / (cable.linear_density * cable.unstrained_length**2)

@@ -119,7 +119,7 @@ def solve_chains(
 
     Raises
     ------
-    FoldedCableError : a slack cable folds within one bar.
+    FoldedCableError : a slack cable folds within one bar and finds no balance.
     CableNotConvergedError : any other failure, with the remaining gap.
     """
     chord = ends - starts
@@ -131,7 +131,7 @@ def solve_chains(
         largest = np.linalg.norm(state.tension_vectors, axis=-1).max(axis=1)
         done = np.linalg.norm(step, axis=-1) <= np.maximum(1e-13 * largest, noise)
         if done.all():
-            return _refuse_folds(batch, chain_state(batch, chord, state.mid_force + step)), iteration + 1
+            return chain_state(batch, chord, state.mid_force + step), iteration + 1
         state = _searched(batch, chord, state, step, done)
     raise _failure(batch, state, int(np.argmin(done)))
 
@@ -153,14 +153,13 @@ def _searched(
     return trial
 
 
-def _refuse_folds(batch: CableBatch, state: ChainState) -> ChainState:
-    """Pass a solved state on, unless some bar is without tension."""
+def _refuse_folds(batch: CableBatch, state: ChainState) -> None:
+    """Raise FoldedCableError if some bar is without tension."""
     tensions = np.linalg.norm(state.tension_vectors, axis=-1)
     limit = 100.0 * batch.slack_tension[:, None]
     if (tensions <= limit).any():
         cable, element = (int(index) for index in np.argwhere(tensions <= limit)[0])
         raise FoldedCableError(cable, element, float(tensions[cable, element]), float(tensions[cable].max()))
-    return state
 
 
 def _failure(batch: CableBatch, state: ChainState, cable: int) -> FemError:
@@ -175,7 +174,14 @@ def _failure(batch: CableBatch, state: ChainState, cable: int) -> FemError:
 def equilibria(
     batch: CableBatch, starts: np.ndarray, state: ChainState, iterations: int
 ) -> tuple[CableEquilibrium, ...]:
-    """Turn solved chains into one CableEquilibrium a cable, each checked from its node positions."""
+    """Turn solved chains into one CableEquilibrium a cable, each checked from its node positions.
+
+    Raises
+    ------
+    FoldedCableError : a bar carries no tension (while searching for a pose that is no reason to stop).
+    CompressedBarError : the stored nodes are nearer to each other than the unstrained bar is long.
+    """
+    _refuse_folds(batch, state)
     return tuple(_equilibrium(batch, index, starts[index], state, iterations) for index in range(len(starts)))
 
 

@@ -27,16 +27,28 @@ def lowest_eigenpairs(
     dofs = stiffness.shape[0]
     if not 1 <= count <= dofs:
         raise ValueError(f"count must be between 1 and the {dofs} unknowns of the mesh, got {count!r}")
-    if dofs <= max(90, 3 * count):
-        values, vectors = scipy.linalg.eigh(
-            stiffness.toarray(), mass.toarray(), subset_by_index=(0, count - 1)
-        )
-    else:
-        values, vectors = _shift_invert(stiffness, mass, count, shift)
+    solve = _inverted_dense if dofs <= max(90, 3 * count) else _shift_invert
+    values, vectors = solve(stiffness, mass, count, shift)
     order = np.argsort(values)
     if values[order[0]] < shift:
         raise UnstableEquilibriumError(float(values[order[0]]))
     return values[order], vectors[:, order]
+
+
+def _inverted_dense(
+    stiffness: csc_array, mass: csc_array, count: int, shift: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """M v = nu (K - shift M) v for the largest nu: exact where it matters, at the low frequencies."""
+    matrix, inertia = stiffness.toarray(), mass.toarray()
+    last = len(matrix) - 1
+    try:
+        nu, vectors = scipy.linalg.eigh(
+            inertia, matrix - shift * inertia, subset_by_index=(last + 1 - count, last)
+        )
+    except np.linalg.LinAlgError:
+        lowest = scipy.linalg.eigh(matrix, inertia, eigvals_only=True, subset_by_index=(0, 0))
+        raise UnstableEquilibriumError(float(lowest[0])) from None
+    return shift + 1.0 / nu, vectors / np.sqrt(nu)
 
 
 def _shift_invert(

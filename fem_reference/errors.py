@@ -30,7 +30,7 @@ class FoldedCableError(FemError):
         super().__init__(
             f"cable {cable}: element {element} carries {tension:.3g} N while the cable carries up to "
             f"{largest:.3g} N: the slack cable folds there. "
-            "Move the ends apart sideways, or shorten the cable."
+            "Move the ends apart sideways, take more elements, or shorten the cable."
         )
 
 

@@ -5,14 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.linalg
 from scipy.sparse import block_diag, csc_array, eye_array, hstack, vstack
 
 from fem_reference.bar_element import MassModel
+from fem_reference.cable_modes import string_eigenvalue
 from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
 from fem_reference.errors import MissedModesError
 from fem_reference.rigid_platform import platform_mass_matrix
 from fem_reference.robot import RobotEquilibrium
-from fem_reference.robot_dynamics import count_below
+from fem_reference.robot_dynamics import count_below, platform_dynamic_stiffness
 from fem_reference.sparse_chain import chain_matrix
 
 SPARE_MODES = (4, 16, 64)  # solved beyond the asked ones, until the count can be checked in a clear gap
@@ -99,12 +101,13 @@ def robot_modes(equilibrium: RobotEquilibrium, count: int, mass: MassModel = "lu
 
 
 def _shift(equilibrium: RobotEquilibrium) -> float:
-    """A small negative eigenvalue [rad^2/s^2], well below what a string of this robot has."""
-    strings = [
-        float(cable.tensions.min()) / (cable.cable.linear_density * cable.cable.unstrained_length**2)
-        for cable in equilibrium.cables
-    ]
-    return -1e-3 * min(strings)
+    """A small negative eigenvalue [rad^2/s^2], well below strings and platform of this robot."""
+    scales = [string_eigenvalue(cable) for cable in equilibrium.cables]
+    stiffness = platform_dynamic_stiffness(equilibrium, 0.0)
+    platform = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
+    rigid = scipy.linalg.eigh(stiffness, platform, eigvals_only=True)
+    scales += [float(value) for value in rigid if value > 1e-12 * rigid[-1]]
+    return -1e-3 * min(scales)
 
 
 def _counted_in_gap(
