@@ -107,14 +107,8 @@ def _descend(
     slope, size = float(state.wrench @ step), float(np.abs(state.wrench).max())
     scale = 1.0
     for _ in range(40):
-        trial = platform_state(
-            robot,
-            batch,
-            loads,
-            state.position + scale * step[:3],
-            turned(state.rotation, scale * step[3:]),
-            state.chains.mid_force,
-        )
+        place, turn = state.position + scale * step[:3], turned(state.rotation, scale * step[3:])
+        trial = platform_state(robot, batch, loads, place, turn, state.chains.mid_force)
         lower = trial.energy <= state.energy - 1e-4 * scale * slope
         if lower or float(np.abs(trial.wrench).max()) <= max(0.5 * size, floor):
             break

@@ -33,12 +33,15 @@ def test_the_package_is_where_the_test_looks():
     assert len(list(PACKAGE.rglob("*.py"))) > 10
 
 
-@pytest.mark.parametrize("line", [
-    "from cdpr_struct.statics import catenary",
-    "def f():\n    import derivations.catenary",
-    "from .. import cdpr_struct",
-    "m = __import__('cdpr_struct')",
-    "import importlib",
-])
+@pytest.mark.parametrize(
+    "line",
+    [
+        "from cdpr_struct.statics import catenary",
+        "def f():\n    import derivations.catenary",
+        "from .. import cdpr_struct",
+        "m = __import__('cdpr_struct')",
+        "import importlib",
+    ],
+)
 def test_a_forbidden_import_is_seen(line):
     assert foreign_imports(line)

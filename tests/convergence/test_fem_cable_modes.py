@@ -39,16 +39,21 @@ def test_first_six_frequencies_of_both_kinds_converge_with_order_two(mass):
 
 
 def test_both_mass_models_tend_to_the_same_limit_from_either_side():
-    lumped, consistent = (np.array([first_frequencies(CABLE, END, n, mass=mass) for n in COUNTS])
-                          for mass in ("lumped", "consistent"))
+    lumped, consistent = (
+        np.array([first_frequencies(CABLE, END, n, mass=mass) for n in COUNTS])
+        for mass in ("lumped", "consistent")
+    )
     limits = [extrapolate(COUNTS, values).limit for values in (lumped, consistent)]
     assert limits[0] == pytest.approx(limits[1], rel=2e-6)
     wrong = np.array([first_frequencies(CableData(20.0, 1.02 * EA, MU), END, n) for n in COUNTS])
     assert extrapolate(COUNTS, wrong).limit != pytest.approx(limits[1], rel=2e-6)
 
 
-@pytest.mark.parametrize("end", [(0.0, 0.0, -20.02), (8.0, 2.0, 1.0), (3.0, 0.0, -3.0)],
-                         ids=["vertical", "sag above half the chord", "chord a fifth of the length"])
+@pytest.mark.parametrize(
+    "end",
+    [(0.0, 0.0, -20.02), (8.0, 2.0, 1.0), (3.0, 0.0, -3.0)],
+    ids=["vertical", "sag above half the chord", "chord a fifth of the length"],
+)
 def test_vertical_and_slack_cables_converge_with_order_two(end):
     counts = [160, 320, 640]
     values = np.array([first_frequencies(CABLE, end, n, each=3) for n in counts])
@@ -151,8 +156,9 @@ def end_stiffness_agrees(claimed, axial_stiffness, end, elements=40, step=1e-5):
     return np.abs(np.array(columns).T - claimed).max() < 1e-5 * np.abs(claimed).max()
 
 
-@pytest.mark.parametrize("end", [END, np.array([8.0, 2.0, 1.0]), np.array([0.0, 0.0, -20.01])],
-                         ids=["taut", "slack", "vertical"])
+@pytest.mark.parametrize(
+    "end", [END, np.array([8.0, 2.0, 1.0]), np.array([0.0, 0.0, -20.01])], ids=["taut", "slack", "vertical"]
+)
 def test_static_end_stiffness_is_the_derivative_of_the_end_force(end):
     claimed = end_dynamic_stiffness(solve_cable(CABLE, START, end, 40), 0.0)
     assert end_stiffness_agrees(claimed, EA, end)
@@ -177,6 +183,24 @@ def test_a_large_cable_is_solved_like_a_small_one():
     sparse, _ = lowest_eigenpairs(stiffness, inertia, 12, -1e-3)
     dense = np.linalg.eigvalsh(stiffness.toarray() / inertia.diagonal()[0])[:12]
     assert sparse == pytest.approx(dense, rel=1e-8)
+
+
+@pytest.mark.parametrize("end", [END, np.array([3.0, 0.0, -3.0])], ids=["taut", "slack"])
+def test_frequencies_keep_their_digits(end):
+    """Against singular values of the factor G of K = G^T G: no rounding of EA / L0 against T / L0 there."""
+    state = solve_cable(CABLE, START, end, 60)
+    pulls, tensions = state.tension_vectors, state.tensions[:, None]
+    along = pulls / tensions
+    across = np.cross(along, np.array([0.0, 1.0, 0.0]))
+    across /= np.linalg.norm(across, axis=1)[:, None]
+    root = np.sqrt(tensions / (state.element_length * (1.0 + tensions / EA)))
+    rows = [np.sqrt(EA / state.element_length) * along, root * across, root * np.cross(along, across)]
+    factor = np.zeros((60, 3, 61, 3))
+    bars = np.arange(60)
+    factor[bars, :, bars], factor[bars, :, bars + 1] = -np.stack(rows, axis=1), np.stack(rows, axis=1)
+    matrix = factor[:, :, 1:-1].reshape(180, 177) / np.sqrt(MU * state.element_length)
+    omegas = np.sort(np.linalg.svd(matrix, compute_uv=False))[:12]
+    assert 2.0 * np.pi * cable_modes(state, 12).frequencies_hz == pytest.approx(omegas, rel=3e-9)
 
 
 def test_errors_name_the_number():
