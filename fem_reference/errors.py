@@ -83,6 +83,7 @@ class MissedModesError(FemError):
     def __init__(self, found: int, counted: int, frequency_hz: float) -> None:
         self.found, self.counted, self.frequency_hz = found, counted, frequency_hz
         super().__init__(
-            f"{found} modes found below {frequency_hz:.6g} Hz, but the sign count says {counted}. "
+            f"{found} modes found below {frequency_hz:.6g} Hz, but the sign count says {counted} "
+            "(-1 found: frequencies too close together to count between). "
             "Ask for a few modes more; if it persists, report the case."
         )

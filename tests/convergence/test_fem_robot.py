@@ -157,6 +157,20 @@ def test_counts_shares_shapes_and_symmetry_agree(at_rest, mass):
     assert np.abs(left_over).max() < 1e-10 * abs(stiffness).max() * np.abs(shapes).max()
 
 
+def test_frequencies_do_not_depend_on_the_platform_frame(at_rest):
+    """Another reference point and other axes in the same body: the same mechanics."""
+    turn, origin = turned_by(40.0, (1, -2, 3)), np.array([0.3, -0.2, 0.1])  # new axes and origin, old frame
+    center, inertia = (BODY.center_of_mass - origin) @ turn, turn.T @ BODY.inertia @ turn
+    robot = RobotData(FRAME, (PLATFORM - origin) @ turn, ROBOT.cables, PlatformData(60.0, center, inertia))
+    other = solve_robot(robot, POSITION + origin, turn, 40)
+    assert other.position == pytest.approx(at_rest.position + at_rest.rotation @ origin, abs=1e-9)
+    assert other.rotation == pytest.approx(at_rest.rotation @ turn, abs=1e-9)
+    expected = robot_modes(at_rest, 30)
+    found = robot_modes(other, 30)
+    assert found.frequencies_hz == pytest.approx(expected.frequencies_hz, rel=1e-8)
+    assert found.platform_energy == pytest.approx(expected.platform_energy, abs=1e-6)
+
+
 def test_rigid_translation_moves_the_whole_mass(at_rest):
     """All nodes but the held frame anchors, hence all but half an element at each start."""
     _, inertia = robot_matrices(at_rest)
