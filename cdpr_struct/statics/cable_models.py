@@ -180,19 +180,14 @@ def _catenary(arrays: RobotArrays, offset: np.ndarray, length: np.ndarray, wrapp
 def _catenary_over_pulley(arrays: RobotArrays, offset: np.ndarray, length: np.ndarray) -> CableStates:
     """Newton on the tension vector at the exit: its direction places the exit, its size strains the wrapped piece."""
     direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
-    tension = np.zeros(length.shape)
-    states = _leaving(arrays, offset, length, direction, tension)
+    vector = _leaving(arrays, offset, length, direction, np.zeros(length.shape)).force_at_frame
     for _ in range(_EXIT_ITERATIONS):
-        vector = states.force_at_frame
         tension = np.linalg.norm(vector, axis=-1)
         states = _leaving(arrays, offset, length, vector / tension[..., None], tension)
         error = states.force_at_frame - vector
-        if (np.abs(error).max(axis=-1) <= _EXIT_TOLERANCE * tension).all():
+        if (np.abs(error).max(axis=-1) <= _EXIT_TOLERANCE * (tension + arrays.axial_stiffness)).all():
             break
-        step = np.linalg.solve(cable_response(arrays, states).frame_matrix, error[..., None])[..., 0]
-        vector = vector + step
-        tension = np.linalg.norm(vector, axis=-1)
-        states = _leaving(arrays, offset, length, vector / tension[..., None], tension)
+        vector = vector + np.linalg.solve(cable_response(arrays, states).frame_matrix, error[..., None])[..., 0]
     return states
 
 

@@ -1,0 +1,133 @@
+"""Newton descent of a platform's potential energy on positions and rotations, a flat batch at once."""
+
+from dataclasses import dataclass
+from typing import Protocol, Self
+
+import numpy as np
+
+from cdpr_struct.statics.equilibrium import rotation_from_vector
+from cdpr_struct.statics.robot_arrays import RobotArrays
+
+LONGEST_STEP = 0.6  # [m], rotations as arcs at the anchors' mean radius
+LARGEST_TURN = 0.5  # [rad]
+_OVERSHOOT = 0.8  # a step is kept while the power at its end is above -0.8 of that at its start
+_PUSH = 0.02  # [m] off a saddle, along its softest motion
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Evaluation:
+    """Wrench (n, 6) [N, N m], its symmetric tangent (n, 6, 6) and the tolerated residual (n,) [N]."""
+
+    wrench: np.ndarray
+    tangent: np.ndarray
+    tolerance: np.ndarray
+
+
+class Balance(Protocol):
+    """A batch of platforms whose balance can be evaluated, and cut down to some of its items."""
+
+    def take(self, index: np.ndarray) -> Self: ...
+
+    def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation: ...
+
+
+def arm_scale(arrays: RobotArrays) -> float:
+    """Root mean square distance of the platform anchors from the platform origin, at least 1 mm [m]."""
+    square = (arrays.platform_anchors**2).sum(axis=-1).mean()
+    return float(max(np.sqrt(square), 1e-3))
+
+
+class EnergyDescent:
+    """State of the descent; fields are arrays over the flat batch (n).
+
+    position, rotation, wrench : the last accepted pose and its wrench
+    eigenvalues : (n, 6) of the tangent there, ascending, in scaled coordinates [N/m]
+    converged, iterations : (n,)
+    """
+
+    def __init__(self, balance: Balance, position: np.ndarray, rotation: np.ndarray, scale: float) -> None:
+        self.balance, self.position, self.rotation = balance, position, rotation
+        self.unit = np.array([1.0, 1.0, 1.0, scale, scale, scale])
+        first = balance.evaluate(position, rotation)
+        self.wrench, self.tangent = first.wrench, first.tangent
+        self.converged = self._small(first)
+        self.iterations = np.zeros(len(position), dtype=int)
+
+    @property
+    def eigenvalues(self) -> np.ndarray:
+        """(n, 6) ascending."""
+        return np.linalg.eigvalsh(self._scaled(self.tangent))
+
+    def run(self, limit: int) -> None:
+        """Step every item that is not balanced until it is, at most `limit` evaluations each."""
+        items = np.flatnonzero(~self.converged)
+        step = newton_step(self._scaled(self.tangent[items]), self.wrench[items] / self.unit, self.unit[-1])
+        for _ in range(limit):
+            if not items.size:
+                return
+            position, rotation = self._moved(items, step)
+            there = self.balance.take(items).evaluate(position, rotation)
+            self.iterations[items] += 1
+            small = self._small(there)
+            before = np.einsum("ni,ni->n", self.wrench[items] / self.unit, step)
+            after = np.einsum("ni,ni->n", there.wrench / self.unit, step)
+            accepted = small | (after >= -_OVERSHOOT * before)
+            accepted |= np.linalg.norm(step, axis=-1) < 1e-13
+            kept = items[accepted]
+            self.position[kept], self.rotation[kept] = position[accepted], rotation[accepted]
+            self.wrench[kept], self.tangent[kept] = there.wrench[accepted], there.tangent[accepted]
+            self.converged[kept] = small[accepted]
+            shorter = np.clip(before / np.maximum(before - after, 1e-300), 0.1, 0.6)
+            step = np.where(accepted[:, None], step, shorter[:, None] * step)
+            going = ~self.converged[items]
+            items, step, fresh = items[going], step[going], accepted[going]
+            scaled = self._scaled(self.tangent[items[fresh]])
+            step[fresh] = newton_step(scaled, self.wrench[items[fresh]] / self.unit, self.unit[-1])
+
+    def leave_saddles(self, limit: int, attempts: int = 3) -> None:
+        """Push balanced but unstable items along their softest motion and descend again."""
+        for _ in range(attempts):
+            values, vectors = np.linalg.eigh(self._scaled(self.tangent))
+            saddle = self.converged & (values[:, 0] < -1e-9 * np.abs(values[:, -1]))
+            if not saddle.any():
+                return
+            items = np.flatnonzero(saddle)
+            self.position[items], self.rotation[items] = self._moved(items, _PUSH * vectors[items, :, 0])
+            there = self.balance.take(items).evaluate(self.position[items], self.rotation[items])
+            self.wrench[items], self.tangent[items] = there.wrench, there.tangent
+            self.converged[items] = False
+            self.run(limit)
+
+    def _small(self, there: Evaluation) -> np.ndarray:
+        return np.linalg.norm(there.wrench / self.unit, axis=-1) <= there.tolerance
+
+    def _scaled(self, tangent: np.ndarray) -> np.ndarray:
+        return tangent / self.unit / self.unit[:, None]
+
+    def _moved(self, items: np.ndarray, step: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        turn = rotation_from_vector(step[:, 3:] / self.unit[-1])
+        return self.position[items] + step[:, :3], turn @ self.rotation[items]
+
+
+def newton_step(tangent: np.ndarray, wrench: np.ndarray, scale: float) -> np.ndarray:
+    """Descent steps (n, 6), scaled coordinates: Newton where the tangent is positive, else with its eigenvalues made so."""
+    trace = np.maximum(np.einsum("nii->n", np.abs(tangent)), 1e-300)
+    regular = tangent + (1e-14 * trace)[:, None, None] * np.eye(6)
+    step = np.linalg.solve(regular, wrench[..., None])[..., 0]
+    power = np.einsum("ni,ni->n", step, wrench)
+    size, force = np.linalg.norm(step, axis=-1), np.linalg.norm(wrench, axis=-1)
+    suspect = ~(power > 1e-6 * size * force) | (size > LONGEST_STEP)
+    if suspect.any():
+        step[suspect] = _positive_step(tangent[suspect], wrench[suspect])
+    size = np.linalg.norm(step, axis=-1)
+    turn = np.linalg.norm(step[:, 3:], axis=-1) / scale
+    excess = np.maximum(np.maximum(size / LONGEST_STEP, turn / LARGEST_TURN), 1.0)
+    return step / excess[:, None]
+
+
+def _positive_step(tangent: np.ndarray, wrench: np.ndarray) -> np.ndarray:
+    values, vectors = np.linalg.eigh(tangent)
+    force = np.linalg.norm(wrench, axis=-1, keepdims=True)
+    floor = np.maximum(1e-9 * np.abs(values[:, -1:]), force / LONGEST_STEP * 1e-3)
+    values = np.maximum(np.abs(values), np.maximum(floor, 1e-300))
+    return np.einsum("nij,nj->ni", vectors, np.einsum("nji,nj->ni", vectors, wrench) / values)

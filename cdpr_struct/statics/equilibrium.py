@@ -1,0 +1,99 @@
+"""Balance of the platform: the wrench of cables, weight and load, and its tangent."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.generated.platform import attachment, geometric_stiffness
+from cdpr_struct.statics.cable_response import cable_response
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.robot_arrays import RobotArrays
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlatformArms:
+    """Lever arms in world axes at a batch of poses.
+
+    points : (..., m, 3) platform anchors in the world, eq. (3.1) [m]
+    arms   : (..., m, 3) R A_i [m]
+    center : (..., 3) R c, to the centre of mass [m]
+    """
+
+    points: np.ndarray
+    arms: np.ndarray
+    center: np.ndarray
+
+    @classmethod
+    def at(cls, arrays: RobotArrays, position: np.ndarray, rotation: np.ndarray) -> "PlatformArms":
+        """Arms at `position` (..., 3) [m] and `rotation` (..., 3, 3), platform to world."""
+        arms = arrays.platform_anchors @ np.swapaxes(rotation, -1, -2)
+        center = (rotation @ arrays.center_of_mass[..., None])[..., 0]
+        return cls(position[..., None, :] + arms, arms, center)
+
+
+def weight_wrench(arrays: RobotArrays, arms: PlatformArms) -> np.ndarray:
+    """(..., 6) wrench of the platform's weight about its origin, world axes [N, N m]."""
+    weight = arrays.mass * arrays.gravity
+    wrench = np.zeros((*np.broadcast_shapes(arms.center.shape[:-1], weight.shape), 6))
+    wrench[..., 2] = -weight
+    wrench[..., 3] = -arms.center[..., 1] * weight
+    wrench[..., 4] = arms.center[..., 0] * weight
+    return wrench
+
+
+def cable_wrench(states: CableStates, arms: PlatformArms) -> np.ndarray:
+    """(..., 6) wrench of all cables on the platform about its origin, eqs. (3.5)-(3.6) [N, N m]."""
+    force = states.force_on_platform
+    return np.concatenate([force.sum(axis=-2), np.cross(arms.arms, force).sum(axis=-2)], axis=-1)
+
+
+def tangent_stiffness(arrays: RobotArrays, states: CableStates, arms: PlatformArms) -> np.ndarray:
+    """Symmetric tangent of the platform at a pose, cable lengths locked.
+
+    Returns
+    -------
+    (..., 6, 6) world axes, rows force [N] and moment [N m] about the platform origin, columns displacement [m] and
+    rotation [rad]. Eq. (3.8) with the pulley-aware cable stiffness, plus the geometric terms that (3.8) leaves out:
+    cable force and weight on their rotating lever arms. It is the second derivative of the potential energy along
+    constant twists; `moment_skew` turns it into the derivative of the wrench.
+    """
+    map_ = attachment(*np.moveaxis(arms.arms, -1, 0))
+    stiff = cable_response(arrays, states).stiffness
+    m = arrays.cable_count
+    lead = stiff.shape[:-3]
+    stacked, carried = map_.reshape((*map_.shape[:-3], 3 * m, 6)), (stiff @ map_).reshape((*lead, 3 * m, 6))
+    tangent = np.swapaxes(stacked, -1, -2) @ carried
+    weight = arrays.mass * arrays.gravity
+    center = np.moveaxis(arms.center, -1, 0)
+    tangent[..., 3:, 3:] += cable_geometric_stiffness(states, arms) + geometric_stiffness(0.0, 0.0, -weight, *center)
+    return tangent
+
+
+def cable_geometric_stiffness(states: CableStates, arms: PlatformArms) -> np.ndarray:
+    """(..., 3, 3) symmetric rotational stiffness of the cable forces on their lever arms, all cables [N m/rad]."""
+    force, arm = np.moveaxis(states.force_on_platform, -1, 0), np.moveaxis(arms.arms, -1, 0)
+    return geometric_stiffness(*force, *arm).sum(axis=-3)
+
+
+def moment_skew(moment: np.ndarray) -> np.ndarray:
+    """Half the cross-product matrix (..., 3, 3) of the moment (..., 3) of cables and weight.
+
+    tangent_stiffness plus this in its lower right block is exactly -d(wrench)/d(pose), also away from equilibrium
+    and under an applied moment, where that derivative is not symmetric.
+    """
+    skew = np.zeros((*moment.shape, 3))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        skew[..., i, j] = -0.5 * moment[..., k]
+        skew[..., j, i] = 0.5 * moment[..., k]
+    return skew
+
+
+def rotation_from_vector(vector: np.ndarray) -> np.ndarray:
+    """Rotation matrices (..., 3, 3) of rotation vectors (..., 3) [rad]."""
+    angle = np.linalg.norm(vector, axis=-1)[..., None, None]
+    x, y, z = np.moveaxis(vector, -1, 0)
+    zero = np.zeros_like(x)
+    cross = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=-1).reshape((*vector.shape, 3))
+    sine = np.sinc(angle / np.pi)
+    versine = 0.5 * np.sinc(0.5 * angle / np.pi) ** 2
+    return np.eye(3) + sine * cross + versine * cross @ cross

@@ -1,0 +1,184 @@
+"""Forward kinematics (3.2.1b): which pose does the platform take at locked cable lengths?
+
+Six unknowns a pose. The potential energy of platform, cables and load is minimised by Newton steps with the exact
+tangent, so what is found is a stable equilibrium. The energy itself is never formed: its change along a step d is
+judged by the power of the wrench W at both ends, -(W_old + W_new) d / 2, which keeps full precision near the end.
+"""
+
+from dataclasses import dataclass, replace
+from enum import IntEnum
+
+import numpy as np
+import numpy.typing as npt
+
+from cdpr_struct.errors import ConvergenceError
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.cable_models import CableModel, cable_model
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.energy_descent import EnergyDescent, Evaluation, arm_scale
+from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, tangent_stiffness, weight_wrench
+from cdpr_struct.statics.robot_arrays import RobotArrays
+
+MAX_ITERATIONS = 200
+NEUTRAL = 1e-9  # smallest over largest eigenvalue of the tangent below which an equilibrium counts as neutral
+_TOLERANCE = 1e-11  # of weight plus cable tensions
+
+
+class ForwardStatus(IntEnum):
+    """What the solver found for one pose."""
+
+    CONVERGED = 0
+    NOT_STABLE = 1  # balanced, but neutral or unstable (a platform that spins freely about one cable, say)
+    NOT_CONVERGED = 2
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ForwardSolution:
+    """Poses at locked lengths; leading axes (...) are the batch.
+
+    position, rotation : (..., 3) [m], (..., 3, 3) platform to world
+    cables             : CableStates (..., m)
+    residual_wrench    : (..., 6) what is left unbalanced [N, N m]
+    least_stiffness    : (...) smallest eigenvalue of the tangent, rotations as arcs at the anchors' mean radius [N/m]
+    iterations, status : (...); `ForwardStatus` values
+    """
+
+    position: np.ndarray
+    rotation: np.ndarray
+    cables: CableStates
+    residual_wrench: np.ndarray
+    least_stiffness: np.ndarray
+    iterations: np.ndarray
+    status: np.ndarray
+
+    @property
+    def converged(self) -> np.ndarray:
+        """(...) bool: the wrench is balanced (stable or not)."""
+        return self.status != ForwardStatus.NOT_CONVERGED
+
+    @property
+    def stable(self) -> np.ndarray:
+        """(...) bool: balanced, and every small motion is pushed back."""
+        return self.status == ForwardStatus.CONVERGED
+
+    @property
+    def tensions(self) -> np.ndarray:
+        """(..., m) at the platform [N]."""
+        return self.cables.tension_at_platform
+
+    def require_converged(self) -> "ForwardSolution":
+        """Self, or ConvergenceError with the worst residual."""
+        if not self.converged.all():
+            left = np.linalg.norm(self.residual_wrench[~self.converged], axis=-1)
+            what = f"forward kinematics at {left.size} of {self.status.size} poses"
+            hint = "Start nearer to the expected pose, or check that the lengths fit the robot."
+            raise ConvergenceError(what, float(left.max()), int(self.iterations.max()), hint)
+        return self
+
+
+def forward(
+    robot: Robot | RobotArrays,
+    lengths: npt.ArrayLike,
+    position: npt.ArrayLike | None = None,
+    rotation: npt.ArrayLike | None = None,
+    model: str | CableModel = "sagging",
+    external_wrench: npt.ArrayLike | None = None,
+    mass: npt.ArrayLike | None = None,
+) -> ForwardSolution:
+    """Stable pose of the platform at locked unstrained cable lengths.
+
+    All batch axes (...) broadcast: lengths, starting poses, loads, masses, and the fields of a `RobotArrays`.
+
+    Parameters
+    ----------
+    lengths : (..., m) unstrained, from the frame anchors on [m]
+    position, rotation : (..., 3) [m], (..., 3, 3), where to start; default below the frame anchors, not rotated
+    model : "sagging", "spring" or "ideal"
+    external_wrench : (..., 6) on the platform about its origin, world axes, beside its weight [N, N m]
+    mass : (...) of the platform in place of the robot's [kg]
+
+    Returns
+    -------
+    ForwardSolution. The equilibrium in whose basin the start lies, if there are several.
+
+    Raises
+    ------
+    ValueError : a length that is not positive, or shapes that do not fit.
+    """
+    arrays = RobotArrays.of(robot, None if mass is None else np.asarray(mass, dtype=float))
+    length = np.asarray(lengths, dtype=float)
+    if length.shape[-1:] != (arrays.cable_count,) or not (length > 0.0).all():
+        raise ValueError(f"lengths must be (..., {arrays.cable_count}) and > 0, got {length.tolist()!s:.200}")
+    wrench = np.zeros(6) if external_wrench is None else np.asarray(external_wrench, dtype=float)
+    start = starting_position(arrays, length) if position is None else np.asarray(position, dtype=float)
+    turn = np.eye(3) if rotation is None else np.asarray(rotation, dtype=float)
+    cores = (length.shape[:-1], wrench.shape[:-1], start.shape[:-1], turn.shape[:-2], arrays.batch_shape)
+    shape = np.broadcast_shapes(*cores)
+    balance = _Balance(
+        arrays.flattened(shape), _flat(length, shape, 1), _flat(wrench, shape, 1), cable_model(model)
+    )
+    descent = EnergyDescent(balance, _flat(start, shape, 1), _flat(turn, shape, 2), arm_scale(arrays))
+    descent.run(MAX_ITERATIONS)
+    descent.leave_saddles(MAX_ITERATIONS)
+    return _solution(descent, balance, shape)
+
+
+def starting_position(arrays: RobotArrays, length: np.ndarray) -> np.ndarray:
+    """(..., 3) a point under the middle of the frame anchors, as deep as the lengths allow on average [m]."""
+    middle = arrays.frame_anchors.mean(axis=-2)
+    reach = np.linalg.norm(arrays.frame_anchors - middle[..., None, :], axis=-1)
+    depth = np.sqrt(np.maximum(length**2 - reach**2, 0.0)).mean(axis=-1)
+    start = np.array(np.broadcast_to(middle, (*np.broadcast_shapes(depth.shape, middle.shape[:-1]), 3)))
+    start[..., 2] -= depth
+    return start
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Balance:
+    """Wrench and tangent of a flat batch: the callable that the descent works on."""
+
+    arrays: RobotArrays
+    length: np.ndarray
+    wrench: np.ndarray
+    model: CableModel
+
+    def take(self, index: np.ndarray) -> "_Balance":
+        return replace(
+            self, arrays=self.arrays.take(index), length=self.length[index], wrench=self.wrench[index]
+        )
+
+    def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation:
+        arms = PlatformArms.at(self.arrays, position, rotation)
+        states = self.model.states(self.arrays, arms.points, self.length)
+        wrench = cable_wrench(states, arms) + weight_wrench(self.arrays, arms) + self.wrench
+        rounding = 8.0 * np.finfo(float).eps * states.axial_stiffness.sum(axis=-1)
+        size = self.arrays.mass * self.arrays.gravity + states.tension_at_platform.sum(axis=-1)
+        tangent = tangent_stiffness(self.arrays, states, arms)
+        return Evaluation(wrench, tangent, _TOLERANCE * size + rounding)
+
+    def states(self, position: np.ndarray, rotation: np.ndarray) -> CableStates:
+        return self.model.states(self.arrays, PlatformArms.at(self.arrays, position, rotation).points, self.length)
+
+
+def _flat(value: np.ndarray, shape: tuple[int, ...], core_axes: int) -> np.ndarray:
+    core = value.shape[value.ndim - core_axes :]
+    return np.array(np.broadcast_to(value, shape + core)).reshape((-1, *core))
+
+
+def _solution(descent: EnergyDescent, balance: _Balance, shape: tuple[int, ...]) -> ForwardSolution:
+    states = balance.states(descent.position, descent.rotation)
+    cables = CableStates(
+        *(getattr(states, name).reshape(shape + getattr(states, name).shape[1:]) for name in states.__slots__)
+    )
+    neutral = descent.eigenvalues[:, 0] <= NEUTRAL * descent.eigenvalues[:, -1]
+    status = np.where(neutral, ForwardStatus.NOT_STABLE, ForwardStatus.CONVERGED)
+    status[~descent.converged] = ForwardStatus.NOT_CONVERGED
+    return ForwardSolution(
+        position=descent.position.reshape((*shape, 3)),
+        rotation=descent.rotation.reshape((*shape, 3, 3)),
+        cables=cables,
+        residual_wrench=descent.wrench.reshape((*shape, 6)),
+        least_stiffness=descent.eigenvalues[:, 0].reshape(shape),
+        iterations=descent.iterations.reshape(shape),
+        status=status.reshape(shape),
+    )
