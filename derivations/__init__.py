@@ -1,0 +1,33 @@
+"""Symbolic derivations of every closed form, printed as numpy modules and as a LaTeX formula sheet.
+
+`run` regenerates or checks; importing this package stays light (sympy is loaded inside `run`).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from derivations.records import DerivationReport, FormulaRecord
+
+__all__ = ["DerivationReport", "FormulaRecord", "run"]
+
+
+def run(check: bool = False, output: Path | None = None) -> DerivationReport:
+    """Derive everything; write the results, or compare them with what is there.
+
+    Parameters
+    ----------
+    check : True compares and writes nothing; False writes.
+    output : root that holds cdpr_struct/generated and derivations/latex; None is this repository.
+
+    Returns
+    -------
+    DerivationReport. `current` is False when a text drifted or a generated number left its 50-digit value.
+
+    Raises
+    ------
+    ArithmeticError : a step of a derivation does not hold.
+    """
+    from derivations.regenerate import regenerate
+
+    return regenerate(check, output)

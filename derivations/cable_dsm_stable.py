@@ -1,8 +1,8 @@
 """The dynamic stiffness of the small-sag cable written with entire functions of y^2 = (Omega_c/2)^2.
 
 With c = cos y, s = sin(y)/y and G = (s - c)/(4 y^2) the auxiliary term kappa = tan(y)/y of eqs (2.32)-(2.34)
-disappears, and with it the false poles of kappa and the 0/0 at Omega_c = 0 and lambda^2 = 0. Equality with the
-solution of the differential equation is proved in cable_dsm.py.
+disappears, and with it the false poles of kappa and the 0/0 at Omega_c = 0 and lambda^2 = 0. Equality with
+the solution of the differential equation is proved in cable_dsm.py.
 """
 
 from __future__ import annotations

@@ -4,9 +4,9 @@ With V1 = force_z, V0 = V1 - weight*length, T = sqrt(force_x^2 + V^2), the whole
 
     delta = (1/w) [asinh(V1/fx) - asinh(V0/fx)] = 2 L/(T0 + T1) * atanh(q)/q,   q = w L/(T0 + T1),
 
-which is finite for w -> 0 and needs 1 - q without subtraction (`complement`). That each formula below equals the
-raw closed form is proved in catenary.py and cable_compliance.py, which evaluate them once more in the exponential
-parameters of `exponential_state`, where everything is rational.
+which is finite for w -> 0 and needs 1 - q without subtraction (`complement`). That each formula below
+equals the raw closed form is proved in catenary.py and cable_compliance.py, which evaluate them once more
+in the exponential parameters of `exponential_state`, where everything is rational.
 """
 
 from __future__ import annotations
@@ -64,9 +64,7 @@ def segment(fx: Any, w: Any, L: Any, EA: Any, V0: Any, V1: Any) -> Segment:
 
 def whole_cable() -> Segment:
     """The cable from B to C in the arguments of the generated functions."""
-    return segment(
-        force_x, weight, length, axial_stiffness, force_z - weight * length, force_z
-    )
+    return segment(force_x, weight, length, axial_stiffness, force_z - weight * length, force_z)
 
 
 def end_point(c: Segment) -> tuple[Any, Any]:

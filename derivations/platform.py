@@ -1,7 +1,8 @@
 """Rigid platform on its cables: rotation, attachment, geometric stiffness, mass matrix (section 3.3).
 
-Axes: all vectors and the six coordinates q = (delta, theta) in one frame with the origin at the reference point;
-theta is the rotation vector of a small rotation, right-handed. Arms run from the reference point outwards.
+Axes: all vectors and the six coordinates q = (delta, theta) in one frame with the origin at the reference
+point; theta is the rotation vector of a small rotation, right-handed. Arms run from the reference point
+outwards.
 """
 
 from __future__ import annotations
@@ -11,8 +12,26 @@ from typing import Any
 import sympy as sp
 
 from derivations.symbols import (
-    ax, ay, az, cx, cy, cz, fx, fy, fz, ixx, ixy, ixz, iyy, iyz, izz, mass, rx, ry, rz,
-)  # fmt: skip
+    ax,
+    ay,
+    az,
+    cx,
+    cy,
+    cz,
+    fx,
+    fy,
+    fz,
+    ixx,
+    ixy,
+    ixz,
+    iyy,
+    iyz,
+    izz,
+    mass,
+    rx,
+    ry,
+    rz,
+)
 
 ARM = sp.Matrix([ax, ay, az])
 FORCE = sp.Matrix([fx, fy, fz])

@@ -1,4 +1,4 @@
-"""Prints a set of expressions as a numpy module: shared subexpressions, broadcasting, a docstring with units."""
+"""Prints a set of expressions as a numpy module: shared subexpressions, broadcasting, docstrings."""
 
 from __future__ import annotations
 
@@ -8,11 +8,10 @@ from typing import Any
 import sympy as sp
 from sympy.printing.numpy import NumPyPrinter
 
+from derivations.descriptions import DESCRIPTIONS
 from derivations.records import GeneratedFunction
 from derivations.special_functions import ALL
 from derivations.symbols import MEANING
-
-_MODULES = {"numpy.": "np."}
 
 
 class _ArrayPrinter(NumPyPrinter):
@@ -66,22 +65,24 @@ def operation_count(function: GeneratedFunction) -> int:
 
 
 def _docstring(function: GeneratedFunction) -> list[str]:
-    lines = [f'    """{function.result}', ""]
+    result, remarks = DESCRIPTIONS[function.name]
+    lines = [f'    """{result}', ""]
     width = max(len(str(argument)) for argument in function.arguments)
-    lines += [f"    {str(argument):{width}} : {MEANING[str(argument)]}" for argument in function.arguments]
-    return [*lines, "", f"    {function.source}", '    """']
+    lines += [f"    {argument!s:{width}} : {MEANING[str(argument)]}" for argument in function.arguments]
+    return [*lines, "", *(f"    {remark}" for remark in remarks), '    """']
 
 
 def _return_lines(function: GeneratedFunction, values: list[str]) -> list[str]:
     if not function.shape:
         return [f"    return {', '.join(values)}"]
     columns = function.shape[-1]
+    rows_columns = ", ".join(map(str, function.shape))
     values = [f"{value}.0" if value.isdigit() else value for value in values]
     rows = [", ".join(values[i : i + columns]) for i in range(0, len(values), columns)]
     entries = ",\n        ".join(rows)
     return [
         f"    entries = np.broadcast_arrays(\n        {entries},\n    )",
-        f"    return np.stack(entries, axis=-1).reshape(entries[0].shape + {function.shape})",
+        f"    return np.stack(entries, axis=-1).reshape((*entries[0].shape, {rows_columns}))",
     ]
 
 
@@ -111,7 +112,9 @@ def module_text(source: str, functions: tuple[GeneratedFunction, ...]) -> str:
     """Source of one generated module."""
     bodies = [function_text(function) for function in functions]
     used = sorted(f.__name__ for f in ALL if any(re.search(rf"\b{f.__name__}\(", body) for body in bodies))
-    imports = "from typing import Any\n\nimport numpy as np\n" if any("np." in body for body in bodies) else "from typing import Any\n"
+    imports = "from typing import Any\n"
+    if any("np." in body for body in bodies):
+        imports += "\nimport numpy as np\n"
     if used:
         imports += f"\nfrom cdpr_struct.generated.special_functions import {', '.join(used)}\n"
     total = sum(map(operation_count, functions))

@@ -1,4 +1,4 @@
-"""Prints cdpr_struct/generated/special_functions.py: the evaluation without cancellation, coefficients from sympy."""
+"""Prints cdpr_struct/generated/special_functions.py: evaluation without cancellation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a derivation hands on: formulas with their verdict on the print, functions to be generated, the report.
+"""What a derivation hands on: formulas with their verdict on the print, functions to generate, the report.
 
 Imports nothing heavy, so that `import derivations` stays light.
 """
@@ -43,14 +43,13 @@ class GeneratedFunction:
 
     outputs   : stable sympy expressions that are printed (a flat tuple; row-major for a matrix)
     shape     : () for a tuple of arrays, (rows, columns) for a (..., rows, columns) result
-    reference : the raw closed forms of the derivation, same order as outputs; numbers are checked against these
+    reference : raw closed forms of the derivation, same order; the numbers are checked against these
+    The docstring's texts are in descriptions.py.
     """
 
     name: str
     arguments: tuple[Any, ...]
     outputs: tuple[Any, ...]
-    result: str
-    source: str
     reference: tuple[Any, ...]
     shape: tuple[int, ...] = ()
 

@@ -10,8 +10,6 @@ from collections.abc import Callable
 
 import sympy as sp
 
-SERIES_TERMS = 24
-
 
 class SpecialFunction(sp.Function):
     """Unevaluated function with a closed-form definition."""
@@ -151,3 +149,18 @@ def series_coefficients(name: str) -> list[float]:
     """Coefficients in ascending powers, rounded once to double."""
     _, coefficient, terms, _ = SERIES[name]
     return [float(coefficient(k)) for k in range(terms)]
+
+
+def prove_series() -> None:
+    """The first coefficients of every table equal the Taylor expansion of the definition."""
+    u = sp.Symbol("u", positive=True)
+    for function, coefficient, _, _ in SERIES.values():
+        of_square = function is sinc_cos_gap
+        arguments = (u**2, 1) if of_square else (u, 1)
+        definition = function.definition(*arguments)
+        expansion = sp.series(definition, u, 0, 6).removeO()
+        for k in range(3):
+            if sp.simplify(expansion.coeff(u, 2 * k) - coefficient(k)) != 0:
+                raise ArithmeticError(
+                    f"series of {function.__name__}: coefficient {k} is not {coefficient(k)}"
+                )

@@ -1,7 +1,7 @@
 """GENERATED FILE - do not edit.
 
 Regenerate : python -m derivations
-Source     : x
+Source     : derivations/cable_compliance.py, eqs (2.24)-(2.29)
 Made with  : sympy 1.14.0; 159 operations after cse
 """
 
@@ -13,7 +13,7 @@ from cdpr_struct.generated.special_functions import atanhc, tanh_remainder, tanh
 
 
 def compliance(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, weight: Any) -> Any:
-    """x
+    """(c_axial, c_xx_sag, c_xz_sag, c_zz_sag) [m/N]; c_axial belongs on both diagonal places.
 
     force_x         : [N] horizontal force on the cable at C; the cable runs from B towards +x for force_x > 0
     force_z         : [N] vertical force on the cable at C, up; at B it is force_z - weight*length
@@ -21,7 +21,9 @@ def compliance(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, we
     axial_stiffness : EA [N]
     weight          : rho g [N/m], per unstrained length
 
-    s
+    Domain: tension > 0 at both ends. weight = 0 and force_x = 0 are limits and allowed.
+    Where force_x = 0 and the vertical end forces differ in sign, the true c_xx is infinite.
+    Eqs (2.24)-(2.28), derivations/cable_compliance.py.
     """
     t0 = force_x**2
     t1 = np.sqrt(force_z**2 + t0)
@@ -43,7 +45,7 @@ def compliance(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, we
 
 
 def stiffness(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, weight: Any) -> Any:
-    """x
+    """(k_xx, k_xz, k_zz) [N/m], change of the force at C with its displacement; x, z as force_x, force_z.
 
     force_x         : [N] horizontal force on the cable at C; the cable runs from B towards +x for force_x > 0
     force_z         : [N] vertical force on the cable at C, up; at B it is force_z - weight*length
@@ -51,7 +53,10 @@ def stiffness(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, wei
     axial_stiffness : EA [N]
     weight          : rho g [N/m], per unstrained length
 
-    s
+    Domain: tension > 0 at both ends. weight = 0 and force_x = 0 are limits and allowed.
+    Where force_x = 0 and the vertical end forces differ in sign, the true c_xx is infinite.
+    The determinant is a sum of positive terms.
+    Eq. (2.29) corrected, derivations/cable_compliance.py.
     """
     t0 = length/axial_stiffness
     t1 = force_x**2

@@ -1,7 +1,7 @@
 """GENERATED FILE - do not edit.
 
 Regenerate : python -m derivations
-Source     : x
+Source     : derivations/cable_dsm.py, eqs (2.31)-(2.41)
 Made with  : sympy 1.14.0; 82 operations after cse
 """
 
@@ -13,7 +13,7 @@ from cdpr_struct.generated.special_functions import asinhc, cos_of_square, sinc_
 
 
 def dynamic_stiffness(omega_c_squared: Any, chord: Any, tension: Any, axial_stiffness: Any, effective_length: Any, linear_density: Any, perpendicular_weight: Any) -> Any:
-    """(k_xx, k_xz, k_yy, k_zz) [N/m], chord frame, x from B to C, z perpendicular and up.
+    """(k_xx, k_xz, k_yy, k_zz) [N/m], force on the end C over its displacement.
 
     omega_c_squared      : [rad^2/s^2] real, or complex with damping (damped_omega_squared)
     chord                : l_c [m]
@@ -23,7 +23,9 @@ def dynamic_stiffness(omega_c_squared: Any, chord: Any, tension: Any, axial_stif
     linear_density       : rho [kg/m]
     perpendicular_weight : rho g cos(alpha) [N/m], weight component across the chord
 
-    s
+    Chord frame: x from B to C, z perpendicular to it and up, y = z cross x.
+    Real input gives real output. Infinite at the clamped cable's frequencies.
+    Eqs (2.32)-(2.35), k_xz corrected, derivations/cable_dsm.py.
     """
     t0 = linear_density*omega_c_squared
     t1 = (1/4)*chord**2*t0/tension
@@ -40,7 +42,7 @@ def dynamic_stiffness(omega_c_squared: Any, chord: Any, tension: Any, axial_stif
 
 
 def lambda_squared(chord: Any, tension: Any, axial_stiffness: Any, effective_length: Any, perpendicular_weight: Any) -> Any:
-    """r
+    """lambda^2 [-], Irvine's parameter.
 
     chord                : l_c [m]
     tension              : tau [N], static tension where the cable is parallel to its chord
@@ -48,65 +50,66 @@ def lambda_squared(chord: Any, tension: Any, axial_stiffness: Any, effective_len
     effective_length     : L_e [m]
     perpendicular_weight : rho g cos(alpha) [N/m], weight component across the chord
 
-    s
+    Eq. (2.36), derivations/cable_dsm.py.
     """
     return axial_stiffness*chord**3*perpendicular_weight**2/(effective_length*tension**3)
 
 
 def epsilon(chord: Any, tension: Any, perpendicular_weight: Any) -> Any:
-    """r
+    """epsilon [-], weight across the chord over tension, 8 d/l_c.
 
     chord                : l_c [m]
     tension              : tau [N], static tension where the cable is parallel to its chord
     perpendicular_weight : rho g cos(alpha) [N/m], weight component across the chord
 
-    s
+    Eq. (2.37), derivations/cable_length.py.
     """
     return chord*perpendicular_weight/tension
 
 
 def effective_length_integral(chord: Any, epsilon: Any) -> Any:
-    """r
+    """L_e [m], int (ds/dx)^3 dx over the parabola.
 
     chord   : l_c [m]
     epsilon : [-] perpendicular_weight*chord/tension
 
-    s
+    Section 2.2.2, derivations/cable_length.py.
     """
     t0 = epsilon**2
     return (1/8)*chord*(np.sqrt((1/4)*t0 + 1)*((1/2)*t0 + 5) + 3*asinhc((1/2)*epsilon))
 
 
 def effective_length_approximation(chord: Any, epsilon: Any) -> Any:
-    """r
+    """L_e [m] to second order in epsilon.
 
     chord   : l_c [m]
     epsilon : [-] perpendicular_weight*chord/tension
 
-    s
+    Section 2.2.2, derivations/cable_length.py.
     """
     return chord*((1/8)*epsilon**2 + 1)
 
 
 def damped_omega_squared(omega: Any, damping_ratio: Any, reference_omega: Any) -> Any:
-    """r
+    """omega_c^2 [rad^2/s^2], complex; time dependence exp(i omega t).
 
     omega           : [rad/s]
     damping_ratio   : xi [-], referred to reference_omega
     reference_omega : omega_1 [rad/s], first natural frequency of the cable
 
-    s
+    Eq. (2.39) completed, derivations/cable_dsm.py.
     """
     return -2*1j*damping_ratio*omega*reference_omega + omega**2
 
 
 def clamped_frequency_function(frequency_parameter: Any, lambda2: Any) -> Any:
-    """r
+    """Zero at the in-plane symmetric frequencies of the cable clamped at both ends [-].
 
     frequency_parameter : Omega [-], omega*chord*sqrt(linear_density/tension)
     lambda2             : lambda^2 [-]
 
-    s
+    Entire in Omega: it has no poles.
+    Denominator of eqs (2.32)-(2.34), derivations/cable_dsm.py.
     """
     t0 = (1/4)*frequency_parameter**2
     return (1/4)*lambda2*sinc_cos_gap(t0) + cos_of_square(t0)

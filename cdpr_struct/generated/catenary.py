@@ -1,7 +1,7 @@
 """GENERATED FILE - do not edit.
 
 Regenerate : python -m derivations
-Source     : x
+Source     : derivations/catenary.py, eqs (2.1)-(2.22)
 Made with  : sympy 1.14.0; 335 operations after cse
 """
 
@@ -13,7 +13,7 @@ from cdpr_struct.generated.special_functions import atanhc, atanhc_remainder
 
 
 def end_point(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, weight: Any) -> Any:
-    """x
+    """Coordinates (x, z) of C from B [m]; x along force_x > 0, z up.
 
     force_x         : [N] horizontal force on the cable at C; the cable runs from B towards +x for force_x > 0
     force_z         : [N] vertical force on the cable at C, up; at B it is force_z - weight*length
@@ -21,7 +21,8 @@ def end_point(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, wei
     axial_stiffness : EA [N]
     weight          : rho g [N/m], per unstrained length
 
-    s
+    Domain: tension > 0 at both ends. weight = 0 and force_x = 0 are limits and allowed.
+    Eqs (2.11)-(2.12), derivations/catenary.py.
     """
     t0 = 1/(axial_stiffness)
     t1 = force_x**2
@@ -35,7 +36,7 @@ def end_point(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, wei
 
 
 def profile(s: Any, force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, weight: Any) -> Any:
-    """p
+    """Coordinates (x, z) of the cable at s [m], from B; z up.
 
     s               : [m] unstrained coordinate from B (0) to C (length)
     force_x         : [N] horizontal force on the cable at C; the cable runs from B towards +x for force_x > 0
@@ -44,7 +45,8 @@ def profile(s: Any, force_x: Any, force_z: Any, length: Any, axial_stiffness: An
     axial_stiffness : EA [N]
     weight          : rho g [N/m], per unstrained length
 
-    s
+    Domain: tension > 0 at both ends. weight = 0 and force_x = 0 are limits and allowed.
+    Eqs (2.9)-(2.10), derivations/catenary.py.
     """
     t0 = 1/(axial_stiffness)
     t1 = force_x**2
@@ -60,7 +62,7 @@ def profile(s: Any, force_x: Any, force_z: Any, length: Any, axial_stiffness: An
 
 
 def elongation(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, weight: Any) -> Any:
-    """e
+    """Strained minus unstrained length [m].
 
     force_x         : [N] horizontal force on the cable at C; the cable runs from B towards +x for force_x > 0
     force_z         : [N] vertical force on the cable at C, up; at B it is force_z - weight*length
@@ -68,7 +70,8 @@ def elongation(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, we
     axial_stiffness : EA [N]
     weight          : rho g [N/m], per unstrained length
 
-    s
+    Domain: tension > 0 at both ends. weight = 0 and force_x = 0 are limits and allowed.
+    Eqs (2.15)-(2.16), derivations/catenary.py.
     """
     t0 = length*weight
     t1 = -t0
@@ -83,7 +86,7 @@ def elongation(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, we
 
 
 def chord_tension(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, weight: Any) -> Any:
-    """e
+    """tau [N], tension where the cable is parallel to its chord.
 
     force_x         : [N] horizontal force on the cable at C; the cable runs from B towards +x for force_x > 0
     force_z         : [N] vertical force on the cable at C, up; at B it is force_z - weight*length
@@ -91,7 +94,8 @@ def chord_tension(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any,
     axial_stiffness : EA [N]
     weight          : rho g [N/m], per unstrained length
 
-    s
+    Domain: tension > 0 at both ends. weight = 0 and force_x = 0 are limits and allowed.
+    Eq. (2.17), derivations/catenary.py.
     """
     t0 = 1/(axial_stiffness)
     t1 = force_x**2
@@ -106,7 +110,7 @@ def chord_tension(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any,
 
 
 def chord_parallel_coordinate(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, weight: Any) -> Any:
-    """e
+    """s_Q [m], unstrained coordinate where the cable is parallel to its chord.
 
     force_x         : [N] horizontal force on the cable at C; the cable runs from B towards +x for force_x > 0
     force_z         : [N] vertical force on the cable at C, up; at B it is force_z - weight*length
@@ -114,7 +118,8 @@ def chord_parallel_coordinate(force_x: Any, force_z: Any, length: Any, axial_sti
     axial_stiffness : EA [N]
     weight          : rho g [N/m], per unstrained length
 
-    s
+    Domain: tension > 0 at both ends. weight = 0 and force_x = 0 are limits and allowed.
+    Eq. (2.21), derivations/catenary.py.
     """
     t0 = force_x**2
     t1 = np.sqrt(force_z**2 + t0)
@@ -129,7 +134,7 @@ def chord_parallel_coordinate(force_x: Any, force_z: Any, length: Any, axial_sti
 
 
 def sag(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, weight: Any) -> Any:
-    """e
+    """d [m], sag perpendicular to the chord.
 
     force_x         : [N] horizontal force on the cable at C; the cable runs from B towards +x for force_x > 0
     force_z         : [N] vertical force on the cable at C, up; at B it is force_z - weight*length
@@ -137,7 +142,8 @@ def sag(force_x: Any, force_z: Any, length: Any, axial_stiffness: Any, weight: A
     axial_stiffness : EA [N]
     weight          : rho g [N/m], per unstrained length
 
-    s
+    Domain: tension > 0 at both ends. weight = 0 and force_x = 0 are limits and allowed.
+    Eq. (2.22), derivations/catenary.py.
     """
     t0 = 1/(axial_stiffness)
     t1 = force_x**2

@@ -1,7 +1,7 @@
 """GENERATED FILE - do not edit.
 
 Regenerate : python -m derivations
-Source     : derivations/special_functions.py
+Source     : derivations/special_functions.py, derivations/print_special_functions.py
 Made with  : sympy 1.14.0
 """
 

@@ -1,0 +1,92 @@
+"""Runs all sheets, renders the files they stand for, and writes or compares them."""
+
+from __future__ import annotations
+
+import difflib
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+
+from derivations import (
+    cable_compliance,
+    cable_dsm_formulas,
+    catenary,
+    platform_formulas,
+    special_functions,
+    tension_bound,
+)
+from derivations.check_values import value_errors
+from derivations.print_latex import formula_sheet
+from derivations.print_python import header, module_text
+from derivations.print_special_functions import module_body
+from derivations.records import DerivationReport, FormulaRecord, GeneratedFunction
+
+SHEETS: dict[str, ModuleType] = {
+    "catenary": catenary,
+    "cable_compliance": cable_compliance,
+    "cable_dsm": cable_dsm_formulas,
+    "platform": platform_formulas,
+    "tension_bound": tension_bound,
+}
+GENERATED = "cdpr_struct/generated"
+FORMULA_SHEET = "derivations/latex/formula_sheet.tex"
+
+
+@dataclass(frozen=True, slots=True)
+class Rendering:
+    """Everything the derivations print: path from the repository root -> text."""
+
+    formulas: tuple[FormulaRecord, ...]
+    functions: dict[str, tuple[GeneratedFunction, ...]]
+    texts: dict[str, str]
+
+
+def render() -> Rendering:
+    """Derive, and print all files into memory."""
+    special_functions.prove_series()
+    formulas = tuple(record for sheet in SHEETS.values() for record in sheet.formulas())
+    functions = {name: sheet.functions() for name, sheet in SHEETS.items()}
+    texts = {f"{GENERATED}/{name}.py": module_text(SHEETS[name].SOURCE, f) for name, f in functions.items()}
+    special = header("derivations/special_functions.py, derivations/print_special_functions.py", None)
+    texts[f"{GENERATED}/special_functions.py"] = special + module_body()
+    texts[FORMULA_SHEET] = formula_sheet(formulas)
+    return Rendering(formulas, functions, texts)
+
+
+def drift(texts: dict[str, str], root: Path) -> str:
+    """Unified diff of the files under root against the fresh texts."""
+    parts: list[str] = []
+    for name, fresh in sorted(texts.items()):
+        path = root / name
+        committed = path.read_text(encoding="utf-8") if path.exists() else ""
+        if committed != fresh:
+            parts += difflib.unified_diff(
+                committed.splitlines(True), fresh.splitlines(True), f"committed/{name}", f"fresh/{name}"
+            )
+    return "".join(parts)
+
+
+def write(texts: dict[str, str], root: Path) -> tuple[str, ...]:
+    """Write the texts that differ; returns their names."""
+    changed = []
+    for name, text in sorted(texts.items()):
+        path = root / name
+        if path.exists() and path.read_text(encoding="utf-8") == text:
+            continue
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        changed.append(name)
+    return tuple(changed)
+
+
+def regenerate(check: bool, output: Path | None) -> DerivationReport:
+    """See derivations.run."""
+    start = time.perf_counter()
+    root = Path(__file__).resolve().parent.parent if output is None else Path(output)
+    rendering = render()
+    diff = drift(rendering.texts, root)
+    written = () if check else write(rendering.texts, root)
+    errors = value_errors(rendering.functions, root / GENERATED)
+    seconds = time.perf_counter() - start
+    return DerivationReport(rendering.formulas, diff if check else "", errors, seconds, written)
