@@ -12,7 +12,7 @@ import numpy as np
 from cdpr_struct.statics.cable_response import cable_response
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span
 from cdpr_struct.statics.catenary import CableStatus, solve_end_forces
-from cdpr_struct.statics.catenary_length import SLACKEST, length_at_chord_tension
+from cdpr_struct.statics.catenary_length import SLACKEST, force_z_curvature, length_at_chord_tension
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
@@ -27,10 +27,12 @@ class HeldCables:
 
     states      : CableStates (..., m)
     force_rate  : (..., m, 3) derivative of the force on the platform with respect to the chord tension [-]
+    bend        : (..., m) second derivative of its z component, approximate, for optimisers only [1/N]
     """
 
     states: CableStates
     force_rate: np.ndarray
+    bend: np.ndarray
 
 
 class CableModel(Protocol):
@@ -66,7 +68,7 @@ class SpringModel:
         exit_ = _straight(arrays, points)
         stretch = 1.0 + chord_tension / arrays.axial_stiffness
         states = _straight_states(arrays, exit_, chord_tension, exit_.chord / stretch, exit_.wrapped / stretch)
-        return HeldCables(states, -exit_.offset / exit_.chord[..., None])
+        return HeldCables(states, -exit_.offset / exit_.chord[..., None], np.zeros_like(exit_.chord))
 
     def least_chord_tension(self, arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
         return np.zeros(points.shape[:-1])
@@ -85,7 +87,8 @@ class IdealModel(SpringModel):
         held = super().hold(arrays, points, chord_tension)
         exit_ = _straight(arrays, points)
         states = replace(held.states, length=exit_.chord, wrapped_length=exit_.wrapped)
-        return HeldCables(replace(states, axial_stiffness=_stiffened(arrays).axial_stiffness), held.force_rate)
+        stiff = states.axial_stiffness * IDEAL_STIFFENING
+        return replace(held, states=replace(states, axial_stiffness=stiff))
 
 
 class SaggingModel:
@@ -107,7 +110,8 @@ class SaggingModel:
             cable = _held_over_pulley(arrays, offset, chord_tension)
         states, length_rate = cable
         response = cable_response(arrays, states)
-        return HeldCables(states, -response.length_rate * length_rate[..., None])
+        bend = -force_z_curvature(states.span, states.offset[..., 2], chord_tension, states.weight)
+        return HeldCables(states, -response.length_rate * length_rate[..., None], bend)
 
     def least_chord_tension(self, arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
         chord = np.linalg.norm(points - arrays.frame_anchors, axis=-1)

@@ -63,7 +63,7 @@ class CableStates:
     @property
     def slack(self) -> np.ndarray:
         """(..., m) bool: the cable does not pull at all (straight models only; a sagging cable always does)."""
-        return (self.force_x == 0.0) & (self.force_z == 0.0) & (self.weight == 0.0)
+        return (self.weight == 0.0) & (self.tension_at_platform <= 1e-100 * self.axial_stiffness)
 
     @property
     def span(self) -> np.ndarray:

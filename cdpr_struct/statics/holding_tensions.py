@@ -1,0 +1,147 @@
+"""Which chord tensions balance the platform at fixed poses with the least norm? A sequence of quadratic programs."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.statics.cable_models import CableModel, HeldCables
+from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, weight_wrench
+from cdpr_struct.statics.minimum_norm import QuadraticPrograms, solve_programs
+from cdpr_struct.statics.robot_arrays import RobotArrays
+
+MAX_ITERATIONS = 60
+_STALLED = 8  # iterations without the unbalanced wrench shrinking by a tenth end the search
+_TAUT = 7.5  # times the least chord tension: a start well on the taut side of the tension minimum
+_RISING = 0.05  # least growth of the platform tension with the chord tension at which its bounds are linearised
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HoldingProblem:
+    """A flat batch (k) of poses to be held.
+
+    load      : (k, 6) weight and external wrench about the platform origin [N, N m]
+    low, high : (k, m) bounds on the tensions at the platform [N]
+    unit      : (k, 6) 1 for forces, the anchors' mean radius [m] for moments
+    """
+
+    arrays: RobotArrays
+    model: CableModel
+    arms: PlatformArms
+    load: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    unit: np.ndarray
+
+    @classmethod
+    def at(
+        cls,
+        arrays: RobotArrays,
+        model: CableModel,
+        pose: tuple[np.ndarray, np.ndarray],
+        external_wrench: np.ndarray,
+        bounds: tuple[np.ndarray, np.ndarray],
+    ) -> "HoldingProblem":
+        """Problem at positions (k, 3) and rotations (k, 3, 3)."""
+        arms = PlatformArms.at(arrays, *pose)
+        radius = np.sqrt((arms.arms**2).sum(axis=-1).mean(axis=-1))
+        unit = np.ones((len(radius), 6))
+        unit[:, 3:] = np.maximum(radius, 1e-3)[:, None]
+        return cls(arrays, model, arms, weight_wrench(arrays, arms) + external_wrench, *bounds, unit)
+
+    def take(self, index: np.ndarray) -> "HoldingProblem":
+        """Some items."""
+        arms = PlatformArms(self.arms.points[index], self.arms.arms[index], self.arms.center[index])
+        rest = (self.load[index], self.low[index], self.high[index], self.unit[index])
+        return HoldingProblem(self.arrays.take(index), self.model, arms, *rest)
+
+    def solve(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Chord tensions (k, m) [N], iterations (k,), and whether the last step was negligible (k,)."""
+        tension = self.straight_tensions(self.high)
+        count = len(tension)
+        iterations, settled = np.zeros(count, dtype=int), np.zeros(count, dtype=bool)
+        least, since = np.full(count, np.inf), np.zeros(count, dtype=int)
+        items, dual = np.arange(count), np.zeros((count, 6))
+        for _ in range(MAX_ITERATIONS):
+            step, unbalanced, dual[items] = self.take(items)._step(tension[items], dual[items])
+            small = np.abs(step).max(axis=1) <= 1e-11 * tension[items].max(axis=1)
+            better = unbalanced <= 0.9 * least[items]
+            least[items] = np.where(better, unbalanced, least[items])
+            since[items] = np.where(better | (unbalanced <= 1e-9 * self._size(items)), 0, since[items] + 1)
+            settled[items] = small
+            tension[items] += step
+            iterations[items] += 1
+            items = items[~small & (since[items] < _STALLED)]
+            if not items.size:
+                break
+        return tension, iterations, settled
+
+    def straight_tensions(self, high: np.ndarray) -> np.ndarray:
+        """(k, m) least-norm tensions [N] of straight cables within `low` and `high`, as far as they balance the load."""
+        least = self._least()
+        low = np.maximum(self.low, _TAUT * least)
+        ones = np.ones_like(low)
+        tension = self._program(ones, 0.0 * ones, self._straight_matrix(), self.load, low, np.maximum(high, 2.0 * low))[0]
+        return np.maximum(tension, 1e-9 * np.linalg.norm(self.load, axis=1, keepdims=True))
+
+    def unbounded_tensions(self) -> tuple[np.ndarray, np.ndarray]:
+        """Tensions (k, m) [N] of straight cables that could also push, and the wrench (k, 6) that even these leave."""
+        matrix = np.swapaxes(self._straight_matrix(), -1, -2) / self.unit[..., None]
+        tension = -(np.linalg.pinv(matrix, rcond=1e-10) @ (self.load / self.unit)[..., None])
+        left = (matrix @ tension)[..., 0] * self.unit + self.load
+        return tension[..., 0], left
+
+    def _size(self, items: np.ndarray) -> np.ndarray:
+        size: np.ndarray = np.linalg.norm(self.load[items] / self.unit[items], axis=1)
+        return size
+
+    def _least(self) -> np.ndarray:
+        return self.model.least_chord_tension(self.arrays, self.arms.points)
+
+    def _straight_matrix(self) -> np.ndarray:
+        offset = self.arrays.frame_anchors - self.arms.points
+        direction = offset / np.linalg.norm(offset, axis=-1)[..., None]
+        return np.concatenate([direction, np.cross(self.arms.arms, direction)], axis=-1)
+
+    def _step(self, tension: np.ndarray, dual: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Change (k, m) of the chord tensions by the program around them, imbalance (k,), and multipliers (k, 6)."""
+        held = self.model.hold(self.arrays, self.arms.points, tension)
+        force, rate = held.states.force_on_platform, held.force_rate
+        growth = np.einsum("kmi,kmi->km", force, rate)
+        matrix = np.concatenate([rate, np.cross(self.arms.arms, rate)], axis=-1)
+        wrench = cable_wrench(held.states, self.arms) + self.load
+        low, high = self._step_bounds(held, growth, tension)
+        curvature = self._curvature(held, dual)
+        step, multipliers = self._program(curvature, growth, matrix, wrench, low, high)
+        return step, np.linalg.norm(wrench / self.unit, axis=1), multipliers
+
+    def _curvature(self, held: HeldCables, dual: np.ndarray) -> np.ndarray:
+        """(k, m) second derivative of cost minus multipliers times balance, kept positive."""
+        lever = self.arms.arms
+        scaled = (dual / self.unit)[:, None, :]
+        along_up = scaled[..., 2] + scaled[..., 3] * lever[..., 1] - scaled[..., 4] * lever[..., 0]
+        first = np.einsum("kmi,kmi->km", held.force_rate, held.force_rate)
+        return np.maximum(first + (held.states.force_on_platform[..., 2] - along_up) * held.bend, 0.1 * first)
+
+    def _step_bounds(self, held: HeldCables, growth: np.ndarray, tension: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        pull = held.states.tension_at_platform
+        slope = growth / np.maximum(pull, 1e-300)
+        rising = slope > _RISING
+        safe = np.where(rising, slope, 1.0)
+        least = self._least()
+        low = np.maximum(np.where(rising, (self.low - pull) / safe, -np.inf), least - tension)
+        low = np.where(least > 0.0, np.maximum(low, -0.5 * tension), low)
+        high = np.where(rising, (self.high - pull) / safe, 2.0 * tension)
+        return np.minimum(low, high), high
+
+    def _program(
+        self,
+        curvature: np.ndarray,
+        gradient: np.ndarray,
+        matrix: np.ndarray,
+        wrench: np.ndarray,
+        low: np.ndarray,
+        high: np.ndarray,
+    ) -> tuple[np.ndarray, np.ndarray]:
+        scaled = np.swapaxes(matrix, -1, -2) / self.unit[..., None]
+        programs = QuadraticPrograms(curvature, gradient, scaled, -wrench / self.unit, low, high)
+        return solve_programs(programs)
