@@ -59,14 +59,14 @@ def formulas() -> tuple[FormulaRecord, ...]:
     axial = length / axial_stiffness * sp.eye(2)
     require_same("the compliance is linear in 1/EA", _second_derivative_in_flexibility(matrix), sp.zeros(2))
     return (
-        verdict("cable_compliance.c_xx", "2.24", printed[0], matrix[0, 0], left="C_{xx}"),
-        verdict("cable_compliance.c_xz", "2.25", printed[1], matrix[0, 1], left="C_{xz}"),
-        verdict("cable_compliance.c_zz", "2.26", printed[2], matrix[1, 1], left="C_{zz}"),
+        verdict("cable_compliance.c_xx", "2.24", printed[0], catenary.tidy(matrix[0, 0]), left="C_{xx}"),
+        verdict("cable_compliance.c_xz", "2.25", printed[1], catenary.tidy(matrix[0, 1]), left="C_{xz}"),
+        verdict("cable_compliance.c_zz", "2.26", printed[2], catenary.tidy(matrix[1, 1]), left="C_{zz}"),
         verdict(
             "cable_compliance.axial",
             "2.28",
             axial,
-            -axial_stiffness * matrix.diff(axial_stiffness),
+            (-axial_stiffness * matrix.diff(axial_stiffness)).applyfunc(sp.expand),
             "The part proportional to 1/EA; the rest is the compliance of the inextensible cable.",
             left="C_{axial}",
         ),
@@ -92,12 +92,9 @@ def _stiffness_formula() -> FormulaRecord:
 def prove_stable_forms() -> None:
     """Compliance, its determinant and the stiffness of catenary_stable.py equal the raw forms."""
     c = exponential_state.symbolic_segment()
-    t0, t1 = c.V0 / c.T0, c.V1 / c.T1
-    raw = (
-        (exponential_state.U - t1 + t0) / c.w,
-        c.fx * (1 / c.T1 - 1 / c.T0) / c.w,
-        (t1 - t0) / c.w,
-    )
+    matrix = compliance().applyfunc(lambda entry: exponential_state.raw(entry, _H))
+    axial = c.L / c.EA
+    raw = (matrix[0, 0] - axial, matrix[0, 1], matrix[1, 1] - axial)
     for same_sign in (True, False):
         forms = [exponential_state.branch(form, same_sign) for form in stable.sag_compliance(c)]
         for name, form, reference in zip(("xx", "xz", "zz"), forms, raw, strict=True):

@@ -119,12 +119,29 @@ def _profile_formulas() -> tuple[FormulaRecord, ...]:
             verdict(
                 f"catenary.{name}",
                 equation,
-                *positive[name],
+                positive[name][0],
+                tuple(tidy(form) for form in positive[name][1]),
                 left=r"\begin{bmatrix}x\\z\end{bmatrix}",
                 note="Shown for f_Cx = H > 0; compared for both signs.",
             )
             for name, equation, _, _ in both
         ),
+    )
+
+
+def tidy(expression: Any) -> Any:
+    """The same expression with its inextensible part first and its part in 1/EA behind."""
+    flexibility = sp.Symbol("flexibility", positive=True)
+    linear = expression.subs(axial_stiffness, 1 / flexibility)
+    elastic = sp.factor(sp.simplify(sp.diff(linear, flexibility)))
+    return _common_roots(sp.factor_terms(linear.subs(flexibility, 0))) + elastic / axial_stiffness
+
+
+def _common_roots(expression: Any) -> Any:
+    """1/sqrt(1 + V^2/H^2) as H/sqrt(H^2 + V^2)."""
+    return expression.replace(
+        lambda e: e.is_Pow and e.exp == -sp.Rational(1, 2) and e.base.is_Add,
+        lambda e: _H / sp.sqrt(sp.expand(_H**2 * (e.base - 1)) + _H**2) if e.base.has(1 / _H**2) else e,
     )
 
 
@@ -169,19 +186,17 @@ def prove_stable_forms() -> None:
     state.prove_addition_theorem()
     state.prove_complement()
     c = state.symbolic_segment()
-    x_raw = c.fx * c.L / c.EA + c.fx * state.U / c.w
-    z_raw = (c.V0 + c.V1) * c.L / (2 * c.EA) + (c.T1 - c.T0) / c.w
+    x_raw, z_raw, stretch = (state.raw(signed(form, 1), _H) for form in (*end_point(), elongation()))
+    slope = z_raw / x_raw
     x, z = stable.end_point(c)
-    stretch = ((c.V1 * c.T1 - c.V0 * c.T0) + c.fx**2 * state.U) / (2 * c.w * c.EA)
-    s_q = c.L + (c.fx * z_raw / x_raw - c.V1) / c.w
-    for name, left, right in (
+    for name, form, reference in (
         ("x", x, x_raw),
         ("z", z, z_raw),
         ("elongation", stable.elongation(c), stretch),
-        ("tau^2", stable.chord_tension(c) ** 2, c.fx**2 * (1 + (z_raw / x_raw) ** 2)),
-        ("s_Q", stable.chord_parallel_coordinate(c), s_q),
+        ("tau^2", stable.chord_tension(c) ** 2, c.fx**2 * (1 + slope**2)),
+        ("s_Q", stable.chord_parallel_coordinate(c), c.L + (c.fx * slope - c.V1) / c.w),
     ):
-        require_zero_rational(name, state.rational(left) - state.rational(right))
+        require_zero_rational(name, state.rational(form) - sp.sympify(reference).subs(state.VALUES))
     _prove_sag_of_side()
 
 

@@ -15,6 +15,7 @@ import sympy as sp
 from derivations.catenary_stable import Segment, complement
 from derivations.proof import require_zero_rational
 from derivations.special_functions import atanhc, atanhc_remainder, tanh_remainder, tanhc
+from derivations.symbols import axial_stiffness, force_z, length, weight
 
 FX, W, EA = sp.symbols("f_x w EA", positive=True)
 E0, E1 = sp.symbols("E_0 E_1", positive=True)
@@ -48,6 +49,21 @@ def rational(expression: Any) -> Any:
     expression = expression.replace(atanhc_remainder, lambda q, p: (U / (2 * q) - 1) / q**2)
     expression = expression.replace(tanhc, lambda u: _tanh(u) / u)
     expression = expression.replace(tanh_remainder, lambda u: (u - _tanh(u)) / u**3)
+    return expression.subs(VALUES)
+
+
+def raw(expression: Any, horizontal: Any) -> Any:
+    """Rewrite a raw closed form in force_z, weight, length and `horizontal` > 0 the same way.
+
+    asinh(V1/fx) becomes asinh(V0/fx) + U, both roots become tensions.
+    """
+    values = {horizontal: FX, force_z: V1, weight: W, length: (V1 - V0) / W, axial_stiffness: EA}
+    expression = sp.sympify(expression).subs(values, simultaneous=True)
+    lower = sp.Symbol("U_0", real=True)
+    for force, tension_symbol, angle in ((V0, T0, lower), (V1, T1, lower + U)):
+        expression = expression.subs(sp.asinh(force / FX), angle)
+        expression = expression.subs(sp.sqrt(FX**2 + force**2), tension_symbol)
+        expression = expression.subs(sp.sqrt(1 + force**2 / FX**2), tension_symbol / FX)
     return expression.subs(VALUES)
 
 

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from cdpr_struct.cli.options import Json, Out, read_numbers
+from cdpr_struct.cli.options import Json, Out, number, read_numbers
 from cdpr_struct.cli.output import emit, result_json, write_files
 from cdpr_struct.errors import InputError
 
@@ -14,10 +14,10 @@ NAME = "cable"
 
 def run(
     force: Annotated[str, typer.Option("--force", metavar="FX,FZ", help="Force at the free end [N], z up.")],
-    length: Annotated[float, typer.Option("--length", metavar="L", help="Unstrained length [m].")],
-    axial_stiffness: Annotated[float, typer.Option("--EA", metavar="EA", help="Axial stiffness [N].")],
-    density: Annotated[float, typer.Option("--rho", metavar="RHO", help="Linear density [kg/m].")],
-    gravity: Annotated[float, typer.Option("--gravity", metavar="G", help="[m/s^2]")] = 9.81,
+    length: Annotated[float, typer.Option("--length", parser=number, metavar="L", help="Unstrained length [m].")],
+    axial_stiffness: Annotated[float, typer.Option("--EA", parser=number, metavar="EA", help="Axial stiffness [N].")],
+    density: Annotated[float, typer.Option("--rho", parser=number, metavar="RHO", help="Linear density [kg/m].")],
+    gravity: Annotated[float, typer.Option("--gravity", parser=number, metavar="G", help="[m/s^2]")] = 9.81,
     out: Out = None,
     json: Json = False,
 ) -> int:
@@ -27,8 +27,10 @@ def run(
         if not 0.0 < value < float("inf"):
             raise InputError(option, "", value, "give a finite number above zero")
     if force_x == 0.0:
-        raise InputError("--force", "FX", force_x, "give a horizontal force that is not zero (a vertical cable has no plane)")
-    from cdpr_struct.statics.single_cable import describe_cable
+        raise InputError(
+            "--force", "FX", force_x, "give a horizontal force that is not zero (a vertical cable has no plane)"
+        )
+    from cdpr_struct.crosscheck.single_cable import describe_cable
 
     result = describe_cable(force_x, force_z, length, axial_stiffness, density, gravity)
     emit(result, json, lambda: _print(result))

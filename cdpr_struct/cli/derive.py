@@ -20,10 +20,14 @@ def run(
 
     report = derivations.run(check=check, output=None)
     formulas = [
-        {"id": f.id, "thesis_equation": f.thesis_equation, "status": f.status, "note": f.note}
-        for f in report.formulas
+        {"id": f.id, "thesis_equation": f.thesis_equation, "status": f.status, "note": f.note} for f in report.formulas
     ]
-    result = {"formulas": formulas, "diff": report.diff, "value_errors": list(report.value_errors), "seconds": report.seconds}
+    result = {
+        "formulas": formulas,
+        "diff": report.diff,
+        "value_errors": list(report.value_errors),
+        "seconds": report.seconds,
+    }
 
     def text() -> None:
         for f in formulas:

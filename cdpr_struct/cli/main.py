@@ -5,7 +5,7 @@ import sys
 import typer
 from typer.exceptions import Abort, TyperException
 
-from cdpr_struct.cli import cable, derive, inverse, robots, verify
+from cdpr_struct.cli import cable, derive, inverse, reproduce, robots, verify
 from cdpr_struct.errors import CdprError, InputError
 
 app = typer.Typer(
@@ -14,16 +14,17 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="Deflection and vibration of cable-driven parallel robots, checked against an independent FEM.",
 )
-for command in (robots, cable, inverse, verify, derive):
+for command in (robots, cable, inverse, verify, reproduce, derive):
     app.command(name=command.NAME)(command.run)
 
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and exit: 0 done, 1 done but it does not hold, 2 unusable input."""
-    sys.exit(_run(arguments))
+    sys.exit(run(arguments))
 
 
-def _run(arguments: list[str] | None) -> int:
+def run(arguments: list[str] | None) -> int:
+    """Run one command and return its exit code."""
     try:
         return int(app(args=arguments, standalone_mode=False) or 0)
     except TyperException as error:

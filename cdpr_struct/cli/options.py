@@ -11,6 +11,23 @@ if TYPE_CHECKING:
     from cdpr_struct.robot.pose import Pose
     from cdpr_struct.robot.robot import Robot
 
+
+def number(text: str) -> float:
+    """A number of an option; the complaint says what was given."""
+    try:
+        return float(text)
+    except ValueError as error:
+        raise typer.BadParameter(f"got {text!r}; give a number") from error
+
+
+def whole_number(text: str) -> int:
+    """A whole number of an option."""
+    try:
+        return int(text)
+    except ValueError as error:
+        raise typer.BadParameter(f"got {text!r}; give a whole number") from error
+
+
 RobotName = Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in name or path to a robot file.")]
 Out = Annotated[
     Path | None,
@@ -18,10 +35,15 @@ Out = Annotated[
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print result.json to stdout, nothing else.")]
 PoseText = Annotated[
-    str | None, typer.Option("--pose", metavar="X,Y,Z[,RX,RY,RZ]", help="Pose [m, deg]; default: the robot's home pose.")
+    str | None,
+    typer.Option("--pose", metavar="X,Y,Z[,RX,RY,RZ]", help="Pose [m, deg]; default: the robot's home pose."),
 ]
-Payload = Annotated[float, typer.Option("--payload", metavar="KG", help="Point load at the platform origin [kg].")]
-Mass = Annotated[float | None, typer.Option("--mass", metavar="KG", help="Replaces the platform's mass [kg].")]
+Payload = Annotated[
+    float, typer.Option("--payload", parser=number, metavar="KG", help="Point load at the platform origin [kg].")
+]
+Mass = Annotated[
+    float | None, typer.Option("--mass", parser=number, metavar="KG", help="Replaces the platform's mass [kg].")
+]
 
 
 def read_numbers(text: str, option: str, counts: tuple[int, ...] | None = None, what: str = "numbers") -> list[float]:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.dynamics.cable_dynamic_stiffness import damped
-from cdpr_struct.dynamics.operating_point import OperatingPoint, taut_cables
+from cdpr_struct.dynamics.cable_dynamics import cable_dynamics, damped
+from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     Assembly,
     platform_dynamic_stiffness,
@@ -43,11 +43,13 @@ def scan_determinant(
     point: OperatingPoint, first: float, last: float, step: float, assembly: Assembly = "consistent"
 ) -> DeterminantScan:
     """Scan from `first` to `last` [Hz] in steps of `step` [Hz], with the damping of the robot's cables."""
-    cables = taut_cables(point)
+    cables = cable_dynamics(point, "dsm")
     hertz = np.arange(first, last + 0.5 * step, step)
     omega = 2.0 * np.pi * hertz
     mass = platform_mass_matrix(point.robot, point.rotation)
-    dynamic = platform_dynamic_stiffness(point, cables, damped(cables, omega[:, None]), assembly)
+    dynamic = platform_dynamic_stiffness(
+        point, cables, damped(cables, point.robot.damping_ratio, omega[:, None]), assembly
+    )
     log_dynamic = _log_determinant(omega, mass, dynamic)
     log_static = _log_determinant(omega, mass, platform_static_stiffness(point, assembly))
     inner = log_dynamic[1:-1]

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.dynamics.operating_point import OperatingPoint, TautCables
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.taut_cables import taut_cables
 
 LAMBDA_SQUARED_LIMIT = 24.0
 CROSSOVER_DISTANCE = 0.2
@@ -41,20 +42,25 @@ class ValidityLimits:
     violations: tuple[Violation, ...]
 
 
-def check_limits(point: OperatingPoint, cables: TautCables) -> ValidityLimits:
+def check_limits(point: OperatingPoint) -> ValidityLimits:
     """Audit of the cables at one pose."""
+    cables = taut_cables(point)
     inclination = np.abs(np.degrees(point.cables.inclination))
     sag_ratio = point.cables.sag / point.cables.chord
-    distance = crossover_distance(cables.lambda_squared)
     violations = [
         violation
         for i in range(len(inclination))
-        for violation in _violations(
-            i + 1, cables.lambda_squared[i], distance[i], inclination[i], cables.epsilon[i], sag_ratio[i]
+        for violation in limit_violations(
+            i + 1, cables.lambda_squared[i], inclination[i], cables.epsilon[i], sag_ratio[i]
         )
     ]
     return ValidityLimits(
-        cables.lambda_squared, cables.epsilon, inclination, sag_ratio, distance, tuple(violations)
+        lambda_squared=cables.lambda_squared,
+        epsilon=cables.epsilon,
+        inclination_deg=inclination,
+        sag_ratio=sag_ratio,
+        crossover_distance=crossover_distance(cables.lambda_squared),
+        violations=tuple(violations),
     )
 
 
@@ -70,14 +76,16 @@ def epsilon_limit(inclination_deg: float) -> float:
     return next((eps for angle, eps in INCLINATION_EPSILON_PAIRS if inclination_deg <= angle), 0.0)
 
 
-def _violations(
-    cable: int, lambda2: float, distance: float, inclination: float, epsilon: float, sag_ratio: float
+def limit_violations(
+    cable: int, lambda2: float, inclination: float, epsilon: float, sag_ratio: float
 ) -> list[Violation]:
+    """Printed limits that one cable breaks; inclination unsigned [deg], the others [-]."""
     found = []
+    distance = float(crossover_distance(np.asarray(lambda2)))
     if lambda2 > LAMBDA_SQUARED_LIMIT:
         found.append(Violation(cable, "lambda2", float(lambda2), LAMBDA_SQUARED_LIMIT))
     if distance < CROSSOVER_DISTANCE:
-        found.append(Violation(cable, "crossover_distance", float(distance), CROSSOVER_DISTANCE))
+        found.append(Violation(cable, "crossover_distance", distance, CROSSOVER_DISTANCE))
     largest_angle = INCLINATION_EPSILON_PAIRS[-1][0]
     if inclination > largest_angle:
         found.append(Violation(cable, "alpha_deg", float(inclination), largest_angle))

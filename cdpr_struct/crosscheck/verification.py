@@ -5,15 +5,17 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
+from scipy.optimize import linear_sum_assignment
 
 import fem_reference as fem
 from cdpr_struct.crosscheck.determinant_minima import DeterminantScan, match_minima, scan_determinant
 from cdpr_struct.crosscheck.fem_robot import fem_shapes, sampling_mass, solve_in_fem
-from cdpr_struct.crosscheck.mode_pairing import clusters, modal_assurance, pair_modes
+from cdpr_struct.crosscheck.mode_pairing import modal_assurance, pair_modes, shared_subspace
 from cdpr_struct.crosscheck.validity_limits import ValidityLimits, check_limits
+from cdpr_struct.dynamics.cable_dynamics import CableModel, cable_dynamics
 from cdpr_struct.dynamics.mode_shapes import mode_shapes
-from cdpr_struct.dynamics.natural_frequencies import natural_frequencies
-from cdpr_struct.dynamics.operating_point import OperatingPoint, taut_cables
+from cdpr_struct.dynamics.natural_frequencies import NaturalFrequencies, highest_omega, natural_frequencies
+from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     Assembly,
     platform_mass_matrix,
@@ -22,7 +24,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
 
 SCAN_STEPS_HERTZ = (0.05, 0.02, 0.01, 0.005)
 _REPORTED_STEP = 0.01
-_SPARE_MODES = 8
+_SPARE_MODES = 24
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +49,7 @@ class Verification:
 
     fem_hertz         : (e, k) at each element count;  fem_limit_hertz, fem_uncertainty_hertz : (k,) extrapolated
     observed_order    : (k,) of the convergence with element count
+    exact_hertz       : (k,) the paired frequency with the exact catenary's dynamic stiffness
     dsm_hertz         : (k,) the paired DSM frequency;  assurance : (k,) share of the FEM shape in its cluster
     static_hertz      : (k,) frequency on massless cables where this is the platform mode it stands for, else nan
     determinant_hertz : (k,) the minimum of the thesis's scan that stands for this mode, else nan
@@ -63,6 +66,7 @@ class Verification:
     observed_order: np.ndarray
     dsm_hertz: np.ndarray
     dsm_certified: bool
+    exact_hertz: np.ndarray
     assurance: np.ndarray
     kinds: tuple[str, ...]
     static_hertz: np.ndarray
@@ -118,19 +122,20 @@ def verify(
     platform_mass = platform_mass_matrix(point.robot, point.rotation)
     mass = sampling_mass(point.robot, point.cables.length, stations, platform_mass)
     sweep = _sweep_elements(point, elements, modes, mass, progress)
-    progress("closed-form DSM")
-    dsm = natural_frequencies(point, modes + _SPARE_MODES, assembly)
-    shapes = mode_shapes(point, modes + _SPARE_MODES, np.arange(1, stations) / stations, assembly)
-    flat = np.concatenate(
-        [shapes.platform, shapes.cable_motion.reshape(len(shapes.hertz), -1)], axis=1
-    )
-    assurance = modal_assurance(sweep.shapes, flat, mass)
+    progress("closed-form DSM and exact catenary")
+    dsm, exact = (_model_modes(point, model, modes, assembly, stations) for model in ("dsm", "exact"))
     extrapolated = fem.extrapolate(elements, sweep.hertz)
-    partner = pair_modes(assurance, sweep.hertz[-1], dsm.hertz)
-    kinds = shapes.kinds()
+    assurance = modal_assurance(sweep.shapes, dsm.shapes, mass)
+    partner = pair_modes(assurance, sweep.hertz[-1], dsm.frequencies.hertz)
+    exact_partner = pair_modes(
+        modal_assurance(sweep.shapes, exact.shapes, mass), sweep.hertz[-1], exact.frequencies.hertz
+    )
+    dsm_hertz = dsm.frequencies.hertz[partner]
     progress("determinant scan")
-    scans = _scans(point, assembly, dsm.hertz[partner].max())
-    matched = {step: match_minima(s.minima_hertz, dsm.hertz[partner], criteria.minimum_tolerance) for step, s in scans.items()}
+    scans = _scans(point, assembly, dsm_hertz.max())
+    matched = {
+        step: match_minima(scan.minima_hertz, dsm_hertz, criteria.minimum_tolerance) for step, scan in scans.items()
+    }
     return Verification(
         point=point,
         assembly=assembly,
@@ -140,16 +145,38 @@ def verify(
         fem_limit_hertz=extrapolated.limit,
         fem_uncertainty_hertz=extrapolated.error_estimate,
         observed_order=extrapolated.order,
-        dsm_hertz=dsm.hertz[partner],
-        dsm_certified=dsm.certified,
-        assurance=_share_in_cluster(assurance, dsm.hertz, partner),
-        kinds=tuple(kinds[j] for j in partner),
+        dsm_hertz=dsm_hertz,
+        dsm_certified=dsm.frequencies.certified,
+        exact_hertz=exact.frequencies.hertz[exact_partner],
+        assurance=shared_subspace(assurance, dsm.frequencies.hertz, partner),
+        kinds=tuple(dsm.kinds[j] for j in partner),
         static_hertz=_static_partners(point, assembly, sweep.platform_shapes, platform_mass),
         determinant_hertz=matched[_REPORTED_STEP],
         scan=scans[_REPORTED_STEP],
         missed={step: int(np.isnan(m).sum()) for step, m in matched.items()},
-        limits=check_limits(point, taut_cables(point)),
+        limits=check_limits(point),
     )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _ModelModes:
+    frequencies: NaturalFrequencies
+    shapes: np.ndarray
+    kinds: list[str]
+
+
+def _model_modes(
+    point: OperatingPoint, model: CableModel, modes: int, assembly: Assembly, stations: int
+) -> _ModelModes:
+    """Frequencies of the model with shapes (k, 6 + 3 m (stations - 1)) sampled where the FEM's are."""
+    count = modes + _SPARE_MODES
+    rough = cable_dynamics(point, model)
+    highest = highest_omega(point, rough, count, assembly)
+    cables = cable_dynamics(point, model, highest)
+    frequencies = natural_frequencies(point, cables, count, assembly)
+    found = mode_shapes(point, cables, count, highest, np.arange(1, stations) / stations, assembly)
+    flat = np.concatenate([found.platform, found.cable_motion.reshape(count, -1)], axis=1)
+    return _ModelModes(frequencies, flat, found.kinds())
 
 
 def _sweep_elements(
@@ -175,12 +202,6 @@ def _scans(point: OperatingPoint, assembly: Assembly, last: float) -> dict[float
     return {step: scan_determinant(point, step, 1.05 * last, step, assembly) for step in SCAN_STEPS_HERTZ}
 
 
-def _share_in_cluster(assurance: np.ndarray, hertz: np.ndarray, partner: np.ndarray) -> np.ndarray:
-    label = clusters(hertz)
-    member = label[partner][:, None] == label[None, :]
-    return np.minimum((assurance * member).sum(axis=1), 1.0)
-
-
 def _static_partners(
     point: OperatingPoint, assembly: Assembly, platform_shapes: np.ndarray, mass: np.ndarray
 ) -> np.ndarray:
@@ -192,7 +213,7 @@ def _static_partners(
     squared, static_shapes = scipy.linalg.eigh(platform_static_stiffness(point, assembly), mass)
     overlap = (platform_shapes @ mass @ static_shapes) ** 2
     result = np.full(len(platform_shapes), np.nan)
-    rows, columns = scipy.optimize.linear_sum_assignment(-overlap)
+    rows, columns = linear_sum_assignment(-overlap)
     for i, j in zip(rows, columns, strict=True):
         if squared[j] > 0.0:
             result[i] = np.sqrt(squared[j]) / (2.0 * np.pi)

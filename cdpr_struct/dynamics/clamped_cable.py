@@ -6,7 +6,7 @@ exactly one lies between (2 n - 1) pi and (2 n + 1) pi.
 
 import numpy as np
 
-from cdpr_struct.dynamics.operating_point import TautCables
+from cdpr_struct.dynamics.taut_cables import TautCables
 from cdpr_struct.generated.cable_dsm import clamped_frequency_function
 
 

@@ -5,16 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg
 
-from cdpr_struct.dynamics.cable_modal_expansion import CableModalExpansion, expand
-from cdpr_struct.dynamics.operating_point import OperatingPoint, TautCables, taut_cables
+from cdpr_struct.dynamics.cable_dynamics import CableDynamics
+from cdpr_struct.dynamics.modal_expansion import ModalExpansion
+from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     Assembly,
+    assemble,
     attachment,
-    platform_dynamic_stiffness,
     platform_mass_matrix,
 )
-
-_SPARE_PAIRS = 6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,42 +39,48 @@ class ModeShapes:
 
 
 def mode_shapes(
-    point: OperatingPoint, count: int, stations: np.ndarray, assembly: Assembly = "consistent"
+    point: OperatingPoint,
+    cables: CableDynamics,
+    count: int,
+    highest: float,
+    stations: np.ndarray,
+    assembly: Assembly = "consistent",
 ) -> ModeShapes:
-    """Modes of the robot with the cables of the closed-form DSM.
+    """First `count` modes of the robot.
 
     Parameters
     ----------
-    stations : (s,) fractions of the chord, 0 at the frame and 1 at the platform
+    highest : the frequency [rad/s] up to which the cables' motion must be resolved (`highest_omega`)
+    stations : (s,) fractions of each cable, 0 at the frame and 1 at the platform
     """
-    cables = taut_cables(point)
-    expansion = expand(cables, _pairs_needed(cables, count))
-    to_cable = np.swapaxes(cables.frame, -1, -2) @ attachment(point)
+    expansion = cables.expansion(highest)
+    to_cable = np.swapaxes(expansion.frame, -1, -2) @ attachment(point)
     platform_mass = platform_mass_matrix(point.robot, point.rotation)
     stiffness, mass = _matrices(point, expansion, to_cable, platform_mass, assembly)
-    squared, vectors = scipy.linalg.eigh(stiffness, mass, subset_by_index=(0, count - 1))
+    hertz, vectors = _slow_modes_first(stiffness, mass, count)
     platform = vectors[:6].T
     end = np.einsum("mai,ki->kma", to_cable, platform)
     modal = vectors[6:].T.reshape(count, *expansion.omega_squared.shape)
-    motion = expansion.motion(stations, end, modal)
     return ModeShapes(
-        hertz=np.sqrt(np.maximum(squared, 0.0)) / (2.0 * np.pi),
+        hertz=hertz,
         platform=platform,
-        cable_motion=np.einsum("mab,kmsb->kmsa", cables.frame, motion),
+        cable_motion=expansion.motion(stations, end, modal),
         platform_energy=np.einsum("ki,ij,kj->k", platform, platform_mass, platform),
-        cable_energy=_cable_energy(expansion, end, modal),
+        cable_energy=expansion.kinetic_energy(end, modal),
     )
 
 
-def _pairs_needed(cables: TautCables, count: int) -> int:
-    per_pair = 4 * len(cables.chord)
-    spread = float(cables.frequency_scale.max() / cables.frequency_scale.min())
-    return int(np.ceil(count / per_pair * spread)) + _SPARE_PAIRS
+def _slow_modes_first(stiffness: np.ndarray, mass: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """First frequencies [Hz] and shapes of unit modal mass, from the eigenproblem of 1 / omega^2 (rounding)."""
+    size = len(mass)
+    periods, vectors = scipy.linalg.eigh(mass, stiffness, subset_by_index=(size - count, size - 1))
+    periods, vectors = periods[::-1], vectors[:, ::-1]
+    return 1.0 / (2.0 * np.pi * np.sqrt(periods)), vectors / np.sqrt(periods)
 
 
 def _matrices(
     point: OperatingPoint,
-    expansion: CableModalExpansion,
+    expansion: ModalExpansion,
     to_cable: np.ndarray,
     platform_mass: np.ndarray,
     assembly: Assembly,
@@ -86,13 +91,9 @@ def _matrices(
     mass[6:, :6] = np.einsum("mpa,mai->mpi", expansion.coupling, to_cable).reshape(modal_count, 6)
     mass[:6, 6:] = mass[6:, :6].T
     stiffness = np.diag(np.concatenate([np.zeros(6), expansion.omega_squared.ravel()]))
-    stiffness[:6, :6] = platform_dynamic_stiffness(point, expansion.cables, np.zeros(1), assembly)
+    ends = expansion.frame @ expansion.static_stiffness @ np.swapaxes(expansion.frame, -1, -2)
+    stiffness[:6, :6] = assemble(point, ends, assembly)
     return stiffness, mass
-
-
-def _cable_energy(expansion: CableModalExpansion, end: np.ndarray, modal: np.ndarray) -> np.ndarray:
-    own = np.einsum("kma,mab,kmb->km", end, expansion.end_mass, end)
-    return own + (modal**2).sum(-1) + 2.0 * np.einsum("kmp,mpa,kma->km", modal, expansion.coupling, end)
 
 
 def _kind(platform: float, cables: np.ndarray) -> str:

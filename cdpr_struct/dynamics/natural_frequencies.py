@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.dynamics.clamped_cable import clamped_count
-from cdpr_struct.dynamics.operating_point import OperatingPoint, TautCables, taut_cables
+from cdpr_struct.dynamics.cable_dynamics import CableDynamics
+from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     Assembly,
     platform_dynamic_stiffness,
@@ -20,6 +20,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
 from cdpr_struct.errors import CdprError
 
 _HALVINGS = 52
+_HOPELESS_OMEGA = 1e6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,40 +38,50 @@ class NaturalFrequencies:
 
 
 def count_below(
-    point: OperatingPoint, omega: np.ndarray, assembly: Assembly = "consistent", cables: TautCables | None = None
+    point: OperatingPoint, cables: CableDynamics, omega: np.ndarray, assembly: Assembly = "consistent"
 ) -> np.ndarray:
-    """Number of natural frequencies of the robot below each omega (k,) [rad/s] at one pose, DSM model."""
-    cables = taut_cables(point) if cables is None else cables
+    """Number of natural frequencies of the robot below each omega (k,) [rad/s] at one pose."""
     omega = np.asarray(omega, dtype=float)[..., None]
     stiffness = platform_dynamic_stiffness(point, cables, omega**2, assembly)
     dynamic = stiffness - (omega**2)[..., None] * platform_mass_matrix(point.robot, point.rotation)
     negative = (np.linalg.eigvalsh(dynamic) < 0.0).sum(axis=-1)
-    return negative + clamped_count(cables, omega).sum(axis=-1)
+    return negative + cables.clamped_count(omega).sum(axis=-1)
 
 
-def natural_frequencies(point: OperatingPoint, count: int, assembly: Assembly = "consistent") -> NaturalFrequencies:
-    """First `count` undamped natural frequencies of the robot on dynamically stiff cables.
+def natural_frequencies(
+    point: OperatingPoint, cables: CableDynamics, count: int, assembly: Assembly = "consistent"
+) -> NaturalFrequencies:
+    """First `count` undamped natural frequencies of the robot.
 
     Raises
     ------
-    CdprError : the equilibrium is unstable, so the lowest "frequencies" are not real.
+    CdprError : the equilibrium is unstable, so the lowest "frequencies" are not real; or the model has fewer than
+        `count` frequencies (massless cables: six).
     """
-    cables = taut_cables(point)
-    if int(count_below(point, np.array([1e-6]), assembly, cables)[0]) > 0:
+    if int(count_below(point, cables, np.array([1e-6]), assembly)[0]) > 0:
         raise CdprError("the equilibrium is unstable: the platform stiffness has negative eigenvalues at rest")
     number = np.arange(1, count + 1)
-    high_end = _upper_bound(point, cables, count, assembly)
-    low, high = np.zeros(count), np.full(count, high_end)
+    low, high = np.zeros(count), np.full(count, highest_omega(point, cables, count, assembly))
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        below = count_below(point, middle, assembly, cables) < number
+        below = count_below(point, cables, middle, assembly) < number
         low, high = np.where(below, middle, low), np.where(below, high, middle)
     bracket = np.stack([low, high], axis=-1) / (2.0 * np.pi)
     certified = bool(
-        (count_below(point, low[1:], assembly, cables) < number[1:]).all()
-        and (count_below(point, high, assembly, cables) >= number).all()
+        (count_below(point, cables, np.maximum(low, 1e-6), assembly) < number).all()
+        and (count_below(point, cables, high, assembly) >= number).all()
     )
     return NaturalFrequencies(bracket.mean(axis=-1), bracket, certified)
+
+
+def highest_omega(point: OperatingPoint, cables: CableDynamics, count: int, assembly: Assembly = "consistent") -> float:
+    """An omega [rad/s] with at least `count` natural frequencies below it."""
+    high = float(min(np.min(cables.first_frequency), 100.0))
+    while int(count_below(point, cables, np.array([high]), assembly)[0]) < count:
+        high *= 1.3
+        if high > _HOPELESS_OMEGA:
+            raise CdprError(f"this cable model has fewer than {count} natural frequencies below {high:.1e} rad/s")
+    return high
 
 
 def static_frequencies(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
@@ -79,10 +90,3 @@ def static_frequencies(point: OperatingPoint, assembly: Assembly = "consistent")
     lower = np.linalg.inv(np.linalg.cholesky(mass))
     squared = np.linalg.eigvalsh(lower @ platform_static_stiffness(point, assembly) @ lower.T)
     return np.sqrt(np.where(squared > 0.0, squared, np.nan)) / (2.0 * np.pi)
-
-
-def _upper_bound(point: OperatingPoint, cables: TautCables, count: int, assembly: Assembly) -> float:
-    high = float(np.min(cables.frequency_scale) * np.pi)
-    while int(count_below(point, np.array([high]), assembly, cables)[0]) < count:
-        high *= 1.5
-    return high

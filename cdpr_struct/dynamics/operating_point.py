@@ -4,8 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.errors import CdprError
-from cdpr_struct.generated import cable_dsm
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_state import CableStates
 
@@ -23,64 +21,3 @@ class OperatingPoint:
     position: np.ndarray
     rotation: np.ndarray
     cables: CableStates
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class TautCables:
-    """The parameters of the small-sag dynamic stiffness, arrays (..., m), SI.
-
-    `frame` (..., m, 3, 3) has the cable axes as columns in the world: x along the chord from the frame to the
-    platform, y horizontal, z in the vertical plane and upwards.
-    """
-
-    chord: np.ndarray
-    tension: np.ndarray
-    axial_stiffness: np.ndarray
-    effective_length: np.ndarray
-    linear_density: np.ndarray
-    perpendicular_weight: np.ndarray
-    damping_ratio: np.ndarray
-    epsilon: np.ndarray
-    lambda_squared: np.ndarray
-    frame: np.ndarray
-
-    @property
-    def frequency_scale(self) -> np.ndarray:
-        """omega / Omega = sqrt(tau / mu) / l_c [rad/s], eq. (2.38)."""
-        return np.sqrt(self.tension / self.linear_density) / self.chord
-
-
-def taut_cables(point: OperatingPoint) -> TautCables:
-    """Parameters (2.36)-(2.38) of the cables' closed-form dynamic stiffness.
-
-    Raises
-    ------
-    CdprError : a cable carries no tension along its chord, so it has no small-sag stiffness.
-    """
-    cables, robot = point.cables, point.robot
-    slack = ~(np.asarray(cables.tension) > 0.0)
-    if slack.any():
-        number = int(np.argwhere(slack)[0][-1]) + 1
-        raise CdprError(f"cable {number} carries no tension along its chord: the closed-form DSM needs taut cables")
-    weight = robot.weight_per_length * np.cos(cables.inclination)
-    epsilon = cable_dsm.epsilon(cables.chord, cables.tension, weight)
-    effective = cable_dsm.effective_length_integral(cables.chord, epsilon)
-    ea = np.broadcast_to(robot.axial_stiffness, epsilon.shape)
-    return TautCables(
-        chord=cables.chord,
-        tension=cables.tension,
-        axial_stiffness=ea,
-        effective_length=effective,
-        linear_density=np.broadcast_to(robot.linear_density, epsilon.shape),
-        perpendicular_weight=weight,
-        damping_ratio=np.broadcast_to(robot.damping_ratio, epsilon.shape),
-        epsilon=epsilon,
-        lambda_squared=cable_dsm.lambda_squared(cables.chord, cables.tension, ea, effective, weight),
-        frame=_chord_frame(cables),
-    )
-
-
-def _chord_frame(cables: CableStates) -> np.ndarray:
-    along = cables.offset / cables.chord[..., None]
-    sideways = np.cross([0.0, 0.0, 1.0], cables.heading)
-    return np.stack([along, sideways, np.cross(along, sideways)], axis=-1)

@@ -4,11 +4,11 @@ from typing import Literal
 
 import numpy as np
 
-from cdpr_struct.dynamics.cable_dynamic_stiffness import cable_dynamic_stiffness
-from cdpr_struct.dynamics.operating_point import OperatingPoint, TautCables
+from cdpr_struct.dynamics.cable_dynamics import CableDynamics
+from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.generated import platform as generated
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.cable_state import static_stiffness
+from cdpr_struct.statics.cable_state import cable_stiffness
 
 Assembly = Literal["consistent", "thesis"]
 
@@ -51,9 +51,9 @@ def geometric_stiffness(point: OperatingPoint) -> np.ndarray:
     """(..., 3, 3) second-order rotational stiffness of the cable forces and of the weight [N m]."""
     arms = _arms(point)
     force = point.cables.force_on_platform
-    cables = generated.geometric_stiffness(
-        *(force[..., i] for i in range(3)), *(arms[..., i] for i in range(3))
-    ).sum(axis=-3)
+    cables = generated.geometric_stiffness(*(force[..., i] for i in range(3)), *(arms[..., i] for i in range(3))).sum(
+        axis=-3
+    )
     body = point.robot.platform
     center = np.einsum("...ij,j->...i", point.rotation, body.center_of_mass)
     weight = -body.mass * point.robot.gravity
@@ -62,17 +62,17 @@ def geometric_stiffness(point: OperatingPoint) -> np.ndarray:
 
 def platform_static_stiffness(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
     """(..., 6, 6) stiffness with massless cable dynamics (K_static of the thesis, eqs 2.29 and 3.8)."""
-    return assemble(point, static_stiffness(point.cables, point.robot), assembly)
+    return assemble(point, cable_stiffness(point.cables), assembly)
 
 
 def platform_dynamic_stiffness(
-    point: OperatingPoint, cables: TautCables, omega_c_squared: np.ndarray, assembly: Assembly = "consistent"
+    point: OperatingPoint, cables: CableDynamics, omega_squared: np.ndarray, assembly: Assembly = "consistent"
 ) -> np.ndarray:
-    """(..., 6, 6) stiffness K_E(omega) of eq. (3.8) with the cables' closed-form DSM.
+    """(..., 6, 6) stiffness K_E(omega) of eq. (3.8).
 
-    omega_c_squared broadcasts against (..., m); see `cable_dynamic_stiffness`.
+    omega_squared : broadcasts against (..., m) [rad^2/s^2]; complex for damped cables, see `damped`
     """
-    return assemble(point, cable_dynamic_stiffness(cables, omega_c_squared), assembly)
+    return assemble(point, cables.stiffness(omega_squared), assembly)
 
 
 def _arms(point: OperatingPoint) -> np.ndarray:

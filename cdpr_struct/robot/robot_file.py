@@ -99,7 +99,7 @@ def _read(name: str) -> tuple[str, str]:
 
 def _build(table: RobotTable, source: str) -> Robot:
     cables = tuple(_cable(table.cable, entry, source, i) for i, entry in enumerate(table.cables, start=1))
-    pulleys = tuple(e.pulley and Pulley(e.pulley.radius, np.array(e.pulley.axis)) for e in table.cables)
+    pulleys = tuple(_pulley(entry) for entry in table.cables)
     body = table.platform
     try:
         platform = Platform(body.mass, np.array(body.center_of_mass), np.array(body.inertia))
@@ -116,6 +116,10 @@ def _build(table: RobotTable, source: str) -> Robot:
         )
     except ValueError as error:
         raise InputError(source, "robot", table.name, str(error)) from error
+
+
+def _pulley(entry: CablesEntry) -> Pulley | None:
+    return None if entry.pulley is None else Pulley(entry.pulley.radius, np.array(entry.pulley.axis))
 
 
 def _cable(default: CableTable, entry: CablesEntry, source: str, number: int) -> Cable:

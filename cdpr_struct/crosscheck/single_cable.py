@@ -1,0 +1,92 @@
+"""Everything about one cable under one end force (thesis sections 2.1 and 2.3)."""
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.crosscheck.validity_limits import (
+    LAMBDA_SQUARED_LIMIT,
+    SAG_RATIO_LIMIT,
+    crossover_distance,
+    epsilon_limit,
+    limit_violations,
+)
+from cdpr_struct.dynamics.clamped_cable import symmetric_roots
+from cdpr_struct.generated import cable_compliance, cable_dsm, catenary
+
+_MODES = 6
+
+
+def describe_cable(
+    force_x: float, force_z: float, length: float, axial_stiffness: float, density: float, gravity: float
+) -> dict[str, Any]:
+    """Static and dynamic parameters of a cable held at one end and pulled by a force at the other.
+
+    Parameters
+    ----------
+    force_x, force_z : pull at the free end C [N], x horizontal (not zero), z up
+    length : unstrained [m];  axial_stiffness : EA [N];  density : [kg/m];  gravity : [m/s^2]
+
+    Returns
+    -------
+    dict with SI values under the keys of the command's result.json. Eqs (2.11)-(2.29), (2.36)-(2.41).
+    """
+    weight = density * gravity
+    five = (force_x, force_z, length, axial_stiffness, weight)
+    x, z = catenary.end_point(*five)
+    chord, tau = float(np.hypot(x, z)), float(catenary.chord_tension(*five))
+    perpendicular = weight * abs(x) / chord
+    epsilon = float(cable_dsm.epsilon(chord, tau, perpendicular))
+    effective = float(cable_dsm.effective_length_integral(chord, epsilon))
+    lambda2 = float(cable_dsm.lambda_squared(chord, tau, axial_stiffness, effective, perpendicular))
+    sag = float(catenary.sag(*five))
+    inclination = float(np.degrees(np.arctan2(abs(z), abs(x))))
+    axial, c_xx, c_xz, c_zz = (float(c) for c in cable_compliance.compliance(*five))
+    k_xx, k_xz, k_zz = (float(k) for k in cable_compliance.stiffness(*five))
+    return {
+        "x_m": float(x),
+        "z_m": float(z),
+        "chord_m": chord,
+        "inclination_deg": inclination,
+        "sag_m": sag,
+        "elongation_m": float(catenary.elongation(*five)),
+        "tau_N": tau,
+        "lambda2": lambda2,
+        "epsilon": epsilon,
+        "compliance_axial": [[axial, 0.0], [0.0, axial]],
+        "compliance_sag": [[c_xx, c_xz], [c_xz, c_zz]],
+        "stiffness": [[k_xx, k_xz], [k_xz, k_zz]],
+        "frequencies_hz": _clamped_frequencies(chord, tau, density, lambda2),
+        "validity": _validity(lambda2, inclination, epsilon, sag / chord),
+        "input": {
+            "force_N": [force_x, force_z],
+            "length_m": length,
+            "axial_stiffness_N": axial_stiffness,
+            "linear_density_kg_m": density,
+            "gravity_m_s2": gravity,
+        },
+    }
+
+
+def _clamped_frequencies(chord: float, tau: float, density: float, lambda2: float) -> dict[str, list[float]]:
+    scale = np.sqrt(tau / density) / chord / (2.0 * np.pi)
+    number = np.arange(1, _MODES + 1)
+    in_plane = np.sort(np.concatenate([2.0 * np.pi * number, symmetric_roots(np.asarray(lambda2), _MODES)]))
+    return {
+        "out_of_plane": (scale * np.pi * number).tolist(),
+        "in_plane": (scale * in_plane[:_MODES]).tolist(),
+    }
+
+
+def _validity(lambda2: float, inclination: float, epsilon: float, sag_ratio: float) -> dict[str, Any]:
+    violations = limit_violations(1, lambda2, inclination, epsilon, sag_ratio)
+    return {
+        "valid": not violations,
+        "lambda2_limit": LAMBDA_SQUARED_LIMIT,
+        "epsilon_limit": epsilon_limit(inclination),
+        "sag_ratio": sag_ratio,
+        "sag_ratio_limit": SAG_RATIO_LIMIT,
+        "crossover_distance": float(crossover_distance(np.asarray(lambda2))),
+        "violations": [dataclasses.asdict(v) for v in violations],
+    }

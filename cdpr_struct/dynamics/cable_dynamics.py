@@ -1,0 +1,140 @@
+"""The cable models of the robot's dynamics behind one interface, chosen by name.
+
+static : massless cables with the catenary's tangent stiffness (K_static of the thesis)
+dsm    : the thesis's closed form for taut cables with a small sag (eqs 2.31-2.46)
+exact  : the linearised elastic catenary itself, any sag and inclination
+"""
+
+from dataclasses import dataclass
+from typing import Literal, Protocol, get_args
+
+import numpy as np
+
+from cdpr_struct.dynamics.catenary_expansion import expand_catenaries
+from cdpr_struct.dynamics.clamped_cable import clamped_count
+from cdpr_struct.dynamics.modal_expansion import ModalExpansion
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.taut_cable_expansion import expand_taut_cables
+from cdpr_struct.dynamics.taut_cables import TautCables, closed_form_stiffness, taut_cables
+from cdpr_struct.generated.cable_dsm import damped_omega_squared
+from cdpr_struct.statics.cable_state import cable_stiffness
+
+CableModel = Literal["static", "dsm", "exact"]
+CABLE_MODELS: tuple[CableModel, ...] = get_args(CableModel)
+
+
+class CableDynamics(Protocol):
+    """How the cables of a robot at rest answer a harmonic motion of their platform ends."""
+
+    @property
+    def first_frequency(self) -> np.ndarray:
+        """(m,) lowest natural frequency of each clamped cable [rad/s], to which damping ratios refer."""
+
+    def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
+        """(..., m, 3, 3) world [N/m]; omega_squared broadcasts against (..., m), complex where damped."""
+
+    def clamped_count(self, omega: np.ndarray) -> np.ndarray:
+        """(..., m) natural frequencies of each clamped cable below omega [rad/s]; omega broadcasts against it."""
+
+    def expansion(self, omega: float) -> ModalExpansion:
+        """Static shapes and clamped modes that resolve the cables' motion up to omega [rad/s]."""
+
+
+def cable_dynamics(point: OperatingPoint, model: CableModel, highest_omega: float = 0.0) -> CableDynamics:
+    """The named cable model at one operating point.
+
+    highest_omega : [rad/s] up to which "exact" is to be accurate to about ten digits (0: its first dozen modes)
+    """
+    if model == "static":
+        return StaticCables(point)
+    if model == "dsm":
+        return ClosedFormCables(taut_cables(point))
+    cables = point.cables
+    half_waves = highest_omega / _first_frequency(point).min()
+    order = int(np.clip(2.0 * half_waves + 24.0, 32.0, 400.0))
+    return CatenaryCables(point, expand_catenaries(cables, point.robot.linear_density, order))
+
+
+def damped(cables: CableDynamics, damping_ratio: np.ndarray, omega: np.ndarray) -> np.ndarray:
+    """omega_c^2 (..., m) of viscously damped cables at omega (..., 1) [rad/s].
+
+    omega_c^2 = omega^2 - 2 i xi omega_1 omega, xi referred to the cable's first natural frequency omega_1.
+    """
+    return damped_omega_squared(omega, damping_ratio, cables.first_frequency)
+
+
+def _first_frequency(point: OperatingPoint) -> np.ndarray:
+    cables = point.cables
+    return np.pi / cables.chord * np.sqrt(cables.tension / point.robot.linear_density)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StaticCables:
+    """Massless cables."""
+
+    point: OperatingPoint
+
+    @property
+    def first_frequency(self) -> np.ndarray:
+        """Infinite: nothing can vibrate."""
+        return np.full(len(self.point.robot.cables), np.inf)
+
+    def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
+        static = cable_stiffness(self.point.cables)
+        return np.broadcast_to(static, (*np.shape(omega_squared)[:-1], *static.shape))
+
+    def clamped_count(self, omega: np.ndarray) -> np.ndarray:
+        return np.zeros((*np.shape(omega)[:-1], len(self.point.robot.cables)), dtype=int)
+
+    def expansion(self, omega: float) -> ModalExpansion:
+        m = len(self.point.robot.cables)
+
+        def shapes(stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            straight = np.broadcast_to(stations[:, None, None] * np.eye(3), (m, len(stations), 3, 3))
+            return straight, np.zeros((m, 0, len(stations), 3))
+
+        world = np.broadcast_to(np.eye(3), (m, 3, 3))
+        nothing = np.zeros((m, 3, 3)), np.zeros((m, 0)), np.zeros((m, 0, 3))
+        return ModalExpansion(world, cable_stiffness(self.point.cables), *nothing, shapes)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ClosedFormCables:
+    """The thesis's DSM."""
+
+    cables: TautCables
+
+    @property
+    def first_frequency(self) -> np.ndarray:
+        return np.pi * self.cables.frequency_scale
+
+    def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
+        return closed_form_stiffness(self.cables, omega_squared)
+
+    def clamped_count(self, omega: np.ndarray) -> np.ndarray:
+        return clamped_count(self.cables, omega)
+
+    def expansion(self, omega: float) -> ModalExpansion:
+        half_waves = omega / self.first_frequency.min()
+        return expand_taut_cables(self.cables, int(np.ceil(0.5 * half_waves)) + 6)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CatenaryCables:
+    """The linearised elastic catenary."""
+
+    point: OperatingPoint
+    full: ModalExpansion
+
+    @property
+    def first_frequency(self) -> np.ndarray:
+        return np.sqrt(self.full.omega_squared[:, 0])
+
+    def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
+        return self.full.stiffness(omega_squared)
+
+    def clamped_count(self, omega: np.ndarray) -> np.ndarray:
+        return (self.full.omega_squared < np.asarray(omega)[..., None] ** 2).sum(axis=-1)
+
+    def expansion(self, omega: float) -> ModalExpansion:
+        return self.full

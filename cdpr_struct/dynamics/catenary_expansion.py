@@ -1,0 +1,160 @@
+"""Modal expansion of the elastic catenary itself: any sag, any inclination, axial waves included.
+
+The linearised equations about the true profile r(s), in the unstrained coordinate s,
+
+    (D u')' + mu omega^2 u = 0,   D = EA t t^T + T / (1 + T / EA) (1 - t t^T),
+
+solved by Galerkin's method with integrated Legendre polynomials over the whole cable. Tension T(s) and tangent t(s)
+are analytic, so the error falls exponentially with the polynomial order.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from cdpr_struct.dynamics.modal_expansion import ModalExpansion
+from cdpr_struct.statics.cable_state import CableStates, cable_stiffness
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Plane:
+    """Motion components that are coupled with each other: i bubbles, c components, p modes.
+
+    omega_squared (m, p); modes (m, i, c, p); static (m, i, c, c); end_mass (m, c, c); coupling (m, p, c)
+    """
+
+    components: tuple[int, ...]
+    omega_squared: np.ndarray
+    modes: np.ndarray
+    static: np.ndarray
+    end_mass: np.ndarray
+    coupling: np.ndarray
+
+
+def expand_catenaries(cables: CableStates, linear_density: np.ndarray, order: int) -> ModalExpansion:
+    """Expansion of m cables (m,) with 3 (order - 1) modes each, all that the polynomials span.
+
+    Local axes: x along the heading (horizontal, from the frame to the platform), y across, z up. Modes are sorted by
+    frequency. About order / 2 half waves per plane are resolved to ten digits.
+    """
+    nodes, weights = legendre.leggauss(2 * order + 24)
+    values, slopes = _basis(nodes, order)
+    in_plane, across = _stiffness_densities(cables, nodes)
+    scale = (2.0 / cables.length)[:, None] * weights
+    mass = np.einsum("iq,jq,q->ij", values, values, weights)
+    half_mass = 0.5 * linear_density * cables.length
+    planes = []
+    for components, density in (((0, 2), in_plane), ((1,), across[..., None, None])):
+        stiffness = np.einsum("iq,mqab,jq,mq->miajb", slopes, density, slopes, scale, optimize=True)
+        planes.append(_condense(components, stiffness, mass, half_mass))
+    omega_squared = np.concatenate([plane.omega_squared for plane in planes], axis=1)
+    rank = np.argsort(omega_squared, axis=1)
+    frame = _frame(cables)
+    return ModalExpansion(
+        frame=frame,
+        static_stiffness=np.swapaxes(frame, -1, -2) @ cable_stiffness(cables) @ frame,
+        end_mass=_end_mass(planes),
+        omega_squared=np.take_along_axis(omega_squared, rank, axis=1),
+        coupling=np.take_along_axis(_coupling(planes), rank[..., None], axis=1),
+        shapes=lambda stations: _shapes(planes, rank, stations, order),
+    )
+
+
+def _frame(cables: CableStates) -> np.ndarray:
+    up = np.broadcast_to([0.0, 0.0, 1.0], cables.heading.shape)
+    return np.stack([cables.heading, np.cross(up, cables.heading), up], axis=-1)
+
+
+def _basis(xi: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
+    """Values and slopes (order, q): order - 1 bubbles, zero at both ends, then the moving end's ramp (1 + xi) / 2."""
+    polynomials = legendre.legvander(xi, order).T
+    k = np.arange(2, order + 1)[:, None]
+    bubbles = (polynomials[2:] - polynomials[:-2]) / np.sqrt(2.0 * (2 * k - 1))
+    slopes = np.sqrt((2 * k - 1) / 2.0) * polynomials[1:-1]
+    return np.vstack([bubbles, 0.5 * (1.0 + xi)]), np.vstack([slopes, np.full_like(xi, 0.5)])
+
+
+def _stiffness_densities(cables: CableStates, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """D in the cable plane (m, q, 2, 2) with axes (heading, up), and across it (m, q) [N]."""
+    hanging = cables.weight[:, None] * (0.5 * cables.length[:, None] * (1.0 - nodes))
+    vertical = cables.force_z[:, None] - hanging
+    horizontal = np.broadcast_to(cables.force_x[:, None], vertical.shape)
+    tension = np.hypot(horizontal, vertical)
+    tangent = np.stack([horizontal, vertical], axis=-1) / tension[..., None]
+    along = np.broadcast_to(cables.axial_stiffness, cables.length.shape)[:, None]
+    across = tension / (1.0 + tension / along)
+    outer = tangent[..., :, None] * tangent[..., None, :]
+    plane = along[..., None, None] * outer + across[..., None, None] * (np.eye(2) - outer)
+    return plane, across
+
+
+def _condense(
+    components: tuple[int, ...], stiffness: np.ndarray, reference_mass: np.ndarray, half_mass: np.ndarray
+) -> _Plane:
+    """Static shapes of the moving end and modes of the clamped cable, from stiffness (m, i, c, i, c)."""
+    m, count, size = len(half_mass), len(reference_mass), len(components)
+    stiffness = stiffness.reshape(m, count * size, count * size)
+    reference = np.kron(reference_mass, np.eye(size))
+    inner, end = slice(None, -size), slice(-size, None)
+    omega_squared, modes = _slow_modes_first(stiffness[:, inner, inner], reference[inner, inner], half_mass)
+    static = -np.linalg.solve(stiffness[:, inner, inner], stiffness[:, inner, end])
+    carried = half_mass[:, None, None] * (reference[inner, end] + reference[inner, inner] @ static)
+    end_mass = half_mass[:, None, None] * (reference[end, end] + reference[end, inner] @ static)
+    return _Plane(
+        components,
+        omega_squared,
+        modes.reshape(m, count - 1, size, -1),
+        static.reshape(m, count - 1, size, size),
+        end_mass + np.swapaxes(static, 1, 2) @ carried,
+        np.swapaxes(modes, 1, 2) @ carried,
+    )
+
+
+def _slow_modes_first(
+    stiffness: np.ndarray, reference_mass: np.ndarray, half_mass: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """omega^2 (m, p) ascending and modes (m, i, p) of unit modal mass, from the eigenproblem of 1 / omega^2.
+
+    The fastest axial modes lie eight or more decades above the first transverse one; turned round, rounding falls on
+    them and not on the slow modes.
+    """
+    inverse = np.linalg.inv(np.linalg.cholesky(stiffness))
+    compliance = half_mass[:, None, None] * (inverse @ reference_mass @ np.swapaxes(inverse, 1, 2))
+    periods, vectors = np.linalg.eigh(compliance)
+    periods, vectors = periods[:, ::-1], vectors[..., ::-1]
+    periods = np.maximum(periods, np.finfo(float).eps * periods[:, :1])
+    return 1.0 / periods, np.swapaxes(inverse, 1, 2) @ vectors / np.sqrt(periods)[:, None, :]
+
+
+def _end_mass(planes: list[_Plane]) -> np.ndarray:
+    total = np.zeros((len(planes[0].end_mass), 3, 3))
+    for plane in planes:
+        total[np.ix_(range(len(total)), plane.components, plane.components)] = plane.end_mass
+    return total
+
+
+def _coupling(planes: list[_Plane]) -> np.ndarray:
+    blocks = []
+    for plane in planes:
+        block = np.zeros((*plane.omega_squared.shape, 3))
+        block[..., plane.components] = plane.coupling
+        blocks.append(block)
+    return np.concatenate(blocks, axis=1)
+
+
+def _shapes(planes: list[_Plane], rank: np.ndarray, stations: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
+    values, _ = _basis(2.0 * stations - 1.0, order)
+    bubbles, ramp = values[:-1], values[-1]
+    static = np.zeros((len(rank), len(stations), 3, 3))
+    blocks = []
+    for plane in planes:
+        own = np.einsum("is,miab->msab", bubbles, plane.static)
+        for a, row in enumerate(plane.components):
+            for b, column in enumerate(plane.components):
+                static[:, :, row, column] = own[..., a, b] + (a == b) * ramp
+        block = np.zeros((*plane.omega_squared.shape, len(stations), 3))
+        block[..., plane.components] = np.einsum("is,miap->mpsa", bubbles, plane.modes)
+        blocks.append(block)
+    modes = np.concatenate(blocks, axis=1)
+    return static, np.take_along_axis(modes, rank[:, :, None, None], axis=1)

@@ -1,0 +1,15 @@
+"""Every figure of the reports, one module per theme; the only room that knows matplotlib and plotly.
+
+| file                | shows                                                                  |
+|---------------------|------------------------------------------------------------------------|
+| style.py            | the common look, and deterministic SVG with text as text               |
+| mode_stacks.py      | which frequencies sit so close that a plot must stack them             |
+| determinant.py      | what the thesis's scan sees of the eigenfrequencies, and what it misses |
+| convergence.py      | how fine the FEM mesh must be to judge the model                       |
+| mode_errors.py      | how far each DSM frequency is from the FEM's                           |
+| limits.py           | cable parameters against the printed validity limits                   |
+| robot_geometry.py   | points, curves and faces of the robot's picture                        |
+| robot_drawing.py    | the robot with its sagging cables                                      |
+| single_cable.py     | profile and dynamic stiffness of one cable                             |
+| interactive.py      | the same data as plotly figures, and plotly.js itself                  |
+"""

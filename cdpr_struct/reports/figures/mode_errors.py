@@ -1,0 +1,100 @@
+"""How far each DSM frequency is from the FEM's."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from cdpr_struct.crosscheck.verification import Verification
+from cdpr_struct.reports.figures.style import (
+    BAD,
+    BLACK,
+    GREY,
+    KIND_COLOURS,
+    KIND_MARKERS,
+    kind_group,
+    plain_number,
+    quiet,
+)
+
+SIZE = (9.6, 3.9)
+
+
+def draw_mode_errors(figure: Figure, trial: Verification) -> None:
+    """Signed relative error per mode; linear near zero, logarithmic beyond a tenth of the tolerance."""
+    axes = figure.subplots()
+    tolerance = 100.0 * trial.criteria.relative_error
+    _symmetric_scale(axes, trial, tolerance)
+    axes.axhspan(-tolerance, tolerance, color="#f4f7f5", linewidth=0, zorder=0)
+    for sign in (-1.0, 1.0):
+        axes.axhline(sign * tolerance, color=BLACK, linewidth=0.9, linestyle=(0, (5, 3)))
+    axes.axhline(0.0, color=GREY, linewidth=0.8)
+    axes.annotate(
+        f"tolerance ±{tolerance:g} %", (1.0, tolerance), (-2, 3), xycoords=("axes fraction", "data"),
+        textcoords="offset points", ha="right", fontsize=8,
+    )  # fmt: skip
+    _stems(axes, trial)
+    axes.set_xlim(0.2, len(trial.kinds) + 0.8)
+    axes.xaxis.set_major_locator(MaxNLocator(10, integer=True))
+    axes.set_xlabel("mode number [-]")
+    axes.set_ylabel("DSM / FEM limit − 1 [%]")
+    quiet(axes)
+    _frequencies_on_top(axes, trial)
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=6)
+
+
+def _symmetric_scale(axes: Axes, trial: Verification, tolerance: float) -> None:
+    linear = 0.1 * tolerance
+    axes.set_yscale("symlog", linthresh=linear, linscale=1.0)
+    reach = max(100.0 * float(np.abs(trial.relative_error).max()), tolerance)
+    top = int(np.ceil(np.log10(reach / linear) + 1e-9))
+    powers = [linear * 10.0**p for p in range(top + 1)]
+    ticks = [-t for t in reversed(powers)] + [0.0] + powers
+    axes.set_yticks(ticks, [plain_number(t) if t <= 0 else f"+{plain_number(t)}" for t in ticks])
+    axes.set_yticks([], minor=True)
+    axes.set_ylim(-1.8 * reach, 1.8 * reach)
+
+
+def _stems(axes: Axes, trial: Verification) -> None:
+    number = np.arange(1, len(trial.kinds) + 1)
+    error = 100.0 * trial.relative_error
+    spread = 100.0 * trial.fem_uncertainty_hertz / trial.fem_limit_hertz
+    exact = 100.0 * (trial.exact_hertz / trial.fem_limit_hertz - 1.0)
+    groups = np.array([kind_group(kind) for kind in trial.kinds])
+    for name, colour in KIND_COLOURS.items():
+        mine = groups == name
+        if mine.any():
+            axes.vlines(number[mine], 0.0, error[mine], color=colour, linewidth=1.0)
+            axes.plot(number[mine], error[mine], KIND_MARKERS[name], color=colour, markersize=5, label=f"{name} mode")
+    axes.errorbar(number, error, yerr=spread, fmt="none", ecolor=BLACK, elinewidth=0.8, capsize=2, label="FEM uncertainty")
+    axes.plot(number, exact, "_", color=BLACK, markersize=8, mew=1.4, label="exact catenary")
+    outside = np.abs(trial.relative_error) > trial.criteria.relative_error
+    if outside.any():
+        axes.plot(number[outside], error[outside], "o", color=BAD, markersize=11, fillstyle="none", mew=1.4, label="outside")
+
+
+def _frequencies_on_top(axes: Axes, trial: Verification) -> None:
+    count = len(trial.kinds)
+    picked = np.unique(np.linspace(1, count, min(count, 9)).round().astype(int))
+    top = axes.secondary_xaxis("top")
+    top.set_xticks(picked, [f"{trial.fem_limit_hertz[i - 1]:.2f}" for i in picked])
+    top.set_xlabel("FEM eigenfrequency [Hz]")
+
+
+def mode_errors_caption(trial: Verification) -> str:
+    """What to see in the figure."""
+    error = 100.0 * trial.relative_error
+    exact = 100.0 * float(np.abs(trial.exact_hertz / trial.fem_limit_hertz - 1.0).max())
+    worst = int(np.argmax(np.abs(error)))
+    parts = []
+    for name in KIND_COLOURS:
+        mine = error[[kind_group(kind) == name for kind in trial.kinds]]
+        if len(mine):
+            parts.append(f"{name} modes {mine.min():+.2g} to {mine.max():+.2g} % ({len(mine)})")
+    return (
+        f"Each stem is one mode, paired with the FEM by shape, above zero where the DSM is too stiff: {'; '.join(parts)}. "
+        f"Largest: mode {worst + 1} ({trial.kinds[worst]}) at {trial.fem_limit_hertz[worst]:.3f} Hz with {error[worst]:+.3f} %. "
+        f"Black dashes are the exact catenary's frequencies, at most {exact:.2g} % off: what a stem has beyond them is the "
+        "price of the closed form. Bars are the uncertainty of the extrapolated FEM. The scale is linear near zero, where the grid is even, and "
+        "logarithmic farther out."
+    )

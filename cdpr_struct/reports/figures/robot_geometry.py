@@ -1,0 +1,66 @@
+"""Points, curves and faces of the robot's picture, in the world frame [m]."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.generated import catenary
+from cdpr_struct.robot.robot import anchors_in_world
+
+_POINTS_PER_CABLE = 41
+_SAME_PLANE = 1e-6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RobotGeometry:
+    """What a picture of the robot needs.
+
+    curves    : (m, p, 3) cables from the frame end to the platform end
+    frame, platform : (m, 3) cable ends
+    edges     : (e, 2, 3) edges of the platform's hull; spokes from its origin where the anchors span no volume
+    triangles : (t, 3) rows of `platform` that make up the hull's faces; none where there is no volume
+    """
+
+    curves: np.ndarray
+    frame: np.ndarray
+    platform: np.ndarray
+    edges: np.ndarray
+    triangles: np.ndarray
+
+    @property
+    def floor(self) -> float:
+        """Height of the ground plane in the picture [m]."""
+        lowest = float(min(self.frame[:, 2].min(), self.curves[..., 2].min(), self.platform[:, 2].min()))
+        return min(0.0, lowest)
+
+
+def robot_geometry(point: OperatingPoint) -> RobotGeometry:
+    """Geometry of the robot at rest."""
+    platform, _ = anchors_in_world(point.robot, point.position, point.rotation)
+    frame = platform - point.cables.offset
+    edges, triangles = _hull(platform, point.position)
+    return RobotGeometry(_curves(point, frame), frame, platform, edges, triangles)
+
+
+def _curves(point: OperatingPoint, frame: np.ndarray) -> np.ndarray:
+    cables = point.cables
+    s = np.linspace(0.0, 1.0, _POINTS_PER_CABLE)[None, :] * cables.length[:, None]
+    five = (cables.force_x, cables.force_z, cables.length, cables.axial_stiffness, cables.weight)
+    along, up = catenary.profile(s, *(value[:, None] for value in five))
+    return frame[:, None, :] + along[..., None] * cables.heading[:, None, :] + up[..., None] * np.array([0.0, 0.0, 1.0])
+
+
+def _hull(platform: np.ndarray, origin: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    try:
+        hull = ConvexHull(platform)
+    except (QhullError, ValueError):
+        return np.stack([np.broadcast_to(origin, platform.shape), platform], axis=1), np.empty((0, 3), dtype=int)
+    pairs = {
+        tuple(sorted(int(v) for v in np.delete(simplex, corner)))
+        for face, simplex in enumerate(hull.simplices)
+        for corner, other in enumerate(hull.neighbors[face])
+        if np.abs(hull.equations[face] - hull.equations[other]).max() > _SAME_PLANE
+    }
+    return platform[np.array(sorted(pairs))], hull.simplices

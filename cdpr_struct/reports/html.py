@@ -1,0 +1,82 @@
+"""One self-contained HTML page from sentences, figures and tables; it loads nothing from anywhere."""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib import resources
+from typing import Any
+
+import jinja2
+
+
+@dataclass(frozen=True, slots=True)
+class Plate:
+    """A figure of the page.
+
+    name        : letters and underscores; the figure's id and the name of its SVG file
+    svg         : the figure as SVG text; stays visible where scripts do not run, and in print
+    interactive : the same as plotly data, or None
+    """
+
+    name: str
+    title: str
+    svg: str
+    caption: str
+    interactive: Mapping[str, Any] | None = None
+
+    @property
+    def markup(self) -> str:
+        """The <svg> element without XML prologue."""
+        return self.svg[self.svg.index("<svg") :]
+
+    @property
+    def data(self) -> str:
+        """The interactive figure as JSON that cannot end its script element."""
+        return json.dumps(self.interactive, allow_nan=False).replace("<", "\\u003c")
+
+
+@dataclass(frozen=True, slots=True)
+class HtmlTable:
+    """A table of ready-made text; `marked` are the numbers (from 0) of rows that break a limit."""
+
+    title: str
+    columns: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    note: str = ""
+    marked: frozenset[int] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """What a report page holds, in the order it is shown.
+
+    verdict : the outcome first, further sentences after it;  holds : its colour
+    facts   : (value, what it is) in large type
+    notes   : (heading, paragraphs) of how to read and how it was computed
+    """
+
+    title: str
+    subtitle: str
+    verdict: Sequence[str]
+    holds: bool
+    facts: Sequence[tuple[str, str]]
+    plates: Sequence[Plate]
+    tables: Sequence[HtmlTable]
+    notes: Sequence[tuple[str, Sequence[str]]]
+    command: str
+
+
+def render_page(page: Page, plotly_packed: str = "") -> str:
+    """The page as HTML. `plotly_packed` (gzip, base64) is needed for interactive figures only."""
+    environment = jinja2.Environment(
+        loader=jinja2.FunctionLoader(_template), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )  # fmt: skip
+    template = environment.get_template("page.html.j2")
+    return template.render(
+        page=page, style=_template("page.css"), script=_template("interactive.js"), plotly_packed=plotly_packed
+    )
+
+
+def _template(name: str) -> str:
+    return resources.files("cdpr_struct.reports.templates").joinpath(name).read_text(encoding="utf-8")

@@ -1,0 +1,65 @@
+"""Results as text for a terminal."""
+
+import io
+from collections.abc import Mapping
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+
+def plain_table(title: str, columns: list[str], rows: list[list[str]]) -> str:
+    """A titled table with right-aligned columns after the first, without colour codes."""
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for i, column in enumerate(columns):
+        table.add_column(column, justify="left" if i == 0 else "right", no_wrap=True)
+    for row in rows:
+        table.add_row(*row)
+    console = Console(file=io.StringIO(), width=400, color_system=None, highlight=False)
+    console.print(table)
+    body = console.file.getvalue()  # type: ignore[attr-defined]
+    return "\n".join([title, *(line.rstrip() for line in body.splitlines())])
+
+
+def paragraphs(*blocks: str) -> str:
+    """Blocks of text with an empty line between them."""
+    return "\n\n".join(blocks)
+
+
+def cable_text(result: Mapping[str, Any]) -> str:
+    """One cable's parameters, matrices, frequencies and verdict."""
+    validity = result["validity"]
+    parameters = [
+        ["end point x", f"{result['x_m']:.3f}", "m"],
+        ["end point z", f"{result['z_m']:.3f}", "m"],
+        ["chord", f"{result['chord_m']:.3f}", "m"],
+        ["inclination alpha", f"{result['inclination_deg']:.2f}", "deg"],
+        ["sag d", f"{result['sag_m']:.4f}", "m"],
+        ["elongation", f"{result['elongation_m']:.5f}", "m"],
+        ["chord-parallel tension tau", f"{result['tau_N']:.2f}", "N"],
+        ["lambda^2", f"{result['lambda2']:.3f}", f"limit {validity['lambda2_limit']:g}"],
+        ["epsilon", f"{result['epsilon']:.4f}", f"limit {validity['epsilon_limit']:g}"],
+    ]
+    matrices = [
+        [name, *(f"{v:.5g}" for v in (m[0][0], m[0][1], m[1][1])), unit]
+        for name, m, unit in (
+            ("axial compliance", result["compliance_axial"], "m/N"),
+            ("sag compliance", result["compliance_sag"], "m/N"),
+            ("stiffness", result["stiffness"], "N/m"),
+        )
+    ]
+    frequencies = [
+        [plane.replace("_", " "), *(f"{f:.4f}" for f in values)] for plane, values in result["frequencies_hz"].items()
+    ]
+    verdict = (
+        "The closed-form DSM is within its printed limits."
+        if validity["valid"]
+        else "Outside the printed limits of the closed-form DSM: "
+        + "; ".join(f"{v['parameter']} {v['value']:.4g} against {v['limit']:.4g}" for v in validity["violations"])
+    )
+    return paragraphs(
+        plain_table("Cable", ["", "value", "unit"], parameters),
+        plain_table("2-D matrices at the free end", ["", "xx", "xz", "zz", "unit"], matrices),
+        plain_table("Natural frequencies, both ends held [Hz]", ["", *(f"{n + 1}" for n in range(6))], frequencies),
+        verdict,
+    )

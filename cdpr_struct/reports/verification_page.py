@@ -1,0 +1,161 @@
+"""The files of a verification: tables as CSV, figures as SVG, and the report page."""
+
+import numpy as np
+
+from cdpr_struct.crosscheck.verification import Verification
+from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.figures import convergence, determinant, interactive, limits, mode_errors, robot_drawing
+from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.html import Page, Plate, render_page
+from cdpr_struct.reports.verification_notes import verification_notes
+from cdpr_struct.reports.verification_tables import verification_tables
+from cdpr_struct.reports.verification_command import verification_command
+from cdpr_struct.reports.verification_text import verdict
+
+
+def verification_files(trial: Verification) -> dict[str, str | bytes]:
+    """Contents of every file of the report, by name; equal results give equal bytes."""
+    plates = verification_plates(trial)
+    page = render_page(verification_page(trial, plates), interactive.plotly_packed())
+    return {
+        "eigenfrequencies.csv": _eigenfrequencies_csv(trial),
+        "convergence.csv": _convergence_csv(trial),
+        "cables.csv": _cables_csv(trial),
+        "determinant_scan.csv": _determinant_csv(trial),
+        **{f"{plate.name}.svg": plate.svg for plate in plates},
+        "report.html": page,
+    }
+
+
+def verification_page(trial: Verification, plates: list[Plate]) -> Page:
+    """The report page around the given figures."""
+    robot, (x, y, z) = trial.point.robot, trial.point.position
+    return Page(
+        title=f"{robot.name}: the closed-form dynamic stiffness on trial",
+        subtitle=(
+            f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg at ({x:g}, {y:g}, {z:g}) m, "
+            f"assembly {trial.assembly}; judged by an independent finite-element model"
+        ),
+        verdict=verdict(trial).split("\n"),
+        holds=not trial.objections(),
+        facts=_facts(trial),
+        plates=plates,
+        tables=verification_tables(trial),
+        notes=verification_notes(trial),
+        command=verification_command(trial),
+    )
+
+
+def verification_plates(trial: Verification) -> list[Plate]:
+    """The figures, in the order of the page."""
+    point = trial.point
+    return [
+        Plate(
+            "determinant",
+            "What a determinant scan sees",
+            svg("determinant", determinant.SIZE, lambda f: determinant.draw_determinant(f, trial)),
+            determinant.determinant_caption(trial),
+            interactive.determinant_plot(trial),
+        ),
+        Plate(
+            "convergence",
+            "Is the mesh fine enough to judge?",
+            svg("convergence", convergence.SIZE, lambda f: convergence.draw_convergence(f, trial)),
+            convergence.convergence_caption(trial),
+        ),
+        Plate(
+            "mode_errors",
+            "DSM against FEM, mode by mode",
+            svg("mode_errors", mode_errors.SIZE, lambda f: mode_errors.draw_mode_errors(f, trial)),
+            mode_errors.mode_errors_caption(trial),
+        ),
+        Plate(
+            "limits",
+            "Cables against the printed validity limits",
+            svg("limits", limits.SIZE, lambda f: limits.draw_limits(f, trial.limits)),
+            limits.limits_caption(trial.limits),
+        ),
+        Plate(
+            "robot",
+            "The robot at rest",
+            svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point)),
+            robot_drawing.robot_caption(point),
+            interactive.robot_plot(point),
+        ),
+    ]
+
+
+def _facts(trial: Verification) -> list[tuple[str, str]]:
+    blurred = float(np.max(trial.fem_uncertainty_hertz / trial.fem_limit_hertz))
+    cables = len({v.cable for v in trial.limits.violations})
+    return [
+        (f"{len(trial.kinds)}", "eigenfrequencies compared"),
+        (f"{100.0 * np.abs(trial.relative_error).max():.2f} %", "largest deviation of the DSM from the FEM limit"),
+        (f"{100.0 * blurred:.1g} %", "largest uncertainty of the FEM limit"),
+        (f"{trial.missed_by_scan} of {len(trial.kinds)}", "modes that the determinant scan misses"),
+        (f"{cables} of {len(trial.limits.epsilon)}", "cables outside a printed limit"),
+    ]
+
+
+def _eigenfrequencies_csv(trial: Verification) -> str:
+    return csv_text(
+        {
+            "mode": range(1, len(trial.kinds) + 1),
+            "kind": trial.kinds,
+            "fem_hz": trial.fem_limit_hertz,
+            "fem_uncertainty_hz": trial.fem_uncertainty_hertz,
+            "dsm_hz": trial.dsm_hertz,
+            "relative_error": trial.relative_error,
+            "exact_hz": trial.exact_hertz,
+            "static_hz": trial.static_hertz,
+            "determinant_minimum_hz": trial.determinant_hertz,
+            "shape_share": trial.assurance,
+            "observed_order": trial.observed_order,
+        }
+    )
+
+
+def _convergence_csv(trial: Verification) -> str:
+    modes = len(trial.kinds)
+    return csv_text(
+        {
+            "elements": np.repeat(trial.elements, modes),
+            "mode": np.tile(np.arange(1, modes + 1), len(trial.elements)),
+            "fem_hz": trial.fem_hertz.ravel(),
+            "relative_error": trial.mesh_error.ravel(),
+        }
+    )
+
+
+def _cables_csv(trial: Verification) -> str:
+    cables, limits_ = trial.point.cables, trial.limits
+    number = range(1, len(limits_.epsilon) + 1)
+    broken = [";".join(v.parameter for v in limits_.violations if v.cable == i) for i in number]
+    return csv_text(
+        {
+            "cable": number,
+            "tension_at_platform_N": cables.tension_at_platform,
+            "tau_N": cables.tension,
+            "length_m": cables.length,
+            "chord_m": cables.chord,
+            "sag_m": cables.sag,
+            "inclination_deg": limits_.inclination_deg,
+            "lambda2": limits_.lambda_squared,
+            "epsilon": limits_.epsilon,
+            "sag_ratio": limits_.sag_ratio,
+            "crossover_distance": limits_.crossover_distance,
+            "violates": broken,
+        }
+    )
+
+
+def _determinant_csv(trial: Verification) -> str:
+    scan = trial.scan
+    return csv_text(
+        {
+            "frequency_hz": scan.hertz,
+            "log10_det_dynamic_per_s12": scan.log_dynamic,
+            "log10_det_static_per_s12": scan.log_static,
+            "is_minimum": np.isin(scan.hertz, scan.minima_hertz).astype(int),
+        }
+    )

@@ -1,0 +1,81 @@
+"""result.json of a verification."""
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.crosscheck.validity_limits import (
+    CROSSOVER_DISTANCE,
+    INCLINATION_EPSILON_PAIRS,
+    LAMBDA_SQUARED_LIMIT,
+    SAG_RATIO_LIMIT,
+    ValidityLimits,
+)
+from cdpr_struct.crosscheck.verification import Verification
+from cdpr_struct.robot.pose import Pose
+
+
+def verification_json(v: Verification, pose: Pose) -> dict[str, Any]:
+    """The result under the keys that scripts rely on; SI units and Hz, nan where a model has no such mode."""
+    return {
+        "robot": v.point.robot.name,
+        "pose": pose.in_degrees(),
+        "platform_mass_kg": v.point.robot.platform.mass,
+        "platform_inertia_kg_m2": v.point.robot.platform.inertia,
+        "assembly": v.assembly,
+        "lengths_m": v.point.cables.length,
+        "tensions_N": v.point.cables.tension_at_platform,
+        "eigenfrequencies": [_row(v, i) for i in range(len(v.dsm_hertz))],
+        "count_certified": v.dsm_certified,
+        "convergence": {
+            "elements": list(v.elements),
+            "max_relative_error": v.mesh_error.max(axis=1),
+            "observed_order": float(np.nanmedian(v.observed_order)),
+            "observed_order_range": [float(np.nanmin(v.observed_order)), float(np.nanmax(v.observed_order))],
+        },
+        "max_relative_error": float(np.abs(v.relative_error).max()),
+        "missed_by_determinant_scan": v.missed_by_scan,
+        "determinant_scan": {"step_hz": v.scan.step_hertz, "missed_by_step": v.missed},
+        "limits": limits_json(v.limits),
+        "verdict": {"holds": not v.objections(), "objections": v.objections()},
+    }
+
+
+def limits_json(limits: ValidityLimits) -> dict[str, Any]:
+    """Cable parameters beside their printed limits."""
+    return {
+        "cables": [
+            {
+                "cable": i + 1,
+                "lambda2": limits.lambda_squared[i],
+                "epsilon": limits.epsilon[i],
+                "alpha_deg": limits.inclination_deg[i],
+                "sag_ratio": limits.sag_ratio[i],
+                "crossover_distance": limits.crossover_distance[i],
+            }
+            for i in range(len(limits.epsilon))
+        ],
+        "printed_limits": {
+            "lambda2": LAMBDA_SQUARED_LIMIT,
+            "crossover_distance": CROSSOVER_DISTANCE,
+            "alpha_deg_and_epsilon": [list(pair) for pair in INCLINATION_EPSILON_PAIRS],
+            "sag_ratio": SAG_RATIO_LIMIT,
+        },
+        "violations": [dataclasses.asdict(violation) for violation in limits.violations],
+    }
+
+
+def _row(v: Verification, i: int) -> dict[str, Any]:
+    return {
+        "mode": i + 1,
+        "fem_hz": v.fem_limit_hertz[i],
+        "fem_uncertainty_hz": v.fem_uncertainty_hertz[i],
+        "dsm_hz": v.dsm_hertz[i],
+        "exact_hz": v.exact_hertz[i],
+        "static_hz": v.static_hertz[i],
+        "determinant_minimum_hz": v.determinant_hertz[i],
+        "relative_error": v.relative_error[i],
+        "shape_share": v.assurance[i],
+        "kind": v.kinds[i],
+    }

@@ -1,0 +1,114 @@
+"""A verification as text for a terminal."""
+
+import math
+
+import numpy as np
+
+from cdpr_struct.crosscheck.verification import Verification
+from cdpr_struct.reports.text import paragraphs, plain_table
+
+
+def verification_text(v: Verification) -> str:
+    """Tables of modes, convergence and cable parameters, then the verdict."""
+    return paragraphs(_headline(v), _modes(v), _convergence(v), _cables(v), verdict(v))
+
+
+def verdict(v: Verification) -> str:
+    """The outcome in plain sentences."""
+    k = len(v.dsm_hertz)
+    worst = 100.0 * float(np.abs(v.relative_error).max())
+    doubled = (
+        f"A scan for determinant minima at {v.scan.step_hertz:g} Hz misses {v.missed_by_scan} of {k} eigenfrequencies "
+        f"({', '.join(f'{n} at {step:g} Hz' for step, n in v.missed.items())})."
+    )
+    limits = (
+        "All cables are within the printed validity limits."
+        if not v.limits.violations
+        else f"Outside the printed validity limits: {violations_text(v)}."
+    )
+    objections = v.objections()
+    holds = (
+        f"HOLDS: all {k} FEM eigenfrequencies have their DSM partner, largest deviation {worst:.3f} %."
+        if not objections
+        else "DOES NOT HOLD: " + "; ".join(objections) + "."
+    )
+    return "\n".join([holds, doubled, limits])
+
+
+def violations_text(v: Verification) -> str:
+    """Violated limits, grouped by parameter."""
+    groups: dict[str, list[str]] = {}
+    for item in v.limits.violations:
+        key = f"{item.parameter} (limit {item.limit:.3g})"
+        groups.setdefault(key, []).append(f"{item.cable}: {item.value:.3g}")
+    return "; ".join(f"{key} cable {', '.join(values)}" for key, values in groups.items())
+
+
+def _headline(v: Verification) -> str:
+    x, y, z = v.point.position
+    return (
+        f"{v.point.robot.name} at ({x:g}, {y:g}, {z:g}) m, platform {v.point.robot.platform.mass:g} kg, "
+        f"assembly {v.assembly}; FEM with {', '.join(map(str, v.elements))} elements per cable, extrapolated"
+    )
+
+
+def _modes(v: Verification) -> str:
+    rows = [
+        [
+            str(i + 1),
+            f"{v.fem_limit_hertz[i]:.4f}",
+            f"{v.fem_uncertainty_hertz[i]:.0e}",
+            f"{v.dsm_hertz[i]:.4f}",
+            f"{100.0 * v.relative_error[i]:+.3f}",
+            f"{v.exact_hertz[i]:.4f}",
+            _or_dash(v.static_hertz[i]),
+            _or_dash(v.determinant_hertz[i], 2),
+            f"{v.assurance[i]:.2f}",
+            v.kinds[i],
+        ]
+        for i in range(len(v.dsm_hertz))
+    ]
+    columns = [
+        "mode",
+        "FEM [Hz]",
+        "+-",
+        "DSM [Hz]",
+        "error [%]",
+        "exact [Hz]",
+        "static [Hz]",
+        "det. min. [Hz]",
+        "shape",
+        "kind",
+    ]
+    return plain_table("Eigenfrequencies, paired by mode shape", columns, rows)
+
+
+def _convergence(v: Verification) -> str:
+    rows = [
+        [str(n), f"{100.0 * e.max():.4f}", f"{100.0 * np.median(e):.4f}"]
+        for n, e in zip(v.elements, v.mesh_error, strict=True)
+    ]
+    title = f"Convergence of the FEM: observed order {np.nanmedian(v.observed_order):.2f} (median over modes)"
+    return plain_table(title, ["elements", "largest error [%]", "median error [%]"], rows)
+
+
+def _cables(v: Verification) -> str:
+    limits, cables = v.limits, v.point.cables
+    rows = [
+        [
+            str(i + 1),
+            f"{cables.tension_at_platform[i]:.2f}",
+            f"{cables.length[i]:.4f}",
+            f"{limits.lambda_squared[i]:.3f}",
+            f"{limits.epsilon[i]:.4f}",
+            f"{limits.inclination_deg[i]:.1f}",
+            f"{limits.sag_ratio[i]:.4f}",
+        ]
+        for i in range(len(limits.epsilon))
+    ]
+    columns = ["cable", "tension [N]", "length [m]", "lambda^2", "epsilon", "alpha [deg]", "sag/chord"]
+    return plain_table("Cables", columns, rows)
+
+
+def _or_dash(value: float, digits: int = 4) -> str:
+    return "-" if math.isnan(value) else f"{value:.{digits}f}"

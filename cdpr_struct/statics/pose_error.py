@@ -1,0 +1,144 @@
+"""Static pose error (3.2.2): how far does the platform miss its pose if cables are taken as ideal, and why?
+
+The lengths come from the ideal inverse model; the pose they lead to, from the sagging and the spring model. Sagging
+minus reference is the global error, spring minus reference the axial part, and the rest is what sag introduces.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from cdpr_struct.robot.pose import angles_from_rotation
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.cable_models import cable_model
+from cdpr_struct.statics.equilibrium import PlatformArms
+from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
+from cdpr_struct.statics.robot_arrays import RobotArrays
+
+CONTINUATION = (100.0, 10.0, 3.0)  # times EA: stations between the ideal reference and the spring model
+SAME_POSE = 1e-6  # [m], [rad]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PoseError:
+    """Pose errors at a batch (...) of reference poses.
+
+    reference_position, reference_rotation : (..., 3) [m], (..., 3, 3)
+    sagging, spring   : ForwardSolution (...) at the same cable lengths
+    more_stable_pose  : (...) bool, the spring model has another equilibrium of lower energy near the sagging pose; the
+                        one reported is that reached from the reference by softening the cables
+    """
+
+    reference_position: np.ndarray
+    reference_rotation: np.ndarray
+    sagging: ForwardSolution
+    spring: ForwardSolution
+    more_stable_pose: np.ndarray
+
+    @property
+    def global_error(self) -> np.ndarray:
+        """(..., 3) sagging minus reference position, world [m]."""
+        return self.sagging.position - self.reference_position
+
+    @property
+    def axial_error(self) -> np.ndarray:
+        """(..., 3) spring minus reference position, world [m]."""
+        return self.spring.position - self.reference_position
+
+    @property
+    def sag_error(self) -> np.ndarray:
+        """(..., 3) sagging minus spring position, world [m]."""
+        return self.sagging.position - self.spring.position
+
+    @property
+    def global_rotation(self) -> np.ndarray:
+        """(..., 3) angles rx, ry, rz of the sagging pose in reference platform axes [rad]."""
+        return _turn(self.reference_rotation, self.sagging.rotation)
+
+    @property
+    def axial_rotation(self) -> np.ndarray:
+        """(..., 3) angles rx, ry, rz of the spring pose in reference platform axes [rad]."""
+        return _turn(self.reference_rotation, self.spring.rotation)
+
+    @property
+    def converged(self) -> np.ndarray:
+        """(...) bool: both models found a stable pose."""
+        return self.sagging.stable & self.spring.stable
+
+
+def reference_lengths(robot: Robot | RobotArrays, position: npt.ArrayLike, rotation: npt.ArrayLike) -> np.ndarray:
+    """(..., m) cable lengths of the ideal inverse model: straight, inextensible, over the pulleys if there are any [m].
+
+    position, rotation : (..., 3) [m], (..., 3, 3) platform to world
+    """
+    arrays = RobotArrays.of(robot)
+    arms = PlatformArms.at(arrays, np.asarray(position, dtype=float), np.asarray(rotation, dtype=float))
+    ideal = cable_model("ideal")
+    return ideal.hold(arrays, arms.points, np.zeros(arms.points.shape[:-1])).states.total_length
+
+
+def pose_error(
+    robot: Robot | RobotArrays,
+    position: npt.ArrayLike,
+    rotation: npt.ArrayLike,
+    external_wrench: npt.ArrayLike | None = None,
+    mass: npt.ArrayLike | None = None,
+) -> PoseError:
+    """Static pose error at reference poses, split into axial and sag part.
+
+    Parameters
+    ----------
+    position, rotation : (..., 3) [m], (..., 3, 3) platform to world, the reference poses
+    external_wrench : (..., 6) on the platform beside its weight, world axes [N, N m]
+    mass : (...) of the platform in place of the robot's [kg]
+    """
+    arrays = RobotArrays.of(robot, None if mass is None else np.asarray(mass, dtype=float))
+    place, turn = np.asarray(position, dtype=float), np.asarray(rotation, dtype=float)
+    lengths = reference_lengths(arrays, place, turn)
+    sagging = forward(arrays, lengths, place, turn, "sagging", external_wrench)
+    spring = _softened(arrays, lengths, place, turn, external_wrench)
+    other = forward(arrays, lengths, sagging.position, sagging.rotation, "spring", external_wrench)
+    lower = potential_energy(arrays, other, external_wrench) < potential_energy(arrays, spring, external_wrench)
+    distance = np.abs(other.position - spring.position).max(axis=-1)
+    distance = np.maximum(distance, np.abs(other.rotation - spring.rotation).max(axis=(-1, -2)))
+    shape = distance.shape
+    return PoseError(
+        np.broadcast_to(place, (*shape, 3)),
+        np.broadcast_to(turn, (*shape, 3, 3)),
+        sagging,
+        spring,
+        (distance > SAME_POSE) & lower & other.stable,
+    )
+
+
+def potential_energy(
+    robot: Robot | RobotArrays, solution: ForwardSolution, external_wrench: npt.ArrayLike | None = None
+) -> np.ndarray:
+    """(...) energy of straight elastic cables, weight and dead force at a solution of the spring model [J].
+
+    Zero is the platform's centre of mass at height 0. An applied moment has no potential and is left out.
+    """
+    arrays = RobotArrays.of(robot)
+    cables = solution.cables
+    strain = (cables.tension_at_platform**2 * cables.total_length / (2.0 * cables.axial_stiffness)).sum(axis=-1)
+    center = PlatformArms.at(arrays, solution.position, solution.rotation).center + solution.position
+    force = np.zeros(6) if external_wrench is None else np.asarray(external_wrench, dtype=float)
+    work = np.einsum("...i,...i->...", force[..., :3], solution.position)
+    energy: np.ndarray = strain + arrays.mass * arrays.gravity * center[..., 2] - work
+    return energy
+
+
+def _softened(
+    arrays: RobotArrays, lengths: np.ndarray, place: np.ndarray, turn: np.ndarray, wrench: npt.ArrayLike | None
+) -> ForwardSolution:
+    """Spring equilibrium continuous with the reference pose: cables softened in stations from nearly ideal."""
+    for factor in CONTINUATION:
+        stiff = replace(arrays, axial_stiffness=factor * arrays.axial_stiffness)
+        station = forward(stiff, lengths, place, turn, "spring", wrench)
+        place, turn = station.position, station.rotation
+    return forward(arrays, lengths, place, turn, "spring", wrench)
+
+
+def _turn(reference: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+    return angles_from_rotation(np.swapaxes(reference, -1, -2) @ rotation)

@@ -1,0 +1,98 @@
+"""Static stiffness of the robot: how far does the platform give way under a wrench, and what gives way?"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from cdpr_struct.generated.platform import attachment
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.cable_response import cable_response
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, moment_skew, tangent_stiffness, weight_wrench
+from cdpr_struct.statics.robot_arrays import RobotArrays
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RobotStiffness:
+    """6 x 6 stiffness about the platform origin at locked cable lengths; leading axes (...) are the batch.
+
+    Rows force [N] and moment [N m] (of the wrench that displaces), columns displacement [m] and rotation [rad].
+
+    matrix   : (..., 6, 6) world axes, exactly -d(wrench of cables and weight)/d(pose); symmetric at an equilibrium
+               without applied moment
+    axial    : (..., 6, 6) part of the compliance from axial cable elasticity, world axes
+    sag      : (..., 6, 6) part from cable sag in the cable planes, eq. (2.28)
+    rotation : (..., 3, 3) platform to world
+    """
+
+    matrix: np.ndarray
+    axial: np.ndarray
+    sag: np.ndarray
+    rotation: np.ndarray
+
+    @property
+    def compliance(self) -> np.ndarray:
+        """(..., 6, 6) inverse of `matrix`, world axes; singular for a platform that can move freely."""
+        return np.linalg.inv(self.matrix)
+
+    @property
+    def geometric(self) -> np.ndarray:
+        """(..., 6, 6) rest of the compliance: cables swinging out of their planes, levers that turn, pulleys."""
+        return self.compliance - self.axial - self.sag
+
+    @property
+    def in_platform(self) -> np.ndarray:
+        """(..., 6, 6) `matrix` in platform axes, eq. (3.10) with the rotation block-diagonal."""
+        turn = np.zeros(self.matrix.shape)
+        turn[..., :3, :3] = turn[..., 3:, 3:] = self.rotation
+        return np.swapaxes(turn, -1, -2) @ self.matrix @ turn
+
+    @property
+    def symmetric(self) -> np.ndarray:
+        """(..., 6, 6) symmetric part of `matrix`: second derivative of the potential energy along twists."""
+        return 0.5 * (self.matrix + np.swapaxes(self.matrix, -1, -2))
+
+
+def static_stiffness(
+    robot: Robot | RobotArrays,
+    position: npt.ArrayLike,
+    rotation: npt.ArrayLike,
+    cables: CableStates,
+    mass: npt.ArrayLike | None = None,
+) -> RobotStiffness:
+    """Stiffness of the platform at poses whose cable states are known (from `inverse` or `forward`).
+
+    Parameters
+    ----------
+    position, rotation : (..., 3) [m], (..., 3, 3) platform to world
+    cables : CableStates (..., m) at these poses
+    mass : (...) of the platform in place of the robot's [kg]
+
+    Eq. (3.8) with the geometric terms that it leaves out.
+    """
+    arrays = RobotArrays.of(robot, None if mass is None else np.asarray(mass, dtype=float))
+    turn = np.asarray(rotation, dtype=float)
+    arms = PlatformArms.at(arrays, np.asarray(position, dtype=float), turn)
+    matrix = tangent_stiffness(arrays, cables, arms)
+    moment = (cable_wrench(cables, arms) + weight_wrench(arrays, arms))[..., 3:]
+    matrix[..., 3:, 3:] += moment_skew(moment)
+    axial, sag = _compliance_parts(arrays, cables, arms, matrix)
+    return RobotStiffness(matrix, axial, sag, np.broadcast_to(turn, (*matrix.shape[:-2], 3, 3)))
+
+
+def _compliance_parts(
+    arrays: RobotArrays, cables: CableStates, arms: PlatformArms, matrix: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Axial and sag part of the robot's compliance by the work that cable force changes do on each cable's parts."""
+    force_change = cable_response(arrays, cables).stiffness @ attachment(*np.moveaxis(arms.arms, -1, 0))
+    in_plane = np.zeros((*cables.length.shape, 2, 3))
+    in_plane[..., 0, :] = cables.heading
+    in_plane[..., 1, 2] = 1.0
+    planar = in_plane @ force_change
+    compliance = np.linalg.pinv(matrix, hermitian=False)
+    parts = []
+    for part in cables.compliance_split():
+        work = np.einsum("...mai,...mab,...mbj->...ij", planar, part, planar)
+        parts.append(np.swapaxes(compliance, -1, -2) @ work @ compliance)
+    return parts[0], parts[1]

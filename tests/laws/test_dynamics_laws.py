@@ -1,0 +1,156 @@
+"""Laws that the dynamic stiffness and the natural frequencies obey whatever the numbers."""
+
+import numpy as np
+import pytest
+
+from cdpr_struct.dynamics.cable_dynamics import cable_dynamics, damped
+from cdpr_struct.dynamics.clamped_cable import clamped_count, symmetric_roots
+from cdpr_struct.dynamics.mode_shapes import mode_shapes
+from cdpr_struct.dynamics.natural_frequencies import (
+    count_below,
+    highest_omega,
+    natural_frequencies,
+    static_frequencies,
+)
+from cdpr_struct.dynamics.robot_dynamic_stiffness import (
+    geometric_stiffness,
+    platform_dynamic_stiffness,
+    platform_mass_matrix,
+    platform_static_stiffness,
+)
+from cdpr_struct.dynamics.taut_cable_expansion import expand_taut_cables
+from cdpr_struct.dynamics.taut_cables import taut_cables
+from tests.conftest import at_rest
+
+POSES = ([0.0, 0.0, 0.5], [1.3, -0.8, 0.9], [-2.5, 2.0, 0.5])
+ROBOTS = ("thesis-3-1", "thesis-3-1-8mm", "cogiro")
+
+
+@pytest.fixture(scope="module", params=[(r, p) for r in ROBOTS for p in POSES], ids=str)
+def point(request):
+    return at_rest(request.param[0], np.array(request.param[1]))
+
+
+@pytest.fixture(scope="module", params=["dsm", "exact"])
+def model(request):
+    return request.param
+
+
+def test_platform_stiffness_is_symmetric(point, model):
+    """A symmetric matrix is what reciprocity asks for; the weight's and the cables' moments must cancel for it."""
+    cables = cable_dynamics(point, model)
+    for stiffness in (platform_static_stiffness(point), platform_dynamic_stiffness(point, cables, np.array([300.0]))):
+        np.testing.assert_allclose(stiffness, stiffness.T, atol=1e-9 * np.abs(stiffness).max())
+
+
+def test_dsm_at_rest_is_near_the_static_stiffness(point):
+    """At omega = 0 the DSM differs from the catenary's tangent by terms of order epsilon only."""
+    dynamic = platform_dynamic_stiffness(point, cable_dynamics(point, "dsm"), np.zeros(1))
+    static = platform_static_stiffness(point)
+    scale = np.sqrt(np.outer(np.diag(static), np.diag(static)))
+    assert np.abs((dynamic - static) / scale).max() < 3.0 * taut_cables(point).epsilon.max()
+
+
+def test_exact_model_at_rest_is_the_static_stiffness_of_its_own_field(point):
+    """The catenary's closed-form compliance (2.24)-(2.26) and the spectral solution of its equations agree."""
+    exact = cable_dynamics(point, "exact").full
+    tiny = exact.stiffness(np.full(1, 1e-12))
+    spectral = _static_from_spectral(point)
+    np.testing.assert_allclose(spectral, tiny, rtol=1e-8, atol=1e-8 * np.abs(tiny).max())
+
+
+def _static_from_spectral(point):
+    """Force at the moving end of the static shapes: K = integral of shape'^T D shape', by the divergence theorem."""
+    exact = cable_dynamics(point, "exact").full
+    h = 1e-5
+    static, _ = exact.shapes(np.array([1.0 - 2.0 * h, 1.0 - h, 1.0]))
+    slope = (3.0 * static[:, 2] - 4.0 * static[:, 1] + static[:, 0]) / (2.0 * h)
+    cables = point.cables
+    force = np.stack([cables.force_x, np.zeros_like(cables.force_x), cables.force_z], axis=-1)
+    tension = np.linalg.norm(force, axis=-1)
+    tangent = force / tension[:, None]
+    outer = tangent[:, :, None] * tangent[:, None, :]
+    along = cables.axial_stiffness[..., None, None] * outer
+    across = (tension / (1.0 + tension / cables.axial_stiffness))[:, None, None] * (np.eye(3) - outer)
+    local = (along + across) @ slope / cables.length[:, None, None]
+    return exact.frame @ local @ np.swapaxes(exact.frame, -1, -2)
+
+
+def test_a_damped_platform_never_gives_energy(point, model):
+    """Passivity: the imaginary part of K is positive semi-definite at every omega > 0."""
+    cables = cable_dynamics(point, model, 120.0)
+    omega = np.linspace(1.0, 120.0, 400)
+    squared = damped(cables, point.robot.damping_ratio, omega[:, None])
+    stiffness = platform_dynamic_stiffness(point, cables, squared)
+    dissipation = np.linalg.eigvalsh(stiffness.imag)
+    assert dissipation.min() > -1e-9 * np.abs(stiffness).max()
+    assert dissipation.max() > 0.0
+
+
+def test_closed_form_is_its_modal_expansion(point):
+    """Closed form and expansion of the taut cable are the same cable; what is left is the tail of the series."""
+    cables = taut_cables(point)
+    omega2 = (1.37 * np.pi * cables.frequency_scale) ** 2
+    local = _in_chord_axes(cables, expand_taut_cables(cables, 60).stiffness(omega2))
+    closed = _in_chord_axes(cables, cable_dynamics(point, "dsm").stiffness(omega2))
+    stiff = np.abs(closed[:, 1:, 1:]).max()
+    assert np.abs(local - closed)[:, 1:, 1:].max() < 2e-5 * stiff
+    np.testing.assert_allclose(local[:, 0, 0], closed[:, 0, 0], rtol=1e-6)
+    np.testing.assert_allclose(local[:, 0, 2], closed[:, 0, 2], rtol=2e-4, atol=1e-5 * stiff)
+
+
+def _in_chord_axes(cables, stiffness):
+    return np.swapaxes(cables.frame, -1, -2) @ stiffness @ cables.frame
+
+
+def test_count_jumps_by_one_at_every_natural_frequency(point, model):
+    cables = cable_dynamics(point, model, 80.0)
+    found = natural_frequencies(point, cables, 45)
+    assert found.certified
+    omega = 2.0 * np.pi * found.hertz
+    assert (count_below(point, cables, omega * (1.0 - 1e-9)) < np.arange(1, 46)).all()
+    assert (count_below(point, cables, omega * (1.0 + 1e-9)) >= np.arange(1, 46)).all()
+
+
+def test_ritz_frequencies_bound_the_certified_ones_from_above(point, model):
+    """Two ways through the same model: the count of the transcendental matrix, and an ordinary eigenproblem."""
+    highest = highest_omega(point, cable_dynamics(point, model), 40)
+    cables = cable_dynamics(point, model, highest)
+    certified = natural_frequencies(point, cables, 40).hertz
+    ritz = mode_shapes(point, cables, 40, highest, np.array([0.5])).hertz
+    assert (ritz > certified * (1.0 - 1e-9)).all()
+    np.testing.assert_allclose(ritz, certified, rtol=2e-4 if model == "dsm" else 1e-9)
+
+
+def test_energy_shares_sum_to_one(point, model):
+    modes = mode_shapes(point, cable_dynamics(point, model), 30, 60.0, np.linspace(0.1, 0.9, 5))
+    np.testing.assert_allclose(modes.platform_energy + modes.cable_energy.sum(axis=1), 1.0, atol=1e-9)
+    assert modes.platform_energy.min() > -1e-12
+
+
+def test_clamped_count_steps_at_the_listed_frequencies(point):
+    cables = taut_cables(point)
+    symmetric = symmetric_roots(cables.lambda_squared, 4)
+    for i, scale in enumerate(cables.frequency_scale):
+        n = np.arange(1, 9)
+        every = np.sort(np.concatenate([np.pi * n, 2.0 * np.pi * n[:4], symmetric[i]]))
+        apart = np.flatnonzero(np.diff(every[:9]) > 1e-6)
+        omega = 0.5 * (every[apart] + every[apart + 1]) * scale
+        expected = [(every * scale < w).sum() for w in omega]
+        assert clamped_count(cables, omega[:, None])[:, i].tolist() == expected
+
+
+def test_static_frequencies_are_rayleigh_quotients(point):
+    """sum of omega^2 is the trace of M^-1 K."""
+    hertz = static_frequencies(point)
+    trace = np.trace(
+        np.linalg.solve(platform_mass_matrix(point.robot, point.rotation), platform_static_stiffness(point))
+    )
+    assert ((2.0 * np.pi * hertz) ** 2).sum() == pytest.approx(trace, rel=1e-9)
+
+
+def test_geometric_term_is_absent_from_the_thesis_assembly(point):
+    difference = platform_static_stiffness(point) - platform_static_stiffness(point, "thesis")
+    np.testing.assert_allclose(difference[3:, 3:], geometric_stiffness(point), atol=1e-6)
+    assert np.abs(difference[:3]).max() == 0.0
+    assert np.abs(difference[3:, 3:]).max() > 0.0
