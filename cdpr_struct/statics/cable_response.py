@@ -25,6 +25,11 @@ class CableResponse:
     frame_matrix: np.ndarray
 
 
+def end_stiffness(arrays: RobotArrays, states: CableStates) -> np.ndarray:
+    """(..., m, 3, 3) stiffness of each cable at its platform end, its pulley included, world [N/m]."""
+    return cable_response(arrays, states).stiffness if arrays.has_pulleys else cable_stiffness(states)
+
+
 def cable_response(arrays: RobotArrays, states: CableStates) -> CableResponse:
     """Exact derivatives of the static cable forces.
 

@@ -41,7 +41,6 @@ class EnergyDescent:
     """State of the descent; fields are arrays over the flat batch (n).
 
     position, rotation, wrench : the last accepted pose and its wrench
-    eigenvalues : (n, 6) of the tangent there, ascending, in scaled coordinates [N/m]
     converged, iterations : (n,)
     """
 
@@ -52,11 +51,6 @@ class EnergyDescent:
         self.wrench, self.tangent = first.wrench, first.tangent
         self.converged = self._small(first)
         self.iterations = np.zeros(len(position), dtype=int)
-
-    @property
-    def eigenvalues(self) -> np.ndarray:
-        """(n, 6) ascending."""
-        return np.linalg.eigvalsh(self._scaled(self.tangent))
 
     def run(self, limit: int) -> None:
         """Step every item that is not balanced until it is, at most `limit` evaluations each."""
@@ -84,19 +78,24 @@ class EnergyDescent:
             scaled = self._scaled(self.tangent[items[fresh]])
             step[fresh] = newton_step(scaled, self.wrench[items[fresh]] / self.unit, self.unit[-1])
 
-    def leave_saddles(self, limit: int, attempts: int = 3) -> None:
-        """Push balanced but unstable items along their softest motion and descend again."""
+    def leave_saddles(self, limit: int, attempts: int = 3) -> np.ndarray:
+        """Push balanced but unstable items along their softest motion and descend again.
+
+        Returns the eigenvalues of the tangent (n, 6), ascending, in scaled coordinates [N/m].
+        """
+        values = np.linalg.eigvalsh(self._scaled(self.tangent))
         for _ in range(attempts):
-            values, vectors = np.linalg.eigh(self._scaled(self.tangent))
-            saddle = self.converged & (values[:, 0] < -1e-9 * np.abs(values[:, -1]))
-            if not saddle.any():
-                return
-            items = np.flatnonzero(saddle)
-            self.position[items], self.rotation[items] = self._moved(items, _PUSH * vectors[items, :, 0])
+            items = np.flatnonzero(self.converged & (values[:, 0] < -1e-9 * np.abs(values[:, -1])))
+            if not items.size:
+                break
+            softest = np.linalg.eigh(self._scaled(self.tangent[items]))[1][:, :, 0]
+            self.position[items], self.rotation[items] = self._moved(items, _PUSH * softest)
             there = self.balance.take(items).evaluate(self.position[items], self.rotation[items])
             self.wrench[items], self.tangent[items] = there.wrench, there.tangent
             self.converged[items] = False
             self.run(limit)
+            values[items] = np.linalg.eigvalsh(self._scaled(self.tangent[items]))
+        return values
 
     def _small(self, there: Evaluation) -> np.ndarray:
         return np.linalg.norm(there.wrench / self.unit, axis=-1) <= there.tolerance

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.generated.platform import attachment, geometric_stiffness
-from cdpr_struct.statics.cable_response import cable_response
+from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
@@ -58,7 +58,7 @@ def tangent_stiffness(arrays: RobotArrays, states: CableStates, arms: PlatformAr
     constant twists; `moment_skew` turns it into the derivative of the wrench.
     """
     map_ = attachment(*np.moveaxis(arms.arms, -1, 0))
-    stiff = cable_response(arrays, states).stiffness
+    stiff = end_stiffness(arrays, states)
     m = arrays.cable_count
     lead = stiff.shape[:-3]
     stacked, carried = map_.reshape((*map_.shape[:-3], 3 * m, 6)), (stiff @ map_).reshape((*lead, 3 * m, 6))

@@ -119,8 +119,7 @@ def forward(
     )
     descent = EnergyDescent(balance, _flat(start, shape, 1), _flat(turn, shape, 2), arm_scale(arrays))
     descent.run(MAX_ITERATIONS)
-    descent.leave_saddles(MAX_ITERATIONS)
-    return _solution(descent, balance, shape)
+    return _solution(descent, balance, descent.leave_saddles(MAX_ITERATIONS), shape)
 
 
 def starting_position(arrays: RobotArrays, length: np.ndarray) -> np.ndarray:
@@ -165,12 +164,14 @@ def _flat(value: np.ndarray, shape: tuple[int, ...], core_axes: int) -> np.ndarr
     return np.array(np.broadcast_to(value, shape + core)).reshape((-1, *core))
 
 
-def _solution(descent: EnergyDescent, balance: _Balance, shape: tuple[int, ...]) -> ForwardSolution:
+def _solution(
+    descent: EnergyDescent, balance: _Balance, eigenvalues: np.ndarray, shape: tuple[int, ...]
+) -> ForwardSolution:
     states = balance.states(descent.position, descent.rotation)
     cables = CableStates(
         *(getattr(states, name).reshape(shape + getattr(states, name).shape[1:]) for name in states.__slots__)
     )
-    neutral = descent.eigenvalues[:, 0] <= NEUTRAL * descent.eigenvalues[:, -1]
+    neutral = eigenvalues[:, 0] <= NEUTRAL * eigenvalues[:, -1]
     status = np.where(neutral, ForwardStatus.NOT_STABLE, ForwardStatus.CONVERGED)
     status[~descent.converged] = ForwardStatus.NOT_CONVERGED
     return ForwardSolution(
@@ -178,7 +179,7 @@ def _solution(descent: EnergyDescent, balance: _Balance, shape: tuple[int, ...])
         rotation=descent.rotation.reshape((*shape, 3, 3)),
         cables=cables,
         residual_wrench=descent.wrench.reshape((*shape, 6)),
-        least_stiffness=descent.eigenvalues[:, 0].reshape(shape),
+        least_stiffness=eigenvalues[:, 0].reshape(shape),
         iterations=descent.iterations.reshape(shape),
         status=status.reshape(shape),
     )

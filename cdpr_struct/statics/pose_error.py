@@ -16,7 +16,7 @@ from cdpr_struct.statics.equilibrium import PlatformArms
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
-CONTINUATION = (100.0, 10.0, 3.0)  # times EA: stations between the ideal reference and the spring model
+CONTINUATION = (30.0, 4.0)  # times EA: stations between the ideal reference and the spring model
 SAME_POSE = 1e-6  # [m], [rad]
 
 

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from cdpr_struct.generated.platform import attachment
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.cable_response import cable_response
+from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, moment_skew, tangent_stiffness, weight_wrench
 from cdpr_struct.statics.robot_arrays import RobotArrays
@@ -85,7 +85,7 @@ def _compliance_parts(
     arrays: RobotArrays, cables: CableStates, arms: PlatformArms, matrix: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Axial and sag part of the robot's compliance by the work that cable force changes do on each cable's parts."""
-    force_change = cable_response(arrays, cables).stiffness @ attachment(*np.moveaxis(arms.arms, -1, 0))
+    force_change = end_stiffness(arrays, cables) @ attachment(*np.moveaxis(arms.arms, -1, 0))
     in_plane = np.zeros((*cables.length.shape, 2, 3))
     in_plane[..., 0, :] = cables.heading
     in_plane[..., 1, 2] = 1.0
