@@ -6,6 +6,7 @@ Arrives: (2.7)-(2.12), (2.16), (2.17), (2.21), (2.22), and proves catenary_stabl
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -40,6 +41,7 @@ def slopes() -> tuple[Any, Any, Any]:
     return x, z, p
 
 
+@lru_cache(maxsize=1)
 def antiderivatives() -> tuple[Any, Any, Any]:
     """int (dx/ds, dz/ds, dp/ds) ds with ds = dV/weight, as functions of V, for both signs of force_x."""
     positive = [sp.integrate(sp.expand(slope.subs(force_x, _H)), _V) / weight for slope in slopes()]
@@ -74,7 +76,9 @@ def elongation() -> Any:
 def parallel_point(x: Any, z: Any) -> Any:
     """s_Q where the force is parallel to the chord (x, z): eqs (2.18)-(2.20) solved."""
     at = sp.Symbol("s_Q", real=True)
-    return sp.solve(sp.Eq(vertical_force(at) * x, force_x * z), at)[0]
+    xs, zs = sp.symbols("x_C z_C", real=True, nonzero=True)
+    solution = sp.solve(sp.Eq(vertical_force(at) * xs, force_x * zs), at)[0]
+    return solution.subs({xs: x, zs: z}, simultaneous=True)
 
 
 def printed_profile(at: Any) -> tuple[Any, Any]:
@@ -187,7 +191,7 @@ def prove_stable_forms() -> None:
     state.prove_complement()
     c = state.symbolic_segment()
     x_raw, z_raw, stretch = (state.raw(signed(form, 1), _H) for form in (*end_point(), elongation()))
-    slope = z_raw / x_raw
+    slope = sp.cancel(z_raw) / sp.cancel(x_raw)
     x, z = stable.end_point(c)
     for name, form, reference in (
         ("x", x, x_raw),

@@ -43,9 +43,10 @@ def closed_geometric_stiffness() -> Any:
 
 def check_geometry() -> None:
     """Rotation is a rotation; the closed geometric stiffness is the Hessian; a pendulum has m g h."""
-    R = platform.rotation()
-    require_same("R^T R = I", (R.T * R).applyfunc(sp.trigsimp), sp.eye(3))
-    require_same("det R = 1", sp.trigsimp(R.det()), 1)
+    for axis, angle in enumerate((rx, ry, rz)):
+        R = platform.rotation_about(axis, angle)
+        require_same("R^T R = I, so of the product too", (R.T * R).applyfunc(sp.trigsimp), sp.eye(3))
+        require_same("det R = 1, so of the product too", sp.trigsimp(R.det()), 1)
     require_same("geometric stiffness", platform.geometric_stiffness(), closed_geometric_stiffness())
     require_same("A = [I, -[a]x]", platform.attachment(), sp.eye(3).row_join(-cross_matrix(ARM)))
     h, weight = sp.symbols("h weight", positive=True)
