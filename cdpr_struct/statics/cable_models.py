@@ -40,6 +40,9 @@ class CableModel(Protocol):
 
     name: str
 
+    def approach(self) -> "tuple[CableModel, ...]":
+        """Models to go through, the last is this one: forward kinematics takes each solution as the next start."""
+
     def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
         """State of cables of unstrained `length` (..., m) [m] that end at `points` (..., m, 3), world [m]."""
 
@@ -54,6 +57,9 @@ class SpringModel:
     """Straight weightless spring that cannot push."""
 
     name = "spring"
+
+    def approach(self) -> "tuple[CableModel, ...]":
+        return (self,)
 
     def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
         exit_ = _straight(arrays, points)
@@ -80,14 +86,22 @@ class IdealModel(SpringModel):
 
     name = "ideal"
 
+    def __init__(self, stiffening: float = IDEAL_STIFFENING) -> None:
+        self.stiffening = stiffening
+
+    def approach(self) -> "tuple[CableModel, ...]":
+        """Models of growing stiffness that lead here, each the next one's start."""
+        return (SpringModel(), *(IdealModel(factor) for factor in (1e1, 1e2, 1e3, 1e4, 1e5)), self)
+
     def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
-        return super().states(_stiffened(arrays), points, length)
+        stiff = replace(arrays, axial_stiffness=arrays.axial_stiffness * self.stiffening)
+        return super().states(stiff, points, length)
 
     def hold(self, arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> HeldCables:
         held = super().hold(arrays, points, chord_tension)
         exit_ = _straight(arrays, points)
         states = replace(held.states, length=exit_.chord, wrapped_length=exit_.wrapped)
-        stiff = states.axial_stiffness * IDEAL_STIFFENING
+        stiff = states.axial_stiffness * self.stiffening
         return replace(held, states=replace(states, axial_stiffness=stiff))
 
 
@@ -95,6 +109,9 @@ class SaggingModel:
     """Elastic catenary, eqs. (2.11)-(2.12)."""
 
     name = "sagging"
+
+    def approach(self) -> "tuple[CableModel, ...]":
+        return (self,)
 
     def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
         offset = points - arrays.frame_anchors
@@ -167,18 +184,12 @@ def _straight_states(
     )  # fmt: skip
 
 
-def _stiffened(arrays: RobotArrays) -> RobotArrays:
-    return replace(arrays, axial_stiffness=arrays.axial_stiffness * IDEAL_STIFFENING)
-
-
 def _catenary(arrays: RobotArrays, offset: np.ndarray, length: np.ndarray, wrapped: np.ndarray) -> CableStates:
     heading, span = heading_and_span(offset)
     stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
     weight = np.broadcast_to(arrays.weight, length.shape)
     forces = solve_end_forces(span, offset[..., 2], length, stiff, weight)
-    return CableStates(
-        offset, heading, length, wrapped, forces.force_x, forces.force_z, stiff, weight, forces.status
-    )
+    return CableStates(offset, heading, length, wrapped, forces.force_x, forces.force_z, stiff, weight, forces.status)
 
 
 def _catenary_over_pulley(arrays: RobotArrays, offset: np.ndarray, length: np.ndarray) -> CableStates:

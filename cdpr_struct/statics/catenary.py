@@ -105,7 +105,7 @@ class _SpanEquation:
         return t, d * (d + 2.0 * self.omega), c * (c + 2.0 * self.rise), excess
 
     def start(self) -> np.ndarray:
-        """First p: the taut cable's cubic t^3 - (chord - 1) t^2 - kappa = 0, or the inextensible catenary's slack limit."""
+        """First p: the taut cable's cubic t^3 - (chord - 1) t^2 - kappa = 0, or the slack inextensible catenary."""
         chord = np.hypot(self.span, self.rise)
         excess = chord - 1.0
         kappa = (self.omega * self.span / chord) ** 2 / 6.0
@@ -222,4 +222,3 @@ def _solve_span(equation: _SpanEquation) -> tuple[np.ndarray, np.ndarray]:
         iterations[open_items] = count
         open_items = open_items[~done & (high[open_items] - low[open_items] > 1e-15 * (1.0 + np.abs(here)))]
     return np.exp(y), iterations
-

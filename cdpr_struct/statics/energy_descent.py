@@ -109,7 +109,7 @@ class EnergyDescent:
 
 
 def newton_step(tangent: np.ndarray, wrench: np.ndarray, scale: float) -> np.ndarray:
-    """Descent steps (n, 6), scaled coordinates: Newton where the tangent is positive, else with its eigenvalues made so."""
+    """Descent steps (n, 6) in scaled coordinates: Newton where the tangent is positive, else made positive."""
     trace = np.maximum(np.einsum("nii->n", np.abs(tangent)), 1e-300)
     regular = tangent + (1e-14 * trace)[:, None, None] * np.eye(6)
     step = np.linalg.solve(regular, wrench[..., None])[..., 0]

@@ -114,11 +114,12 @@ def forward(
     turn = np.eye(3) if rotation is None else np.asarray(rotation, dtype=float)
     cores = (length.shape[:-1], wrench.shape[:-1], start.shape[:-1], turn.shape[:-2], arrays.batch_shape)
     shape = np.broadcast_shapes(*cores)
-    balance = _Balance(
-        arrays.flattened(shape), _flat(length, shape, 1), _flat(wrench, shape, 1), cable_model(model)
-    )
-    descent = EnergyDescent(balance, _flat(start, shape, 1), _flat(turn, shape, 2), arm_scale(arrays))
-    descent.run(MAX_ITERATIONS)
+    place, turns = _flat(start, shape, 1), _flat(turn, shape, 2)
+    for station in cable_model(model).approach():
+        balance = _Balance(arrays.flattened(shape), _flat(length, shape, 1), _flat(wrench, shape, 1), station)
+        descent = EnergyDescent(balance, place, turns, arm_scale(arrays))
+        descent.run(MAX_ITERATIONS)
+        place, turns = descent.position, descent.rotation
     return _solution(descent, balance, descent.leave_saddles(MAX_ITERATIONS), shape)
 
 
@@ -142,9 +143,7 @@ class _Balance:
     model: CableModel
 
     def take(self, index: np.ndarray) -> "_Balance":
-        return replace(
-            self, arrays=self.arrays.take(index), length=self.length[index], wrench=self.wrench[index]
-        )
+        return replace(self, arrays=self.arrays.take(index), length=self.length[index], wrench=self.wrench[index])
 
     def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation:
         arms = PlatformArms.at(self.arrays, position, rotation)

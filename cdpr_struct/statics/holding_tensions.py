@@ -76,11 +76,12 @@ class HoldingProblem:
         return tension, iterations, settled
 
     def straight_tensions(self, high: np.ndarray) -> np.ndarray:
-        """(k, m) least-norm tensions [N] of straight cables within `low` and `high`, as far as they balance the load."""
+        """(k, m) least-norm tensions [N] of straight cables within the bounds, as far as they balance the load."""
         least = self._least()
         low = np.maximum(self.low, _TAUT * least)
         ones = np.ones_like(low)
-        tension = self._program(ones, 0.0 * ones, self._straight_matrix(), self.load, low, np.maximum(high, 2.0 * low))[0]
+        top = np.maximum(high, 2.0 * low)
+        tension, _ = self._program(ones, 0.0 * ones, self._straight_matrix(), self.load, low, top)
         return np.maximum(tension, 1e-9 * np.linalg.norm(self.load, axis=1, keepdims=True))
 
     def unbounded_tensions(self) -> tuple[np.ndarray, np.ndarray]:

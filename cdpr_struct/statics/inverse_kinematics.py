@@ -102,7 +102,8 @@ def inverse(
     shape = np.broadcast_shapes(*cores)
     flat = [np.broadcast_to(a, shape + a.shape[-1:]).reshape((-1, a.shape[-1])) for a in (place, load, low, high)]
     turns = np.broadcast_to(turn, (*shape, 3, 3)).reshape((-1, 3, 3))
-    problem = HoldingProblem.at(arrays.flattened(shape), cable_model(model), (flat[0], turns), flat[1], (flat[2], flat[3]))
+    pose, bounds = (flat[0], turns), (flat[2], flat[3])
+    problem = HoldingProblem.at(arrays.flattened(shape), cable_model(model), pose, flat[1], bounds)
     solution = _solve(problem)
     if not allow_unheld and not solution.held.all():
         raise unholdable(problem, solution.held, solution.residual_wrench)
@@ -139,7 +140,8 @@ def _solve(problem: HoldingProblem) -> InverseSolution:
     size = np.linalg.norm(problem.load / problem.unit, axis=1) + states.tension_at_platform.sum(axis=1)
     balanced = np.linalg.norm(residual / problem.unit, axis=1) <= BALANCED * size
     pull = states.tension_at_platform
-    inside = ((pull >= problem.low - BALANCED * size[:, None]) & (pull <= problem.high + BALANCED * size[:, None])).all(axis=1)
+    margin = BALANCED * size[:, None]
+    inside = ((pull >= problem.low - margin) & (pull <= problem.high + margin)).all(axis=1)
     status = np.where(balanced & inside, InverseStatus.HELD, InverseStatus.UNHOLDABLE)
     status[(status == InverseStatus.HELD) & ~settled] = InverseStatus.NOT_CONVERGED
     return InverseSolution(states, residual, status, iterations)

@@ -66,7 +66,8 @@ def sufficient_load(
         if np.isnan(mass[0]) or mass[0] == mass[1]:
             break
         fine = np.linspace(mass[0], mass[1], _LADDER)
-        mass = _last_crossing(fine, np.abs(pose_error(robot, position, rotation, mass=fine).sag_error @ axis), tolerance)
+        sag_error = pose_error(robot, position, rotation, mass=fine).sag_error
+        mass = _last_crossing(fine, np.abs(sag_error @ axis), tolerance)
     return SufficientLoad(mass[1], tolerance, masses, ladder.sag_error, ladder.axial_error, ladder.global_error)
 
 
