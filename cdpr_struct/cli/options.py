@@ -8,6 +8,7 @@ import typer
 from cdpr_struct.errors import InputError
 
 if TYPE_CHECKING:
+    from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
     from cdpr_struct.robot.pose import Pose
     from cdpr_struct.robot.robot import Robot
 
@@ -38,6 +39,13 @@ PoseText = Annotated[
     str | None,
     typer.Option("--pose", metavar="X,Y,Z[,RX,RY,RZ]", help="Pose [m, deg]; default: the robot's home pose."),
 ]
+Lengths = Annotated[
+    str | None, typer.Option("--lengths", metavar="L1,..,Lm", help="Locked unstrained lengths [m], in place of --pose.")
+]
+LowerBound = Annotated[
+    float, typer.Option("--lower-bound", parser=number, metavar="N", help="Smallest cable force at the platform [N].")
+]
+AssemblyName = Annotated[str, typer.Option("--assembly", help="consistent, or thesis (eq. 3.8 as printed).")]
 Payload = Annotated[
     float, typer.Option("--payload", parser=number, metavar="KG", help="Point load at the platform origin [kg].")
 ]
@@ -84,3 +92,15 @@ def read_pose(text: str | None, robot: "Robot") -> "Pose":
     if robot.home is None:
         raise InputError("--pose", "", "nothing", f"robot {robot.name} has no home_pose, so give x,y,z[,rx,ry,rz]")
     return robot.home
+
+
+def read_assembly(text: str) -> "Assembly":
+    """The way the platform's stiffness is assembled.
+
+    Raises
+    ------
+    InputError : neither consistent nor thesis.
+    """
+    if text == "consistent" or text == "thesis":
+        return text
+    raise InputError("--assembly", "", text, "consistent or thesis")

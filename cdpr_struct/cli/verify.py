@@ -1,20 +1,23 @@
 """`cdpr-struct verify`: the DSM model on trial before the finite-element referee."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from cdpr_struct.cli.operating_point import rest_at
+from cdpr_struct.cli.operating_point import pose_in_degrees, rest
 from cdpr_struct.cli.options import (
+    AssemblyName,
     Json,
+    Lengths,
+    LowerBound,
     Mass,
     Out,
     Payload,
     PoseText,
     RobotName,
     number,
+    read_assembly,
     read_numbers,
-    read_pose,
     read_robot,
     whole_number,
 )
@@ -22,24 +25,21 @@ from cdpr_struct.cli.output import emit, result_json, write_files
 from cdpr_struct.cli.progress import steps
 from cdpr_struct.errors import InputError
 
-if TYPE_CHECKING:
-    pass
-
 NAME = "verify"
 
 
 def run(
     robot: RobotName,
     pose: PoseText = None,
+    lengths: Lengths = None,
+    lower_bound: LowerBound = 0.0,
     payload: Payload = 0.0,
     mass: Mass = None,
     elements: Annotated[str, typer.Option("--elements", help="Element counts per cable.")] = "10,20,40,80",
     modes: Annotated[
         int, typer.Option("--modes", parser=whole_number, help="How many eigenfrequencies to compare.")
     ] = 60,
-    assembly: Annotated[
-        str, typer.Option("--assembly", help="consistent, or thesis (eq. 3.8 as printed)")
-    ] = "consistent",
+    assembly: AssemblyName = "consistent",
     tolerance: Annotated[
         float, typer.Option("--tolerance", parser=number, help="Largest relative deviation from the FEM.")
     ] = 0.01,
@@ -50,19 +50,18 @@ def run(
     counts = read_elements(elements)
     if not 1 <= modes <= 200:
         raise InputError("--modes", "", modes, "give a number from 1 to 200")
-    if assembly != "consistent" and assembly != "thesis":
-        raise InputError("--assembly", "", assembly, "consistent or thesis")
     if not 0.0 < tolerance < 1.0:
         raise InputError("--tolerance", "", tolerance, "give a ratio between 0 and 1, like 0.01")
     machine = read_robot(robot, payload, mass)
-    where = read_pose(pose, machine)
+    way = read_assembly(assembly)
     from cdpr_struct.crosscheck.verification import Criteria, verify
     from cdpr_struct.reports.verification_result import verification_json
     from cdpr_struct.reports.verification_text import verification_text
 
     with steps(len(counts) + 2) as progress:
-        trial = verify(rest_at(machine, where), counts, modes, assembly, Criteria(relative_error=tolerance), progress)
-    result = verification_json(trial, where)
+        point = rest(machine, pose, lengths, lower_bound)
+        trial = verify(point, counts, modes, way, Criteria(relative_error=tolerance), progress)
+    result = verification_json(trial, pose_in_degrees(point))
     emit(result, json, lambda: print(verification_text(trial)))
     if out is not None:
         from cdpr_struct.reports.verification_page import verification_files

@@ -24,7 +24,7 @@ def to_fem(robot: Robot, lengths: np.ndarray) -> fem.RobotData:
 
 def solve_in_fem(point: OperatingPoint, elements: int) -> fem.RobotEquilibrium:
     """Equilibrium that the referee finds at the same unstrained lengths, started from the point's pose."""
-    data = to_fem(point.robot, point.cables.length)
+    data = to_fem(point.robot, point.cables.total_length)
     return fem.solve_robot(data, point.position, point.rotation, elements)
 
 

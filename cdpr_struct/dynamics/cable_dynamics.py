@@ -10,17 +10,19 @@ from typing import Literal, Protocol, get_args
 
 import numpy as np
 
-from cdpr_struct.dynamics.catenary_expansion import expand_catenaries
+from cdpr_struct.dynamics.catenary_expansion import FrameEnds, expand_catenaries
 from cdpr_struct.dynamics.clamped_cable import clamped_count
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.taut_cable_expansion import expand_taut_cables
 from cdpr_struct.dynamics.taut_cables import TautCables, closed_form_stiffness, taut_cables
 from cdpr_struct.generated.cable_dsm import damped_omega_squared
-from cdpr_struct.statics.cable_state import cable_stiffness
+from cdpr_struct.statics.cable_response import end_stiffness
+from cdpr_struct.statics.robot_arrays import RobotArrays
 
 CableModel = Literal["static", "dsm", "exact"]
 CABLE_MODELS: tuple[CableModel, ...] = get_args(CableModel)
+_SHORT = 1e-9  # of a cable's length: what is shorter gives way no more than a fixed point
 
 
 class CableDynamics(Protocol):
@@ -52,7 +54,8 @@ def cable_dynamics(point: OperatingPoint, model: CableModel, highest_omega: floa
     cables = point.cables
     half_waves = highest_omega / _first_frequency(point).min()
     order = int(np.clip(2.0 * half_waves + 24.0, 32.0, 400.0))
-    return CatenaryCables(point, expand_catenaries(cables, point.robot.linear_density, order))
+    stiffness = end_stiffness(RobotArrays.of(point.robot), cables)
+    return CatenaryCables(expand_catenaries(cables, point.robot.linear_density, order, stiffness, _frame_ends(point)))
 
 
 def damped(cables: CableDynamics, damping_ratio: np.ndarray, omega: np.ndarray) -> np.ndarray:
@@ -68,6 +71,28 @@ def _first_frequency(point: OperatingPoint) -> np.ndarray:
     return np.pi / cables.chord * np.sqrt(cables.tension / point.robot.linear_density)
 
 
+def _frame_ends(point: OperatingPoint) -> FrameEnds | None:
+    """What pulleys add: stretch of the wrapped cable along the exit tangent, and the swivel across the wheel's plane.
+
+    A cable that leaves the wheel at the angle phi from the axis pulls the swivelling wheel back with
+    T sin(phi) / (R (1 - cos(phi))). In the wheel's plane, rolling on or off the wheel is of second order: the exit is
+    a fixed point.
+    """
+    arrays = RobotArrays.of(point.robot)
+    if not arrays.has_pulleys:
+        return None
+    cables = point.cables
+    tension = cables.tension_at_frame
+    tangent = cables.force_at_frame / tension[:, None]
+    cos = np.einsum("mi,mi->m", tangent, arrays.pulley_axis)
+    across = np.cross(arrays.pulley_axis, tangent)
+    sin = np.linalg.norm(across, axis=-1)
+    axial = arrays.axial_stiffness / np.maximum(cables.wrapped_length, _SHORT * cables.length)
+    arm = np.maximum(arrays.pulley_radius * (1.0 - cos), _SHORT * cables.length)
+    directions = np.stack([tangent, across / sin[:, None]], axis=-1)
+    return FrameEnds(directions, np.stack([axial, tension * sin / arm], axis=-1))
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class StaticCables:
     """Massless cables."""
@@ -80,7 +105,7 @@ class StaticCables:
         return np.full(len(self.point.robot.cables), np.inf)
 
     def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
-        static = cable_stiffness(self.point.cables)
+        static = self._ends
         return np.broadcast_to(static, (*np.shape(omega_squared)[:-1], *static.shape))
 
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
@@ -95,7 +120,11 @@ class StaticCables:
 
         world = np.broadcast_to(np.eye(3), (m, 3, 3))
         nothing = np.zeros((m, 3, 3)), np.zeros((m, 0)), np.zeros((m, 0, 3))
-        return ModalExpansion(world, cable_stiffness(self.point.cables), *nothing, shapes)
+        return ModalExpansion(world, self._ends, *nothing, shapes)
+
+    @property
+    def _ends(self) -> np.ndarray:
+        return end_stiffness(RobotArrays.of(self.point.robot), self.point.cables)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -123,7 +152,6 @@ class ClosedFormCables:
 class CatenaryCables:
     """The linearised elastic catenary."""
 
-    point: OperatingPoint
     full: ModalExpansion
 
     @property

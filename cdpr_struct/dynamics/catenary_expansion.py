@@ -14,14 +14,27 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
-from cdpr_struct.statics.cable_state import CableStates, cable_stiffness
+from cdpr_struct.statics.cable_state import CableStates
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FrameEnds:
+    """How far the frame ends of m cables can give way: q directions each, held by springs; not at all in others.
+
+    directions : (m, 3, q) orthonormal columns, world
+    stiffness  : (m, q) [N/m]
+    """
+
+    directions: np.ndarray
+    stiffness: np.ndarray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Plane:
-    """Motion components that are coupled with each other: i bubbles, c components, p modes.
+    """Motion components that are coupled with each other: i functions, c components, p modes.
 
-    omega_squared (m, p); modes (m, i, c, p); static (m, i, c, c); end_mass (m, c, c); coupling (m, p, c)
+    omega_squared (m, p); modes (m, i, c, p); static (m, i, c, c); end_mass (m, c, c); coupling (m, p, c).
+    The functions are those of `_basis` without the moving end's.
     """
 
     components: tuple[int, ...]
@@ -32,28 +45,43 @@ class _Plane:
     coupling: np.ndarray
 
 
-def expand_catenaries(cables: CableStates, linear_density: np.ndarray, order: int) -> ModalExpansion:
-    """Expansion of m cables (m,) with 3 (order - 1) modes each, all that the polynomials span.
+def expand_catenaries(
+    cables: CableStates,
+    linear_density: np.ndarray,
+    order: int,
+    end_stiffness: np.ndarray,
+    frame_ends: FrameEnds | None = None,
+) -> ModalExpansion:
+    """Expansion of m cables (m,) with all the modes that the polynomials span, 3 (order - 1) for fixed frame ends.
 
     Local axes: x along the heading (horizontal, from the frame to the platform), y across, z up. Modes are sorted by
     frequency. About order / 2 half waves per plane are resolved to ten digits.
+
+    Parameters
+    ----------
+    end_stiffness : (m, 3, 3) static stiffness of the platform ends, world [N/m]
+    frame_ends : None where all are fixed points
     """
-    nodes, weights = legendre.leggauss(2 * order + 24)
-    values, slopes = _basis(nodes, order)
-    in_plane, across = _stiffness_densities(cables, nodes)
+    frame = _frame(cables)
+    to_local = np.swapaxes(frame, -1, -2)
+    values, slopes, weights = _quadrature(order)
+    density = _stiffness_density(cables, 2 * order + 24)
     scale = (2.0 / cables.length)[:, None] * weights
     mass = np.einsum("iq,jq,q->ij", values, values, weights)
     half_mass = 0.5 * linear_density * cables.length
+    directions = None if frame_ends is None else to_local @ frame_ends.directions
+    springs = None if frame_ends is None else frame_ends.stiffness
     planes = []
-    for components, density in (((0, 2), in_plane), ((1,), across[..., None, None])):
-        stiffness = np.einsum("iq,mqab,jq,mq->miajb", slopes, density, slopes, scale, optimize=True)
-        planes.append(_condense(components, stiffness, mass, half_mass))
+    for components in ((0, 2), (1,)) if frame_ends is None else ((0, 1, 2),):
+        own = density[..., components, :][..., components]
+        stiffness = np.einsum("iq,mqab,jq,mq->miajb", slopes, own, slopes, scale, optimize=True)
+        freedoms = _freedoms(order, len(components), directions)
+        planes.append(_condense(components, stiffness, mass, half_mass, freedoms, springs))
     omega_squared = np.concatenate([plane.omega_squared for plane in planes], axis=1)
     rank = np.argsort(omega_squared, axis=1)
-    frame = _frame(cables)
     return ModalExpansion(
         frame=frame,
-        static_stiffness=np.swapaxes(frame, -1, -2) @ cable_stiffness(cables) @ frame,
+        static_stiffness=to_local @ end_stiffness @ frame,
         end_mass=_end_mass(planes),
         omega_squared=np.take_along_axis(omega_squared, rank, axis=1),
         coupling=np.take_along_axis(_coupling(planes), rank[..., None], axis=1),
@@ -67,61 +95,87 @@ def _frame(cables: CableStates) -> np.ndarray:
 
 
 def _basis(xi: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
-    """Values and slopes (order, q): order - 1 bubbles, zero at both ends, then the moving end's ramp (1 + xi) / 2."""
+    """Values and slopes (order + 1, q): order - 1 bubbles, zero at both ends, then the ramps of frame and moving end."""
     polynomials = legendre.legvander(xi, order).T
     k = np.arange(2, order + 1)[:, None]
     bubbles = (polynomials[2:] - polynomials[:-2]) / np.sqrt(2.0 * (2 * k - 1))
     slopes = np.sqrt((2 * k - 1) / 2.0) * polynomials[1:-1]
-    return np.vstack([bubbles, 0.5 * (1.0 + xi)]), np.vstack([slopes, np.full_like(xi, 0.5)])
+    half = np.full_like(xi, 0.5)
+    return np.vstack([bubbles, 0.5 * (1.0 - xi), 0.5 * (1.0 + xi)]), np.vstack([slopes, -half, half])
 
 
-def _stiffness_densities(cables: CableStates, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """D in the cable plane (m, q, 2, 2) with axes (heading, up), and across it (m, q) [N]."""
+def _quadrature(order: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    nodes, weights = legendre.leggauss(2 * order + 24)
+    return (*_basis(nodes, order), weights)
+
+
+def _stiffness_density(cables: CableStates, points: int) -> np.ndarray:
+    """D (m, q, 3, 3) at the quadrature points, local axes (heading, across, up) [N]."""
+    nodes, _ = legendre.leggauss(points)
     hanging = cables.weight[:, None] * (0.5 * cables.length[:, None] * (1.0 - nodes))
     vertical = cables.force_z[:, None] - hanging
     horizontal = np.broadcast_to(cables.force_x[:, None], vertical.shape)
     tension = np.hypot(horizontal, vertical)
-    tangent = np.stack([horizontal, vertical], axis=-1) / tension[..., None]
+    tangent = np.stack([horizontal, np.zeros_like(vertical), vertical], axis=-1) / tension[..., None]
     along = np.broadcast_to(cables.axial_stiffness, cables.length.shape)[:, None]
     across = tension / (1.0 + tension / along)
     outer = tangent[..., :, None] * tangent[..., None, :]
-    plane = along[..., None, None] * outer + across[..., None, None] * (np.eye(2) - outer)
-    return plane, across
+    return along[..., None, None] * outer + across[..., None, None] * (np.eye(3) - outer)
+
+
+def _freedoms(order: int, size: int, frame_directions: np.ndarray | None) -> np.ndarray:
+    """(m or 1, (order + 1) size, n) columns: the free combinations of functions and components, the moving end last."""
+    bubbles, every = (order - 1) * size, np.eye((order + 1) * size)
+    if frame_directions is None:
+        return np.delete(every, np.s_[bubbles : bubbles + size], axis=1)[None]
+    count, _, q = frame_directions.shape
+    freedoms = np.zeros((count, len(every), len(every) - size + q))
+    freedoms[:, :bubbles, :bubbles] = np.eye(bubbles)
+    freedoms[:, bubbles : bubbles + size, bubbles : bubbles + q] = frame_directions
+    freedoms[:, -size:, -size:] = np.eye(size)
+    return freedoms
 
 
 def _condense(
-    components: tuple[int, ...], stiffness: np.ndarray, reference_mass: np.ndarray, half_mass: np.ndarray
+    components: tuple[int, ...],
+    stiffness: np.ndarray,
+    reference_mass: np.ndarray,
+    half_mass: np.ndarray,
+    freedoms: np.ndarray,
+    springs: np.ndarray | None,
 ) -> _Plane:
     """Static shapes of the moving end and modes of the clamped cable, from stiffness (m, i, c, i, c)."""
     m, count, size = len(half_mass), len(reference_mass), len(components)
-    stiffness = stiffness.reshape(m, count * size, count * size)
-    reference = np.kron(reference_mass, np.eye(size))
+    turned = np.swapaxes(freedoms, 1, 2)
+    stiffness = turned @ stiffness.reshape(m, count * size, count * size) @ freedoms
+    mass = turned @ np.kron(reference_mass, np.eye(size)) @ freedoms * half_mass[:, None, None]
     inner, end = slice(None, -size), slice(-size, None)
-    omega_squared, modes = _slow_modes_first(stiffness[:, inner, inner], reference[inner, inner], half_mass)
+    if springs is not None:
+        held = np.arange(stiffness.shape[-1] - size - springs.shape[1], stiffness.shape[-1] - size)
+        stiffness[:, held, held] += springs
+    omega_squared, modes = _slow_modes_first(stiffness[:, inner, inner], mass[:, inner, inner])
     static = -np.linalg.solve(stiffness[:, inner, inner], stiffness[:, inner, end])
-    carried = half_mass[:, None, None] * (reference[inner, end] + reference[inner, inner] @ static)
-    end_mass = half_mass[:, None, None] * (reference[end, end] + reference[end, inner] @ static)
+    carried = mass[:, inner, end] + mass[:, inner, inner] @ static
+    end_mass = mass[:, end, end] + mass[:, end, inner] @ static + np.swapaxes(static, 1, 2) @ carried
+    functions = freedoms[:, : (count - 1) * size, :-size]
     return _Plane(
         components,
         omega_squared,
-        modes.reshape(m, count - 1, size, -1),
-        static.reshape(m, count - 1, size, size),
-        end_mass + np.swapaxes(static, 1, 2) @ carried,
+        (functions @ modes).reshape(m, count - 1, size, -1),
+        (functions @ static).reshape(m, count - 1, size, size),
+        end_mass,
         np.swapaxes(modes, 1, 2) @ carried,
     )
 
 
-def _slow_modes_first(
-    stiffness: np.ndarray, reference_mass: np.ndarray, half_mass: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def _slow_modes_first(stiffness: np.ndarray, mass: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """omega^2 (m, p) ascending and modes (m, i, p) of unit modal mass, from the eigenproblem of 1 / omega^2.
 
     The fastest axial modes lie eight or more decades above the first transverse one; turned round, rounding falls on
     them and not on the slow modes.
     """
     inverse = np.linalg.inv(np.linalg.cholesky(stiffness))
-    compliance = half_mass[:, None, None] * (inverse @ reference_mass @ np.swapaxes(inverse, 1, 2))
-    periods, vectors = np.linalg.eigh(compliance)
+    periods, vectors = np.linalg.eigh(inverse @ mass @ np.swapaxes(inverse, 1, 2))
     periods, vectors = periods[:, ::-1], vectors[..., ::-1]
     periods = np.maximum(periods, np.finfo(float).eps * periods[:, :1])
     return 1.0 / periods, np.swapaxes(inverse, 1, 2) @ vectors / np.sqrt(periods)[:, None, :]
@@ -145,16 +199,16 @@ def _coupling(planes: list[_Plane]) -> np.ndarray:
 
 def _shapes(planes: list[_Plane], rank: np.ndarray, stations: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
     values, _ = _basis(2.0 * stations - 1.0, order)
-    bubbles, ramp = values[:-1], values[-1]
+    inner, ramp = values[:-1], values[-1]
     static = np.zeros((len(rank), len(stations), 3, 3))
     blocks = []
     for plane in planes:
-        own = np.einsum("is,miab->msab", bubbles, plane.static)
+        own = np.einsum("is,miab->msab", inner, plane.static)
         for a, row in enumerate(plane.components):
             for b, column in enumerate(plane.components):
                 static[:, :, row, column] = own[..., a, b] + (a == b) * ramp
         block = np.zeros((*plane.omega_squared.shape, len(stations), 3))
-        block[..., plane.components] = np.einsum("is,miap->mpsa", bubbles, plane.modes)
+        block[..., plane.components] = np.einsum("is,miap->mpsa", inner, plane.modes)
         blocks.append(block)
     modes = np.concatenate(blocks, axis=1)
     return static, np.take_along_axis(modes, rank[:, :, None, None], axis=1)

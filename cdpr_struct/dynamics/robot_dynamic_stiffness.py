@@ -8,7 +8,8 @@ from cdpr_struct.dynamics.cable_dynamics import CableDynamics
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.generated import platform as generated
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.cable_state import cable_stiffness
+from cdpr_struct.statics.cable_response import end_stiffness
+from cdpr_struct.statics.robot_arrays import RobotArrays
 
 Assembly = Literal["consistent", "thesis"]
 
@@ -62,7 +63,7 @@ def geometric_stiffness(point: OperatingPoint) -> np.ndarray:
 
 def platform_static_stiffness(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
     """(..., 6, 6) stiffness with massless cable dynamics (K_static of the thesis, eqs 2.29 and 3.8)."""
-    return assemble(point, cable_stiffness(point.cables), assembly)
+    return assemble(point, end_stiffness(RobotArrays.of(point.robot), point.cables), assembly)
 
 
 def platform_dynamic_stiffness(

@@ -13,14 +13,13 @@ from cdpr_struct.crosscheck.validity_limits import (
     ValidityLimits,
 )
 from cdpr_struct.crosscheck.verification import Verification
-from cdpr_struct.robot.pose import Pose
 
 
-def verification_json(v: Verification, pose: Pose) -> dict[str, Any]:
+def verification_json(v: Verification, pose: list[float]) -> dict[str, Any]:
     """The result under the keys that scripts rely on; SI units and Hz, nan where a model has no such mode."""
     return {
         "robot": v.point.robot.name,
-        "pose": pose.in_degrees(),
+        "pose": pose,
         "platform_mass_kg": v.point.robot.platform.mass,
         "platform_inertia_kg_m2": v.point.robot.platform.inertia,
         "assembly": v.assembly,

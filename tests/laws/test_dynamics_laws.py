@@ -1,5 +1,7 @@
 """Laws that the dynamic stiffness and the natural frequencies obey whatever the numbers."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,7 @@ from cdpr_struct.dynamics.natural_frequencies import (
     natural_frequencies,
     static_frequencies,
 )
+from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     geometric_stiffness,
     platform_dynamic_stiffness,
@@ -20,6 +23,12 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
 )
 from cdpr_struct.dynamics.taut_cable_expansion import expand_taut_cables
 from cdpr_struct.dynamics.taut_cables import taut_cables
+from cdpr_struct.robot.cable import Pulley
+from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.statics.cable_response import end_stiffness
+from cdpr_struct.statics.cable_state import cable_stiffness
+from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.robot_arrays import RobotArrays
 from tests.conftest import at_rest
 
 POSES = ([0.0, 0.0, 0.5], [1.3, -0.8, 0.9], [-2.5, 2.0, 0.5])
@@ -51,16 +60,34 @@ def test_dsm_at_rest_is_near_the_static_stiffness(point):
     assert np.abs((dynamic - static) / scale).max() < 3.0 * taut_cables(point).epsilon.max()
 
 
-def test_exact_model_at_rest_is_the_static_stiffness_of_its_own_field(point):
+def test_exact_model_at_rest_is_the_static_stiffness(point):
     """The catenary's closed-form compliance (2.24)-(2.26) and the spectral solution of its equations agree."""
-    exact = cable_dynamics(point, "exact").full
-    tiny = exact.stiffness(np.full(1, 1e-12))
-    spectral = _static_from_spectral(point)
-    np.testing.assert_allclose(spectral, tiny, rtol=1e-8, atol=1e-8 * np.abs(tiny).max())
+    assert relative_gap(force_of_static_shapes(point), static_ends(point)) < 1e-8  # the slope's finite difference
 
 
-def _static_from_spectral(point):
-    """Force at the moving end of the static shapes: K = integral of shape'^T D shape', by the divergence theorem."""
+@pytest.mark.parametrize(("radius", "allowed"), [(1e-5, 1e-8), (0.05, 3e-8), (0.3, 3e-6)])
+@pytest.mark.parametrize("axis", [[0.0, 0.0, 1.0], [0.3, 0.2, 1.0]], ids=str)
+def test_pulleys_in_the_dynamics_are_those_of_the_statics(radius, allowed, axis):
+    """Springs at the frame end against the statics' exit equation, which also counts the weight that rolls off."""
+    robot = load_robot("thesis-3-1")
+    robot = dataclasses.replace(robot, pulleys=tuple(Pulley(radius, np.array(axis)) for _ in robot.cables))
+    position = np.array([0.5, -1.0, 0.8])
+    held = OperatingPoint(robot, position, np.eye(3), inverse(robot, position, np.eye(3)).cables)
+    assert relative_gap(force_of_static_shapes(held), static_ends(held)) < allowed
+    pinned = relative_gap(cable_stiffness(held.cables), static_ends(held))
+    assert pinned > 100.0 * allowed or radius < 0.01, "a fixed exit point must not pass for a pulley"
+
+
+def static_ends(point):
+    return end_stiffness(RobotArrays.of(point.robot), point.cables)
+
+
+def relative_gap(ours, reference):
+    return np.abs(ours - reference).max() / np.abs(reference).max()
+
+
+def force_of_static_shapes(point):
+    """Stiffness of the moving ends from the slope of the static shapes there: f = D du/ds."""
     exact = cable_dynamics(point, "exact").full
     h = 1e-5
     static, _ = exact.shapes(np.array([1.0 - 2.0 * h, 1.0 - h, 1.0]))
