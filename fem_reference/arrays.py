@@ -14,9 +14,7 @@ def fixed_array(name: str, value: ArrayLike, shape: tuple[int | None, ...]) -> n
     ValueError : another shape, or an entry that is not finite; both with the name and the value.
     """
     array = np.array(value, dtype=float)
-    fits = array.ndim == len(shape) and all(
-        want in (None, have) for want, have in zip(shape, array.shape, strict=True)
-    )
+    fits = array.ndim == len(shape) and all(want in (None, have) for want, have in zip(shape, array.shape, strict=True))
     if not fits:
         raise ValueError(f"{name} must have shape {shape}, got {array.shape}")
     if not np.isfinite(array).all():

@@ -49,9 +49,7 @@ def cable_frame(equilibrium: CableEquilibrium) -> np.ndarray:
     return np.array([across, np.cross(normal, across), normal])
 
 
-def clamped_matrices(
-    equilibrium: CableEquilibrium, mass: MassModel = "lumped"
-) -> tuple[csc_array, csc_array]:
+def clamped_matrices(equilibrium: CableEquilibrium, mass: MassModel = "lumped") -> tuple[csc_array, csc_array]:
     """Stiffness [N/m] and mass [kg] of the cable with both ends held, sparse, each 3 (n - 1) square."""
     stiffness = chain_matrix(equilibrium.element_stiffness()[None])[:-3, :-3]
     return csc_array(stiffness), csc_array(chain_matrix(equilibrium.element_mass(mass)[None])[:-3, :-3])

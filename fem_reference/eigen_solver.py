@@ -10,9 +10,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from fem_reference.errors import UnstableEquilibriumError
 
 
-def lowest_eigenpairs(
-    stiffness: csc_array, mass: csc_array, count: int, shift: float
-) -> tuple[np.ndarray, np.ndarray]:
+def lowest_eigenpairs(stiffness: csc_array, mass: csc_array, count: int, shift: float) -> tuple[np.ndarray, np.ndarray]:
     """Lowest `count` eigenvalues omega^2 (k,) [rad^2/s^2], ascending, and M-normalised vectors (dofs, k).
 
     Shift-invert Lanczos about `shift` [rad^2/s^2], which is negative and small beside the eigenvalues of
@@ -35,25 +33,19 @@ def lowest_eigenpairs(
     return values[order], vectors[:, order]
 
 
-def _inverted_dense(
-    stiffness: csc_array, mass: csc_array, count: int, shift: float
-) -> tuple[np.ndarray, np.ndarray]:
+def _inverted_dense(stiffness: csc_array, mass: csc_array, count: int, shift: float) -> tuple[np.ndarray, np.ndarray]:
     """M v = nu (K - shift M) v for the largest nu: exact where it matters, at the low frequencies."""
     matrix, inertia = stiffness.toarray(), mass.toarray()
     last = len(matrix) - 1
     try:
-        nu, vectors = scipy.linalg.eigh(
-            inertia, matrix - shift * inertia, subset_by_index=(last + 1 - count, last)
-        )
+        nu, vectors = scipy.linalg.eigh(inertia, matrix - shift * inertia, subset_by_index=(last + 1 - count, last))
     except np.linalg.LinAlgError:
         lowest = scipy.linalg.eigh(matrix, inertia, eigvals_only=True, subset_by_index=(0, 0))
         raise UnstableEquilibriumError(float(lowest[0])) from None
     return shift + 1.0 / nu, vectors / np.sqrt(nu)
 
 
-def _shift_invert(
-    stiffness: csc_array, mass: csc_array, count: int, shift: float
-) -> tuple[np.ndarray, np.ndarray]:
+def _shift_invert(stiffness: csc_array, mass: csc_array, count: int, shift: float) -> tuple[np.ndarray, np.ndarray]:
     factors = splu(
         csc_array(stiffness - shift * mass),
         permc_spec="NATURAL",

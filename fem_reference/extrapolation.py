@@ -72,9 +72,7 @@ def _given_order(steps: np.ndarray, values: np.ndarray, order: np.ndarray) -> np
     return np.asarray(values[1] + (values[1] - values[0]) / (ratio - 1.0))
 
 
-def _three_point(
-    steps: np.ndarray, values: np.ndarray, noise: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _three_point(steps: np.ndarray, values: np.ndarray, noise: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Limit, order and reason from three meshes, coarse to fine."""
     coarse, fine = values[1] - values[0], values[2] - values[1]
     small = np.minimum(np.abs(coarse), np.abs(fine)) <= noise * np.abs(values[2])

@@ -35,9 +35,7 @@ class RobotData:
             raise ValueError("RobotData.cables must hold at least one cable, got none")
         object.__setattr__(self, "cables", cables)
         for name in ("frame_anchors", "platform_anchors"):
-            object.__setattr__(
-                self, name, fixed_array(f"RobotData.{name}", getattr(self, name), (len(cables), 3))
-            )
+            object.__setattr__(self, name, fixed_array(f"RobotData.{name}", getattr(self, name), (len(cables), 3)))
         object.__setattr__(self, "gravity", fixed_array("RobotData.gravity", self.gravity, (3,)))
 
 

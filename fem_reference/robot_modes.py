@@ -60,9 +60,7 @@ def robot_matrices(equilibrium: RobotEquilibrium, mass: MassModel = "lumped") ->
     )
     cables = motion.shape[1] - 6
     stiffness, inertia = (
-        csc_array(
-            motion.T @ chain_matrix(matrices) @ motion + block_diag([csc_array((cables, cables)), added])
-        )
+        csc_array(motion.T @ chain_matrix(matrices) @ motion + block_diag([csc_array((cables, cables)), added]))
         for matrices, added in zip(elements, on_platform, strict=True)
     )
     return stiffness, inertia

@@ -159,9 +159,7 @@ def solve_robot(
     )
 
 
-def _balanced(
-    robot: RobotData, batch: CableBatch, loads: DeadLoads, state: PlatformState
-) -> tuple[PlatformState, int]:
+def _balanced(robot: RobotData, batch: CableBatch, loads: DeadLoads, state: PlatformState) -> tuple[PlatformState, int]:
     """Newton steps until the wrench is round-off."""
     reach = _reach(robot, loads)
     far = float(np.abs(robot.frame_anchors).max()) + reach

@@ -26,9 +26,7 @@ class Pieces:
     @classmethod
     def of(cls, element_matrices: np.ndarray) -> Pieces:
         """Cut element matrices (..., n, 6, 6) into their blocks."""
-        return cls(
-            element_matrices[..., :3, :3], element_matrices[..., :3, 3:], element_matrices[..., 3:, 3:]
-        )
+        return cls(element_matrices[..., :3, :3], element_matrices[..., :3, 3:], element_matrices[..., 3:, 3:])
 
     def __len__(self) -> int:
         return int(self.first.shape[-3])
@@ -39,9 +37,7 @@ class Pieces:
 
     def joined(self, other: Pieces) -> Pieces:
         """The pieces of both, one list after the other."""
-        pairs = zip(
-            (self.first, self.between, self.last), (other.first, other.between, other.last), strict=True
-        )
+        pairs = zip((self.first, self.between, self.last), (other.first, other.between, other.last), strict=True)
         return Pieces(*(np.concatenate(pair, axis=-3) for pair in pairs))
 
 

@@ -40,8 +40,7 @@ def test_first_six_frequencies_of_both_kinds_converge_with_order_two(mass):
 
 def test_both_mass_models_tend_to_the_same_limit_from_either_side():
     lumped, consistent = (
-        np.array([first_frequencies(CABLE, END, n, mass=mass) for n in COUNTS])
-        for mass in ("lumped", "consistent")
+        np.array([first_frequencies(CABLE, END, n, mass=mass) for n in COUNTS]) for mass in ("lumped", "consistent")
     )
     limits = [extrapolate(COUNTS, values).limit for values in (lumped, consistent)]
     assert limits[0] == pytest.approx(limits[1], rel=2e-6)

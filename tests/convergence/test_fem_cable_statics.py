@@ -81,9 +81,7 @@ def displacement_newton(cable, start, end, elements, sag):
         steps = np.diff(nodes, axis=0)
         spans = np.linalg.norm(steps, axis=1)
         tensions = np.maximum(cable.axial_stiffness * (spans / length - 1.0), 1e-3)
-        bars = bar_stiffness(
-            steps / spans[:, None], tensions, np.array(length), np.array(cable.axial_stiffness)
-        )
+        bars = bar_stiffness(steps / spans[:, None], tensions, np.array(length), np.array(cable.axial_stiffness))
         tangent = chain_matrix(bars[None]).toarray()[:-3, :-3]
         move = np.linalg.solve(tangent, residual).reshape(-1, 3)
         scale = 1.0
