@@ -5,7 +5,15 @@ import sys
 import typer
 from typer.exceptions import Abort, TyperException
 
-from cdpr_struct.cli import cable, derive, inverse, reproduce, robots, verify
+from cdpr_struct.cli import (
+    cable,
+    derive,
+    inverse,
+    modes,
+    reproduce,
+    robots,
+    verify,
+)
 from cdpr_struct.errors import CdprError, InputError
 
 app = typer.Typer(
@@ -14,7 +22,16 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="Deflection and vibration of cable-driven parallel robots, checked against an independent FEM.",
 )
-for command in (robots, cable, inverse, verify, reproduce, derive):
+COMMANDS = (
+    robots,
+    cable,
+    inverse,
+    modes,
+    verify,
+    reproduce,
+    derive,
+)
+for command in COMMANDS:
     app.command(name=command.NAME)(command.run)
 
 

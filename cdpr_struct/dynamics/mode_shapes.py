@@ -35,7 +35,7 @@ class ModeShapes:
 
     def kinds(self) -> list[str]:
         """ "platform", "cable i", or "cables" / "mixed" where no body holds half of the kinetic energy."""
-        return [_kind(p, c) for p, c in zip(self.platform_energy, self.cable_energy, strict=True)]
+        return [kind_of_mode(p, c) for p, c in zip(self.platform_energy, self.cable_energy, strict=True)]
 
 
 def mode_shapes(
@@ -96,7 +96,8 @@ def _matrices(
     return stiffness, mass
 
 
-def _kind(platform: float, cables: np.ndarray) -> str:
+def kind_of_mode(platform: float, cables: np.ndarray) -> str:
+    """ "platform" or "cable i" if it holds half of the kinetic energy, else "cables" (nine tenths) or "mixed"."""
     if platform >= 0.5:
         return "platform"
     if cables.max() >= 0.5:

@@ -1,0 +1,88 @@
+"""Modes of the whole robot by any of the four models, in one form."""
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+
+import fem_reference as fem
+from cdpr_struct.crosscheck.fem_robot import solve_in_fem
+from cdpr_struct.crosscheck.validity_limits import check_limits
+from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
+from cdpr_struct.dynamics.mode_shapes import kind_of_mode, mode_shapes
+from cdpr_struct.dynamics.natural_frequencies import highest_omega, natural_frequencies
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
+from cdpr_struct.errors import CdprError
+
+Model = Literal["static", "dsm", "exact", "fem"]
+MODELS: tuple[Model, ...] = get_args(Model)
+STATIONS = np.linspace(0.1, 0.9, 9)
+
+
+class OutsideValidityError(CdprError):
+    """The closed-form DSM is asked for cables outside its printed limits."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RobotModes:
+    """The first k modes of a robot at rest.
+
+    hertz           : (k,) ascending, multiplicities repeated
+    platform        : (k, 6) motion of the platform origin and rotation, world axes, unit modal mass
+    platform_energy : (k,) and cable_energy (k, m): shares of the kinetic energy [-]
+    count_certified : an exact count proves that no frequency is missing
+    """
+
+    hertz: np.ndarray
+    platform: np.ndarray
+    platform_energy: np.ndarray
+    cable_energy: np.ndarray
+    count_certified: bool
+
+    def kinds(self) -> list[str]:
+        """Per mode "platform", "cable i", "cables" or "mixed", by the kinetic energy."""
+        return [kind_of_mode(p, c) for p, c in zip(self.platform_energy, self.cable_energy, strict=True)]
+
+
+def robot_modes(
+    point: OperatingPoint, model: Model, count: int, assembly: Assembly = "consistent", elements: int = 80
+) -> RobotModes:
+    """First `count` modes by the named model.
+
+    elements : per cable, used by "fem" only
+
+    Raises
+    ------
+    CdprError : the equilibrium is unstable, or the model has fewer modes (massless cables: six).
+    """
+    if model == "fem":
+        return _fem_modes(point, count, elements)
+    highest = highest_omega(point, cable_dynamics(point, model), count, assembly)
+    cables = cable_dynamics(point, model, highest)
+    found = natural_frequencies(point, cables, count, assembly)
+    shapes = mode_shapes(point, cables, count, highest, STATIONS, assembly)
+    return RobotModes(found.hertz, shapes.platform, shapes.platform_energy, shapes.cable_energy, found.certified)
+
+
+def require_validity(point: OperatingPoint) -> None:
+    """Raise OutsideValidityError if a cable breaks a printed limit of the closed-form DSM."""
+    violations = check_limits(point).violations
+    if violations:
+        worst = "; ".join(f"cable {v.cable}: {v.parameter} {v.value:.4g} (limit {v.limit:.4g})" for v in violations[:4])
+        more = f" and {len(violations) - 4} more" if len(violations) > 4 else ""
+        raise OutsideValidityError(
+            f"outside the printed limits of the closed-form DSM: {worst}{more}. Use --model exact, or --force to insist."
+        )
+
+
+def _fem_modes(point: OperatingPoint, count: int, elements: int) -> RobotModes:
+    equilibrium = solve_in_fem(point, elements)
+    available = 6 + 3 * len(point.robot.cables) * (elements - 1)
+    if count >= available:
+        raise CdprError(f"{elements} elements per cable have {available} modes only; ask for fewer or raise --elements")
+    found = fem.robot_modes(equilibrium, count)
+    below = fem.count_below(equilibrium, 2.0 * np.pi * found.frequencies_hz[-1] * (1.0 + 1e-9))
+    return RobotModes(
+        found.frequencies_hz, found.platform_shapes, found.platform_energy, found.cable_energy, below >= count
+    )

@@ -1,0 +1,190 @@
+"""The platform's dynamic stiffness at very many frequencies, for little more than the cost of solving with it.
+
+Near a natural frequency of a clamped cable the stiffness has a pole whose place and strength the modal expansion of
+the cable knows. Over a segment of the band the few poles around it are summed one by one; what remains is smooth and
+is interpolated in Chebyshev points, at which the full model is evaluated. The decay of the coefficients is the error
+estimate; a segment that misses the tolerance is halved, and at last evaluated in full at every frequency.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from cdpr_struct.dynamics.cable_dynamics import CableDynamics
+from cdpr_struct.dynamics.damping import DampingLaw
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import (
+    Assembly,
+    assemble,
+    attachment,
+    platform_mass_matrix,
+)
+
+RELATIVE_TOLERANCE = 1e-9
+_NODES = 18
+_POLES_PER_SEGMENT = 10
+_NEAR = 2.5  # poles within this many half widths of a segment's centre are summed one by one
+_HALVINGS = 4
+_BLOCK = 256
+_UPPER = np.triu_indices(6)
+_DIAGONAL = np.flatnonzero(_UPPER[0] == _UPPER[1])
+_FULL = np.array([[np.flatnonzero((_UPPER[0] == min(i, j)) & (_UPPER[1] == max(i, j)))[0] for j in range(6)] for i in range(6)])
+
+
+def dynamic_stiffness(
+    point: OperatingPoint,
+    cables: CableDynamics,
+    law: DampingLaw,
+    omega: np.ndarray,
+    assembly: Assembly = "consistent",
+) -> np.ndarray:
+    """D(omega) = K_E(omega) - omega^2 M of eq. (3.25) with damped cables, evaluated in full at every frequency.
+
+    omega : (f,) [rad/s], zero or above
+
+    Returns
+    -------
+    (f, 6, 6) complex, symmetric, world axes, moments about the platform origin [N/m, N, N m].
+    """
+    matrices = np.empty((len(omega), 6, 6), dtype=complex)
+    for start in range(0, len(omega), _BLOCK):
+        part = omega[start : start + _BLOCK]
+        matrices[start : start + _BLOCK] = _cable_part(point, cables, law, part, assembly)
+    return matrices - (omega**2)[:, None, None] * platform_mass_matrix(point.robot, point.rotation)
+
+
+def swept_dynamic_stiffness(
+    point: OperatingPoint,
+    cables: CableDynamics,
+    law: DampingLaw,
+    omega: np.ndarray,
+    assembly: Assembly = "consistent",
+) -> np.ndarray:
+    """As `dynamic_stiffness`, to `RELATIVE_TOLERANCE` of the largest entries, for an ascending sweep (f,)."""
+    poles = _poles(point, cables, float(omega[-1]))
+    inside = int((np.sqrt(poles.omega_squared) < omega[-1]).sum())
+    edges = np.linspace(omega[0], omega[-1], 2 + inside // _POLES_PER_SEGMENT)
+    segments = np.stack([edges[:-1], edges[1:]], axis=-1)
+    matrices = np.empty((len(omega), 6, 6), dtype=complex)
+    for _ in range(_HALVINGS + 1):
+        pieces = _interpolate(point, cables, law, segments, poles, assembly)
+        refused = []
+        for piece in pieces:
+            part = slice(*np.searchsorted(omega, [piece.low, piece.high]))
+            if piece.accurate:
+                matrices[part] = piece.at(omega[part], law, poles)
+            else:
+                refused.append((piece.low, piece.high))
+        if not refused:
+            break
+        segments = _halves(np.array(refused))
+    else:
+        for low, high in segments:
+            part = slice(*np.searchsorted(omega, [low, high]))
+            matrices[part] = dynamic_stiffness(point, cables, law, omega[part], assembly)
+    matrices[-1:] = dynamic_stiffness(point, cables, law, omega[-1:], assembly)
+    return matrices
+
+
+def _halves(segments: np.ndarray) -> np.ndarray:
+    middle = segments.mean(axis=1)
+    return np.concatenate([np.stack([segments[:, 0], middle], -1), np.stack([middle, segments[:, 1]], -1)])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Piece:
+    """The stiffness over [low, high) [rad/s]: Chebyshev coefficients (n, 21) and the poles summed one by one."""
+
+    low: float
+    high: float
+    coefficients: np.ndarray
+    near: np.ndarray
+
+    @property
+    def accurate(self) -> bool:
+        """The last coefficients are small against the diagonal entries of their row and column."""
+        sizes = np.abs(self.coefficients)
+        diagonal = np.sqrt(sizes[:, _DIAGONAL].max(axis=0))
+        return bool((sizes[-2:] < RELATIVE_TOLERANCE * diagonal[_UPPER[0]] * diagonal[_UPPER[1]]).all())
+
+    def at(self, omega: np.ndarray, law: DampingLaw, poles: "_Poles") -> np.ndarray:
+        """(f, 6, 6) at frequencies inside."""
+        x = (2.0 * omega - self.low - self.high) / (self.high - self.low)
+        smooth = (chebyshev.chebvander(x, _NODES - 1) @ self.coefficients.view(float)).view(complex)
+        return (smooth + poles.sum(self.near, law, omega))[:, _FULL]
+
+
+def _interpolate(
+    point: OperatingPoint,
+    cables: CableDynamics,
+    law: DampingLaw,
+    segments: np.ndarray,
+    poles: "_Poles",
+    assembly: Assembly,
+) -> list[_Piece]:
+    x = np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)
+    middle, half = segments.mean(axis=1), 0.5 * np.diff(segments, axis=1)[:, 0]
+    nodes = middle[:, None] + half[:, None] * x
+    full = dynamic_stiffness(point, cables, law, nodes.ravel(), assembly)
+    values = full[:, *_UPPER].reshape(*nodes.shape, 21)
+    to_coefficients = 2.0 / _NODES * chebyshev.chebvander(x, _NODES - 1).T
+    to_coefficients[0] *= 0.5
+    place = np.sqrt(poles.omega_squared)
+    pieces = []
+    for k, (low, high) in enumerate(segments.tolist()):
+        near = np.flatnonzero(np.abs(place - middle[k]) < _NEAR * half[k])
+        smooth = values[k] - poles.sum(near, law, nodes[k])
+        pieces.append(_Piece(low, high, to_coefficients @ smooth, near))
+    return pieces
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Poles:
+    """Natural frequencies of the clamped cables, all together.
+
+    omega_squared (p,) [rad^2/s^2]; cable (p,) its number from 0; strength (p, 21) of the pole at the platform, upper triangle;
+    first_frequency (m,) [rad/s]
+    """
+
+    omega_squared: np.ndarray
+    cable: np.ndarray
+    strength: np.ndarray
+    first_frequency: np.ndarray
+
+    def sum(self, chosen: np.ndarray, law: DampingLaw, omega: np.ndarray) -> np.ndarray:
+        """(f, 21) part of the platform's stiffness that the chosen poles make."""
+        inertia = law.inertia(omega[:, None], self.first_frequency)
+        elasticity = law.elasticity(omega[:, None], self.first_frequency)
+        cable = self.cable[chosen]
+        gap = elasticity[:, cable] * self.omega_squared[chosen] - inertia[:, cable]
+        scale = np.finfo(float).eps * self.omega_squared[chosen]
+        gain = -(inertia**2)[:, cable] / np.where(gap == 0.0, scale, gap)
+        strength = self.strength[chosen]
+        if not np.iscomplexobj(gain):
+            return (gain @ strength).astype(complex)
+        total = np.empty((len(omega), 21), dtype=complex)
+        total.real, total.imag = gain.real @ strength, gain.imag @ strength
+        return total
+
+
+def _poles(point: OperatingPoint, cables: CableDynamics, highest: float) -> _Poles:
+    expansion = cables.expansion(1.5 * highest)
+    to_cable = np.swapaxes(expansion.frame, -1, -2) @ attachment(point)
+    arms = np.einsum("mpa,mai->mpi", expansion.coupling, to_cable)
+    omega_squared = expansion.omega_squared.ravel()
+    return _Poles(
+        omega_squared,
+        np.repeat(np.arange(len(arms)), arms.shape[1]),
+        (arms[..., _UPPER[0]] * arms[..., _UPPER[1]]).reshape(len(omega_squared), 21),
+        cables.first_frequency,
+    )
+
+
+def _cable_part(
+    point: OperatingPoint, cables: CableDynamics, law: DampingLaw, omega: np.ndarray, assembly: Assembly
+) -> np.ndarray:
+    first = cables.first_frequency
+    inertia, elasticity = law.inertia(omega[:, None], first), law.elasticity(omega[:, None], first)
+    stiffness = elasticity[..., None, None] * cables.stiffness(inertia / elasticity)
+    return assemble(point, stiffness, assembly)

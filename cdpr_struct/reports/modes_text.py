@@ -1,0 +1,32 @@
+"""Modes of a robot as text and CSV."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from cdpr_struct.reports.text import paragraphs, plain_table
+
+
+def modes_text(result: Mapping[str, Any]) -> str:
+    """Table of modes, and whether the count is certified."""
+    rows = [
+        [str(i), f"{hertz:.6f}", f"{100.0 * share:.1f}", kind]
+        for i, (hertz, share, kind) in enumerate(
+            zip(result["frequencies_hz"], result["platform_energy"], result["kinds"], strict=True), start=1
+        )
+    ]
+    x, y, z, *_ = result["pose"]
+    title = f"{result['robot']} at ({x:.4g}, {y:.4g}, {z:.4g}) m, model {result['model']}, assembly {result['assembly']}"
+    certified = (
+        "The count is certified: no eigenfrequency below the last one is missing."
+        if result["count_certified"]
+        else "The count could not be certified."
+    )
+    return paragraphs(plain_table(title, ["mode", "[Hz]", "platform energy [%]", "kind"], rows), certified)
+
+
+def modes_csv(result: Mapping[str, Any]) -> str:
+    """mode, frequency_hz, platform_energy, kind."""
+    lines = ["mode,frequency_hz,platform_energy,kind"]
+    rows = zip(result["frequencies_hz"], result["platform_energy"], result["kinds"], strict=True)
+    lines += [f"{i},{hertz!r},{share!r},{kind}" for i, (hertz, share, kind) in enumerate(rows, start=1)]
+    return "\n".join(lines) + "\n"
