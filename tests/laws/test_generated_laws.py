@@ -16,12 +16,15 @@ RNG = np.random.default_rng(5)
 
 
 def test_table_2_2_end_point_and_sag() -> None:
-    """Third column, with the sign of f_Cz that the printed end point needs."""
+    """Third column, with the sign of f_Cz that the printed end point needs.
+
+    rho = 0.067 kg/m is printed with two digits: 0.75 %, which the sag follows once and the stiffness twice.
+    """
     cable = (100.0, -100.0, LENGTH, 20e9 * np.pi / 4 * 0.004**2, WEIGHT)
-    assert catenary.end_point(*cable) == pytest.approx((13.70, -14.58), abs=1e-2)  # two digits printed
-    assert catenary.sag(*cable) == pytest.approx(0.153, abs=5e-4)
+    assert catenary.end_point(*cable) == pytest.approx((13.70, -14.58), abs=1e-2)
+    assert catenary.sag(*cable) == pytest.approx(0.153, rel=7.5e-3)  # 0.1540
     assert catenary.elongation(*cable) == pytest.approx(0.0116, abs=6e-5)
-    assert cable_compliance.stiffness(*cable) == pytest.approx((3846, -4083, 4350), rel=5e-3)
+    assert cable_compliance.stiffness(*cable) == pytest.approx((3846, -4083, 4350), rel=1.5e-2)  # 3821 ..
 
 
 def test_profile_ends_in_the_end_point_and_starts_at_b() -> None:
