@@ -11,17 +11,17 @@ from cdpr_struct.robot.robot_file import builtin_names, load_robot
 
 
 def verification_command(trial: Verification) -> str:
-    """One shell line; a comment after it where the result does not tell how the robot was entered."""
+    """One shell command; a comment after it where the result does not tell how the robot was entered."""
     point, criteria = trial.point, trial.criteria
     robot, load, note = _entered_as(point.robot)
     degrees = np.degrees(angles_from_rotation(point.rotation))
     pose = [*point.position, *(degrees if np.abs(degrees).max() > 1e-12 else ())]
-    words = [
-        "cdpr-struct", "verify", robot, f"--pose={','.join(f'{float(v):.12g}' for v in pose)}", *load,
+    where = ["cdpr-struct", "verify", robot, f"--pose={','.join(f'{float(v):.12g}' for v in pose)}", *load]
+    how = [
         f"--elements={','.join(map(str, trial.elements))}", f"--modes={len(trial.kinds)}",
         f"--assembly={trial.assembly}", f"--tolerance={criteria.relative_error:g}", "--out=DIR",
     ]  # fmt: skip
-    return shlex.join(words) + (f"\n# {note}" if note else "")
+    return f"{shlex.join(where)} \\\n  {shlex.join(how)}" + (f"\n# {note}" if note else "")
 
 
 def _entered_as(robot: Robot) -> tuple[str, list[str], str]:

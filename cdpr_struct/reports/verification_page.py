@@ -7,9 +7,9 @@ from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import convergence, determinant, interactive, limits, mode_errors, robot_drawing
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import Page, Plate, render_page
+from cdpr_struct.reports.verification_command import verification_command
 from cdpr_struct.reports.verification_notes import verification_notes
 from cdpr_struct.reports.verification_tables import verification_tables
-from cdpr_struct.reports.verification_command import verification_command
 from cdpr_struct.reports.verification_text import verdict
 
 
@@ -48,41 +48,38 @@ def verification_page(trial: Verification, plates: list[Plate]) -> Page:
 
 def verification_plates(trial: Verification) -> list[Plate]:
     """The figures, in the order of the page."""
+    return [_determinant(trial), _convergence(trial), _mode_errors(trial), _limits(trial), _robot(trial)]
+
+
+def _determinant(trial: Verification) -> Plate:
+    picture = svg("determinant", determinant.SIZE, lambda f: determinant.draw_determinant(f, trial))
+    caption, plot = determinant.determinant_caption(trial), interactive.determinant_plot(trial)
+    return Plate("determinant", "What a determinant scan sees", picture, caption, plot)
+
+
+def _convergence(trial: Verification) -> Plate:
+    picture = svg("convergence", convergence.SIZE, lambda f: convergence.draw_convergence(f, trial))
+    caption = convergence.convergence_caption(trial)
+    return Plate("convergence", "Is the mesh fine enough to judge?", picture, caption)
+
+
+def _mode_errors(trial: Verification) -> Plate:
+    picture = svg("mode_errors", mode_errors.SIZE, lambda f: mode_errors.draw_mode_errors(f, trial))
+    caption = mode_errors.mode_errors_caption(trial)
+    return Plate("mode_errors", "DSM against FEM, mode by mode", picture, caption)
+
+
+def _limits(trial: Verification) -> Plate:
+    picture = svg("limits", limits.SIZE, lambda f: limits.draw_limits(f, trial.limits))
+    caption = limits.limits_caption(trial.limits)
+    return Plate("limits", "Cables against the printed validity limits", picture, caption)
+
+
+def _robot(trial: Verification) -> Plate:
     point = trial.point
-    return [
-        Plate(
-            "determinant",
-            "What a determinant scan sees",
-            svg("determinant", determinant.SIZE, lambda f: determinant.draw_determinant(f, trial)),
-            determinant.determinant_caption(trial),
-            interactive.determinant_plot(trial),
-        ),
-        Plate(
-            "convergence",
-            "Is the mesh fine enough to judge?",
-            svg("convergence", convergence.SIZE, lambda f: convergence.draw_convergence(f, trial)),
-            convergence.convergence_caption(trial),
-        ),
-        Plate(
-            "mode_errors",
-            "DSM against FEM, mode by mode",
-            svg("mode_errors", mode_errors.SIZE, lambda f: mode_errors.draw_mode_errors(f, trial)),
-            mode_errors.mode_errors_caption(trial),
-        ),
-        Plate(
-            "limits",
-            "Cables against the printed validity limits",
-            svg("limits", limits.SIZE, lambda f: limits.draw_limits(f, trial.limits)),
-            limits.limits_caption(trial.limits),
-        ),
-        Plate(
-            "robot",
-            "The robot at rest",
-            svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point)),
-            robot_drawing.robot_caption(point),
-            interactive.robot_plot(point),
-        ),
-    ]
+    picture = svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point))
+    caption, plot = robot_drawing.robot_caption(point), interactive.robot_plot(point)
+    return Plate("robot", "The robot at rest", picture, caption, plot)
 
 
 def _facts(trial: Verification) -> list[tuple[str, str]]:
@@ -91,7 +88,7 @@ def _facts(trial: Verification) -> list[tuple[str, str]]:
     return [
         (f"{len(trial.kinds)}", "eigenfrequencies compared"),
         (f"{100.0 * np.abs(trial.relative_error).max():.2f} %", "largest deviation of the DSM from the FEM limit"),
-        (f"{100.0 * blurred:.1g} %", "largest uncertainty of the FEM limit"),
+        (f"{100.0 * blurred:.2g} %", "largest uncertainty of the FEM limit"),
         (f"{trial.missed_by_scan} of {len(trial.kinds)}", "modes that the determinant scan misses"),
         (f"{cables} of {len(trial.limits.epsilon)}", "cables outside a printed limit"),
     ]

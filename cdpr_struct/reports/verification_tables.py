@@ -21,21 +21,11 @@ def verification_tables(trial: Verification) -> list[HtmlTable]:
 
 def uncertain(value: float, uncertainty: float) -> str:
     """A value with only the digits its uncertainty allows, at most six after the point."""
-    digits = 6 if not uncertainty > 0.0 else min(max(-math.floor(math.log10(uncertainty)), 0), 6)
+    digits = 6 if not 0.0 < uncertainty < math.inf else min(max(-math.floor(math.log10(uncertainty)), 0), 6)
     return f"{value:.{digits}f}"
 
 
 def _modes(trial: Verification) -> HtmlTable:
-    rows = []
-    for i, kind in enumerate(trial.kinds):
-        fem, spread = trial.fem_limit_hertz[i], trial.fem_uncertainty_hertz[i]
-        rows.append(
-            [
-                str(i + 1), kind, uncertain(fem, spread), f"{spread:.0e}", f"{trial.dsm_hertz[i]:.4f}",
-                f"{100.0 * trial.relative_error[i]:+.3f}", f"{trial.exact_hertz[i]:.4f}", _dash(trial.static_hertz[i], 4),
-                _dash(trial.determinant_hertz[i], 2), f"{trial.assurance[i]:.2f}", f"{trial.observed_order[i]:.2f}",
-            ]
-        )  # fmt: skip
     outside = np.abs(trial.relative_error) > trial.criteria.relative_error
     lost = trial.assurance < trial.criteria.assurance
     blurred = trial.fem_uncertainty_hertz > trial.criteria.fem_uncertainty * trial.fem_limit_hertz
@@ -43,13 +33,30 @@ def _modes(trial: Verification) -> HtmlTable:
         "Eigenfrequencies, paired by mode shape",
         ["mode", "kind", "FEM [Hz]", "± [Hz]", "DSM [Hz]", "error [%]", "exact [Hz]", "static [Hz]",
          "det. min. [Hz]", "shape share [-]", "order [-]"],
-        rows,
-        "FEM: extrapolated to infinitely many elements, ± its uncertainty. Exact: dynamic stiffness of the elastic catenary "
-        "itself. Static: cables as massless springs, which know six platform modes only. Det. min.: the minimum of the scan "
-        "that stands for this mode; a dash where there is none. Shape share: part of the FEM shape that its DSM partners "
-        "reproduce. Red rows break a criterion of the verdict.",
+        [_mode(trial, i) for i in range(len(trial.kinds))],
+        "FEM: extrapolated to infinitely many elements, ± its uncertainty. Exact: dynamic stiffness of the elastic "
+        "catenary itself. Static: cables as massless springs, which know six platform modes only. Det. min.: the "
+        "minimum of the scan that stands for this mode; a dash where there is none. Shape share: part of the FEM "
+        "shape that its DSM partners reproduce. Red rows break a criterion of the verdict.",
         frozenset(np.flatnonzero(outside | lost | blurred).tolist()),
     )  # fmt: skip
+
+
+def _mode(trial: Verification, i: int) -> list[str]:
+    fem, spread = trial.fem_limit_hertz[i], trial.fem_uncertainty_hertz[i]
+    return [
+        str(i + 1),
+        trial.kinds[i],
+        uncertain(fem, spread),
+        f"{spread:.0e}",
+        f"{trial.dsm_hertz[i]:.4f}",
+        f"{100.0 * trial.relative_error[i]:+.3f}",
+        f"{trial.exact_hertz[i]:.4f}",
+        _dash(trial.static_hertz[i], 4),
+        _dash(trial.determinant_hertz[i], 2),
+        f"{trial.assurance[i]:.2f}",
+        _dash(trial.observed_order[i], 2),
+    ]
 
 
 def _convergence(trial: Verification) -> HtmlTable:
@@ -75,20 +82,28 @@ def _cables(trial: Verification) -> HtmlTable:
     cables, limits = trial.point.cables, trial.limits
     rows = [
         [
-            str(i + 1), f"{cables.tension_at_platform[i]:.2f}", f"{cables.length[i]:.4f}", f"{1000.0 * cables.sag[i]:.1f}",
-            f"{limits.inclination_deg[i]:.1f}", f"{limits.lambda_squared[i]:.3f}", f"{limits.epsilon[i]:.4f}",
-            f"{epsilon_limit(limits.inclination_deg[i]):g}", f"{limits.sag_ratio[i]:.4f}", f"{limits.crossover_distance[i]:.2f}",
+            str(i + 1),
+            f"{cables.tension_at_platform[i]:.2f}",
+            f"{cables.length[i]:.4f}",
+            f"{1000.0 * cables.sag[i]:.1f}",
+            f"{limits.inclination_deg[i]:.1f}",
+            f"{limits.lambda_squared[i]:.3f}",
+            f"{limits.epsilon[i]:.4f}",
+            f"{epsilon_limit(limits.inclination_deg[i]):g}",
+            f"{limits.sag_ratio[i]:.4f}",
+            f"{limits.crossover_distance[i]:.2f}",
             ", ".join(v.parameter for v in limits.violations if v.cable == i + 1) or "–",
         ]
         for i in range(len(limits.epsilon))
-    ]  # fmt: skip
+    ]
     return HtmlTable(
         "Cables against the printed limits",
         ["cable", "tension [N]", "length [m]", "sag [mm]", "|α| [deg]", "λ² [-]", "ε [-]", "ε limit [-]",
          "sag/chord [-]", "crossover distance [-]", "violates"],
         rows,
-        f"Limits: λ² ≤ {LAMBDA_SQUARED_LIMIT:g}; ε as listed, by inclination; sag/chord ≤ {SAG_RATIO_LIMIT:g}; relative "
-        f"distance of λ² from a crossover 4n²π² ≥ {CROSSOVER_DISTANCE:g}. Tension at the platform; length unstrained.",
+        f"Limits: λ² ≤ {LAMBDA_SQUARED_LIMIT:g}; ε as listed, by inclination; sag/chord ≤ {SAG_RATIO_LIMIT:g}; "
+        f"relative distance of λ² from a crossover 4n²π² ≥ {CROSSOVER_DISTANCE:g}. Tension at the platform; length "
+        "unstrained.",
         frozenset(v.cable - 1 for v in limits.violations),
     )  # fmt: skip
 

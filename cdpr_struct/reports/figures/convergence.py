@@ -75,7 +75,9 @@ def _deviations(axes: Axes, trial: Verification) -> None:
     groups = [kind_group(kind) for kind in trial.kinds]
     for column, name in enumerate(KIND_COLOURS):
         values = np.sort(deviation[[g == name for g in groups]])
-        across = column + np.linspace(-0.28, 0.28, len(values)) if len(values) > 1 else np.full(len(values), float(column))
+        across = (
+            column + np.linspace(-0.28, 0.28, len(values)) if len(values) > 1 else np.full(len(values), float(column))
+        )
         axes.plot(across, values, KIND_MARKERS[name], color=KIND_COLOURS[name], markersize=4, alpha=0.85)
     axes.axhline(100.0 * trial.criteria.relative_error, color=BLACK, linewidth=0.9, linestyle=(0, (5, 3)))
     axes.annotate(
@@ -99,10 +101,11 @@ def convergence_caption(trial: Verification) -> str:
     finest = 100.0 * float(np.median(trial.mesh_error[-1]))
     model = 100.0 * float(np.median(np.abs(trial.relative_error)))
     return (
-        f"Thin lines: one mode each, {_colours()}. Two-node elements should gain a factor of four per halving, the slope "
-        f"of the triangle; {observed}. The mesh can judge the model where its error lies below the model's own "
-        f"(blue band, points on the right): at {trial.elements[-1]} elements the median mesh error is {finest:.2g} %, the "
-        f"median DSM deviation {model:.2g} %. The DSM is compared with the extrapolated limit, not with any one mesh."
+        f"Thin lines: one mode each, {_colours()}. Two-node elements should gain a factor of four per halving, the "
+        f"slope of the triangle; {observed}. The mesh can judge the model where its error lies below the model's "
+        f"own (blue band, points on the right): at {trial.elements[-1]} elements the median mesh error is "
+        f"{finest:.2g} %, the median DSM deviation {model:.2g} %. The DSM is compared with the extrapolated limit, "
+        "not with any one mesh."
     )
 
 

@@ -20,7 +20,7 @@ def draw_determinant(figure: Figure, trial: Verification) -> None:
     grid = figure.add_gridspec(2, 2, height_ratios=[2.6, 1.0], width_ratios=[1.6, 1.0])
     whole = (0.0, float(trial.scan.hertz[-1]))
     zoom = zoom_window(trial)
-    for column, (window, title) in enumerate(((whole, "whole band"), (zoom, "densest part"))):
+    for column, (window, title) in enumerate(((whole, "whole band"), (zoom, "densest part (shaded on the left)"))):
         top = figure.add_subplot(grid[0, column])
         bottom = figure.add_subplot(grid[1, column], sharex=top)
         top.set_title(title)
@@ -45,7 +45,9 @@ def zoom_window(trial: Verification) -> tuple[float, float]:
 def _curves(axes: Axes, trial: Verification, window: tuple[float, float]) -> None:
     scan = trial.scan
     part = (scan.hertz >= window[0]) & (scan.hertz <= window[1])
-    axes.plot(scan.hertz[part], scan.log_static[part], color=GREY, linewidth=1.0, linestyle=(0, (4, 2)), label="static K")
+    axes.plot(
+        scan.hertz[part], scan.log_static[part], color=GREY, linewidth=1.0, linestyle=(0, (4, 2)), label="static K"
+    )
     axes.plot(scan.hertz[part], scan.log_dynamic[part], color=BLUE, linewidth=1.2, label="dynamic K (DSM, damped)")
     minima = scan.minima_hertz[(scan.minima_hertz >= window[0]) & (scan.minima_hertz <= window[1])]
     depth = np.interp(minima, scan.hertz, scan.log_dynamic)
@@ -72,10 +74,10 @@ def determinant_caption(trial: Verification) -> str:
     inside = (trial.fem_limit_hertz >= low) & (trial.fem_limit_hertz <= high)
     seen = int(np.isfinite(trial.determinant_hertz[inside]).sum())
     return (
-        "Above, the determinant whose zeros are natural frequencies, with the cables' dynamic stiffness (line) and with "
-        "static stiffness only (dashed). Below, every FEM eigenfrequency; marks on top of each other are "
-        f"frequencies too close to draw side by side. A scan at {step:g} Hz finds {len(trial.scan.minima_hertz)} minima "
-        f"for {k} eigenfrequencies and misses {trial.missed_by_scan}: where modes crowd, damping merges their "
-        f"dips. From {low:.2f} to {high:.2f} Hz (shaded, enlarged on the right) there are {int(inside.sum())} modes, "
-        f"of which the scan sees {seen}."
+        "Above, the determinant whose zeros are natural frequencies, with the cables' dynamic stiffness (line) and "
+        "with their static stiffness only (dashed), which knows nothing of cable modes. Below, every FEM "
+        "eigenfrequency; marks on top of each other are frequencies too close to draw side by side. A scan at "
+        f"{step:g} Hz finds {len(trial.scan.minima_hertz)} minima for {k} eigenfrequencies and misses "
+        f"{trial.missed_by_scan}: where modes crowd, damping merges their dips. From {low:.2f} to {high:.2f} Hz "
+        f"(shaded) there are {int(inside.sum())} modes, of which the scan sees {seen}."
     )

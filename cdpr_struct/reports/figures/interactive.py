@@ -13,10 +13,10 @@ import numpy as np
 
 from cdpr_struct.crosscheck.verification import Verification
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.reports.figures.determinant import DETERMINANT_LABEL, FREQUENCY_LABEL
+from cdpr_struct.reports.figures.determinant import DETERMINANT_LABEL, FREQUENCY_LABEL, zoom_window
 from cdpr_struct.reports.figures.mode_stacks import stack_levels
 from cdpr_struct.reports.figures.robot_drawing import TENSION_LABEL, tension_range
-from cdpr_struct.reports.figures.robot_geometry import robot_geometry
+from cdpr_struct.reports.figures.robot_geometry import RobotGeometry, robot_geometry
 from cdpr_struct.reports.figures.style import BAD, BLACK, BLUE, FONT_STACK, GOOD, GREY, LIGHT
 
 Plot = dict[str, Any]
@@ -48,8 +48,16 @@ def determinant_plot(trial: Verification) -> Plot:
         "xaxis": {**_axis(FREQUENCY_LABEL), "anchor": "y2", "range": [0.0, float(scan.hertz[-1])]},
         "yaxis": {**_axis(DETERMINANT_LABEL), "domain": [0.34, 1.0]},
         "yaxis2": {**_axis("FEM modes [count]"), "domain": [0.0, 0.26], "rangemode": "tozero", "fixedrange": True},
+        "shapes": [_shade(*zoom_window(trial))],
     }
     return {"data": curves + _mode_marks(trial), "layout": layout}
+
+
+def _shade(low: float, high: float) -> Plot:
+    return {
+        "type": "rect", "x0": low, "x1": high, "xref": "x", "y0": 0.0, "y1": 1.0, "yref": "paper",
+        "fillcolor": LIGHT, "opacity": 0.6, "layer": "below", "line": {"width": 0},
+    }  # fmt: skip
 
 
 def _mode_marks(trial: Verification) -> list[Plot]:
@@ -66,7 +74,7 @@ def _mode_marks(trial: Verification) -> list[Plot]:
             {
                 "type": "scatter", "mode": "markers", "name": name, "yaxis": "y2",
                 "x": hertz[index].tolist(), "y": level[index].tolist(),
-                "text": [f"mode {i + 1}: FEM {hertz[i]:.4f} Hz, DSM {trial.dsm_hertz[i]:.4f} Hz ({trial.kinds[i]})" for i in index],
+                "text": [_mode_text(trial, i) for i in index.tolist()],
                 "hovertemplate": "%{text}<extra></extra>",
                 "marker": {"color": colour, "size": 8, "symbol": symbol, "line": {"color": colour, "width": 2}},
             }
@@ -74,66 +82,82 @@ def _mode_marks(trial: Verification) -> list[Plot]:
     return marks
 
 
+def _mode_text(trial: Verification, i: int) -> str:
+    fem, dsm = trial.fem_limit_hertz[i], trial.dsm_hertz[i]
+    return f"mode {i + 1} ({trial.kinds[i]})<br>FEM {fem:.4f} Hz<br>DSM {dsm:.4f} Hz"
+
+
 def robot_plot(point: OperatingPoint) -> Plot:
     """The robot that can be turned, with a hover text for every cable."""
     geometry = robot_geometry(point)
-    cables, tension = point.cables, point.cables.tension_at_platform
-    low, high = tension_range(tension)
+    low, high = tension_range(point.cables.tension_at_platform)
     scale = {"colorscale": _TENSION_SCALE, "reversescale": True, "cmin": low, "cmax": high}
-    lines = [
-        {
-            "type": "scatter3d", "mode": "lines", "name": f"cable {i + 1}", "showlegend": False,
-            **_xyz(curve),
-            "line": {"width": 6, "color": [float(tension[i])] * len(curve), **scale},
-            "hovertemplate": (
-                f"cable {i + 1}<br>tension {tension[i]:.1f} N<br>unstrained length {cables.length[i]:.4f} m"
-                f"<br>chord {cables.chord[i]:.4f} m<br>sag {1000.0 * cables.sag[i]:.1f} mm<extra></extra>"
-            ),
-        }
-        for i, curve in enumerate(geometry.curves)
-    ]  # fmt: skip
-    anchors = {
+    lines = [_cable_line(point, i, curve, scale) for i, curve in enumerate(geometry.curves)]
+    anchors = _frame_anchors(geometry, point.cables.tension_at_platform, scale)
+    layout = {**_layout(580), "margin": {"l": 0, "r": 0, "t": 10, "b": 0}, "scene": _scene(geometry.box())}
+    return {"data": [*lines, anchors, *_platform(geometry)], "layout": layout}
+
+
+def _cable_line(point: OperatingPoint, i: int, curve: np.ndarray, scale: Plot) -> Plot:
+    cables = point.cables
+    tension = float(cables.tension_at_platform[i])
+    return {
+        "type": "scatter3d", "mode": "lines", "name": f"cable {i + 1}", "showlegend": False,
+        **_xyz(curve),
+        "line": {"width": 6, "color": [tension] * len(curve), **scale},
+        "hovertemplate": (
+            f"cable {i + 1}<br>tension {tension:.1f} N<br>unstrained length {cables.length[i]:.4f} m"
+            f"<br>chord {cables.chord[i]:.4f} m<br>sag {1000.0 * cables.sag[i]:.1f} mm<extra></extra>"
+        ),
+    }  # fmt: skip
+
+
+def _frame_anchors(geometry: RobotGeometry, tension: np.ndarray, scale: Plot) -> Plot:
+    title = {"text": TENSION_LABEL, "side": "right", "font": {"size": 13}}
+    bar = {"title": title, "thickness": 12, "len": 0.7, "outlinewidth": 0}
+    return {
         "type": "scatter3d", "mode": "markers+text", "name": "frame anchors", "showlegend": False,
         **_xyz(geometry.frame),
         "text": [str(i + 1) for i in range(len(tension))], "textposition": "top center",
-        "marker": {
-            "size": 4, "color": tension.tolist(), **scale,
-            "colorbar": {"title": {"text": TENSION_LABEL, "side": "right"}, "thickness": 12, "len": 0.7, "outlinewidth": 0},
-        },
+        "marker": {"size": 4, "color": tension.tolist(), **scale, "colorbar": bar},
         "hovertemplate": "frame anchor of cable %{text}<br>(%{x:.3f}, %{y:.3f}, %{z:.3f}) m<extra></extra>",
     }  # fmt: skip
-    layout = {
-        **_layout(620),
-        "margin": {"l": 0, "r": 0, "t": 10, "b": 0},
-        "scene": {
-            "aspectmode": "data",
-            "camera": {"eye": {"x": 0.75, "y": -1.35, "z": 0.6}},
-            **{f"{name}axis": {**_axis(f"{name} [m]"), "backgroundcolor": "white"} for name in "xyz"},
-        },
+
+
+def _scene(box: np.ndarray) -> Plot:
+    size = box[1] - box[0]
+    axes = {
+        f"{name}axis": {**_axis(f"{name} [m]"), "backgroundcolor": "white", "range": ends, "nticks": 6}
+        for name, ends in zip("xyz", box.T.tolist(), strict=True)
     }
-    return {"data": [*lines, anchors, *_platform(geometry.edges, geometry.platform, geometry.triangles)], "layout": layout}
+    return {
+        "aspectmode": "manual",
+        "aspectratio": dict(zip("xyz", (size / size.max()).tolist(), strict=True)),
+        "camera": {"eye": {"x": 0.49, "y": -1.18, "z": 0.44}, "center": {"x": 0.0, "y": 0.0, "z": -0.07}},
+        **axes,
+    }
 
 
-def _platform(edges: np.ndarray, corners: np.ndarray, triangles: np.ndarray) -> list[Plot]:
+def _platform(geometry: RobotGeometry) -> list[Plot]:
     gap: list[list[float | None]] = [[None, None, None]]
-    points = [row for edge in edges.tolist() for row in [*edge, *gap]]
+    points = [row for edge in geometry.edges.tolist() for row in [*edge, *gap]]
     x, y, z = zip(*points, strict=True)
     outline = {
         "type": "scatter3d", "mode": "lines", "name": "platform", "showlegend": False, "hoverinfo": "skip",
         "x": list(x), "y": list(y), "z": list(z), "line": {"color": BLACK, "width": 3},
     }  # fmt: skip
-    if not len(triangles):
+    if not len(geometry.triangles):
         return [outline]
-    i, j, k = triangles.T.tolist()
+    i, j, k = geometry.triangles.T.tolist()
     faces = {
-        "type": "mesh3d", **_xyz(corners), "i": i, "j": j, "k": k,
+        "type": "mesh3d", **_xyz(geometry.platform), "i": i, "j": j, "k": k,
         "color": "#9aa3ad", "opacity": 0.5, "flatshading": True, "hoverinfo": "skip",
     }  # fmt: skip
     return [outline, faces]
 
 
 def _line(x: np.ndarray, y: np.ndarray, name: str, line: Plot) -> Plot:
-    values = np.round(y, 5).tolist()
+    values = [v if np.isfinite(v) else None for v in np.round(y, 5).tolist()]
     return {
         "type": "scatter", "mode": "lines", "name": name, "x": np.round(x, 9).tolist(), "y": values, "line": line,
         "hovertemplate": "%{x:.2f} Hz: %{y:.2f}<extra>" + name + "</extra>",
@@ -151,11 +175,17 @@ def _layout(height: int) -> Plot:
         "paper_bgcolor": "white",
         "plot_bgcolor": "white",
         "font": {"family": FONT_STACK, "size": 13, "color": BLACK},
-        "margin": {"l": 64, "r": 16, "t": 10, "b": 48},
+        "margin": {"l": 64, "r": 16, "t": 72, "b": 48},
         "legend": {"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 0.0},
         "hovermode": "closest",
     }
 
 
 def _axis(title: str) -> Plot:
-    return {"title": {"text": title}, "gridcolor": LIGHT, "zeroline": False, "linecolor": GREY, "ticks": "outside"}
+    return {
+        "title": {"text": title, "font": {"size": 13}},
+        "gridcolor": LIGHT,
+        "zeroline": False,
+        "linecolor": GREY,
+        "ticks": "outside",
+    }

@@ -25,10 +25,15 @@ def violators(limits: ValidityLimits, left: bool) -> np.ndarray:
     return np.isin(np.arange(1, len(limits.epsilon) + 1), list(cables))
 
 
-def label_groups(points: np.ndarray, reach: tuple[float, float]) -> list[tuple[np.ndarray, str]]:
-    """Points (m, 2) that lie closer than `reach` share one label like "1, 3–5": list of (place, label)."""
+def label_groups(
+    points: np.ndarray, reach: tuple[float, float], chosen: np.ndarray | None = None
+) -> list[tuple[np.ndarray, str]]:
+    """Points (m, 2) that lie closer than `reach` share one label like "1, 3–5": list of (place, label).
+
+    Only those of the `chosen` (m,) are labelled; all by default.
+    """
     groups: list[list[int]] = []
-    for i in range(len(points)):
+    for i in range(len(points)) if chosen is None else np.flatnonzero(chosen).tolist():
         near = (g for g in groups if np.all(np.abs(points[g[0]] - points[i]) <= reach))
         found = next(near, None)
         if found is None:
@@ -82,11 +87,13 @@ def _epsilon(axes: Axes, limits: ValidityLimits) -> None:
     for largest_angle, largest in INCLINATION_EPSILON_PAIRS:
         axes.fill_between([before, largest_angle], low, largest, color=GREEN, alpha=0.09, linewidth=0)
         axes.plot([before, largest_angle], [largest, largest], color=BLACK, linewidth=0.9, linestyle=(0, (5, 3)))
-        axes.annotate(f"{largest:g}", (largest_angle, largest), (-2, 3), textcoords="offset points", ha="right", fontsize=8)
+        axes.annotate(
+            f"{largest:g}", (largest_angle, largest), (-2, 3), textcoords="offset points", ha="right", fontsize=8
+        )
         before = largest_angle
     axes.annotate("admitted", (before, low), (-4, 5), textcoords="offset points", ha="right", fontsize=8, color=GREY)
     _points(axes, angle, value, bad)
-    _labels(axes, angle, value)
+    _labels(axes, angle, value, bad)
     axes.set_xticks(range(0, 91, 15))
     axes.set_xlabel("inclination of the chord |α| [deg]")
     axes.set_ylabel("ε [-]")
@@ -100,27 +107,27 @@ def _points(axes: Axes, x: np.ndarray, y: np.ndarray, bad: np.ndarray) -> None:
     axes.plot(x[bad], y[bad], "X", color=BAD, markersize=7)
 
 
-def _labels(axes: Axes, angle: np.ndarray, value: np.ndarray) -> None:
+def _labels(axes: Axes, angle: np.ndarray, value: np.ndarray, bad: np.ndarray) -> None:
     low, high = np.log10(axes.get_ylim())
     points = np.column_stack([angle / 90.0, (np.log10(value) - low) / (high - low)])
-    for place, label in label_groups(points, (0.10, 0.06)):
-        axes.annotate(
-            label, tuple(place), (5, 4), xycoords="axes fraction", textcoords="offset points", fontsize=8, zorder=5
-        )
+    for chosen, colour in ((~bad, BLACK), (bad, BAD)):
+        for place, label in label_groups(points, (0.10, 0.06), chosen):
+            axes.annotate(
+                label, tuple(place), (5, 4), xycoords="axes fraction", textcoords="offset points",
+                fontsize=8, color=colour, zorder=5,
+            )  # fmt: skip
 
 
 def limits_caption(limits: ValidityLimits) -> str:
     """What to see in the figure."""
     bad = sorted({v.cable for v in limits.violations})
     outcome = (
-        f"Cable{'s' * (len(bad) > 1)} {number_ranges(bad)} (red crosses) outside."
-        if bad
-        else "All cables lie inside."
+        f"Cable{'s' * (len(bad) > 1)} {number_ranges(bad)} (red crosses) outside." if bad else "All cables lie inside."
     )
     return (
-        "The closed form assumes a shallow, taut cable. Left: Irvine's λ², which must stay below the first crossover of "
-        f"symmetric and antisymmetric modes. Right: ε, eight times sag over chord, which may be "
+        "The closed form assumes a shallow, taut cable. Left: Irvine's λ², which must stay below the first "
+        "crossover of symmetric and antisymmetric modes. Right: ε, eight times sag over chord, which may be "
         f"{INCLINATION_EPSILON_PAIRS[0][1]:g} up to {INCLINATION_EPSILON_PAIRS[0][0]:g}° inclination and "
-        f"{INCLINATION_EPSILON_PAIRS[1][1]:g} up to {INCLINATION_EPSILON_PAIRS[1][0]:g}°; nothing is claimed for steeper "
-        f"cables. Numbers are cables. {outcome}"
+        f"{INCLINATION_EPSILON_PAIRS[1][1]:g} up to {INCLINATION_EPSILON_PAIRS[1][0]:g}°; nothing is claimed for "
+        f"steeper cables. Numbers are cables. {outcome}"
     )

@@ -66,11 +66,15 @@ def _stems(axes: Axes, trial: Verification) -> None:
         if mine.any():
             axes.vlines(number[mine], 0.0, error[mine], color=colour, linewidth=1.0)
             axes.plot(number[mine], error[mine], KIND_MARKERS[name], color=colour, markersize=5, label=f"{name} mode")
-    axes.errorbar(number, error, yerr=spread, fmt="none", ecolor=BLACK, elinewidth=0.8, capsize=2, label="FEM uncertainty")
+    axes.errorbar(
+        number, error, yerr=spread, fmt="none", ecolor=BLACK, elinewidth=0.8, capsize=2, label="FEM uncertainty"
+    )
     axes.plot(number, exact, "_", color=BLACK, markersize=8, mew=1.4, label="exact catenary")
     outside = np.abs(trial.relative_error) > trial.criteria.relative_error
     if outside.any():
-        axes.plot(number[outside], error[outside], "o", color=BAD, markersize=11, fillstyle="none", mew=1.4, label="outside")
+        axes.plot(
+            number[outside], error[outside], "o", color=BAD, markersize=11, fillstyle="none", mew=1.4, label="outside"
+        )
 
 
 def _frequencies_on_top(axes: Axes, trial: Verification) -> None:
@@ -92,9 +96,10 @@ def mode_errors_caption(trial: Verification) -> str:
         if len(mine):
             parts.append(f"{name} modes {mine.min():+.2g} to {mine.max():+.2g} % ({len(mine)})")
     return (
-        f"Each stem is one mode, paired with the FEM by shape, above zero where the DSM is too stiff: {'; '.join(parts)}. "
-        f"Largest: mode {worst + 1} ({trial.kinds[worst]}) at {trial.fem_limit_hertz[worst]:.3f} Hz with {error[worst]:+.3f} %. "
-        f"Black dashes are the exact catenary's frequencies, at most {exact:.2g} % off: what a stem has beyond them is the "
-        "price of the closed form. Bars are the uncertainty of the extrapolated FEM. The scale is linear near zero, where the grid is even, and "
+        "Each stem is one mode, paired with the FEM by shape, above zero where the DSM is too stiff: "
+        f"{'; '.join(parts)}. Largest: mode {worst + 1} ({trial.kinds[worst]}) at "
+        f"{trial.fem_limit_hertz[worst]:.3f} Hz with {error[worst]:+.3f} %. Black dashes are the exact catenary's "
+        f"frequencies, at most {exact:.2g} % off: what a stem has beyond them is the price of the closed form. Bars "
+        "are the uncertainty of the extrapolated FEM. The scale is linear near zero, where the grid is even, and "
         "logarithmic farther out."
     )

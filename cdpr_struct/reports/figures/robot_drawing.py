@@ -39,7 +39,7 @@ def draw_robot(figure: Figure, point: OperatingPoint) -> None:
     _number_cables(axes, geometry)
     _fill_panel(figure, axes)
     bar = figure.add_axes((0.905, 0.2, 0.014, 0.6))
-    figure.colorbar(ScalarMappable(scale, COLOUR_MAP), cax=bar, label=TENSION_LABEL).outline.set_visible(False)  # type: ignore[operator]
+    figure.colorbar(ScalarMappable(scale, COLOUR_MAP), cax=bar, label=TENSION_LABEL).outline.set_visible(False)
 
 
 def tension_range(tension: np.ndarray) -> tuple[float, float]:
@@ -50,13 +50,8 @@ def tension_range(tension: np.ndarray) -> tuple[float, float]:
 
 
 def _set_view(axes: Axes3D, geometry: RobotGeometry) -> None:
-    everything = np.concatenate([geometry.frame, geometry.platform, geometry.curves.reshape(-1, 3)])
-    low, high = everything.min(axis=0), everything.max(axis=0)
-    low[2] = geometry.floor
-    pad = 0.04 * float((high - low).max())
-    for setter, a, b in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), low - pad, high + pad, strict=True):
-        setter(a, b)
-    axes.set_zlim(low[2], high[2] + pad)
+    for setter, ends in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), geometry.box().T.tolist(), strict=True):
+        setter(*ends)
     axes.set_aspect("equal")
     axes.view_init(**_VIEW)
     for axis, label in zip((axes.xaxis, axes.yaxis, axes.zaxis), "xyz", strict=True):

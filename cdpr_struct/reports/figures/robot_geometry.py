@@ -35,6 +35,13 @@ class RobotGeometry:
         lowest = float(min(self.frame[:, 2].min(), self.curves[..., 2].min(), self.platform[:, 2].min()))
         return min(0.0, lowest)
 
+    def box(self) -> np.ndarray:
+        """(2, 3) lower and upper corner of what the picture shows, with a margin above the floor."""
+        everything = np.concatenate([self.frame, self.platform, self.curves.reshape(-1, 3)])
+        low, high = everything.min(axis=0), everything.max(axis=0)
+        margin = 0.04 * float((high - low).max())
+        return np.array([[low[0] - margin, low[1] - margin, self.floor], high + margin])
+
 
 def robot_geometry(point: OperatingPoint) -> RobotGeometry:
     """Geometry of the robot at rest."""

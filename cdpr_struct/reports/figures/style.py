@@ -3,6 +3,7 @@
 import io
 import re
 from collections.abc import Callable
+from typing import Any
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
@@ -21,7 +22,7 @@ KIND_MARKERS = {"platform": "s", "mixed": "D", "cable": "o"}
 
 FONT_STACK = "'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
 
-_STYLE = {
+_STYLE: Any = {
     "svg.fonttype": "none",
     "font.family": "DejaVu Sans",
     "font.size": 9.0,
@@ -49,6 +50,7 @@ _STYLE = {
     "text.color": BLACK,
     "figure.facecolor": "white",
 }
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
 
 
@@ -83,8 +85,12 @@ def kind_group(kind: str) -> str:
 
 
 def plain_number(value: float) -> str:
-    """Tick text without powers: 0.001, 10, 1000."""
-    return f"{value:.10g}" if 1e-4 <= abs(value) < 1e6 or value == 0.0 else f"{value:.0e}"
+    """Tick text: 0.001, 10, 1000, and powers of ten beyond 0.0001 and 10000, like 2·10⁵."""
+    if value == 0.0 or 1e-4 <= abs(value) * (1.0 + 1e-9) < 1e5:
+        return f"{value:.10g}"
+    factor, exponent = f"{value:.0e}".split("e")
+    power = "10" + str(int(exponent)).translate(_RAISED)
+    return power if factor == "1" else f"{factor}·{power}"
 
 
 def plain_ticks(axis: mpl.axis.Axis) -> None:

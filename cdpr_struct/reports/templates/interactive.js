@@ -16,6 +16,9 @@
     const plot = figure.querySelector(".plot");
     plot.hidden = false;
     figure.classList.add("live");
-    await Plotly.newPlot(plot, data, layout, { responsive: true, displaylogo: false, showSendToCloud: false });
+    await Plotly.newPlot(plot, data, layout, {
+      responsive: true, displaylogo: false, showSendToCloud: false,
+      modeBarButtonsToRemove: ["select2d", "lasso2d", "zoomIn2d", "zoomOut2d"],
+    });
   }
 })();

@@ -1,0 +1,82 @@
+"""One small verification, and the files made of it, for all tests of the reports."""
+
+import dataclasses
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+from cdpr_struct.crosscheck.single_cable import describe_cable
+from cdpr_struct.crosscheck.verification import verify
+from cdpr_struct.reports.cable_page import cable_files
+from cdpr_struct.reports.verification_page import verification_files
+
+
+@pytest.fixture(scope="session")
+def trial(thesis_point):
+    """A verification that holds: coarse meshes and few modes, for speed."""
+    return verify(thesis_point, [8, 16, 32], 20)
+
+
+@pytest.fixture(scope="session")
+def wrong_trial(trial):
+    """The same with one DSM frequency 5 % off: its report must say so."""
+    wrong = trial.dsm_hertz.copy()
+    wrong[3] *= 1.05
+    return dataclasses.replace(trial, dsm_hertz=wrong)
+
+
+@pytest.fixture(scope="session")
+def files(trial):
+    return verification_files(trial)
+
+
+@pytest.fixture(scope="session")
+def cable():
+    """The cable of thesis section 2.3, third load."""
+    return describe_cable(100.0, -100.0, 20.0, 251327.4123, 0.067, 9.81)
+
+
+@pytest.fixture(scope="session")
+def cable_report(cable):
+    return cable_files(cable)
+
+
+class PageReader(HTMLParser):
+    """What a browser would show and load: visible text, attributes, scripts by id."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.shown, self.attributes, self.scripts, self.styles = [], [], [], []
+        self._inside = ""
+        self.feed(page)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        self.attributes += [(tag, name, value or "") for name, value in attrs]
+        self._inside = tag if tag in ("script", "style") else ""
+
+    def handle_endtag(self, tag):
+        if tag == self._inside:
+            self._inside = ""
+
+    def handle_data(self, data):
+        {"script": self.scripts, "style": self.styles}.get(self._inside, self.shown).append(data)
+
+    @property
+    def text(self) -> str:
+        return " ".join(" ".join(self.shown).split())
+
+    def values(self, tag: str, name: str) -> list[str]:
+        return [value for t, n, value in self.attributes if (t, n) == (tag, name)]
+
+
+@pytest.fixture(scope="session")
+def read_page():
+    return PageReader
+
+
+@pytest.fixture(scope="session")
+def same():
+    """Equality of arrays in which nan equals nan."""
+    return lambda a, b: np.array_equal(np.asarray(a, float), np.asarray(b, float), equal_nan=True)

@@ -1,0 +1,145 @@
+"""The pages say what was found, hold every figure, and load nothing from anywhere."""
+
+import base64
+import dataclasses
+import gzip
+import html
+import json
+import re
+
+import pytest
+from plotly import graph_objects
+
+from cdpr_struct.crosscheck.single_cable import describe_cable
+from cdpr_struct.reports.cable_page import cable_files
+from cdpr_struct.reports.html import Plate, render_page
+from cdpr_struct.reports.verification_page import verification_files, verification_page
+from cdpr_struct.reports.verification_text import verdict
+
+INSIDE = ("#", "data:image/png;base64,")  # a reference on the page, or the bytes themselves
+FIGURES = ["determinant", "convergence", "mode_errors", "limits", "robot"]
+
+
+def test_files_are_those_promised(files, cable_report):
+    tables = {"eigenfrequencies.csv", "convergence.csv", "cables.csv", "determinant_scan.csv"}
+    assert set(files) == tables | {f"{name}.svg" for name in FIGURES} | {"report.html"}
+    assert set(cable_report) == {
+        "profile.csv", "stiffness_trace.csv", "profile.svg", "stiffness_trace.svg", "report.html",
+    }  # fmt: skip
+
+
+def test_page_begins_with_the_verdict(trial, files, read_page):
+    text = read_page(files["report.html"]).text
+    sentence = verdict(trial).split("\n")[0]
+    assert sentence.startswith("HOLDS")
+    assert sentence in text
+    assert all(text.index(sentence) < text.index(word) for word in ("How to read", "Reproduce", "1. What a"))
+
+
+def test_page_shows_a_failing_verdict_as_failing(trial, wrong_trial, read_page):
+    """The twin: one frequency 5 % off turns sentence, colour, figure and table row."""
+    made = verification_files(wrong_trial)
+    page = read_page(made["report.html"])
+    assert "DOES NOT HOLD: mode 4" in page.text
+    assert "HOLDS:" not in page.text.replace("DOES NOT HOLD:", "")
+    assert [c for c in page.values("section", "class") if c.startswith("verdict")] == ["verdict fails"]
+    assert len(page.values("tr", "class")) == 1
+    assert ">outside<" in made["mode_errors.svg"]
+
+
+def test_holding_page_marks_no_row_and_no_mode(files, read_page):
+    page = read_page(files["report.html"])
+    assert [c for c in page.values("section", "class") if c.startswith("verdict")] == ["verdict holds"]
+    assert page.values("tr", "class") == []
+    assert ">outside<" not in files["mode_errors.svg"]
+
+
+def test_every_figure_is_on_the_page_with_a_caption(files, read_page):
+    page = read_page(files["report.html"])
+    assert page.values("figure", "id") == FIGURES
+    for name in FIGURES:
+        assert files[f"{name}.svg"][files[f"{name}.svg"].index("<svg") :] in files["report.html"]
+    captions = re.findall(r"<figcaption>(.*?)</figcaption>", files["report.html"], re.DOTALL)
+    assert len(captions) == len(FIGURES)
+    assert all(len(caption) > 100 for caption in captions)
+
+
+@pytest.mark.parametrize("which", ["files", "cable_report"])
+def test_page_loads_nothing(which, request, read_page):
+    page = read_page(request.getfixturevalue(which)["report.html"])
+    loaded = [
+        value
+        for _, name, value in page.attributes
+        if name in ("src", "href", "xlink:href", "srcset", "data", "action", "poster")
+    ]
+    assert [value for value in loaded if not value.startswith(INSIDE)] == []
+    assert page.values("link", "rel") == []
+    assert not any("@import" in style or "url(" in style for style in page.styles)
+    styled = [value for _, name, value in page.attributes if name in ("style", "clip-path", "fill")]
+    assert all(url.startswith("#") for value in styled for url in re.findall(r"url\(([^)]*)\)", value))
+    assert not any(word in script for script in page.scripts for word in ("fetch(", "XMLHttpRequest", "import("))
+
+
+def test_ids_are_unique_and_references_resolve(files, read_page):
+    page = read_page(files["report.html"])
+    ids = [value for _, name, value in page.attributes if name == "id"]
+    assert len(ids) == len(set(ids))
+    wanted = {v[1:] for _, n, v in page.attributes if n.endswith("href") and v.startswith("#")}
+    wanted |= {ref for _, _, value in page.attributes for ref in re.findall(r"url\(#([^)]*)\)", value)}
+    assert wanted <= set(ids)
+
+
+def test_plotly_is_inside_once_and_whole(files):
+    packed = re.findall(r'id="plotly-packed">([^<]*)</script>', files["report.html"])
+    assert len(packed) == 1
+    assert b"plotly.js" in gzip.decompress(base64.b64decode(packed[0]))[:400]
+
+
+def test_interactive_figures_are_valid_plotly(files):
+    """plotly.py checks every property; the report itself skips that for speed."""
+    found = re.findall(r'class="plot-data">(.*?)</script>', files["report.html"], re.DOTALL)
+    assert len(found) == 2
+    for text in found:
+        layout = graph_objects.Figure(json.loads(text)).layout
+        scene = layout.scene
+        flat = not scene.xaxis.title.text
+        axes = (layout.xaxis, layout.yaxis, layout.yaxis2) if flat else (scene.xaxis, scene.yaxis, scene.zaxis)
+        assert all(re.search(r"\[.+\]", axis.title.text) for axis in axes)
+
+
+def test_names_from_a_file_cannot_break_the_page(trial, read_page):
+    """A robot's name comes from a user's file."""
+    evil = "</script><script src='http://x.example/y.js'></script>"
+    robot = dataclasses.replace(trial.point.robot, name=evil)
+    named = dataclasses.replace(trial, point=dataclasses.replace(trial.point, robot=robot))
+    plate = Plate("plate", evil, "<svg></svg>", evil, {"data": [{"name": evil}]})
+    text = render_page(verification_page(named, [plate]))
+    assert read_page(text).values("script", "src") == []
+    assert html.escape("<script src=") in text
+    (data,) = re.findall(r'class="plot-data">(.*?)</script>', text, re.DOTALL)
+    assert json.loads(data) == {"data": [{"name": evil}]}
+
+
+def test_equal_results_give_equal_bytes(trial, files):
+    again = verification_files(trial)
+    assert [name for name in files if files[name] != again[name]] == []
+
+
+def test_command_repeats_the_verification(files, read_page):
+    text = read_page(files["report.html"]).text
+    assert "cdpr-struct verify thesis-3-1 --pose=0,0,0.5" in text
+    assert "--elements=8,16,32 --modes=20 --assembly=consistent --tolerance=0.01" in text
+
+
+def test_cable_page_of_a_taut_cable_holds(cable, cable_report, read_page):
+    text = read_page(cable_report["report.html"]).text
+    assert cable["validity"]["valid"]
+    assert "within its printed limits" in text
+
+
+def test_cable_page_of_a_slack_cable_fails_visibly(read_page):
+    result = describe_cable(-10.0, 40.0, 30.0, 251327.0, 0.067, 9.81)
+    page = read_page(cable_files(result)["report.html"])
+    assert {v["parameter"] for v in result["validity"]["violations"]} == {"lambda2", "crossover_distance", "alpha_deg"}
+    assert all(v["parameter"] in page.text for v in result["validity"]["violations"])
+    assert "verdict fails" in page.values("section", "class")
