@@ -52,39 +52,31 @@ def formulas() -> tuple[FormulaRecord, ...]:
     """Eqs (2.37), (2.41) and the length parameter of section 2.2.2."""
     d = sp.Symbol("d", positive=True)
     eps_of_sag = sp.solve(sp.Eq(sag_over_chord(), d / chord), epsilon)[0]
-    require_same(
-        "stable length",
-        _positive(expand_definitions(stable_length())),
-        _positive(effective_length_integral()),
-    )
+    exact = effective_length_integral()
+    require_same("stable length", _positive(expand_definitions(stable_length())), _positive(exact))
     approximation = sp.expand(effective_length_approximation().subs(epsilon, eps_of_sag))
-    first, second = (eps_of_sag.subs(d, chord / n) for n in (80, 33))
+    printed = chord * (1 + 8 * (d / chord) ** 2)
+    note = "To second order in d/l; the generated code also has the closed form of the integral."
     return (
         verdict("cable_dsm.epsilon", "2.37", 8 * d / chord, eps_of_sag, left=r"\varepsilon"),
+        verdict("cable_dsm.effective_length", "2.2.2, L_e", printed, approximation, note, left=r"L_e \simeq"),
+        *_limits(*(eps_of_sag.subs(d, chord / n) for n in (80, 33))),
+    )
+
+
+def _limits(steep: Any, flat: Any) -> tuple[FormulaRecord, ...]:
+    """Eq. (2.41): epsilon that belongs to the printed d/l."""
+    note = (
+        "epsilon = 8 d/l, so d/l <= 1/80 means epsilon <= 0.1; the print has 0.01. Section 2.3.2 itself "
+        "accepts epsilon = 0.061 at alpha = 46.8 deg."
+    )
+    left = r"\varepsilon_{max}(d/l_c = 1/%d)"
+    two_digits = sp.Rational(round(100 * flat), 100)
+    rounded = "8/33 = 0.2424, printed with two digits."
+    return (
+        verdict("cable_dsm.limit_steep", "2.41, first line", sp.Float("0.01", 2), steep, note, left % 80),
         verdict(
-            "cable_dsm.effective_length",
-            "2.2.2, L_e",
-            chord * (1 + 8 * (d / chord) ** 2),
-            approximation,
-            "To second order in d/l; the generated code also has the closed form of the integral.",
-            left=r"L_e \simeq",
-        ),
-        verdict(
-            "cable_dsm.limit_steep",
-            "2.41, first line",
-            sp.Float("0.01", 2),
-            sp.Rational(first),
-            "epsilon = 8 d/l, so d/l <= 1/80 means epsilon <= 0.1; the print has 0.01. Section 2.3.2 itself "
-            "accepts epsilon = 0.061 at alpha = 46.8 deg.",
-            left=r"\varepsilon_{max}(d/l_c = 1/80)",
-        ),
-        verdict(
-            "cable_dsm.limit_flat",
-            "2.41, second line",
-            sp.Rational(24, 100),
-            sp.Rational(round(100 * second), 100),
-            "8/33 = 0.2424, printed with two digits.",
-            left=r"\varepsilon_{max}(d/l_c = 1/33)",
+            "cable_dsm.limit_flat", "2.41, second line", sp.Rational(24, 100), two_digits, rounded, left % 33
         ),
     )
 
