@@ -12,11 +12,14 @@ import numpy as np
 from cdpr_struct.statics.cable_response import cable_response
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span
 from cdpr_struct.statics.catenary import CableStatus, solve_end_forces
-from cdpr_struct.statics.catenary_length import SLACKEST, force_z_curvature, length_at_chord_tension
+from cdpr_struct.statics.catenary_length import force_z_curvature, length_at_chord_tension
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 IDEAL_STIFFENING = 1e6  # an ideal cable at given length: spring with EA this many times larger
+SLACKEST_HELD = (
+    3.0  # largest w chord / (2 tau) of a cable chosen by `inverse`: sag over span 1.5, far past the least tension
+)
 _EXIT_ITERATIONS = 30
 _EXIT_TOLERANCE = 1e-14  # of the tension, or of the unit direction
 
@@ -132,7 +135,7 @@ class SaggingModel:
 
     def least_chord_tension(self, arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
         chord = np.linalg.norm(points - arrays.frame_anchors, axis=-1)
-        return 0.5 * arrays.weight * chord / SLACKEST
+        return 0.5 * arrays.weight * chord / SLACKEST_HELD
 
 
 MODELS: dict[str, CableModel] = {m.name: m for m in (SaggingModel(), SpringModel(), IdealModel())}
@@ -246,4 +249,4 @@ def _held_over_pulley(
         direction = states.force_at_frame / states.tension_at_frame[..., None]
         if np.abs(direction - before).max(initial=0.0) <= _EXIT_TOLERANCE:
             break
-    return states, length_rate
+    return states, length_rate * states.total_length / states.length  # the wrapped piece stretches alike

@@ -11,7 +11,8 @@ from cdpr_struct.statics.robot_arrays import RobotArrays
 
 MAX_ITERATIONS = 60
 _STALLED = 8  # iterations without the unbalanced wrench shrinking by a tenth end the search
-_TAUT = 7.5  # times the least chord tension: a start well on the taut side of the tension minimum
+_TAUT = 3.75  # times the least chord tension: a start well on the taut side of the tension minimum
+_REACH = 1e4  # largest tension over load that a search starts from
 _RISING = 0.05  # least growth of the platform tension with the chord tension at which its bounds are linearised
 
 
@@ -57,6 +58,7 @@ class HoldingProblem:
     def solve(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Chord tensions (k, m) [N], iterations (k,), and whether the last step was negligible (k,)."""
         tension = self.straight_tensions(self.high)
+        best = tension.copy()
         count = len(tension)
         iterations, settled = np.zeros(count, dtype=int), np.zeros(count, dtype=bool)
         least, since = np.full(count, np.inf), np.zeros(count, dtype=int)
@@ -65,6 +67,7 @@ class HoldingProblem:
             step, unbalanced, dual[items] = self.take(items)._step(tension[items], dual[items])
             small = np.abs(step).max(axis=1) <= 1e-11 * tension[items].max(axis=1)
             better = unbalanced <= 0.9 * least[items]
+            best[items[better]] = tension[items[better]]
             least[items] = np.where(better, unbalanced, least[items])
             since[items] = np.where(better | (unbalanced <= 1e-9 * self._size(items)), 0, since[items] + 1)
             settled[items] = small
@@ -73,14 +76,16 @@ class HoldingProblem:
             items = items[~small & (since[items] < _STALLED)]
             if not items.size:
                 break
-        return tension, iterations, settled
+        balanced = least <= 1e-6 * self._size(np.arange(count))
+        return np.where(balanced[:, None], tension, best), iterations, settled
 
     def straight_tensions(self, high: np.ndarray) -> np.ndarray:
         """(k, m) least-norm tensions [N] of straight cables within the bounds, as far as they balance the load."""
         least = self._least()
         low = np.maximum(self.low, _TAUT * least)
         ones = np.ones_like(low)
-        top = np.maximum(high, 2.0 * low)
+        reach = _REACH * np.linalg.norm(self.load / self.unit, axis=1, keepdims=True)
+        top = np.maximum(np.minimum(high, reach), 2.0 * low)
         tension, _ = self._program(ones, 0.0 * ones, self._straight_matrix(), self.load, low, top)
         return np.maximum(tension, 1e-9 * np.linalg.norm(self.load, axis=1, keepdims=True))
 
@@ -132,6 +137,8 @@ class HoldingProblem:
         low = np.maximum(np.where(rising, (self.low - pull) / safe, -np.inf), least - tension)
         low = np.where(least > 0.0, np.maximum(low, -0.5 * tension), low)
         high = np.where(rising, (self.high - pull) / safe, 2.0 * tension)
+        far = 4.0 * tension + np.linalg.norm(self.load / self.unit, axis=1, keepdims=True)
+        high = np.maximum(np.minimum(high, far), low)
         return np.minimum(low, high), high
 
     def _program(

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 MAX_ITERATIONS = 60
-_SHIFT = 1e-10  # relative, keeps the dual's Hessian regular where bounds hold most cables
+_RANK = 1e-12  # relative: directions that the unknowns cannot act in
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,57 +47,73 @@ def solve_programs(programs: QuadraticPrograms) -> tuple[np.ndarray, np.ndarray]
     """Solutions t (k, m) and their dual y (k, n), the multipliers of the balance."""
     k, n = programs.target.shape
     dual = np.zeros((k, n))
-    size = np.abs(programs.matrix).sum(axis=(1, 2)) / programs.matrix.shape[2] + 1e-300
+    size = np.abs(programs.matrix).sum(axis=(1, 2)) / programs.matrix.shape[2]
     reach = np.abs(programs.gradient / programs.curvature).max(axis=1)
     scale = np.linalg.norm(programs.target, axis=1) + size * reach + 1e-300
     items = np.arange(k)
     for _ in range(MAX_ITERATIONS):
         part, here = programs.take(items), dual[items]
-        slope = part.slope(here)
-        step = _newton_direction(part, here, slope)
-        moved = _line_search(part, here, step)
-        change = np.abs(part.primal(moved) - part.primal(here)).max(axis=1)
+        newton, rest = _directions(part, here)
+        moved = _climb(part, _climb(part, here, newton), rest)
+        before, after = part.primal(here), part.primal(moved)
         dual[items] = moved
         balanced = np.linalg.norm(part.slope(moved), axis=1) <= 1e-13 * scale[items]
-        largest = np.abs(part.primal(moved)).max(axis=1)
-        items = items[~balanced & (change > 1e-13 * largest)]
+        idle = np.abs(after - before).max(axis=1) <= 1e-13 * np.abs(after).max(axis=1)
+        items = items[~(balanced | idle)]
         if not items.size:
             break
     return programs.primal(dual), dual
 
 
-def _newton_direction(part: QuadraticPrograms, dual: np.ndarray, slope: np.ndarray) -> np.ndarray:
+def _directions(part: QuadraticPrograms, dual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Newton direction in what the free unknowns can balance, and the dual's slope in what they cannot."""
     t = part.primal(dual)
     free = ((t > part.low) & (t < part.high)) / part.curvature
     hessian = np.einsum("kim,km,kjm->kij", part.matrix, free, part.matrix)
     every = np.einsum("kim,km,kim->k", part.matrix, 1.0 / part.curvature, part.matrix)
-    shift = _SHIFT * every[:, None, None] * np.eye(part.target.shape[1])
-    return np.linalg.solve(hessian + shift, slope[..., None])[..., 0]
+    values, vectors = np.linalg.eigh(hessian)
+    spanned = values > _RANK * every[:, None]
+    share = np.einsum("kij,ki->kj", vectors, part.slope(dual))
+    newton = np.where(spanned, share / np.where(spanned, values, 1.0), 0.0)
+    rest = np.where(spanned, 0.0, share)
+    return np.einsum("kij,kj->ki", vectors, newton), np.einsum("kij,kj->ki", vectors, rest)
 
 
-def _line_search(part: QuadraticPrograms, dual: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """The full step where the dual still rises at its end, else the point on the way where it stops rising."""
-    start = np.einsum("kn,kn->k", part.slope(dual), step)
-    end = np.einsum("kn,kn->k", part.slope(dual + step), step)
-    short = np.flatnonzero(end < -1e-9 * np.abs(start))
-    factor = np.ones(len(dual))
-    if short.size:
-        factor[short] = _stop_of_rise(part.take(short), dual[short], step[short], start[short], end[short])
-    return dual + factor[:, None] * step
+def _climb(part: QuadraticPrograms, dual: np.ndarray, direction: np.ndarray) -> np.ndarray:
+    """Exact maximum of the dual along a direction: its slope is piecewise linear with kinks where bounds come and go.
+
+    A direction along which the dual rises for ever (the balance is impossible) is followed to its last kink.
+    """
+    pace = np.einsum("knm,kn->km", part.matrix, direction)
+    weight = np.linalg.norm(part.matrix, axis=1) * np.linalg.norm(direction, axis=1)[:, None]
+    pace = np.where(np.abs(pace) > _RANK * weight, pace, 0.0)
+    start = np.einsum("knm,kn->km", part.matrix, dual) - part.gradient
+    kinks = _kinks(part, start, pace)
+    stops = np.where(np.isfinite(kinks), kinks, 0.0)
+    free = (start[:, None, :] + stops[..., None] * pace[:, None, :]) / part.curvature[:, None, :]
+    t = np.clip(free, part.low[:, None, :], part.high[:, None, :])
+    slope = np.einsum("kn,kn->k", part.target, direction)[:, None] - np.einsum("kjm,km->kj", t, pace)
+    rising = np.isfinite(kinks) & (slope > 0.0)
+    rising[:, 0] |= True
+    last = rising.shape[1] - 1 - np.argmax(rising[:, ::-1], axis=1)
+    row = np.arange(len(dual))
+    beyond = free[row, last] + 1e-9 * np.sign(pace) * (1.0 + np.abs(free[row, last]))
+    moving = (beyond > part.low) & (beyond < part.high)
+    fall = (np.where(moving, pace**2, 0.0) / part.curvature).sum(axis=1)
+    here = np.maximum(slope[row, last], 0.0)
+    further = np.where(fall > 0.0, here / np.where(fall > 0.0, fall, 1.0), 0.0)
+    following = np.minimum(last + 1, kinks.shape[1] - 1)
+    room = np.where(following > last, kinks[row, following] - stops[row, last], np.inf)
+    return dual + (stops[row, last] + np.minimum(further, room))[:, None] * direction
 
 
-def _stop_of_rise(
-    part: QuadraticPrograms, dual: np.ndarray, step: np.ndarray, start: np.ndarray, end: np.ndarray
-) -> np.ndarray:
-    """Factor (k,) in 0..1 where the dual's slope along the step is about zero: false position, halved when it drags."""
-    low, high, at_low, at_high = np.zeros(len(dual)), np.ones(len(dual)), start, end
-    for count in range(24):
-        share = at_low / np.maximum(at_low - at_high, 1e-300)
-        middle = low + (high - low) * (np.clip(share, 0.02, 0.98) if count % 3 else 0.5)
-        here = np.einsum("kn,kn->k", part.slope(dual + middle[:, None] * step), step)
-        up = here > 0.0
-        low, at_low = np.where(up, middle, low), np.where(up, here, at_low)
-        high, at_high = np.where(up, high, middle), np.where(up, at_high, here)
-        if (np.abs(here) <= 1e-6 * np.abs(start)).all():
-            break
-    return middle
+def _kinks(part: QuadraticPrograms, start: np.ndarray, pace: np.ndarray) -> np.ndarray:
+    """(k, 2 m + 1) sorted factors >= 0 at which an unknown meets or leaves a bound, 0 first, inf for never."""
+    moves = pace != 0.0
+    safe = np.where(moves, pace, 1.0)
+    kinks = [np.zeros((len(start), 1))]
+    for bound in (part.low, part.high):
+        finite = np.isfinite(bound) & moves
+        factor = (np.where(finite, bound, 0.0) * part.curvature - start) / safe
+        kinks.append(np.where(finite & (factor > 0.0), factor, np.inf))
+    return np.sort(np.concatenate(kinks, axis=1), axis=1)
