@@ -14,8 +14,8 @@ def modes_text(result: Mapping[str, Any]) -> str:
             zip(result["frequencies_hz"], result["platform_energy"], result["kinds"], strict=True), start=1
         )
     ]
-    x, y, z, *_ = result["pose"]
-    title = f"{result['robot']} at ({x:.4g}, {y:.4g}, {z:.4g}) m, model {result['model']}, assembly {result['assembly']}"
+    x, y, z = (round(v, 4) + 0.0 for v in result["pose"][:3])
+    title = f"{result['robot']} at ({x:g}, {y:g}, {z:g}) m, model {result['model']}, assembly {result['assembly']}"
     certified = (
         "The count is certified: no eigenfrequency below the last one is missing."
         if result["count_certified"]
