@@ -70,7 +70,7 @@ def test_spring_pose_is_the_one_next_to_the_reference():
 def test_reference_lengths_are_straight_lines():
     robot = load_robot("thesis-3-1")
     lengths = reference_lengths(robot, [0.0, 0.0, 0.5], np.eye(3))
-    points = robot.platform_anchors + [0.0, 0.0, 0.5]
+    points = np.array([0.0, 0.0, 0.5]) + robot.platform_anchors
     assert lengths == pytest.approx(np.linalg.norm(points - robot.frame_anchors, axis=1))
     wheel = replace(robot, pulleys=(Pulley(0.05),) * 8)
     assert (reference_lengths(wheel, [0.0, 0.0, 0.5], np.eye(3)) > lengths).all()
