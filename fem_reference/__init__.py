@@ -12,10 +12,14 @@ from fem_reference.errors import (
     FemError,
     FoldedCableError,
     MissedModesError,
+    PulleysNotSettledError,
     RobotNotConvergedError,
+    StepNotConvergedError,
+    UndefinedSwivelError,
     UnstableEquilibriumError,
 )
 from fem_reference.extrapolation import Extrapolation, extrapolate
+from fem_reference.pulley import PulleyData, Wrap
 from fem_reference.rigid_platform import PlatformData
 from fem_reference.robot import PointForce, RobotData, RobotEquilibrium
 from fem_reference.robot_dynamics import count_below, platform_dynamic_stiffness
@@ -34,11 +38,16 @@ __all__ = [
     "MissedModesError",
     "PlatformData",
     "PointForce",
+    "PulleyData",
+    "PulleysNotSettledError",
     "RobotData",
     "RobotEquilibrium",
     "RobotModes",
     "RobotNotConvergedError",
+    "StepNotConvergedError",
+    "UndefinedSwivelError",
     "UnstableEquilibriumError",
+    "Wrap",
     "cable_count_below",
     "cable_modes",
     "count_below",

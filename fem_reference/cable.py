@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference.bar_element import MassModel, bar_mass, bar_stiffness
+from fem_reference.pulley import Wrap
 
 
 @dataclass(frozen=True)
@@ -35,15 +36,16 @@ class CableData:
 
 @dataclass(frozen=True, eq=False)
 class CableEquilibrium:
-    """A cable of n bars at rest between two held ends.
+    """A cable of n bars at rest between two held ends, the first of which may be the exit of a pulley.
 
-    cable, gravity   : the data it was solved for; gravity (3,) [m/s^2]
+    cable, gravity   : the data it was solved for, without what lies on a pulley; gravity (3,) [m/s^2]
     nodes            : (n + 1, 3) [m], world, from start to end
     tension_vectors  : (n, 3) [N], world, pull of each bar along its way from start to end
     start_force      : (3,) [N], applied to the cable at its start to hold it
     end_force        : (3,) [N], applied to the cable at its end to hold it
     residual_norm    : largest force [N] left over at an interior node, evaluated from `nodes` alone
     iterations       : Newton steps spent
+    wrap             : where it lies on its pulley, None without a pulley
     """
 
     cable: CableData
@@ -54,6 +56,7 @@ class CableEquilibrium:
     end_force: np.ndarray
     residual_norm: float
     iterations: int
+    wrap: Wrap | None = None
 
     @property
     def elements(self) -> int:
@@ -76,17 +79,42 @@ class CableEquilibrium:
         reach = max(float(np.abs(self.nodes).max()), self.element_length)
         return self.cable.axial_stiffness * float(np.finfo(float).eps) * reach / self.element_length
 
+    @property
+    def wrap_angle(self) -> float:
+        """Angle [rad] by which the pulley turns the cable; zero without a pulley.
+
+        `wrap.angle`, where the first bar leaves, is behind by half the turn of a bar. The pull at the exit
+        corrects that, and also the turn of the cable over the distance by which the exit then shifts.
+        """
+        if self.wrap is None:
+            return 0.0
+        pull, bar = -self.start_force, self.element_length * (1.0 + self.tensions[0] / self.cable.axial_stiffness)
+        late = float(np.arctan2(pull @ self.wrap.outward, pull @ self.wrap.pulley.axis)) - self.wrap.angle
+        return self.wrap.angle + late / (1.0 + 2.0 * self.wrap.pulley.radius * late / float(bar))
+
     def element_stiffness(self) -> np.ndarray:
-        """Tangent stiffness (n, 6, 6) [N/m] of every bar in this state."""
-        tensions = self.tensions
-        return bar_stiffness(
-            self.tension_vectors / tensions[:, None],
-            tensions,
-            np.array(self.element_length),
-            np.array(self.cable.axial_stiffness),
+        """Tangent stiffness (n, 6, 6) [N/m] of every bar in this state.
+
+        With a pulley the start node of the first bar is the held entry point, so that bar acts on its last
+        node alone.
+        """
+        tensions, stiffness = self.tensions, self.cable.axial_stiffness
+        matrices = bar_stiffness(
+            self.tension_vectors / tensions[:, None], tensions, np.array(self.element_length), np.array(stiffness)
         )
+        if self.wrap is not None:
+            matrices[0] = 0.0
+            matrices[0, 3:, 3:] = self.wrap.bar_stiffness(float(tensions[0]), self.element_length, stiffness)
+        return matrices
 
     def element_mass(self, mass: MassModel = "lumped") -> np.ndarray:
-        """Mass matrix (n, 6, 6) [kg] of every bar."""
+        """Mass matrix (n, 6, 6) [kg] of every bar; at a pulley the exit moves as the first free node demands."""
         each = np.full(self.elements, self.cable.linear_density * self.element_length)
-        return bar_mass(each, mass)
+        matrices = bar_mass(each, mass)
+        if self.wrap is not None:
+            start = self.wrap.exit_motion(float(self.tensions[0]), self.element_length, self.cable.axial_stiffness)
+            motion = np.vstack([start, np.eye(3)])
+            on_node = motion.T @ matrices[0] @ motion
+            matrices[0] = 0.0
+            matrices[0, 3:, 3:] = on_node
+        return matrices

@@ -59,7 +59,8 @@ def cable_modes(equilibrium: CableEquilibrium, count: int, mass: MassModel = "lu
     """Lowest `count` modes of the clamped cable.
 
     A cable under its weight hangs in a plane, so motion in and out of that plane does not couple; the two
-    are solved apart, which keeps nearly equal frequencies of the two kinds from mixing.
+    are solved apart, which keeps nearly equal frequencies of the two kinds from mixing. A pulley with an
+    axis out of that plane couples them; a cable with a pulley is solved in one go.
 
     Raises
     ------
@@ -70,7 +71,7 @@ def cable_modes(equilibrium: CableEquilibrium, count: int, mass: MassModel = "lu
         raise ValueError(f"count must be between 1 and {3 * interior}, got {count!r}")
     frame, matrices = cable_frame(equilibrium), clamped_matrices(equilibrium, mass)
     values, shapes, shares = [], [], []
-    for axes in (frame[:2], frame[2:]):
+    for axes in (frame[:2], frame[2:]) if equilibrium.wrap is None else (frame,):
         basis = csc_array(kron(eye_array(interior), axes.T))
         stiffness, inertia = (csc_array(basis.T @ matrix @ basis) for matrix in matrices)
         found, vectors = lowest_eigenpairs(
@@ -78,13 +79,28 @@ def cable_modes(equilibrium: CableEquilibrium, count: int, mass: MassModel = "lu
         )
         values.append(found)
         shapes.append((basis @ vectors).T.reshape(len(found), interior, 3))
-        shares.append(np.full(len(found), float(len(axes) == 2)))
+        shares.append(_in_plane_shares(vectors, len(axes)))
     order = np.argsort(np.concatenate(values), kind="stable")[:count]
     return CableModes(
         frequencies_hz(np.concatenate(values)[order]),
         np.concatenate(shapes)[order],
         np.concatenate(shares)[order],
     )
+
+
+def _in_plane_shares(vectors: np.ndarray, axes: int) -> np.ndarray:
+    """Part (k,) of the motion energy along the first two axes, for vectors (nodes x axes, k)."""
+    squares = (vectors**2).reshape(-1, axes, vectors.shape[1]).sum(axis=0)
+    if axes < 3:
+        return np.full(vectors.shape[1], float(axes == 2))
+    return np.asarray(squares[:2].sum(axis=0) / squares.sum(axis=0))
+
+
+def first_omega(equilibrium: CableEquilibrium, mass: MassModel = "lumped") -> float:
+    """Lowest eigenfrequency [rad/s] of the cable with its far end held, of any direction of motion."""
+    shift = -1e-3 * string_eigenvalue(equilibrium)
+    values, _ = lowest_eigenpairs(*clamped_matrices(equilibrium, mass), 1, shift)
+    return float(np.sqrt(values[0]))
 
 
 def string_eigenvalue(equilibrium: CableEquilibrium) -> float:

@@ -28,7 +28,10 @@ EPS = float(np.finfo(float).eps)
 
 @dataclass(frozen=True, eq=False)
 class CableBatch:
-    """m cables of n bars each, as arrays: lengths, EA (m,), weight of one bar (m, 3) [N]."""
+    """m cables of n bars each, as arrays: lengths, EA (m,), weight of one bar (m, 3) [N].
+
+    handed_on : (m, 3) [N], a further force on the first free node, from a pulley
+    """
 
     cables: tuple[CableData, ...]
     elements: int
@@ -36,6 +39,7 @@ class CableBatch:
     element_length: np.ndarray
     axial_stiffness: np.ndarray
     element_weight: np.ndarray
+    handed_on: np.ndarray
 
     @classmethod
     def of(cls, cables: tuple[CableData, ...], elements: int, gravity: ArrayLike) -> CableBatch:
@@ -50,6 +54,7 @@ class CableBatch:
             length,
             np.array([cable.axial_stiffness for cable in cables]),
             (density * length)[:, None] * acceleration,
+            np.zeros((len(length), 3)),
         )
 
     @property
@@ -65,7 +70,9 @@ class CableBatch:
     def tension_vectors(self, mid_force: np.ndarray) -> np.ndarray:
         """Tension vectors (m, n, 3) [N] that leave every interior node in balance."""
         offsets = np.arange(self.elements) - 0.5 * (self.elements - 1)
-        return mid_force[:, None, :] - offsets[:, None] * self.element_weight[:, None, :]
+        vectors = mid_force[:, None, :] - offsets[:, None] * self.element_weight[:, None, :]
+        vectors[:, 0] += self.handed_on
+        return vectors
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,12 +195,13 @@ def equilibria(
 def _equilibrium(
     batch: CableBatch, index: int, start: np.ndarray, state: ChainState, iterations: int
 ) -> CableEquilibrium:
-    cable, vectors = batch.cables[index], state.tension_vectors[index]
+    cable, vectors, handed = batch.cables[index], state.tension_vectors[index], batch.handed_on[index]
     length, weight = float(batch.element_length[index]), batch.element_weight[index]
     tensions = np.linalg.norm(vectors, axis=-1)
     steps = vectors * (length * (1.0 / tensions + 1.0 / cable.axial_stiffness))[:, None]
     nodes = np.vstack([start, start + np.cumsum(steps, axis=0)])
     left_over = internal_forces(nodes, length, cable.axial_stiffness)[1:-1] - weight
+    left_over[0] -= handed
     weakest = int(np.argmin(np.linalg.norm(np.diff(nodes, axis=0), axis=-1)))
     stretch = float(np.linalg.norm(nodes[weakest + 1] - nodes[weakest])) / length - 1.0
     if stretch < -64.0 * EPS * (1.0 + np.abs(nodes).max() / length):
@@ -203,7 +211,7 @@ def _equilibrium(
         batch.gravity,
         fixed_array("nodes", nodes, (None, 3)),
         fixed_array("tensions", vectors, (None, 3)),
-        start_force=fixed_array("start_force", -vectors[0] - 0.5 * weight, (3,)),
+        start_force=fixed_array("start_force", -vectors[0] + handed - 0.5 * weight, (3,)),
         end_force=fixed_array("end_force", vectors[-1] - 0.5 * weight, (3,)),
         residual_norm=float(np.linalg.norm(left_over, axis=-1).max()),
         iterations=iterations,

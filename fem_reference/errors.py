@@ -87,3 +87,38 @@ class MissedModesError(FemError):
             "(-1 found: frequencies too close together to count between). "
             "Ask for a few modes more; if it persists, report the case."
         )
+
+
+class UndefinedSwivelError(FemError):
+    """The cable comes straight back along the swivel axis, so its pulley has no plane."""
+
+    def __init__(self, entry: np.ndarray, axis: np.ndarray) -> None:
+        self.entry, self.axis = np.array(entry), np.array(axis)
+        super().__init__(
+            f"the cable at {np.round(entry, 6).tolist()} m comes back along its swivel axis "
+            f"{np.round(axis, 6).tolist()}: the pulley may face any way. "
+            "Move the platform off the axis, or turn the axis around if it should point where the cable goes."
+        )
+
+
+class PulleysNotSettledError(FemError):
+    """The exit points of the cables kept moving on their pulleys."""
+
+    def __init__(self, moved: float, iterations: int) -> None:
+        self.moved, self.iterations = moved, iterations
+        super().__init__(
+            f"exit points still move by {moved:.3g} m after {iterations} rounds of statics. "
+            "The pulleys are large beside the cables or the platform hangs near a swivel axis: "
+            "move it away, or take smaller radii."
+        )
+
+
+class StepNotConvergedError(FemError):
+    """The equations of motion of one time step were not solved."""
+
+    def __init__(self, time: float, residual: float, tolerance: float, iterations: int) -> None:
+        self.time, self.residual, self.tolerance, self.iterations = time, residual, tolerance, iterations
+        super().__init__(
+            f"time step ending at {time:.6g} s is out of balance by {residual:.3g} N after {iterations} iterations "
+            f"(tolerance {tolerance:.3g} N). Take a smaller time_step."
+        )

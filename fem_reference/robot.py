@@ -9,6 +9,7 @@ import numpy as np
 from fem_reference.arrays import fixed_array
 from fem_reference.bar_element import MassModel
 from fem_reference.cable import CableData, CableEquilibrium
+from fem_reference.pulley import PulleyData
 from fem_reference.rigid_platform import PlatformData, point_motion, rotating_arm_stiffness
 
 
@@ -16,11 +17,13 @@ from fem_reference.rigid_platform import PlatformData, point_motion, rotating_ar
 class RobotData:
     """m cables between a frame and one rigid platform.
 
-    frame_anchors    : (m, 3) [m], world, held
+    frame_anchors    : (m, 3) [m], world, held; with a pulley, the point where the cable enters it
     platform_anchors : (m, 3) [m], platform frame
-    cables           : m CableData, each from its frame anchor (start) to its platform anchor (end)
+    cables           : m CableData, each from its frame anchor (start) to its platform anchor (end), so with
+                       what lies on a pulley
     platform         : PlatformData
     gravity          : (3,) [m/s^2], world, z up
+    pulleys          : m PulleyData or None, or empty for none at all
     """
 
     frame_anchors: np.ndarray
@@ -28,6 +31,7 @@ class RobotData:
     cables: tuple[CableData, ...]
     platform: PlatformData
     gravity: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -9.81]))
+    pulleys: tuple[PulleyData | None, ...] = ()
 
     def __post_init__(self) -> None:
         cables = tuple(self.cables)
@@ -37,6 +41,10 @@ class RobotData:
         for name in ("frame_anchors", "platform_anchors"):
             object.__setattr__(self, name, fixed_array(f"RobotData.{name}", getattr(self, name), (len(cables), 3)))
         object.__setattr__(self, "gravity", fixed_array("RobotData.gravity", self.gravity, (3,)))
+        pulleys = tuple(self.pulleys)
+        if len(pulleys) not in (0, len(cables)):
+            raise ValueError(f"RobotData.pulleys must be empty or hold {len(cables)} entries, got {len(pulleys)}")
+        object.__setattr__(self, "pulleys", pulleys)
 
 
 @dataclass(frozen=True, eq=False)

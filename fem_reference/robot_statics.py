@@ -7,14 +7,17 @@ what it finds is a stable rest position, not merely a balance of forces.
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from fem_reference.arrays import fixed_array
+from fem_reference.cable import CableEquilibrium
 from fem_reference.cable_statics import EPS, CableBatch, ChainState, equilibria, solve_chains
-from fem_reference.errors import RobotNotConvergedError
+from fem_reference.errors import PulleysNotSettledError, RobotNotConvergedError
+from fem_reference.pulley_statics import guessed_wraps, handed_on, movement, rewrapped, unwound, wraps_towards
 from fem_reference.rigid_platform import point_motion, rotating_arm_stiffness, turned
 from fem_reference.robot import DeadLoads, PointForce, RobotData, RobotEquilibrium
 
@@ -138,16 +141,14 @@ def solve_robot(
     ------
     RobotNotConvergedError : forces and moments did not balance; carries the last pose and wrench.
     FoldedCableError, CableNotConvergedError : a cable has no equilibrium that bars can show.
+    PulleysNotSettledError, UndefinedSwivelError : the pulleys find no place to face.
     ValueError : wrong shapes or numbers.
     """
     place, turn = fixed_array("position", position, (3,)), fixed_array("rotation", rotation, (3, 3))
     if np.abs(turn @ turn.T - np.eye(3)).max() > 1e-9 or np.linalg.det(turn) < 0.0:
         raise ValueError(f"rotation must be a proper rotation matrix, got {turn.tolist()!r}")
-    batch, loads = CableBatch.of(robot.cables, elements, robot.gravity), DeadLoads.on(robot, external_force)
-    state, iterations = platform_state(robot, batch, loads, place, turn), 0
-    if not hold_pose:
-        state, iterations = _balanced(robot, batch, loads, state)
-    cables = equilibria(batch, robot.frame_anchors, state.chains, state.chain_iterations)
+    loads = DeadLoads.on(robot, external_force)
+    state, cables, iterations = _settled(robot, loads, place, turn, elements, hold_pose)
     return RobotEquilibrium(
         robot,
         external_force,
@@ -157,6 +158,31 @@ def solve_robot(
         fixed_array("residual_wrench", state.wrench, (6,)),
         iterations,
     )
+
+
+def _settled(
+    robot: RobotData, loads: DeadLoads, place: np.ndarray, turn: np.ndarray, elements: int, hold_pose: bool
+) -> tuple[PlatformState, tuple[CableEquilibrium, ...], int]:
+    """Statics with the exits of the pulleys held, until the exits stay; one round without pulleys."""
+    wraps, first, iterations = guessed_wraps(robot, place, turn), None, 0
+    handed = np.zeros_like(robot.frame_anchors)
+    for _ in range(MAX_ITERATIONS):
+        bare = unwound(robot, wraps)
+        batch = dataclasses.replace(CableBatch.of(bare.cables, elements, bare.gravity), handed_on=handed)
+        state = platform_state(bare, batch, loads, place, turn, first)
+        if not hold_pose:
+            state, steps = _balanced(bare, batch, loads, state)
+            iterations += steps
+        place, turn, first = state.position, state.rotation, state.chains.mid_force
+        before, pulls = wraps, state.chains.tension_vectors[:, 0]
+        tensions = np.linalg.norm(pulls, axis=-1)
+        wraps = wraps_towards(robot, pulls, tensions, 0.5 * batch.element_weight)
+        handed = handed_on(wraps, batch.element_length * (1.0 + tensions / batch.axial_stiffness))
+        moved, floor = movement(before, wraps)
+        if moved <= floor:
+            cables = equilibria(batch, bare.frame_anchors, state.chains, state.chain_iterations)
+            return state, rewrapped(cables, before), iterations
+    raise PulleysNotSettledError(moved, MAX_ITERATIONS)
 
 
 def _balanced(robot: RobotData, batch: CableBatch, loads: DeadLoads, state: PlatformState) -> tuple[PlatformState, int]:

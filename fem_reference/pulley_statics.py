@@ -1,0 +1,76 @@
+"""Where do the cables of a robot leave their pulleys?
+
+With the exits held, the robot is a plain one: frame anchors at the exits, lengths less what lies on the
+pulleys. Its first bars say where the exits should be. Repeating that settles fast, since an exit moves by about
+radius / cable length of what its cable's end moves. No energy is needed to find the exits: moving one along
+its tangent costs nothing to first order, as the path length over a pulley is stationary where it is tangent.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from fem_reference.cable import CableData, CableEquilibrium
+from fem_reference.pulley import Wrap, wrapped
+from fem_reference.robot import RobotData
+
+Wraps = tuple[Wrap | None, ...]
+
+
+def guessed_wraps(robot: RobotData, position: np.ndarray, rotation: np.ndarray) -> Wraps:
+    """Wraps of weightless cables that run straight to a platform at a pose, under no tension."""
+    chords = position + robot.platform_anchors @ rotation.T - robot.frame_anchors
+    return wraps_towards(robot, chords, np.zeros(len(chords)), np.zeros_like(chords))
+
+
+def wraps_towards(robot: RobotData, first_bars: np.ndarray, tensions: np.ndarray, half_weights: np.ndarray) -> Wraps:
+    """Wraps for first bars of directions (m, 3), tensions (m,) [N] and half weights (m, 3) [N]."""
+    pulleys = robot.pulleys or (None,) * len(robot.cables)
+    each = zip(pulleys, robot.frame_anchors, first_bars, tensions, half_weights, robot.cables, strict=True)
+    return tuple(
+        None if pulley is None else wrapped(pulley, entry, bar, float(tension), weight, cable.axial_stiffness)
+        for pulley, entry, bar, tension, weight, cable in each
+    )
+
+
+def handed_on(wraps: Wraps, bars: np.ndarray) -> np.ndarray:
+    """Forces (m, 3) [N] by which the weights that ride on the exits act on the first free nodes; bars (m,) [m]."""
+    pairs = zip(wraps, bars, strict=True)
+    return np.array([np.zeros(3) if wrap is None else wrap.handed_on(float(bar)) for wrap, bar in pairs])
+
+
+def unwound(robot: RobotData, wraps: Wraps) -> RobotData:
+    """The robot without pulleys: frame anchors at the exits, lengths without what lies on the pulleys."""
+    pairs = list(zip(robot.cables, robot.frame_anchors, wraps, strict=True))
+    anchors = [anchor if wrap is None else wrap.exit_point for _, anchor, wrap in pairs]
+    return dataclasses.replace(
+        robot,
+        frame_anchors=np.array(anchors),
+        cables=tuple(_beyond(cable, wrap) for cable, _, wrap in pairs),
+        pulleys=(),
+    )
+
+
+def _beyond(cable: CableData, wrap: Wrap | None) -> CableData:
+    if wrap is None:
+        return cable
+    return dataclasses.replace(cable, unstrained_length=cable.unstrained_length - wrap.unstrained_length)
+
+
+def movement(before: Wraps, after: Wraps) -> tuple[float, float]:
+    """Largest change [m] of an exit point or wrapped length between two rounds, and what counts as round-off."""
+    moved, floor = 0.0, 0.0
+    for old, new in zip(before, after, strict=True):
+        if old is not None and new is not None:
+            exit_moved = float(np.linalg.norm(new.exit_point - old.exit_point))
+            moved = max(moved, exit_moved, abs(new.unstrained_length - old.unstrained_length))
+            place = float(np.abs(new.entry).max()) + new.pulley.radius
+            floor = max(floor, 1e-11 * new.pulley.radius + 64.0 * float(np.finfo(float).eps) * place)
+    return moved, floor
+
+
+def rewrapped(cables: tuple[CableEquilibrium, ...], wraps: Wraps) -> tuple[CableEquilibrium, ...]:
+    """The cables at rest, each told of its wrap."""
+    return tuple(dataclasses.replace(cable, wrap=wrap) for cable, wrap in zip(cables, wraps, strict=True))

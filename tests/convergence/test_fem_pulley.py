@@ -1,0 +1,342 @@
+"""Does a cable round a swivelling pulley obey geometry, virtual work and symmetry, and converge?"""
+
+import dataclasses
+
+import numpy as np
+import pytest
+import scipy.optimize
+from scipy.spatial.transform import Rotation
+
+from fem_reference import (
+    CableData,
+    FemError,
+    PlatformData,
+    PointForce,
+    PulleyData,
+    PulleysNotSettledError,
+    RobotData,
+    UndefinedSwivelError,
+    cable_modes,
+    count_below,
+    end_dynamic_stiffness,
+    extrapolate,
+    platform_dynamic_stiffness,
+    robot_modes,
+    solve_robot,
+)
+
+EA, MU, UP, GRAVITY = 251327.4123, 0.067, np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.0, -9.81])
+LEANING = np.array([0.1, 0.3, np.sqrt(0.9)])
+ENTRY = np.array([0.4, -0.2, 3.0])
+BODY = PlatformData(10.0, np.zeros(3), np.eye(3))
+AXES = pytest.mark.parametrize("axis", [UP, LEANING], ids=["upright", "leaning"])
+
+
+def one_cable(radius, length, axis=UP, axial_stiffness=EA, gravity=GRAVITY):
+    cable = CableData(length, axial_stiffness, MU)
+    pulleys = () if radius is None else (PulleyData(radius, axis),)
+    return RobotData([ENTRY], [[0.0, 0.0, 0.0]], (cable,), BODY, gravity, pulleys)
+
+
+def hung(robot, offset, elements):
+    """The cable of a held point at an offset from the entry."""
+    return solve_robot(robot, ENTRY + offset, np.eye(3), elements, hold_pose=True).cables[0]
+
+
+OFFSET = np.array([9.0, 1.0, -3.0])
+SLACK = 11.0  # m; the chord is 9.5 m
+
+
+@AXES
+def test_the_cable_lies_on_the_pulley_and_leaves_along_a_tangent(axis):
+    robot = one_cable(0.3, SLACK, axis)
+    cable = hung(robot, OFFSET, 40)
+    wrap, first = cable.wrap, cable.tension_vectors[0] / cable.tensions[0]
+    spoke = (cable.nodes[0] - wrap.center) / 0.3
+    assert np.linalg.norm(spoke) == pytest.approx(1.0, abs=1e-12)
+    assert np.linalg.norm(wrap.center - ENTRY) == pytest.approx(0.3, rel=1e-12)
+    assert (wrap.center - ENTRY) @ axis == pytest.approx(0.0, abs=1e-12)
+    assert (wrap.center - ENTRY) @ OFFSET > 0.0  # the pulley faces the platform
+    assert spoke @ first == pytest.approx(0.0, abs=1e-10)
+    assert np.cross(axis, wrap.outward) @ first == pytest.approx(0.0, abs=1e-10)
+    assert np.cross(-wrap.outward, spoke) @ np.cross(axis, wrap.outward) > -1.0  # wound from b over the top
+    turned = Rotation.from_rotvec(wrap.angle * np.cross(axis, wrap.outward)).apply(axis)
+    assert turned == pytest.approx(first, abs=1e-10)
+    middle = Rotation.from_rotvec(0.5 * wrap.angle * np.cross(axis, wrap.outward)).apply(-wrap.outward)
+    assert middle @ axis > 0.0
+
+
+@AXES
+def test_no_length_is_lost(axis):
+    """Free and wrapped unstrained lengths add up, and the wrap obeys Hooke at the tension of the exit."""
+    cable = hung(one_cable(0.3, SLACK, axis), OFFSET, 640)
+    assert cable.cable.unstrained_length + cable.wrap.unstrained_length == pytest.approx(SLACK, rel=1e-14)
+    at_exit = np.linalg.norm(cable.start_force)
+    hooke = cable.wrap.arc / (1.0 + at_exit / EA)
+    assert cable.wrap.unstrained_length == pytest.approx(hooke, rel=1e-10)
+    assert cable.wrap.unstrained_length < cable.wrap.arc
+
+
+@AXES
+def test_a_vanishing_pulley_is_a_plain_anchor(axis):
+    plain = hung(one_cable(None, SLACK), OFFSET, 40)
+    tiny, small = (hung(one_cable(radius, SLACK, axis), OFFSET, 40) for radius in (1e-9, 1e-3))
+    assert tiny.nodes == pytest.approx(plain.nodes, abs=1e-7)
+    assert np.abs(small.nodes - plain.nodes).max() > 1e-5
+    omegas = np.array([0.0, 5.0])
+    stiffness = end_dynamic_stiffness(plain, omegas)
+    scale = np.abs(stiffness).max()
+    assert np.abs(end_dynamic_stiffness(tiny, omegas) - stiffness).max() < 1e-6 * scale
+    assert np.abs(end_dynamic_stiffness(small, omegas) - stiffness).max() > 1e-5 * scale
+
+
+def path_length(radius, point, axis):
+    """Length from the origin up along the axis, round the pulley and straight to the point, by root finding."""
+    height = point @ axis
+    reach = np.linalg.norm(point - height * axis)
+
+    def exit_at(angle):
+        return np.array([radius * (1.0 - np.cos(angle)), radius * np.sin(angle)])
+
+    def misses(angle):  # the rest of the way against the spoke at the exit
+        rest = np.array([reach, height]) - exit_at(angle)
+        return rest @ np.array([-np.cos(angle), np.sin(angle)])
+
+    angles = np.linspace(0.0, np.pi, 200)
+    signs = np.sign([misses(angle) for angle in angles])
+    first = int(np.flatnonzero(np.diff(signs) > 0)[0]) if (np.diff(signs) > 0).any() else 0
+    angle = scipy.optimize.brentq(misses, angles[first], angles[first + 1], xtol=1e-15)
+    return radius * angle, float(np.linalg.norm(np.array([reach, height]) - exit_at(angle))), exit_at(angle)
+
+
+def test_end_force_is_the_gradient_of_the_energy():
+    """Without gravity the tension is one number, and the energy that of one spring as long as the path."""
+    offset, length = np.array([6.0, 2.0, -1.5]), 6.6
+
+    def energy(point, radius):
+        arc, bar, _ = path_length(radius, point, LEANING)
+        return 0.5 * 4000.0 * length * ((arc + bar) / length - 1.0) ** 2
+
+    def gradient(radius, step=1e-5):
+        ends = [[energy(offset + sign * step * way, radius) for sign in (1, -1)] for way in np.eye(3)]
+        return np.array([(up - down) / (2.0 * step) for up, down in ends])
+
+    cable = hung(one_cable(0.3, length, LEANING, 4000.0, np.zeros(3)), offset, 8)
+    assert cable.end_force == pytest.approx(gradient(0.3), rel=1e-7)
+    assert cable.end_force != pytest.approx(gradient(0.306), rel=1e-4)
+
+
+def first_bar_energy(cable, radius, axis):
+    """Energy of wrap and first bar by the position of its node, with the best share of length on the wrap."""
+    stiffness, total = cable.cable.axial_stiffness, cable.wrap.unstrained_length + cable.element_length
+    outward, density = cable.wrap.outward, MU * GRAVITY
+    drawn = (cable.wrap.tension + stiffness) / stiffness
+
+    def parked(share):  # potential of the cable on the pulley, each piece where it lies
+        angle = share * drawn / radius
+        along = outward * (angle - np.sin(angle)) + axis * (1.0 - np.cos(angle))
+        return -(density @ along) * radius**2 / drawn
+
+    def energy(node):
+        arc, bar, (reach, height) = path_length(radius, node - ENTRY, axis)
+        aside = node - ENTRY - axis * ((node - ENTRY) @ axis)
+        exit_point = ENTRY + reach * aside / np.linalg.norm(aside) + height * axis
+        middle = 0.5 * (node + exit_point) - ENTRY
+
+        def slope(share):  # derivative by the share: energies of the two sides, and weight
+            wrap, free = arc / share, bar / (total - share)
+            weight = density @ middle - density @ _parked_slope(share, drawn, radius, outward, axis)
+            return 0.5 * stiffness * (free**2 - wrap**2) + weight
+
+        guess = cable.wrap.unstrained_length
+        share = scipy.optimize.brentq(slope, 0.9 * guess, 1.1 * guess, xtol=1e-16, rtol=1e-15)
+        springs = share * (arc / share - 1.0) ** 2 + (total - share) * (bar / (total - share) - 1.0) ** 2
+        return 0.5 * stiffness * springs - (total - share) * density @ middle + parked(share)
+
+    return energy
+
+
+def _parked_slope(share, drawn, radius, outward, axis):
+    angle = share * drawn / radius
+    return radius * ((1.0 - np.cos(angle)) * outward + np.sin(angle) * axis)
+
+
+def second_difference(function, point, step):
+    ways = step * np.eye(3)
+    rows = [
+        [
+            function(point + a + b) - function(point + a - b) - function(point - a + b) + function(point - a - b)
+            for b in ways
+        ]
+        for a in ways
+    ]
+    return np.array(rows) / (4.0 * step**2)
+
+
+def test_first_bar_has_the_force_and_stiffness_of_its_energy():
+    """Soft and heavy, so that wrap, weight and stretch all show; upright, where the energy is a true one."""
+    cable = hung(one_cable(0.3, 9.5, UP, 600.0), OFFSET, 30)
+    bar = cable.wrap.bar_stiffness(float(cable.tensions[0]), cable.element_length, 600.0)
+    pull = cable.tension_vectors[0] - 0.5 * MU * cable.element_length * GRAVITY
+
+    def compared(radius, step=1e-6):
+        energy, node = first_bar_energy(cable, radius, UP), np.array(cable.nodes[1])
+        slope = [(energy(node + step * way) - energy(node - step * way)) / (2.0 * step) for way in np.eye(3)]
+        stiffness_misses = np.abs(second_difference(energy, node, 1e-4) - bar).max() / np.abs(bar).max()
+        return np.abs(np.array(slope) - pull).max() / np.linalg.norm(pull), stiffness_misses
+
+    force, stiffness = compared(0.3)
+    assert force < 1e-6  # measured 7e-8: the tension step is W . t but for a share of relative size weight / EA
+    assert stiffness < 1e-6  # measured 1e-7
+    wrong_force, wrong_stiffness = compared(0.306)
+    assert wrong_force > 0.1
+    assert wrong_stiffness > 0.01
+
+
+def stiffness_by_differences(robot, elements, step=1e-4):
+    columns = []
+    for way in np.eye(3):
+        up, down = (hung(robot, OFFSET + sign * step * way, elements).end_force for sign in (1, -1))
+        columns.append((up - down) / (2.0 * step))
+    return np.array(columns).T
+
+
+@AXES
+def test_static_end_stiffness_tends_to_the_derivative_of_the_end_force(axis):
+    """Differences cut the cable anew at every place, so the meshes agree to order two only.
+
+    A weightless wrap gives an upright pulley a symmetric stiffness; of a leaning one the symmetric part is kept.
+    """
+    misses = []
+    for elements in (20, 40, 80):
+        robot = one_cable(0.3, SLACK, axis)
+        numeric = stiffness_by_differences(robot, elements)
+        claimed = end_dynamic_stiffness(hung(robot, OFFSET, elements), 0.0)
+        misses.append(np.abs(claimed - 0.5 * (numeric + numeric.T)).max() / np.abs(claimed).max())
+        lopsided = np.abs(numeric - numeric.T).max() / np.abs(claimed).max()
+        assert lopsided < (1e-5 if axis is UP else 5e-4)
+    assert misses[0] < 1e-4  # measured 4e-5
+    assert np.log2(misses[0] / misses[2]) / 2.0 == pytest.approx(1.8, abs=0.3)
+    wrong = stiffness_by_differences(one_cable(0.306, SLACK, axis), 80)
+    assert np.abs(wrong - claimed).max() > 1e-3 * np.abs(claimed).max()
+
+
+@AXES
+def test_forces_wrap_stiffness_and_frequencies_converge_with_order_two(axis):
+    counts, values = [20, 40, 80], []
+    for elements in counts:
+        cable = hung(one_cable(0.3, SLACK, axis), OFFSET, elements)
+        matrix = end_dynamic_stiffness(cable, 5.0)
+        modes = cable_modes(cable, 6).frequencies_hz
+        values.append([*cable.end_force, cable.wrap_angle, *np.diag(matrix), *modes])
+    order = extrapolate(counts, values).order
+    assert order == pytest.approx(np.full(13, 2.0), abs=0.15)  # measured 1.91 ... 2.02
+
+
+def test_turning_everything_about_the_axis_turns_the_forces():
+    robot = one_cable(0.3, SLACK)
+    turn = Rotation.from_rotvec([0.0, 0.0, 2.1]).as_matrix()
+    here, there = hung(robot, OFFSET, 30), hung(robot, turn @ OFFSET, 30)
+    assert there.end_force == pytest.approx(turn @ here.end_force, abs=1e-9)
+    assert there.wrap_angle == pytest.approx(here.wrap_angle, abs=1e-11)
+    stiffness = end_dynamic_stiffness(here, 7.0)
+    turned = end_dynamic_stiffness(there, 7.0)
+    assert np.abs(turned - turn @ stiffness @ turn.T).max() < 1e-8 * np.abs(stiffness).max()
+    aside = np.cross(UP, OFFSET)
+    assert here.end_force @ aside == pytest.approx(0.0, abs=1e-9)  # no moment about a frictionless axis
+    swing = np.linalg.norm(here.end_force[:2]) / np.linalg.norm(OFFSET[:2])
+    unit = aside / np.linalg.norm(aside)
+    assert unit @ end_dynamic_stiffness(here, 0.0) @ unit == pytest.approx(swing, rel=1e-8)
+
+
+def test_a_weight_pulled_aside_hangs_and_swings_as_a_textbook_says():
+    """The cable leaves along the pull; the bob's stiffness is T / l in the pulley's plane, T sin / rho about it."""
+    radius, length, light, aside = 0.2, 3.0, CableData(3.0, 1e6, 1e-5), np.array([40.0, 0.0, 0.0])
+    robot = RobotData([ENTRY], [[0.0] * 3], (light,), BODY, GRAVITY, (PulleyData(radius, UP),))
+    pull = aside + 10.0 * GRAVITY
+    tension, angle = np.linalg.norm(pull), np.arctan2(pull[0], pull[2])
+    straight = length * (1.0 + tension / 1e6) - radius * angle
+    bob = np.array([radius * (1.0 - np.cos(angle)), 0.0, radius * np.sin(angle)]) + straight * pull / tension
+    rest = solve_robot(robot, ENTRY + bob + 1e-5, np.eye(3), 6, external_force=PointForce(aside))
+    assert rest.position - ENTRY == pytest.approx(bob, abs=1e-5)
+    assert rest.cables[0].wrap_angle == pytest.approx(angle, abs=1e-5)
+    stiffness = platform_dynamic_stiffness(rest, 0.0)[:3, :3]
+    normal = np.array([np.cos(angle), 0.0, -np.sin(angle)])
+    assert normal @ stiffness @ normal == pytest.approx(tension / straight, rel=1e-3)
+    assert stiffness[1, 1] == pytest.approx(tension * np.sin(angle) / bob[0], rel=1e-3)
+    assert tension / (straight + radius * angle) != pytest.approx(tension / straight, rel=1e-2)
+
+
+FRAME = np.array([[x, y, z] for z in (5.0, 4.0) for x, y in ((-8, 5.5), (-8, -5.5), (8, -5.5), (8, 5.5))])
+PLATFORM = 0.4 * np.array(
+    [[1, 1, 1], [-1, 1, 1], [-1, -1, 1], [1, -1, 1], [-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1]]
+)
+PLACE = np.array([0.3, -0.2, 0.5])
+
+
+def robot_with(radius, axis=UP):
+    chords = PLACE + PLATFORM - FRAME
+    lengths = [sum(path_length(radius, chord, axis)[:2]) * (1.0 - 5e-4) for chord in chords]
+    cables = tuple(CableData(length, EA, MU) for length in lengths)
+    body = PlatformData(60.0, [0.05, -0.03, 0.08], np.diag([7.1, 11.3, 11.3]))
+    return RobotData(FRAME, PLATFORM, cables, body, GRAVITY, (PulleyData(radius, axis),) * 8)
+
+
+def wrench_tangent(robot, pose, step=1e-5):
+    columns = []
+    for way in np.eye(6):
+        ends = []
+        for sign in (step, -step):
+            turn = Rotation.from_rotvec(sign * way[3:]).as_matrix() @ pose.rotation
+            held = solve_robot(robot, pose.position + sign * way[:3], turn, pose.elements, hold_pose=True)
+            ends.append(held.residual_wrench)
+        columns.append((ends[1] - ends[0]) / (2.0 * step))
+    return np.array(columns).T
+
+
+def test_platform_stiffness_is_the_derivative_of_the_wrench():
+    robot = robot_with(0.1)
+    pose = solve_robot(robot, PLACE, np.eye(3), 20)
+    claimed = platform_dynamic_stiffness(pose, 0.0)
+    scale = np.abs(claimed).max()
+    assert np.abs(wrench_tangent(robot, pose) - claimed).max() < 2e-6 * scale
+    wrong = dataclasses.replace(robot, pulleys=(PulleyData(0.102, UP),) * 8)
+    assert np.abs(wrench_tangent(wrong, pose) - claimed).max() > 1e-4 * scale
+
+
+def test_robot_modes_with_pulleys_are_certified_and_converge():
+    counts, values = [20, 40, 80], []
+    for elements in counts:
+        rest = solve_robot(robot_with(0.1), PLACE, np.eye(3), elements)
+        assert np.abs(rest.residual_wrench).max() < 1e-7
+        modes = robot_modes(rest, 10)
+        omegas = 2.0 * np.pi * modes.frequencies_hz
+        for omega in np.linspace(0.9 * omegas[0], 0.999 * omegas[-1], 7):
+            assert count_below(rest, omega) == (omegas < omega).sum()
+        values.append(modes.frequencies_hz)
+    assert extrapolate(counts, values).order == pytest.approx(np.full(10, 2.0), abs=0.1)
+    plain = dataclasses.replace(robot_with(1e-9), pulleys=())
+    without = robot_modes(solve_robot(plain, PLACE, np.eye(3), 80), 10).frequencies_hz
+    assert np.abs(values[-1] / without - 1.0).max() > 1e-3
+
+
+def test_a_mixed_robot_keeps_its_plain_anchors():
+    robot = robot_with(0.1)
+    mixed = dataclasses.replace(robot, pulleys=(None, *robot.pulleys[1:]))
+    held = solve_robot(mixed, PLACE, np.eye(3), 10, hold_pose=True)
+    assert held.cables[0].wrap is None
+    assert held.cables[0].wrap_angle == 0.0
+    assert np.abs(held.cables[0].nodes[0] - FRAME[0]).max() == 0.0
+    assert held.cables[1].wrap_angle > 1.5
+
+
+def test_errors_carry_numbers():
+    with pytest.raises(ValueError, match=r"PulleyData\.radius must be positive and finite, got 0\.0"):
+        PulleyData(0.0, UP)
+    with pytest.raises(ValueError, match=r"PulleyData\.axis must be a unit vector"):
+        PulleyData(0.1, [0.0, 0.0, 2.0])
+    with pytest.raises(ValueError, match=r"RobotData\.pulleys must be empty or hold 8 entries, got 1"):
+        dataclasses.replace(robot_with(0.1), pulleys=(None,))
+    with pytest.raises(UndefinedSwivelError, match="comes back along its swivel axis"):
+        hung(one_cable(0.1, 3.0), np.array([0.0, 0.0, -2.99]), 10)
+    assert isinstance(PulleysNotSettledError(1e-3, 100), FemError)
