@@ -4,8 +4,10 @@ from typing import Annotated
 
 import typer
 
+from cdpr_struct.cli.command_words import command_words
 from cdpr_struct.cli.options import (
     Json,
+    LowerBound,
     Mass,
     Out,
     Payload,
@@ -32,50 +34,50 @@ def run(
     wrench: Annotated[
         str | None, typer.Option("--wrench", metavar="FX,FY,FZ,MX,MY,MZ", help="Extra wrench on the platform [N, N m].")
     ] = None,
-    lower_bound: Annotated[
-        float, typer.Option("--lower-bound", parser=number, metavar="N", help="Smallest cable force [N].")
-    ] = 0.0,
+    lower_bound: LowerBound = 0.0,
+    upper_bound: Annotated[
+        float, typer.Option("--upper-bound", parser=number, metavar="N", help="Largest cable force there [N].")
+    ] = float("inf"),
     out: Out = None,
     json: Json = False,
-) -> int:
+) -> int:  # fmt: skip
     """Unstrained lengths and tensions that hold a pose (minimum norm where there is a choice)."""
-    if model not in MODELS:
-        raise InputError("--model", "", model, f"one of: {', '.join(MODELS)}")
+    chosen = read_model(model)
     if not 0.0 <= lower_bound < float("inf"):
         raise InputError("--lower-bound", "", lower_bound, "give a force in N, zero or more")
+    if not upper_bound > lower_bound:
+        raise InputError(
+            "--upper-bound", "", upper_bound, f"give a force in N above the lower bound, {lower_bound:g} N"
+        )
     machine = read_robot(robot, payload, mass)
     where = read_pose(pose, machine)
-    import numpy as np
-
+    extra = None if wrench is None else read_numbers(wrench, "--wrench", (6,), "numbers in N and N m")
+    from cdpr_struct.reports import statics_rest as report
     from cdpr_struct.statics.inverse_kinematics import inverse
 
-    extra = None if wrench is None else np.array(read_numbers(wrench, "--wrench", (6,), "numbers in N and N m"))
-    solution = inverse(
-        machine, where.position, where.rotation, model=model, external_wrench=extra, lower_bound=lower_bound
-    )
-    result = {
-        "robot": machine.name,
-        "model": model,
-        "pose": where.in_degrees(),
-        "lengths_m": solution.lengths,
-        "tensions_N": solution.tensions,
-        "residual_wrench": solution.residual_wrench,
-    }
-
-    def text() -> None:
-        from cdpr_struct.reports.text import plain_table
-
-        rows = [
-            [f"cable {i}", f"{length:.5f}", f"{tension:.3f}"]
-            for i, (length, tension) in enumerate(zip(solution.lengths, solution.tensions, strict=True), start=1)
-        ]
-        print(plain_table(f"{machine.name}, {model} cables", ["", "length [m]", "tension [N]"], rows))
-        print(
-            f"largest unbalanced force {abs(solution.residual_wrench[:3]).max():.2g} N, "
-            f"moment {abs(solution.residual_wrench[3:]).max():.2g} N m"
-        )
-
-    emit(result, json, text)
+    solution = inverse(machine, where.position, where.rotation, chosen, extra, lower_bound, upper_bound)
+    result = report.inverse_json(machine, chosen, where, solution)
+    emit(result, json, lambda: print(report.inverse_text(result)))
     if out is not None:
-        write_files(out, {"result.json": result_json(result)})
+        bounds = {
+            "--lower-bound": lower_bound or None,
+            "--upper-bound": None if upper_bound == float("inf") else upper_bound,
+        }
+        options = {"--pose": pose, "--model": model, "--wrench": wrench, **bounds}
+        command = command_words(NAME, robot, payload, mass, **options)
+        write_files(
+            out, {"result.json": result_json(result), **report.inverse_files(machine, where, solution, result, command)}
+        )
     return 0
+
+
+def read_model(text: str) -> str:
+    """Name of a cable model.
+
+    Raises
+    ------
+    InputError : there is none of this name.
+    """
+    if text not in MODELS:
+        raise InputError("--model", "", text, f"one of: {', '.join(MODELS)}")
+    return text

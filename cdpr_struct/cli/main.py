@@ -8,8 +8,12 @@ from typer.exceptions import Abort, TyperException
 from cdpr_struct.cli import (
     cable,
     derive,
+    forward,
+    import_caspr,
     inverse,
+    map,
     modes,
+    pose_error,
     reproduce,
     robots,
     verify,
@@ -26,9 +30,13 @@ COMMANDS = (
     robots,
     cable,
     inverse,
+    forward,
+    pose_error,
+    map,
     modes,
     verify,
     reproduce,
+    import_caspr,
     derive,
 )
 for command in COMMANDS:
@@ -50,8 +58,9 @@ def run(arguments: list[str] | None) -> int:
         return _fail(2, str(error))
     except CdprError as error:
         return _fail(1, str(error))
-    except (Abort, KeyboardInterrupt):
-        return _fail(130, "interrupted; nothing was written")
+    except (Abort, KeyboardInterrupt) as stop:
+        said = str(stop) or str(stop.__cause__ or "")
+        return _fail(130, said or "interrupted; nothing was written")
     except Exception as error:
         if type(error).__module__.partition(".")[0] == "fem_reference":
             return _fail(1, f"FEM reference: {error}")

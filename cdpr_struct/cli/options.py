@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
     from cdpr_struct.robot.pose import Pose
     from cdpr_struct.robot.robot import Robot
+    from cdpr_struct.workspace.grid import Grid
 
 
 def number(text: str) -> float:
@@ -104,3 +105,47 @@ def read_assembly(text: str) -> "Assembly":
     if text == "consistent" or text == "thesis":
         return text
     raise InputError("--assembly", "", text, "consistent or thesis")
+
+
+GridText = Annotated[
+    str | None,
+    typer.Option("--grid", metavar="X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ]", help="Poses [m, deg]; x, y, z: value or range."),
+]  # fmt: skip
+_GRID_FORM = "give X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ] in m and deg, each of x, y, z a number or a range like -3:3:7"
+_MOST_POSES = 4_000_000
+
+
+def read_grid(text: str) -> "Grid":
+    """The grid of poses that the option describes.
+
+    Raises
+    ------
+    InputError : not the form, not ascending, not finite, or too many poses.
+    """
+    import numpy as np
+
+    from cdpr_struct.workspace.grid import Grid
+
+    parts = text.split(",")
+    if len(parts) not in (3, 6):
+        raise InputError("--grid", "", text, _GRID_FORM)
+    axes = [_axis(part, text) for part in parts[:3]]
+    angles = read_numbers(",".join(parts[3:]), "--grid", (3,), "angles rx,ry,rz in deg") if parts[3:] else [0.0] * 3
+    if np.prod([float(count) for _, _, count in axes]) > _MOST_POSES:
+        raise InputError("--grid", "", text, f"at most {_MOST_POSES} poses")
+    x, y, z = (np.linspace(*axis) for axis in axes)
+    return Grid(x, y, z, np.radians(angles))
+
+
+def _axis(part: str, text: str) -> tuple[float, float, int]:
+    numbers = part.split(":")
+    try:
+        low, high = float(numbers[0]), float(numbers[1]) if len(numbers) == 3 else float(numbers[0])
+        count = int(numbers[2]) if len(numbers) == 3 else 1
+    except ValueError as error:
+        raise InputError("--grid", "", text, _GRID_FORM) from error
+    if len(numbers) not in (1, 3) or not (abs(low) < float("inf") and abs(high) < float("inf")):
+        raise InputError("--grid", "", text, _GRID_FORM)
+    if len(numbers) == 3 and not (high > low and count >= 2):
+        raise InputError("--grid", part, part, "a range ascends and has at least 2 values, like -3:3:7")
+    return low, high, count

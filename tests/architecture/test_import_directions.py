@@ -15,11 +15,12 @@ MAY_IMPORT = {
     "statics": {"robot"},
     "dynamics": {"robot", "statics"},
     "crosscheck": {"robot", "statics", "dynamics"},
-    "thesis": {"robot", "statics", "dynamics", "crosscheck"},
-    "reports": {"robot", "statics", "dynamics", "crosscheck", "thesis"},
-    "cli": {"robot", "statics", "dynamics", "crosscheck", "thesis", "reports"},
+    "workspace": {"robot", "statics", "dynamics"},
+    "thesis": {"robot", "statics", "dynamics", "crosscheck", "workspace"},
+    "reports": {"robot", "statics", "dynamics", "crosscheck", "workspace", "thesis"},
+    "cli": {"robot", "statics", "dynamics", "crosscheck", "workspace", "thesis", "reports"},
 }
-NUMERICS = ("generated", "statics", "dynamics", "crosscheck")
+NUMERICS = ("generated", "statics", "dynamics", "crosscheck", "workspace")
 SCREEN_AND_FILES = {"matplotlib", "plotly", "rich", "typer", "jinja2", "pathlib", "json", "csv"}
 MAY_IMPORT_THE_REFEREE = {"crosscheck"}
 

@@ -1,0 +1,65 @@
+"""`cdpr-struct forward`: the pose that the platform takes at locked cable lengths."""
+
+from typing import Annotated, Any
+
+import typer
+
+from cdpr_struct.cli.command_words import command_words
+from cdpr_struct.cli.inverse import read_model
+from cdpr_struct.cli.options import Json, Lengths, Mass, Out, Payload, RobotName, read_numbers, read_robot
+from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.errors import InputError
+
+NAME = "forward"
+
+
+def run(
+    robot: RobotName,
+    lengths: Lengths = None,
+    payload: Payload = 0.0,
+    mass: Mass = None,
+    model: Annotated[str, typer.Option("--model", help="sagging, spring or ideal")] = "sagging",
+    start: Annotated[
+        str | None,
+        typer.Option(
+            "--start", metavar="X,Y,Z[,RX,RY,RZ]",
+            help="Where to look first [m, deg], if there are several equilibria; default: the home pose.",
+        ),
+    ] = None,
+    out: Out = None,
+    json: Json = False,
+) -> int:  # fmt: skip
+    """Pose and tensions at fixed unstrained cable lengths."""
+    machine = read_robot(robot, payload, mass)
+    chosen, length = read_model(model), read_lengths(lengths, len(machine.cables), machine.name)
+    from cdpr_struct.cli.options import read_pose
+    from cdpr_struct.reports import statics_rest as report
+    from cdpr_struct.statics.forward_kinematics import forward
+
+    origin = None if start is None and machine.home is None else read_pose(start, machine)
+    first: tuple[Any, Any] = (None, None) if origin is None else (origin.position, origin.rotation)
+    solution = forward(machine, length, *first, chosen).require_converged()
+    result = report.forward_json(machine, chosen, length, solution)
+    emit(result, json, lambda: print(report.forward_text(result)))
+    if out is not None:
+        options = {"--lengths": lengths, "--model": model, "--start": start}
+        command = command_words(NAME, robot, payload, mass, **options)
+        write_files(
+            out, {"result.json": result_json(result), **report.forward_files(machine, solution, result, command)}
+        )
+    return 0 if result["stable"] else 1
+
+
+def read_lengths(text: str | None, count: int, robot: str) -> list[float]:
+    """Unstrained lengths of --lengths [m].
+
+    Raises
+    ------
+    InputError : missing, not one positive number per cable.
+    """
+    if text is None:
+        raise InputError("--lengths", "", "nothing", f"give {count} unstrained lengths in m, one per cable of {robot}")
+    values = read_numbers(text, "--lengths", (count,), f"unstrained lengths in m, one per cable of {robot}")
+    if min(values) <= 0.0:
+        raise InputError("--lengths", "", text, "lengths must be above zero")
+    return values

@@ -1,0 +1,53 @@
+"""`cdpr-struct map`: any quantity over the workspace, resumable, on as many processes or machines as there are."""
+
+from typing import Annotated
+
+import typer
+
+from cdpr_struct.cli.command_words import command_words
+from cdpr_struct.cli.executors import Scheduler, Workers, check_workers
+from cdpr_struct.cli.options import GridText, Json, Mass, Out, Payload, RobotName, read_grid, read_robot, whole_number
+from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.sweeping import clear_checkpoint, run_sweep
+from cdpr_struct.errors import InputError
+
+NAME = "map"
+
+
+def run(
+    robot: RobotName,
+    grid: GridText = None,
+    quantity: Annotated[
+        str | None, typer.Option("--quantity", metavar="NAME", help="What to map; an unknown name lists them.")
+    ] = None,
+    payload: Payload = 0.0,
+    mass: Mass = None,
+    workers: Workers = 1,
+    scheduler: Scheduler = None,
+    chunk: Annotated[int, typer.Option("--chunk", parser=whole_number, help="Poses a batch.")] = 256,
+    out: Out = None,
+    json: Json = False,
+) -> int:
+    """Map a quantity over a grid of poses; with --out, an interrupted run continues where it stopped."""
+    if grid is None:
+        raise InputError("--grid", "", "nothing", "give X0:X1:NX,Y0:Y1:NY,Z, like -3:3:13,-3:3:13,0.5")
+    if not 1 <= chunk <= 100_000:
+        raise InputError("--chunk", "", chunk, "give a number from 1 to 100000")
+    check_workers(workers, scheduler)
+    machine, poses = read_robot(robot, payload, mass), read_grid(grid)
+    from cdpr_struct.reports import statics_map as report
+    from cdpr_struct.workspace.quantities import QUANTITIES
+    from cdpr_struct.workspace.sweep import Sweep
+
+    if quantity is None or quantity not in QUANTITIES:
+        raise InputError("--quantity", "", quantity or "nothing", f"one of: {', '.join(QUANTITIES)}")
+    sweep = Sweep(quantity, machine, poses, chunk)
+    columns, resumed = run_sweep(sweep, workers, scheduler, out)
+    result = report.map_json(machine, quantity, poses, columns) | {"resumed_chunks": resumed}
+    emit(result, json, lambda: print(report.map_sentence(result)))
+    if out is not None:
+        command = command_words(NAME, robot, payload, mass, **{"--grid": grid, "--quantity": quantity})
+        files = report.map_files(machine, quantity, poses, columns, command)
+        write_files(out, {"result.json": result_json(result), **files})
+        clear_checkpoint(sweep, out)
+    return 0 if result["held"] else 1

@@ -1,0 +1,91 @@
+"""`cdpr-struct pose-error`: how far the platform misses its pose when sag and stretch are not accounted for."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from cdpr_struct.cli.command_words import command_words
+from cdpr_struct.cli.executors import Scheduler, Workers, check_workers
+from cdpr_struct.cli.options import (
+    GridText,
+    Json,
+    Mass,
+    Out,
+    Payload,
+    PoseText,
+    RobotName,
+    number,
+    read_grid,
+    read_pose,
+    read_robot,
+)
+from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.sweeping import clear_checkpoint, run_sweep
+from cdpr_struct.errors import InputError
+
+if TYPE_CHECKING:
+    from cdpr_struct.robot.pose import Pose
+    from cdpr_struct.robot.robot import Robot
+    from cdpr_struct.statics.sufficient_load import SufficientLoad
+
+NAME = "pose-error"
+
+
+def run(
+    robot: RobotName,
+    grid: GridText = None,
+    payload: Payload = 0.0,
+    mass: Mass = None,
+    sufficient_load: Annotated[
+        float | None,
+        typer.Option(
+            "--sufficient-load", parser=number, metavar="TOL_MM",
+            help="Find the mass from which on the spring model is good to this tolerance, at --pose.",
+        ),
+    ] = None,
+    pose: PoseText = None,
+    workers: Workers = 1,
+    scheduler: Scheduler = None,
+    out: Out = None,
+    json: Json = False,
+) -> int:  # fmt: skip
+    """Static pose error over a grid, split into what sag adds and what stretch adds (thesis 3.2.2)."""
+    if grid is None and sufficient_load is None:
+        raise InputError("--grid", "", "nothing", "give --grid, --sufficient-load, or both")
+    if sufficient_load is not None and not 0.0 < sufficient_load < float("inf"):
+        raise InputError("--sufficient-load", "", sufficient_load, "give a tolerance in mm above zero")
+    if pose is not None and sufficient_load is None:
+        raise InputError("--pose", "", pose, "a pose is for --sufficient-load; errors over poses take --grid")
+    check_workers(workers, scheduler)
+    machine = read_robot(robot, payload, mass)
+    poses = None if grid is None else read_grid(grid)
+    load = None if sufficient_load is None else _load(machine, read_pose(pose, machine), sufficient_load)
+    from cdpr_struct.reports import statics_pose_error as report
+    from cdpr_struct.workspace.pose_error_map import PoseErrorMap
+    from cdpr_struct.workspace.sweep import Sweep
+
+    sweep = None if poses is None else Sweep("pose-error", machine, poses)
+    errors, result = None, {"robot": machine.name, "mass_kg": machine.platform.mass}
+    if sweep is not None:
+        columns, _ = run_sweep(sweep, workers, scheduler, out)
+        errors = PoseErrorMap(machine.name, machine.platform.mass, sweep.grid, columns).require_some()
+        result |= report.pose_error_json(errors)
+    if load is not None:
+        result["sufficient_load"] = report.sufficient_load_json(*load)
+    emit(result, json, lambda: print("\n".join(report.pose_error_sentences(errors, load))))
+    if out is not None:
+        command = command_words(
+            NAME, robot, payload, mass, **{"--grid": grid, "--sufficient-load": sufficient_load, "--pose": pose}
+        )
+        write_files(
+            out, {"result.json": result_json(result), **report.pose_error_files(machine, errors, load, command)}
+        )
+        if sweep is not None:
+            clear_checkpoint(sweep, out)
+    return 0
+
+
+def _load(machine: "Robot", where: "Pose", tolerance: float) -> "tuple[SufficientLoad, Pose]":
+    from cdpr_struct.statics.sufficient_load import sufficient_load
+
+    return sufficient_load(machine, where.position, where.rotation, 1e-3 * tolerance), where

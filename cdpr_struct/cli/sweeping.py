@@ -1,0 +1,44 @@
+"""Running a sweep from the command line: executor, progress bar, checkpoint."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cdpr_struct.cli.checkpoint import Checkpoint
+from cdpr_struct.cli.executors import executor
+from cdpr_struct.cli.progress import steps
+
+if TYPE_CHECKING:
+    from cdpr_struct.workspace.quantities import Columns
+    from cdpr_struct.workspace.sweep import Sweep
+
+
+def run_sweep(sweep: "Sweep", workers: int, scheduler: str | None, out: Path | None) -> "tuple[Columns, int]":
+    """Columns over the grid, and how many chunks came from an earlier, interrupted run in `out`."""
+    store = None if out is None else Checkpoint(out, sweep.fingerprint)
+    known = {} if store is None else store.chunks(sweep.chunks)
+    left = sweep.chunks - len(known)
+    with executor(workers, scheduler) as pool, steps(left) as begin:
+        begin(f"{sweep.grid.size} poses")
+
+        def finished(number: int, columns: "Columns") -> None:
+            if store is not None:
+                store.keep(number, columns)
+            begin(f"{sweep.grid.size} poses")
+
+        try:
+            columns = sweep.run(pool, known, finished)
+        except KeyboardInterrupt as stop:
+            raise _interruption(store, sweep) from stop
+    return columns, len(known)
+
+
+def clear_checkpoint(sweep: "Sweep", out: Path) -> None:
+    """Forget the chunks of a sweep whose result is written."""
+    Checkpoint(out, sweep.fingerprint).clear()
+
+
+def _interruption(store: Checkpoint | None, sweep: "Sweep") -> KeyboardInterrupt:
+    if store is None:
+        return KeyboardInterrupt("interrupted; nothing was written (with --out, finished poses are kept)")
+    kept = len(store.chunks(sweep.chunks))
+    return KeyboardInterrupt(f"interrupted; {kept} of {sweep.chunks} chunks are kept, the same command continues")

@@ -1,0 +1,105 @@
+"""Static pose error over the workspace, and over the load (thesis figs 3.4-3.7 and 4.4)."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from cdpr_struct.reports.figures.style import BLACK, BLUE, GREEN, VERMILLION, plain_ticks
+from cdpr_struct.reports.figures.workspace_map import Layer, draw_heat, draw_line, legend_handles
+from cdpr_struct.statics.sufficient_load import SufficientLoad
+from cdpr_struct.workspace.pose_error_map import PoseErrorMap
+
+LOAD_SIZE = (9.6, 4.2)
+_TITLES = {"global": "a) global (sagging model)", "sag": "b) from sag", "axial": "c) from stretch (spring model)"}
+_COLOURS = {"global": VERMILLION, "sag": BLUE, "axial": BLACK}
+
+
+def pose_error_size(errors: PoseErrorMap) -> tuple[float, float]:
+    """Size of the figure [inch]: three maps side by side, as high as their axes ask, or one plot of three curves."""
+    if len(errors.grid.free) < 2:
+        return (9.6, 4.0)
+    across, up = (np.ptp(errors.grid.axes[i]) for i in errors.grid.free)
+    return (9.6, float(np.clip(1.3 + 2.4 * up / across, 2.2, 9.0)))
+
+
+def draw_pose_error(figure: Figure, errors: PoseErrorMap) -> None:
+    """Error along z: global, from sag, from stretch."""
+    layers = {
+        part: Layer(title, "mm", errors.vertical(part), errors.more_stable, signed=True)
+        for part, title in _TITLES.items()
+    }
+    if len(errors.grid.free) == 2:
+        for axes, layer in zip(figure.subplots(1, 3, sharey=True), layers.values(), strict=True):
+            draw_heat(figure, axes, errors.grid, layer, 5)
+            axes.label_outer()
+    else:
+        axes = figure.subplots()
+        for part, layer in layers.items():
+            draw_line(axes, errors.grid, layer, _COLOURS[part], layer.title)
+        axes.set_ylabel("pose error along z [mm]")
+        axes.legend()
+    handles = legend_handles(list(layers.values()))
+    if handles:
+        figure.legend(handles=handles, loc="outside lower center", ncols=2)
+
+
+def pose_error_caption(errors: PoseErrorMap) -> str:
+    """What to see in the figure."""
+    means = ", ".join(f"{errors.mean(part):+.2f} mm {what}" for part, what in _MEANING.items())
+    worst, (x, y, z) = errors.extreme("global")
+    left_out = errors.grid.size - int(errors.counts.sum())
+    other = int(errors.more_stable.sum())
+    where = errors.grid.fixed_text()
+    return (
+        f"Pose error of {errors.robot} along z{', ' + where if where else ''}, {errors.mass:g} kg: cables are given "
+        "the lengths of straight, inextensible ones, and the platform hangs where sag and stretch let it. Above zero "
+        f"it hangs too high. Mean over {int(errors.counts.sum())} poses: {means}. Largest: {worst:+.2f} mm at "
+        f"({x:g}, {y:g}, {z:g}) m. Each panel has its own scale."
+        + (f" Hatched: {left_out} poses that ideal cables cannot hold or that are not stable." if left_out else "")
+        + (
+            f" Triangles: {other} poses at which the spring model has another equilibrium of lower energy; shown is "
+            "the one that is continuous with the reference pose."
+            if other
+            else ""
+        )
+    )
+
+
+_MEANING = {"sag": "from sag", "axial": "from stretch", "global": "together"}
+
+
+def draw_load_ladder(figure: Figure, found: SufficientLoad) -> None:
+    """Vertical pose error over the load; beside it what sag adds, against the tolerance."""
+    left, right = figure.subplots(1, 2)
+    known = np.isfinite(found.mass)
+    far = found.masses <= (max(3.0 * found.mass, 30.0) if known else found.masses[-1])
+    shown = far & (found.masses >= 0.15 * found.masses[far][-1])
+    mass = found.masses[shown]
+    left.plot(mass, 1e3 * found.global_error[shown, 2], color=VERMILLION, linewidth=1.8, label="sagging model")
+    left.plot(mass, 1e3 * found.axial_error[shown, 2], color=BLACK, linestyle="-.", label="spring model")
+    left.axhline(0.0, color=BLUE, linestyle="--", label="ideal model (reference)")
+    left.set_ylabel("pose error along z [mm]")
+    left.legend()
+    right.loglog(found.masses, 1e3 * np.abs(found.sag_error[:, 2]), color=VERMILLION, linewidth=1.8)
+    right.axhline(1e3 * found.tolerance, color=GREEN, linestyle="--")
+    right.annotate(f"tolerance {1e3 * found.tolerance:g} mm", (found.masses[0], 1e3 * found.tolerance), (2, 3),
+                   textcoords="offset points", color=GREEN)  # fmt: skip
+    right.set_ylabel("|sagging minus spring| along z [mm]")
+    for axes in (left, right):
+        axes.set_xlabel("mass of the platform with its load [kg]")
+        if known:
+            axes.axvline(found.mass, color=GREEN, linewidth=1.2)
+    plain_ticks(right.xaxis)
+    plain_ticks(right.yaxis)
+
+
+def load_ladder_caption(found: SufficientLoad) -> str:
+    """What to see in the figure."""
+    limit = (
+        f"From {found.mass:.4g} kg on the two differ by less than {1e3 * found.tolerance:g} mm."
+        if np.isfinite(found.mass)
+        else f"They differ by more than {1e3 * found.tolerance:g} mm up to {found.masses[-1]:g} kg."
+    )
+    return (
+        "Load pulls the sag out of the cables: the sagging model tends to the spring model, whose error grows in "
+        f"proportion to the load. {limit} Right: what sag adds, on logarithmic axes."
+    )

@@ -1,0 +1,139 @@
+"""A quantity over a grid of poses: a heat map over two axes, a curve over one."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.colors import Colormap, ListedColormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from cdpr_struct.reports.figures.style import BLACK, BLUE, GREY, LIGHT
+from cdpr_struct.workspace.grid import AXES, Grid
+
+SIZE = (9.6, 5.8)
+LINE_SIZE = (9.6, 3.8)
+UNHELD = "cannot be held, or not stable"
+OTHER = "spring model: another pose is more stable"
+_HATCH = "////"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Layer:
+    """What one panel shows.
+
+    title, unit : heading and colour bar
+    values      : (n,) over the grid; nan is hatched
+    marked      : (n,) bool, poses that carry a mark
+    signed      : zero means something: above it is red, below it blue
+    """
+
+    title: str
+    unit: str
+    values: np.ndarray
+    marked: np.ndarray
+    signed: bool = False
+
+
+def drawable(grid: Grid) -> bool:
+    """A figure can show one or two axes."""
+    return len(grid.free) in (1, 2)
+
+
+def map_size(grid: Grid) -> tuple[float, float]:
+    """Size of a figure of one quantity [inch]."""
+    return SIZE if len(grid.free) == 2 else LINE_SIZE
+
+
+def draw_map(figure: Figure, grid: Grid, layer: Layer) -> None:
+    """One quantity over the grid."""
+    axes = figure.subplots()
+    if len(grid.free) == 2:
+        draw_heat(figure, axes, grid, layer)
+    else:
+        draw_line(axes, grid, layer, BLUE)
+        axes.set_ylabel(f"{layer.title} [{layer.unit}]")
+    _legend(figure, layer)
+
+
+def draw_heat(figure: Figure, axes: Axes, grid: Grid, layer: Layer, levels: int = 8) -> None:
+    """A heat map with about so many level lines; poses without a value are hatched."""
+    across, up = grid.free
+    shape = (grid.shape[across], grid.shape[up])
+    x, y, value = grid.axes[across], grid.axes[up], layer.values.reshape(shape).T
+    axes.grid(False)
+    axes.set_facecolor(LIGHT)
+    axes.patch.set(hatch=_HATCH, edgecolor=GREY, linewidth=0)
+    scale, colours = _scale(value, layer.signed)
+    image = axes.pcolormesh(
+        x, y, np.ma.masked_invalid(value), norm=scale, cmap=colours, shading="nearest", rasterized=True
+    )
+    _levels(axes, x, y, value, levels)
+    if layer.marked.any():
+        place = grid.positions[layer.marked]
+        axes.plot(
+            place[:, across], place[:, up], "^", color=BLACK, markersize=3, markeredgecolor="white", markeredgewidth=0.4
+        )
+    axes.set_aspect("equal")
+    axes.set_xlabel(f"{AXES[across]} [m]")
+    axes.set_ylabel(f"{AXES[up]} [m]")
+    axes.set_title(layer.title)
+    bar = figure.colorbar(image, ax=axes, shrink=0.85)
+    bar.ax.set_title(f"[{layer.unit}]", fontsize=8, fontweight="normal", loc="left")
+    bar.outline.set_visible(False)
+
+
+def draw_line(axes: Axes, grid: Grid, layer: Layer, colour: str, label: str = "") -> None:
+    """A curve over the one free axis; gaps where there is no value."""
+    (free,) = grid.free
+    axes.plot(grid.axes[free], layer.values, color=colour, linewidth=1.6, label=label or None)
+    if layer.marked.any():
+        axes.plot(grid.axes[free][layer.marked], layer.values[layer.marked], "^", color=BLACK, markersize=4)
+    axes.set_xlabel(f"{AXES[free]} [m]")
+
+
+def legend_handles(layers: list[Layer]) -> list[Patch | Line2D]:
+    """Legend entries for what is hatched and marked, if anything is."""
+    handles: list[Patch | Line2D] = []
+    if any(np.isnan(layer.values).any() for layer in layers):
+        handles.append(Patch(facecolor=LIGHT, edgecolor=GREY, hatch=_HATCH, linewidth=0, label=UNHELD))
+    if any(layer.marked.any() for layer in layers):
+        handles.append(Line2D([], [], color=BLACK, marker="^", markersize=4, linestyle="none", label=OTHER))
+    return handles
+
+
+def _legend(figure: Figure, layer: Layer) -> None:
+    handles = legend_handles([layer])
+    if handles:
+        figure.legend(handles=handles, loc="outside lower center", ncols=2)
+
+
+def _scale(value: np.ndarray, signed: bool) -> tuple[Normalize, Colormap]:
+    """Diverging about zero where signs mix; else from light to dark with growing size."""
+    if not np.isfinite(value).any():
+        return Normalize(0.0, 1.0), _light("YlGnBu")
+    low, high = float(np.nanmin(value)), float(np.nanmax(value))
+    margin = 1e-6 * max(abs(low), abs(high), 1e-12)
+    if signed and low < -margin and high > margin:
+        reach = max(-low, high)
+        return Normalize(-reach, reach), _light("RdBu_r", 0.1, 0.9)
+    below = signed and high <= margin
+    name = "YlGnBu" if below or not signed else "YlOrRd"
+    colours = _light(name)
+    return Normalize(low - margin, high + margin), colours.reversed() if below else colours
+
+
+def _light(name: str, low: float = 0.0, high: float = 0.7) -> Colormap:
+    """Part of a colour map on which black lines can be read."""
+    return ListedColormap(colormaps[name](np.linspace(low, high, 256)))
+
+
+def _levels(axes: Axes, x: np.ndarray, y: np.ndarray, value: np.ndarray, levels: int) -> None:
+    finite = value[np.isfinite(value)]
+    if finite.size < 9 or np.ptp(finite) < 1e-6 * np.abs(finite).max():
+        return
+    field = np.ma.masked_invalid(value)
+    lines = axes.contour(x, y, field, levels=levels, colors=BLACK, linewidths=0.5, linestyles="solid", alpha=0.7)
+    axes.clabel(lines, fontsize=6.5, fmt=lambda level: f"{level:.4g}")

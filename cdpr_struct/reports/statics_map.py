@@ -1,0 +1,114 @@
+"""The files of a map of one quantity over the workspace: result, table, figure, report page."""
+
+import shlex
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.figures import workspace_map
+from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.html import Page, Plate, render_page
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.workspace.grid import AXES, Grid
+from cdpr_struct.workspace.quantities import QUANTITIES, Columns
+
+_NOTE = (
+    "Each value is computed at the reference pose, or for pose errors from it, as the quantity's line in the "
+    "documentation says. Tensions are those of minimum norm that balance the platform on sagging cables. Stiffness is "
+    "the exact derivative of the balance at locked lengths: sag, stretch and turning lever arms included.",
+)
+
+
+def map_table(grid: Grid, columns: Columns) -> str:
+    """CSV of a map, one row a pose; flags as 0 and 1."""
+    place = {f"{name}_m": grid.positions[:, i] for i, name in enumerate(AXES)}
+    rest = {name: value.astype(int) if value.dtype == bool else value for name, value in columns.items()}
+    return csv_text({**place, **rest})
+
+
+def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str, Any]:
+    """Result of a map of one quantity."""
+    quantity = QUANTITIES[name]
+    value = map_values(name, columns)
+    some = bool(np.isfinite(value).any())
+    ends = {
+        key: {"value": float(value[at]), "position_m": grid.positions[at]}
+        for key, at in (("smallest", int(np.nanargmin(value))), ("largest", int(np.nanargmax(value))))
+    } if some else {}  # fmt: skip
+    return {
+        "robot": robot.name,
+        "mass_kg": robot.platform.mass,
+        "quantity": name,
+        "unit": quantity.unit,
+        "meaning": quantity.meaning,
+        "grid": grid.summary(),
+        "poses": grid.size,
+        "held": int(columns["held"].sum()),
+        "mean": float(np.nanmean(value)) if some else None,
+        **ends,
+    }
+
+
+def map_values(name: str, columns: Columns) -> np.ndarray:
+    """(n,) the quantity; nan where the pose is not held or not stable."""
+    good = columns["held"] & columns.get("stable", columns["held"])
+    return np.where(good, columns[QUANTITIES[name].column], np.nan)
+
+
+def map_files(robot: Robot, name: str, grid: Grid, columns: Columns, command: Sequence[str]) -> dict[str, str | bytes]:
+    """CSV, figure and page of a map of one quantity."""
+    plates = [_map_plate(robot, name, grid, columns)] if workspace_map.drawable(grid) else []
+    result = map_json(robot, name, grid, columns)
+    page = Page(
+        title=f"{robot.name}: {QUANTITIES[name].label} over the workspace",
+        subtitle=f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg" + _comma(grid.fixed_text()),
+        verdict=[map_sentence(result)],
+        holds=result["held"] == result["poses"],
+        facts=_map_facts(result),
+        plates=plates,
+        tables=[],
+        notes=[("How it was computed", _NOTE)],
+        command=shlex.join(command),
+    )
+    figures = {f"{plate.name}.svg": plate.svg for plate in plates}
+    return {"map.csv": map_table(grid, columns), **figures, "report.html": render_page(page)}
+
+
+def map_sentence(result: Mapping[str, Any]) -> str:
+    """The outcome in words."""
+    label = QUANTITIES[result["quantity"]].label
+    if result["mean"] is None:
+        return f"None of the {result['poses']} poses can be held."
+    low, high = result["smallest"], result["largest"]
+    at = ["(" + ", ".join(f"{v:g}" for v in end["position_m"]) + ") m" for end in (low, high)]
+    held = "" if result["held"] == result["poses"] else f" {result['poses'] - result['held']} poses cannot be held."
+    return (
+        f"{label[0].upper()}{label[1:]}: {low['value']:.4g} {result['unit']} at {at[0]} to {high['value']:.4g} "
+        f"{result['unit']} at {at[1]}, {result['mean']:.4g} {result['unit']} on average.{held}"
+    )
+
+
+def _map_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
+    held = (f"{result['held']} of {result['poses']}", "poses held")
+    if result["mean"] is None:
+        return [held]
+    unit = result["unit"]
+    ends = [(f"{result[key]['value']:.4g} {unit}", key) for key in ("smallest", "largest")]
+    return [*ends, (f"{result['mean']:.4g} {unit}", "mean"), held]
+
+
+def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
+    quantity, value = QUANTITIES[name], map_values(name, columns)
+    marked = columns.get("more_stable_pose", np.zeros(grid.size, bool))
+    layer = workspace_map.Layer(quantity.label, quantity.unit, value, marked, signed=name.startswith("pose-error"))
+    picture = svg("map", workspace_map.map_size(grid), lambda f: workspace_map.draw_map(f, grid, layer))
+    hatched = " Hatched: poses that cannot be held or are not stable." if np.isnan(value).any() else ""
+    which = f"{robot.name}, {robot.platform.mass:g} kg{_comma(grid.fixed_text())}"
+    caption = f"{which}: {quantity.meaning} [{quantity.unit}].{hatched}"
+    return Plate("map", f"{quantity.label[0].upper()}{quantity.label[1:]}", picture, caption)
+
+
+def _comma(text: str) -> str:
+    return f", {text}" if text else ""

@@ -1,0 +1,164 @@
+"""The files of static pose errors: result, tables, figures, report page."""
+
+import shlex
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.figures import pose_error as pose_error_figure
+from cdpr_struct.reports.figures import workspace_map
+from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.statics_map import map_table
+from cdpr_struct.robot.pose import Pose
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.sufficient_load import SufficientLoad
+from cdpr_struct.workspace.pose_error_map import PARTS, PoseErrorMap
+
+POSE_ERROR_NOTES = (
+    "For each reference pose the lengths of straight, inextensible cables are computed and locked; then the platform "
+    "is let go, once on elastic catenaries (sagging model), once on massless springs that cannot push (spring "
+    "model). Sagging minus reference is the global error, spring minus reference the part of axial elasticity, and "
+    "the rest is what sag adds.",
+    "Every equilibrium is stable: the potential energy is minimised with its exact second derivative. Where the "
+    "spring model has several, the one continuous with the reference pose is taken, found by softening the cables "
+    "in stages.",
+)
+
+
+def pose_error_json(errors: PoseErrorMap) -> dict[str, Any]:
+    """Result of a map of pose errors."""
+    worst = {part: errors.extreme(part) for part in PARTS}
+    return {
+        "robot": errors.robot,
+        "mass_kg": errors.mass,
+        "grid": errors.grid.summary(),
+        "poses": errors.grid.size,
+        "held": int(errors.columns["held"].sum()),
+        "stable": int(errors.columns["stable"].sum()),
+        "counted": int(errors.counts.sum()),
+        "more_stable_pose": int(errors.more_stable.sum()),
+        "mean_mm": {part: errors.mean(part) for part in PARTS},
+        "largest_mm": {part: {"value": value, "position_m": place} for part, (value, place) in worst.items()},
+    }
+
+
+def sufficient_load_json(found: SufficientLoad, pose: Pose) -> dict[str, Any]:
+    """Result of the search for the sufficient load."""
+    return {"tolerance_mm": 1e3 * found.tolerance, "pose": pose.in_degrees(), "mass_kg": found.mass}
+
+
+def pose_error_files(
+    robot: Robot, errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None, command: Sequence[str]
+) -> dict[str, str | bytes]:
+    """CSV, figures and page of pose errors over a grid, of the sufficient load at a pose, or both."""
+    tables: dict[str, str | bytes] = {}
+    plates = []
+    if errors is not None:
+        tables["pose_error.csv"] = map_table(errors.grid, errors.columns)
+        plates += _pose_error_plates(errors)
+    if load is not None:
+        tables["sufficient_load.csv"] = _ladder_csv(load[0])
+        plates.append(_ladder_plate(load[0]))
+    page = Page(
+        title=f"{robot.name}: static pose error",
+        subtitle=f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg",
+        verdict=pose_error_sentences(errors, load),
+        holds=errors is None or bool(errors.counts.all()),
+        facts=_facts(errors, load),
+        plates=plates,
+        tables=[] if errors is None else [_pose_error_table(errors)],
+        notes=[("How it was computed", POSE_ERROR_NOTES)],
+        command=shlex.join(command),
+    )
+    return {**tables, **{f"{plate.name}.svg": plate.svg for plate in plates}, "report.html": render_page(page)}
+
+
+def pose_error_sentences(errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None) -> list[str]:
+    """The outcome in words."""
+    lines = []
+    if errors is not None:
+        sag, axial, total = (errors.mean(part) for part in PARTS)
+        lines.append(
+            f"On average the platform hangs {abs(total):.2f} mm too {'high' if total > 0.0 else 'low'}: "
+            f"sag adds {sag:+.2f} mm, stretch {axial:+.2f} mm."
+        )
+        left_out = errors.grid.size - int(errors.counts.sum())
+        if left_out:
+            lines.append(f"{left_out} of {errors.grid.size} poses do not count: not held, or not stable.")
+        if errors.more_stable.any():
+            lines.append(f"At {int(errors.more_stable.sum())} poses the spring model has another, more stable pose.")
+    if load is not None:
+        lines.append(_load_sentence(*load))
+    return lines
+
+
+def _load_sentence(found: SufficientLoad, pose: Pose) -> str:
+    x, y, z = pose.position
+    where, tolerance = f"At ({x:g}, {y:g}, {z:g}) m", f"{1e3 * found.tolerance:g} mm"
+    if np.isnan(found.mass):
+        top = f"{found.masses[-1]:g} kg"
+        return f"{where} sag adds more than {tolerance} even at {top}: keep the sagging model."
+    return f"{where} the spring model is good to {tolerance} from a mass of {found.mass:.4g} kg on, load included."
+
+
+def _pose_error_plates(errors: PoseErrorMap) -> list[Plate]:
+    if not workspace_map.drawable(errors.grid):
+        return []
+    size = pose_error_figure.pose_error_size(errors)
+    picture = svg("pose_error", size, lambda f: pose_error_figure.draw_pose_error(f, errors))
+    return [Plate("pose_error", "Pose error along z", picture, pose_error_figure.pose_error_caption(errors))]
+
+
+def _ladder_plate(found: SufficientLoad) -> Plate:
+    picture = svg(
+        "sufficient_load", pose_error_figure.LOAD_SIZE, lambda f: pose_error_figure.draw_load_ladder(f, found)
+    )
+    return Plate(
+        "sufficient_load",
+        "From which load on will the spring model do?",
+        picture,
+        pose_error_figure.load_ladder_caption(found),
+    )
+
+
+def _ladder_csv(found: SufficientLoad) -> str:
+    parts = {"sag": found.sag_error, "axial": found.axial_error, "global": found.global_error}
+    errors = {f"{part}_{axis}_mm": 1e3 * value[:, i] for part, value in parts.items() for i, axis in enumerate("xyz")}
+    return csv_text({"mass_kg": found.masses, **errors})
+
+
+def _facts(errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None) -> list[tuple[str, str]]:
+    facts = []
+    if errors is not None:
+        names = {"global": "mean error along z", "sag": "of it from sag", "axial": "of it from stretch"}
+        facts += [(f"{errors.mean(part):+.2f} mm", name) for part, name in names.items()]
+        facts.append((f"{int(errors.counts.sum())} of {errors.grid.size}", "poses held and stable"))
+    if load is not None:
+        mass = load[0].mass
+        text = "none found" if np.isnan(mass) else f"{mass:.4g} kg"
+        facts.append((text, f"spring model good to {1e3 * load[0].tolerance:g} mm"))
+    return facts
+
+
+def _pose_error_table(errors: PoseErrorMap) -> HtmlTable:
+    rows = []
+    for part in ("global", "sag", "axial"):
+        value, place = errors.extreme(part)
+        spread = errors.vertical(part)
+        at = "(" + ", ".join(f"{v:g}" for v in place) + ")"
+        rows.append(
+            [
+                part,
+                f"{errors.mean(part):+.3f}",
+                f"{np.nanmin(spread):+.3f}",
+                f"{np.nanmax(spread):+.3f}",
+                f"{value:+.3f}",
+                at,
+            ]
+        )
+    columns = ["along z [mm]", "mean", "lowest", "highest", "of largest size", "at [m]"]
+    note = "All components, rotations and flags of every pose are in pose_error.csv."
+    return HtmlTable("Pose error over the grid", columns, rows, note)

@@ -1,0 +1,186 @@
+"""The robot at rest, held at a pose (inverse) or at locked lengths (forward): result, text, table, picture, page."""
+
+import shlex
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.figures import interactive, robot_drawing
+from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.text import paragraphs, plain_table
+from cdpr_struct.robot.pose import Pose, angles_from_rotation
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.forward_kinematics import ForwardSolution
+from cdpr_struct.statics.inverse_kinematics import InverseSolution
+
+_COLUMNS = ["cable", "unstrained length [m]", "tension at the platform [N]", "sag [mm]", "stretch [mm]"]
+_MODEL_NOTES = {
+    "sagging": "Sagging model: each cable is an elastic catenary, exact for any sag.",
+    "spring": "Spring model: straight massless springs that cannot push.",
+    "ideal": "Ideal model: straight, massless, inextensible cables that cannot push.",
+}
+
+
+def inverse_json(robot: Robot, model: str, pose: Pose, solution: InverseSolution) -> dict[str, Any]:
+    """Result of `inverse` at one pose."""
+    return {
+        "robot": robot.name,
+        "mass_kg": robot.platform.mass,
+        "model": model,
+        "pose": pose.in_degrees(),
+        "lengths_m": solution.lengths,
+        "tensions_N": solution.tensions,
+        "residual_wrench": solution.residual_wrench,
+    }
+
+
+def forward_json(robot: Robot, model: str, lengths: Sequence[float], solution: ForwardSolution) -> dict[str, Any]:
+    """Result of `forward` at one set of lengths."""
+    angles = np.degrees(angles_from_rotation(solution.rotation))
+    return {
+        "robot": robot.name,
+        "mass_kg": robot.platform.mass,
+        "model": model,
+        "lengths_m": list(lengths),
+        "pose": [*solution.position.tolist(), *angles.tolist()],
+        "tensions_N": solution.tensions,
+        "slack": solution.cables.slack,
+        "residual_wrench": solution.residual_wrench,
+        "stable": bool(solution.stable),
+        "least_stiffness_N_m": float(solution.least_stiffness),
+        "iterations": int(solution.iterations),
+    }
+
+
+def inverse_text(result: Mapping[str, Any]) -> str:
+    """Lengths and tensions for a terminal."""
+    return paragraphs(_cable_text(result), residual_sentence(result))
+
+
+def forward_text(result: Mapping[str, Any]) -> str:
+    """Pose, stability and tensions for a terminal."""
+    return paragraphs(pose_sentence(result), _cable_text(result), residual_sentence(result))
+
+
+def pose_sentence(result: Mapping[str, Any]) -> str:
+    """Where the platform comes to rest."""
+    x, y, z, rx, ry, rz = result["pose"]
+    state = "The platform rests" if result["stable"] else "NOT STABLE: the platform is balanced, but not held,"
+    slack = [str(i) for i, loose in enumerate(result["slack"], start=1) if loose]
+    loose = f" Slack cables: {', '.join(slack)}." if slack else ""
+    return f"{state} at ({x:.5f}, {y:.5f}, {z:.5f}) m, turned by ({rx:.4f}, {ry:.4f}, {rz:.4f})° about x, y, z.{loose}"
+
+
+def residual_sentence(result: Mapping[str, Any]) -> str:
+    """How well forces and moments balance."""
+    left = np.abs(result["residual_wrench"])
+    return f"Largest unbalanced force {left[:3].max():.2g} N, moment {left[3:].max():.2g} N m."
+
+
+def inverse_files(
+    robot: Robot, pose: Pose, solution: InverseSolution, result: Mapping[str, Any], command: Sequence[str]
+) -> dict[str, str | bytes]:
+    """CSV, picture and page of a held pose."""
+    tension = solution.tensions
+    verdict = (
+        f"Tensions of {tension.min():.4g} to {tension.max():.4g} N hold the pose "
+        f"({', '.join(f'{v:g}' for v in result['pose'][:3])}) m."
+    )
+    point = OperatingPoint(robot, pose.position, pose.rotation, solution.cables)
+    return _files(point, result, [verdict, residual_sentence(result)], True, command)
+
+
+def forward_files(
+    robot: Robot, solution: ForwardSolution, result: Mapping[str, Any], command: Sequence[str]
+) -> dict[str, str | bytes]:
+    """CSV, picture and page of the pose at locked lengths."""
+    point = OperatingPoint(robot, solution.position, solution.rotation, solution.cables)
+    stiffness = f"Least stiffness {result['least_stiffness_N_m']:.4g} N/m, rotations as arcs at the anchors."
+    verdict = [pose_sentence(result), stiffness, residual_sentence(result)]
+    return _files(point, result, verdict, result["stable"], command)
+
+
+def _files(
+    point: OperatingPoint, result: Mapping[str, Any], verdict: list[str], holds: bool, command: Sequence[str]
+) -> dict[str, str | bytes]:
+    picture = svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point))
+    plate = Plate(
+        "robot", "The robot at rest", picture, _caption(point, result["model"]), interactive.robot_plot(point)
+    )
+    how = (
+        _MODEL_NOTES[result["model"]],
+        "A platform of given pose is held with the tensions of least norm inside the bounds; at given lengths its "
+        "potential energy is minimised, so the pose is a stable one, and the one in whose basin the start lies.",
+    )
+    page = Page(
+        title=f"{result['robot']} at rest",
+        subtitle=f"{len(point.robot.cables)} cables, platform {result['mass_kg']:g} kg, {result['model']} model",
+        verdict=verdict,
+        holds=holds,
+        facts=_facts(result, point.cables),
+        plates=[plate],
+        tables=[HtmlTable("Cables", _COLUMNS, _rows(point.cables))],
+        notes=[("How it was computed", how)],
+        command=shlex.join(command),
+    )
+    return {
+        "cables.csv": _cables_csv(point.cables),
+        "robot.svg": plate.svg,
+        "report.html": render_page(page, interactive.plotly_packed()),
+    }
+
+
+def _caption(point: OperatingPoint, model: str) -> str:
+    tension = point.cables.tension_at_platform
+    shape = "hang in catenaries" if model == "sagging" else "are taken as straight"
+    return (
+        f"{point.robot.name} to scale. Numbers at the frame anchors are cables; colour is the tension, "
+        f"{tension.min():.4g} to {tension.max():.4g} N. The cables {shape}."
+    )
+
+
+def _facts(result: Mapping[str, Any], cables: CableStates) -> list[tuple[str, str]]:
+    tension = cables.tension_at_platform
+    facts = [(f"{tension.min():.4g} N", "smallest tension"), (f"{tension.max():.4g} N", "largest tension")]
+    if np.isfinite(cables.sag).any():
+        facts.append((f"{1e3 * np.nanmax(cables.sag):.3g} mm", "largest sag"))
+    return [*facts, (f"{result['mass_kg']:g} kg", "platform with its load")]
+
+
+def _rows(cables: CableStates) -> list[list[str]]:
+    sag = ["slack" if loose else f"{1e3 * v:.2f}" for v, loose in zip(cables.sag, cables.slack, strict=True)]
+    return [
+        [str(i + 1), f"{length:.5f}", f"{tension:.3f}", sag[i], f"{1e3 * stretch:.3f}"]
+        for i, (length, tension, stretch) in enumerate(
+            zip(cables.total_length, cables.tension_at_platform, cables.elongation, strict=True)
+        )
+    ]
+
+
+def _cables_csv(cables: CableStates) -> str:
+    return csv_text(
+        {
+            "cable": range(1, len(cables.length) + 1),
+            "length_m": cables.total_length,
+            "tension_N": cables.tension_at_platform,
+            "tension_at_frame_N": cables.tension_at_frame,
+            "chord_m": cables.chord,
+            "inclination_deg": np.degrees(cables.inclination),
+            "sag_m": cables.sag,
+            "elongation_m": cables.elongation,
+            "slack": cables.slack.astype(int),
+        }
+    )
+
+
+def _cable_text(result: Mapping[str, Any]) -> str:
+    rows = [
+        [f"cable {i}", f"{length:.5f}", f"{tension:.3f}"]
+        for i, (length, tension) in enumerate(zip(result["lengths_m"], result["tensions_N"], strict=True), start=1)
+    ]
+    return plain_table(f"{result['robot']}, {result['model']} cables", ["", "length [m]", "tension [N]"], rows)

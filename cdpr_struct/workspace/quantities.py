@@ -1,0 +1,123 @@
+"""What can be mapped over the workspace: a registry of quantities, one function a kind.
+
+To add one: write a function of robot, positions (n, 3) and rotation (3, 3) that returns columns of n values, `held`
+among them, computed for all poses at once, and enter it in `QUANTITIES`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
+from cdpr_struct.statics.pose_error import pose_error
+from cdpr_struct.statics.static_stiffness import static_stiffness
+
+Columns = dict[str, np.ndarray]
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """Something that has a value at every pose.
+
+    label, unit : what the colour bar says
+    meaning     : one sentence for the caption
+    column      : which of the columns is the quantity
+    evaluate    : (robot, positions (n, 3) [m], rotation (3, 3)) -> columns of n values; `held` (bool) is False where
+                  the pose cannot be held, and the quantity then is nan or does not count
+    """
+
+    label: str
+    unit: str
+    meaning: str
+    column: str
+    evaluate: Callable[[Robot, np.ndarray, np.ndarray], Columns]
+
+
+def evaluate(name: str, robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
+    """Columns of a quantity at poses; a plain function of plain things, so that any worker can run it."""
+    return QUANTITIES[name].evaluate(robot, positions, rotation)
+
+
+def pose_errors(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
+    """Static pose errors [mm], [deg], and what is to be known about each pose.
+
+    held: straight, inextensible cables hold the reference pose by pulling. stable: sagging and spring model both found
+    a stable equilibrium. more_stable_pose: the spring model has another one of lower energy.
+    """
+    error = pose_error(robot, positions, rotation)
+    columns = {
+        f"{part}_{axis}_mm": 1e3 * getattr(error, f"{part}_error")[:, i]
+        for part in ("sag", "axial", "global")
+        for i, axis in enumerate("xyz")
+    }
+    turn = np.degrees(error.global_rotation)
+    columns |= {f"global_r{axis}_deg": turn[:, i] for i, axis in enumerate("xyz")}
+    held = inverse(robot, positions, rotation, model="ideal", allow_unheld=True).held
+    return {**columns, "held": held, "stable": error.converged, "more_stable_pose": error.more_stable_pose}
+
+
+def tensions(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
+    """Largest and smallest cable tension at the platform [N], largest sag [mm]; minimum-norm tensions."""
+    solution = _held(robot, positions, rotation)
+    return {
+        "tension_max_N": _where_held(solution, solution.tensions.max(axis=-1)),
+        "tension_min_N": _where_held(solution, solution.tensions.min(axis=-1)),
+        "sag_max_mm": _where_held(solution, 1e3 * solution.cables.sag.max(axis=-1)),
+        "held": solution.held,
+    }
+
+
+def stiffnesses(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
+    """Static stiffness of the platform origin [N/mm], platform free to turn, lengths locked, minimum-norm tensions."""
+    solution = _held(robot, positions, rotation)
+    values = {name: np.full(len(positions), np.nan) for name in ("stiffness_min_N_mm", "stiffness_vertical_N_mm")}
+    good = np.flatnonzero(solution.held)
+    if good.size:
+        states = CableStates(*(getattr(solution.cables, name)[good] for name in CableStates.__slots__))
+        compliance = static_stiffness(robot, positions[good], rotation, states).compliance[:, :3, :3]
+        softest = np.linalg.eigvalsh(0.5 * (compliance + np.swapaxes(compliance, -1, -2)))[:, -1]
+        values["stiffness_min_N_mm"][good] = 1e-3 / softest
+        values["stiffness_vertical_N_mm"][good] = 1e-3 / compliance[:, 2, 2]
+    return {**values, "held": solution.held}
+
+
+def _held(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> InverseSolution:
+    return inverse(robot, positions, rotation, allow_unheld=True)
+
+
+def _where_held(solution: InverseSolution, value: np.ndarray) -> np.ndarray:
+    return np.where(solution.held, value, np.nan)
+
+
+_POSE_ERROR = "vertical miss of the platform at cable lengths that are computed without sag and stretch"
+QUANTITIES: dict[str, Quantity] = {
+    "pose-error": Quantity("pose error along z", "mm", _POSE_ERROR, "global_z_mm", pose_errors),
+    "pose-error-sag": Quantity(
+        "pose error along z from sag", "mm", f"{_POSE_ERROR}; what sag adds to it", "sag_z_mm", pose_errors
+    ),
+    "pose-error-axial": Quantity(
+        "pose error along z from stretch", "mm", f"{_POSE_ERROR}; the part of stretch", "axial_z_mm", pose_errors
+    ),
+    "stiffness-min": Quantity(
+        "smallest stiffness",
+        "N/mm",
+        "force per displacement of the platform origin in its softest direction",
+        "stiffness_min_N_mm",
+        stiffnesses,
+    ),
+    "stiffness-vertical": Quantity(
+        "vertical stiffness",
+        "N/mm",
+        "vertical force per vertical displacement of the platform origin",
+        "stiffness_vertical_N_mm",
+        stiffnesses,
+    ),
+    "tension-max": Quantity("largest tension", "N", "largest cable tension at the platform", "tension_max_N", tensions),
+    "tension-min": Quantity(
+        "smallest tension", "N", "smallest cable tension at the platform", "tension_min_N", tensions
+    ),
+    "sag-max": Quantity("largest sag", "mm", "largest distance of a cable from its chord", "sag_max_mm", tensions),
+}
