@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-MAX_ITERATIONS = 60
+MAX_ITERATIONS = 30
+_HOPELESS = 1e7  # multipliers this many times what a feasible problem asks for: nothing balances
 _RANK = 1e-12  # relative: directions that the unknowns cannot act in
 
 
@@ -47,9 +48,10 @@ def solve_programs(programs: QuadraticPrograms) -> tuple[np.ndarray, np.ndarray]
     """Solutions t (k, m) and their dual y (k, n), the multipliers of the balance."""
     k, n = programs.target.shape
     dual = np.zeros((k, n))
-    size = np.abs(programs.matrix).sum(axis=(1, 2)) / programs.matrix.shape[2]
+    size = np.abs(programs.matrix).sum(axis=(1, 2)) / programs.matrix.shape[2] + 1e-300
     reach = np.abs(programs.gradient / programs.curvature).max(axis=1)
     scale = np.linalg.norm(programs.target, axis=1) + size * reach + 1e-300
+    price = (programs.curvature.max(axis=1) * scale / size + np.abs(programs.gradient).max(axis=1)) / size
     items = np.arange(k)
     for _ in range(MAX_ITERATIONS):
         part, here = programs.take(items), dual[items]
@@ -59,7 +61,8 @@ def solve_programs(programs: QuadraticPrograms) -> tuple[np.ndarray, np.ndarray]
         dual[items] = moved
         balanced = np.linalg.norm(part.slope(moved), axis=1) <= 1e-13 * scale[items]
         idle = np.abs(after - before).max(axis=1) <= 1e-13 * np.abs(after).max(axis=1)
-        items = items[~(balanced | idle)]
+        hopeless = np.abs(moved).max(axis=1) > _HOPELESS * price[items]
+        items = items[~(balanced | idle | hopeless)]
         if not items.size:
             break
     return programs.primal(dual), dual

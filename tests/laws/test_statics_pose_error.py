@@ -113,3 +113,18 @@ def test_a_tolerance_that_no_load_meets_is_nan_and_nonsense_is_refused():
     assert sufficient_load(robot, [0, 0, 0.5], np.eye(3), 10.0, smallest=5.0).mass == 5.0
     with pytest.raises(ValueError, match="tolerance and masses must be positive"):
         sufficient_load(robot, [0, 0, 0.5], np.eye(3), 0.0)
+
+
+def test_a_lower_equilibrium_elsewhere_is_pointed_out():
+    """A light platform far off-centre: the spring model has a second pose, lower in energy, next to the sagging one."""
+    robot = load_robot("six-cable-8mm").with_load(mass=10.0)
+    place = np.array([-2.89, -1.36, 0.5])
+    error = pose_error(robot, place, np.eye(3))
+    assert error.converged
+    assert error.more_stable_pose
+    lengths = reference_lengths(robot, place, np.eye(3))
+    other = forward(robot, lengths, error.sagging.position, error.sagging.rotation, "spring")
+    assert other.stable
+    assert potential_energy(robot, other) < potential_energy(robot, error.spring)
+    assert np.abs(other.rotation - error.spring.rotation).max() > 0.01
+    assert not pose_error(robot, [0.0, 0.0, 0.5], np.eye(3)).more_stable_pose
