@@ -5,7 +5,8 @@ The linearised equations about the true profile r(s), in the unstrained coordina
     (D u')' + mu omega^2 u = 0,   D = EA t t^T + T / (1 + T / EA) (1 - t t^T),
 
 solved by Galerkin's method with integrated Legendre polynomials over the whole cable. Tension T(s) and tangent t(s)
-are analytic, so the error falls exponentially with the polynomial order.
+are analytic, so the error falls exponentially with the polynomial order; `catenary_coordinate` keeps that so where a
+slack cable bends sharply.
 """
 
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import legendre
 
+from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.statics.cable_state import CableStates
 
@@ -64,11 +66,13 @@ def expand_catenaries(
     """
     frame = _frame(cables)
     to_local = np.swapaxes(frame, -1, -2)
-    values, slopes, weights = _quadrature(order)
-    density = _stiffness_density(cables, 2 * order + 24)
-    scale = (2.0 / cables.length)[:, None] * weights
-    mass = np.einsum("iq,jq,q->ij", values, values, weights)
-    half_mass = 0.5 * linear_density * cables.length
+    nodes, weights = legendre.leggauss(2 * order + 24)
+    values, slopes = _basis(nodes, order)
+    coordinate = CatenaryCoordinate.of(cables)
+    arc, rate = coordinate.arc(nodes)
+    density = _stiffness_density(cables, arc)
+    scale = weights / rate
+    mass = np.einsum("iq,jq,mq->mij", values, values, linear_density[:, None] * rate * weights, optimize=True)
     directions = None if frame_ends is None else to_local @ frame_ends.directions
     springs = None if frame_ends is None else frame_ends.stiffness
     planes = []
@@ -76,7 +80,7 @@ def expand_catenaries(
         own = density[..., components, :][..., components]
         stiffness = np.einsum("iq,mqab,jq,mq->miajb", slopes, own, slopes, scale, optimize=True)
         freedoms = _freedoms(order, len(components), directions)
-        planes.append(_condense(components, stiffness, mass, half_mass, freedoms, springs))
+        planes.append(_condense(components, stiffness, mass, freedoms, springs))
     omega_squared = np.concatenate([plane.omega_squared for plane in planes], axis=1)
     rank = np.argsort(omega_squared, axis=1)
     return ModalExpansion(
@@ -85,7 +89,7 @@ def expand_catenaries(
         end_mass=_end_mass(planes),
         omega_squared=np.take_along_axis(omega_squared, rank, axis=1),
         coupling=np.take_along_axis(_coupling(planes), rank[..., None], axis=1),
-        shapes=lambda stations: _shapes(planes, rank, stations, order),
+        shapes=lambda stations: _shapes(planes, rank, coordinate.xi(stations), order),
     )
 
 
@@ -95,24 +99,18 @@ def _frame(cables: CableStates) -> np.ndarray:
 
 
 def _basis(xi: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
-    """Values and slopes (order + 1, q): order - 1 bubbles, zero at both ends, then the ramps of frame and moving end."""
-    polynomials = legendre.legvander(xi, order).T
-    k = np.arange(2, order + 1)[:, None]
+    """Values and slopes (order + 1, ...): order - 1 bubbles, zero at both ends, the ramps of frame and moving end."""
+    polynomials = np.moveaxis(legendre.legvander(xi, order), -1, 0)
+    k = np.arange(2, order + 1).reshape((-1,) + (1,) * np.ndim(xi))
     bubbles = (polynomials[2:] - polynomials[:-2]) / np.sqrt(2.0 * (2 * k - 1))
     slopes = np.sqrt((2 * k - 1) / 2.0) * polynomials[1:-1]
-    half = np.full_like(xi, 0.5)
-    return np.vstack([bubbles, 0.5 * (1.0 - xi), 0.5 * (1.0 + xi)]), np.vstack([slopes, -half, half])
+    half = np.full_like(xi, 0.5)[None]
+    return np.concatenate([bubbles, half - 0.5 * xi, half + 0.5 * xi]), np.concatenate([slopes, -half, half])
 
 
-def _quadrature(order: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    nodes, weights = legendre.leggauss(2 * order + 24)
-    return (*_basis(nodes, order), weights)
-
-
-def _stiffness_density(cables: CableStates, points: int) -> np.ndarray:
-    """D (m, q, 3, 3) at the quadrature points, local axes (heading, across, up) [N]."""
-    nodes, _ = legendre.leggauss(points)
-    hanging = cables.weight[:, None] * (0.5 * cables.length[:, None] * (1.0 - nodes))
+def _stiffness_density(cables: CableStates, arc: np.ndarray) -> np.ndarray:
+    """D (m, q, 3, 3) at unstrained arc lengths (m, q) from the frame [m], local axes (heading, across, up) [N]."""
+    hanging = cables.weight[:, None] * (cables.length[:, None] - arc)
     vertical = cables.force_z[:, None] - hanging
     horizontal = np.broadcast_to(cables.force_x[:, None], vertical.shape)
     tension = np.hypot(horizontal, vertical)
@@ -139,16 +137,15 @@ def _freedoms(order: int, size: int, frame_directions: np.ndarray | None) -> np.
 def _condense(
     components: tuple[int, ...],
     stiffness: np.ndarray,
-    reference_mass: np.ndarray,
-    half_mass: np.ndarray,
+    mass: np.ndarray,
     freedoms: np.ndarray,
     springs: np.ndarray | None,
 ) -> _Plane:
-    """Static shapes of the moving end and modes of the clamped cable, from stiffness (m, i, c, i, c)."""
-    m, count, size = len(half_mass), len(reference_mass), len(components)
+    """Static shapes of the moving end and modes of the clamped cable, from stiffness (m, i, c, i, c), mass (m, i, i)."""
+    (m, count, _), size = mass.shape, len(components)
     turned = np.swapaxes(freedoms, 1, 2)
     stiffness = turned @ stiffness.reshape(m, count * size, count * size) @ freedoms
-    mass = turned @ np.kron(reference_mass, np.eye(size)) @ freedoms * half_mass[:, None, None]
+    mass = turned @ np.kron(mass, np.eye(size)) @ freedoms
     inner, end = slice(None, -size), slice(-size, None)
     if springs is not None:
         held = np.arange(stiffness.shape[-1] - size - springs.shape[1], stiffness.shape[-1] - size)
@@ -197,18 +194,19 @@ def _coupling(planes: list[_Plane]) -> np.ndarray:
     return np.concatenate(blocks, axis=1)
 
 
-def _shapes(planes: list[_Plane], rank: np.ndarray, stations: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
-    values, _ = _basis(2.0 * stations - 1.0, order)
+def _shapes(planes: list[_Plane], rank: np.ndarray, xi: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
+    """Static shapes (m, s, 3, 3) and modes (m, p, s, 3) at the coordinates xi (m, s)."""
+    values, _ = _basis(xi, order)
     inner, ramp = values[:-1], values[-1]
-    static = np.zeros((len(rank), len(stations), 3, 3))
+    static = np.zeros((*xi.shape, 3, 3))
     blocks = []
     for plane in planes:
-        own = np.einsum("is,miab->msab", inner, plane.static)
+        own = np.einsum("ims,miab->msab", inner, plane.static, optimize=True)
         for a, row in enumerate(plane.components):
             for b, column in enumerate(plane.components):
                 static[:, :, row, column] = own[..., a, b] + (a == b) * ramp
-        block = np.zeros((*plane.omega_squared.shape, len(stations), 3))
-        block[..., plane.components] = np.einsum("is,miap->mpsa", inner, plane.modes)
+        block = np.zeros((*plane.omega_squared.shape, xi.shape[1], 3))
+        block[..., plane.components] = np.einsum("ims,miap->mpsa", inner, plane.modes, optimize=True)
         blocks.append(block)
     modes = np.concatenate(blocks, axis=1)
     return static, np.take_along_axis(modes, rank[:, :, None, None], axis=1)
