@@ -76,6 +76,14 @@ def epsilon_limit(inclination_deg: float) -> float:
     return next((eps for angle, eps in INCLINATION_EPSILON_PAIRS if inclination_deg <= angle), 0.0)
 
 
+def epsilon_limits(inclination_deg: np.ndarray) -> np.ndarray:
+    """`epsilon_limit` of each inclination of an array; nan stays nan."""
+    limits = np.where(np.isnan(inclination_deg), np.nan, 0.0)
+    for angle, largest in reversed(INCLINATION_EPSILON_PAIRS):
+        limits = np.where(inclination_deg <= angle, largest, limits)
+    return limits
+
+
 def limit_violations(
     cable: int, lambda2: float, inclination: float, epsilon: float, sag_ratio: float
 ) -> list[Violation]:

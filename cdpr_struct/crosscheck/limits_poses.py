@@ -1,0 +1,134 @@
+"""The printed limits over many poses of a robot: grids and trajectories, all at once."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.crosscheck.validity_limits import (
+    CROSSOVER_DISTANCE,
+    INCLINATION_EPSILON_PAIRS,
+    LAMBDA_SQUARED_LIMIT,
+    SAG_RATIO_LIMIT,
+    crossover_distance,
+    epsilon_limits,
+)
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.taut_cables import taut_cables
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.inverse_kinematics import InverseSolution, InverseStatus, inverse
+
+PARAMETERS = ("lambda2", "crossover_distance", "alpha_deg", "epsilon", "sag_ratio")
+_DIRECTIONS = ("force x [N]", "force y [N]", "force z [N]", "moment x [N m]", "moment y [N m]", "moment z [N m]")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PoseAudit:
+    """Cable parameters at k poses against the printed limits; nan at poses that the cables cannot hold.
+
+    position, rotation : (k, 3) [m], (k, 3, 3)
+    held     : (k,) bool;  reason : (k,) why not, "" where held
+    tension  : (k, m) at the platform [N]
+    value    : parameter -> (k, m);  limit : parameter -> (k, m), an upper bound but for the crossover distance
+    broken   : parameter -> (k, m) bool
+    """
+
+    robot: Robot
+    position: np.ndarray
+    rotation: np.ndarray
+    held: np.ndarray
+    reason: tuple[str, ...]
+    tension: np.ndarray
+    value: dict[str, np.ndarray]
+    limit: dict[str, np.ndarray]
+    broken: dict[str, np.ndarray]
+
+    @property
+    def count(self) -> np.ndarray:
+        """(k,) number of broken limits, over all cables."""
+        return np.sum([b.sum(axis=-1) for b in self.broken.values()], axis=0)
+
+    @property
+    def use(self) -> np.ndarray:
+        """(5, k, m) value over limit (limit over value for the crossover distance); above one is broken."""
+        found = []
+        for name in PARAMETERS:
+            ratio = self.value[name] / np.where(self.limit[name] > 0.0, self.limit[name], np.nan)
+            found.append(1.0 / np.maximum(ratio, 1e-12) if name == "crossover_distance" else ratio)
+        return np.array(found)
+
+    @property
+    def largest_use(self) -> np.ndarray:
+        """(5, k, m) `use`, zero where it is not defined."""
+        return np.nan_to_num(self.use, nan=0.0)
+
+    @property
+    def worst_cable(self) -> np.ndarray:
+        """(k,) number from 1 of the cable nearest to or farthest beyond a limit; 0 where the pose is not held."""
+        return np.where(self.held, self.largest_use.max(axis=0).argmax(axis=-1) + 1, 0)
+
+
+def audit_poses(robot: Robot, position: np.ndarray, rotation: np.ndarray, lower_bound: float = 0.0) -> PoseAudit:
+    """Cable parameters at poses (k, 3), (k, 3, 3) held by sagging cables of minimum-norm tension.
+
+    lower_bound : smallest tension at the platform [N]
+    """
+    rotation = np.broadcast_to(rotation, (len(position), 3, 3))
+    solution = inverse(robot, position, rotation, lower_bound=lower_bound, allow_unheld=True)
+    held = solution.held & (solution.tensions > 0.0).all(axis=-1)
+    numbers = np.flatnonzero(held)
+    values = {name: np.full(solution.tensions.shape, np.nan) for name in PARAMETERS}
+    if len(numbers):
+        own = CableStates(*(getattr(solution.cables, name)[numbers] for name in CableStates.__slots__))
+        for name, value in _parameters(OperatingPoint(robot, position[numbers], rotation[numbers], own)).items():
+            values[name][numbers] = value
+    reason = tuple("" if h else _reason(solution, i) for i, h in enumerate(held))
+    tension = np.where(held[:, None], solution.tensions, np.nan)
+    return PoseAudit(robot, position, rotation, held, reason, tension, values, *_against_limits(values))
+
+
+def audit_rest(point: OperatingPoint) -> PoseAudit:
+    """The same for one robot at rest, however it came there."""
+    cables = CableStates(*(getattr(point.cables, name)[None] for name in CableStates.__slots__))
+    one = OperatingPoint(point.robot, point.position[None], point.rotation[None], cables)
+    values = _parameters(one)
+    held = np.ones(1, dtype=bool)
+    tension = cables.tension_at_platform
+    return PoseAudit(point.robot, one.position, one.rotation, held, ("",), tension, values, *_against_limits(values))
+
+
+def _parameters(point: OperatingPoint) -> dict[str, np.ndarray]:
+    cables = taut_cables(point)
+    return {
+        "lambda2": cables.lambda_squared,
+        "crossover_distance": crossover_distance(cables.lambda_squared),
+        "alpha_deg": np.abs(np.degrees(point.cables.inclination)),
+        "epsilon": cables.epsilon,
+        "sag_ratio": point.cables.sag / point.cables.chord,
+    }
+
+
+def _against_limits(value: dict[str, np.ndarray]) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    angle, shape = value["alpha_deg"], value["alpha_deg"].shape
+    steep = angle > INCLINATION_EPSILON_PAIRS[-1][0]
+    limit = {
+        "lambda2": np.full(shape, LAMBDA_SQUARED_LIMIT),
+        "crossover_distance": np.full(shape, CROSSOVER_DISTANCE),
+        "alpha_deg": np.full(shape, INCLINATION_EPSILON_PAIRS[-1][0]),
+        "epsilon": epsilon_limits(angle),
+        "sag_ratio": np.full(shape, SAG_RATIO_LIMIT),
+    }
+    broken = {name: value[name] > limit[name] for name in PARAMETERS}
+    broken["crossover_distance"] = value["crossover_distance"] < CROSSOVER_DISTANCE
+    broken["epsilon"] &= ~steep
+    return limit, broken
+
+
+def _reason(solution: InverseSolution, pose: int) -> str:
+    if solution.status[pose] == InverseStatus.NOT_CONVERGED:
+        return "the search for tensions did not converge"
+    if solution.held[pose]:
+        return f"cable {int(solution.tensions[pose].argmin()) + 1} would go slack"
+    residual = solution.residual_wrench[pose]
+    axis = int(np.abs(residual).argmax())
+    return f"the cables leave {residual[axis]:.3g} of {_DIRECTIONS[axis]} unbalanced"
