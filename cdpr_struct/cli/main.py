@@ -9,6 +9,7 @@ from cdpr_struct.cli import (
     cable,
     derive,
     forward,
+    frf,
     import_caspr,
     inverse,
     map,
@@ -16,6 +17,8 @@ from cdpr_struct.cli import (
     pose_error,
     reproduce,
     robots,
+    spectrogram,
+    transient,
     verify,
 )
 from cdpr_struct.errors import CdprError, InputError
@@ -38,6 +41,9 @@ COMMANDS = (
     reproduce,
     import_caspr,
     derive,
+    frf,
+    transient,
+    spectrogram,
 )
 for command in COMMANDS:
     app.command(name=command.NAME)(command.run)

@@ -22,14 +22,16 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
 )
 
 RELATIVE_TOLERANCE = 1e-9
-_NODES = 18
-_POLES_PER_SEGMENT = 10
+_NODES = 16
+_POLES_PER_SEGMENT = 16
 _NEAR = 2.5  # poles within this many half widths of a segment's centre are summed one by one
 _HALVINGS = 4
 _BLOCK = 256
 _UPPER = np.triu_indices(6)
 _DIAGONAL = np.flatnonzero(_UPPER[0] == _UPPER[1])
-_FULL = np.array([[np.flatnonzero((_UPPER[0] == min(i, j)) & (_UPPER[1] == max(i, j)))[0] for j in range(6)] for i in range(6)])
+_FULL = np.array(
+    [[np.flatnonzero((_UPPER[0] == min(i, j)) & (_UPPER[1] == max(i, j)))[0] for j in range(6)] for i in range(6)]
+)
 
 
 def dynamic_stiffness(
@@ -143,8 +145,10 @@ def _interpolate(
 class _Poles:
     """Natural frequencies of the clamped cables, all together.
 
-    omega_squared (p,) [rad^2/s^2]; cable (p,) its number from 0; strength (p, 21) of the pole at the platform, upper triangle;
-    first_frequency (m,) [rad/s]
+    omega_squared   : (p,) [rad^2/s^2]
+    cable           : (p,) number of the cable, from 0
+    strength        : (p, 21) of the pole in the platform's matrix, upper triangle
+    first_frequency : (m,) of the clamped cables [rad/s]
     """
 
     omega_squared: np.ndarray

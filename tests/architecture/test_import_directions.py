@@ -15,10 +15,11 @@ MAY_IMPORT = {
     "statics": {"robot"},
     "dynamics": {"robot", "statics"},
     "crosscheck": {"robot", "statics", "dynamics"},
+    "measurement": {"robot", "statics", "dynamics"},
     "workspace": {"robot", "statics", "dynamics"},
     "thesis": {"robot", "statics", "dynamics", "crosscheck", "workspace"},
-    "reports": {"robot", "statics", "dynamics", "crosscheck", "workspace", "thesis"},
-    "cli": {"robot", "statics", "dynamics", "crosscheck", "workspace", "thesis", "reports"},
+    "reports": {"robot", "statics", "dynamics", "crosscheck", "measurement", "workspace", "thesis"},
+    "cli": {"robot", "statics", "dynamics", "crosscheck", "measurement", "workspace", "thesis", "reports"},
 }
 NUMERICS = ("generated", "statics", "dynamics", "crosscheck", "workspace")
 SCREEN_AND_FILES = {"matplotlib", "plotly", "rich", "typer", "jinja2", "pathlib", "json", "csv"}

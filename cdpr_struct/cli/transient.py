@@ -1,0 +1,151 @@
+"""`cdpr-struct transient`: vibration after an emergency stop, or along a trajectory."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_valid
+from cdpr_struct.cli.command_words import command_words
+from cdpr_struct.cli.damping_option import DampingText, read_damping
+from cdpr_struct.cli.degrees_of_freedom import FrameName, PointText, read_ports
+from cdpr_struct.cli.operating_point import rest
+from cdpr_struct.cli.options import (
+    AssemblyName,
+    Json,
+    Lengths,
+    LowerBound,
+    Mass,
+    Out,
+    Payload,
+    PoseText,
+    RobotName,
+    number,
+    read_assembly,
+    read_numbers,
+    read_robot,
+)
+from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from cdpr_struct.statics.trajectory import Trajectory
+
+NAME = "transient"
+_MOST_SAMPLES = 2_000_000
+
+
+def run(
+    robot: RobotName,
+    pose: PoseText = None,
+    lengths: Lengths = None,
+    lower_bound: LowerBound = 0.0,
+    payload: Payload = 0.0,
+    mass: Mass = None,
+    initial_velocity: Annotated[
+        str | None,
+        typer.Option("--initial-velocity", metavar="VX,VY,VZ[,WX,WY,WZ]", help="Before the stop [m/s, rad/s], world."),
+    ] = None,
+    trajectory: Annotated[
+        str | None, typer.Option("--trajectory", metavar="T", help="CSV file, or helix: vibration along this motion.")
+    ] = None,
+    duration: Annotated[
+        float | None, typer.Option("--duration", parser=number, metavar="S", help="Time to predict [s].")
+    ] = None,
+    highest: Annotated[
+        float, typer.Option("--highest", parser=number, metavar="HZ", help="Modes up to this frequency.")
+    ] = 25.0,
+    watch: Annotated[
+        str | None, typer.Option("--watch", metavar="DOF,..", help="Also record these, like cable5@0.3:z.")
+    ] = None,
+    window: Annotated[
+        float | None, typer.Option("--window", parser=number, metavar="S", help="Spectrogram window [s].")
+    ] = None,
+    model: ModelName = "exact",
+    damping: DampingText = "viscous",
+    frame: FrameName = "world",
+    at: PointText = None,
+    assembly: AssemblyName = "consistent",
+    force: Force = False,
+    out: Out = None,
+    json: Json = False,
+) -> int:
+    """Vibration in time by modal superposition, with spectrogram and certified modes."""
+    if (initial_velocity is None) == (trajectory is None):
+        raise InputError("--initial-velocity", "", initial_velocity, "give either --initial-velocity or --trajectory")
+    cable_model, way, machine = read_model(model), read_assembly(assembly), read_robot(robot, payload, mass)
+    law = read_damping(damping, machine, cable_model == "static")
+    motion = None if trajectory is None else read_motion(trajectory)
+    seconds = _duration(duration, motion)
+    if not 0.0 < highest * seconds * 8.0 < _MOST_SAMPLES:
+        raise InputError("--highest", "", highest, f"above zero, with at most {_MOST_SAMPLES} samples (8 per period)")
+    if motion is not None and pose is None and lengths is None:
+        pose = _last_pose(motion)
+    point = rest(machine, pose, lengths, lower_bound)
+    require_valid(cable_model, point, force)
+    ports = read_ports("x,y,z,rx,ry,rz" + (f",{watch}" if watch else ""), "--watch", point, frame, at)
+    if window is not None and not 0.0 < window <= seconds:
+        raise InputError("--window", "", window, f"a time between 0 and {seconds:g} s")
+    from cdpr_struct.dynamics.vibration_record import VibratingRobot
+    from cdpr_struct.reports.transient_result import transient_json
+    from cdpr_struct.reports.transient_text import transient_text
+
+    vibrating = VibratingRobot(point, cable_model, law, highest, way)
+    if motion is None:
+        record = vibrating.after_stop(_twist(initial_velocity or ""), ports, seconds)
+    else:
+        record = vibrating.along(motion, ports, seconds)
+    options = {
+        "--pose": pose, "--lengths": lengths, "--lower-bound": lower_bound or None,
+        "--initial-velocity": initial_velocity, "--trajectory": trajectory, "--duration": seconds, "--highest": highest,
+        "--watch": watch, "--window": window,
+        "--model": model, "--damping": damping, "--frame": frame, "--at": at, "--assembly": assembly,
+    }  # fmt: skip
+    words = command_words("transient", robot, payload, mass, **options)
+    described = {"damping": damping, "frame": frame, "at_m": at or "0,0,0", "assembly": way}
+    result = transient_json(record, {**described, "command": words + ["--force"] * force})
+    emit(result, json, lambda: print(transient_text(result)))
+    if out is not None:
+        from cdpr_struct.reports.transient_page import transient_files
+
+        write_files(out, {"result.json": result_json(result), **transient_files(record, result, window)})
+    return 0
+
+
+def read_motion(text: str) -> "Trajectory":
+    """The nominal motion that --trajectory names: helix, or a CSV file."""
+    if text == "helix":
+        from cdpr_struct.statics.trajectory import helix
+
+        return helix()
+    from cdpr_struct.measurement.time_series import read_trajectory
+
+    return read_trajectory(Path(text))
+
+
+def _twist(text: str) -> "np.ndarray":
+    import numpy as np
+
+    values = read_numbers(text, "--initial-velocity", (3, 6), "velocities in m/s and rad/s")
+    if not any(values):
+        raise InputError("--initial-velocity", "", text, "give a velocity that is not zero")
+    return np.array([*values, 0.0, 0.0, 0.0][:6])
+
+
+def _duration(given: float | None, motion: "Trajectory | None") -> float:
+    if given is None and motion is not None:
+        return float(motion.time[-1] - motion.time[0])
+    if given is None or not 0.0 < given < float("inf"):
+        raise InputError("--duration", "", given, "give a time in s above zero")
+    return given
+
+
+def _last_pose(motion: "Trajectory") -> str:
+    import numpy as np
+
+    from cdpr_struct.robot.pose import angles_from_rotation
+
+    angles = np.degrees(angles_from_rotation(motion.rotation[-1]))
+    return ",".join(repr(float(v)) for v in (*motion.position[-1], *angles))

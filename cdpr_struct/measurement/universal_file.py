@@ -1,0 +1,75 @@
+"""Frequency responses as universal files (dataset 58), the exchange format of modal tests."""
+
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyuff
+
+from cdpr_struct.dynamics.frequency_response import FrequencyResponse, Quantity
+from cdpr_struct.dynamics.ports import CablePort, Port
+
+FREQUENCY_RESPONSE = 4  # function type of dataset 58
+_FREQUENCY, _FORCE = 18, 13  # specific data types
+_ORDINATE: Mapping[Quantity, int] = {"displacement": 8, "velocity": 11, "acceleration": 12}
+_TIME_UNIT: Mapping[Quantity, str] = {"displacement": "", "velocity": "/s", "acceleration": "/s^2"}
+PLATFORM_NODE = 1
+
+
+def response_sets(response: FrequencyResponse, robot: str, axes: np.ndarray) -> list[dict[str, Any]]:
+    """One dataset 58 per responding port, in pyuff's form.
+
+    axes : (3, 3) columns are the axes of the ports' degrees of freedom in the world
+
+    The platform point is node 1, cable i at station s node 1000 i + 1000 s (rounded); directions 1 2 3 are x y z,
+    4 5 6 rotations about them.
+    """
+    sets = []
+    for column, port in enumerate(response.respond):
+        unit = response_unit(port, response.excite, response.quantity)
+        sets.append(
+            pyuff.prepare_58(
+                binary=1, func_type=FREQUENCY_RESPONSE,
+                id1=f"{robot}: {port.name} over {response.excite.name}", id2=f"{response.quantity} in {unit}",
+                id3="predicted by cdpr-struct", id4="NONE", id5="NONE",
+                rsp_ent_name="ROBOT", rsp_node=node(port), rsp_dir=direction(port, axes),
+                ref_ent_name="ROBOT", ref_node=node(response.excite), ref_dir=direction(response.excite, axes),
+                abscissa_spacing=1, abscissa_spec_data_type=_FREQUENCY, abscissa_axis_units_lab="Hz",
+                ordinate_spec_data_type=_ORDINATE[response.quantity], ordinate_axis_units_lab=unit.partition("/(")[0],
+                orddenom_spec_data_type=_FORCE, orddenom_axis_units_lab="N m" if response.excite.turns else "N",
+                data=response.response[:, column], x=response.hertz,
+            )
+        )  # fmt: skip
+    return sets
+
+
+def universal_file(response: FrequencyResponse, robot: str, axes: np.ndarray) -> bytes:
+    """The responses as the content of a universal file."""
+    with tempfile.TemporaryDirectory() as directory:
+        path = Path(directory) / "response.uff"
+        pyuff.UFF(str(path)).write_sets(response_sets(response, robot, axes), mode="overwrite")
+        return path.read_bytes()
+
+
+def node(port: Port) -> int:
+    """Node number of the port's point."""
+    if isinstance(port, CablePort):
+        return 1000 * (port.cable + 1) + min(round(1000.0 * port.station), 999)
+    return PLATFORM_NODE
+
+
+def direction(port: Port, axes: np.ndarray) -> int:
+    """Direction code of the port: 1, 2, 3 along and 4, 5, 6 about the axes that it was named after."""
+    if isinstance(port, CablePort):
+        return int(np.abs(axes.T @ port.direction).argmax()) + 1
+    along = port.twist[3:] if port.turns else port.twist[:3]
+    return int(np.abs(axes.T @ along).argmax()) + (4 if port.turns else 1)
+
+
+def response_unit(respond: Port, excite: Port, quantity: Quantity) -> str:
+    """Unit of a response, like (m/s^2)/N."""
+    over = "(N m)" if excite.turns else "N"
+    above = ("rad" if respond.turns else "m") + _TIME_UNIT[quantity]
+    return f"({above})/{over}" if "/" in above else f"{above}/{over}"

@@ -1,0 +1,97 @@
+"""The files of a frequency response: CSV, universal file, figure and the report page."""
+
+import shlex
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.dynamics.frequency_sweep import ResponseSweep
+from cdpr_struct.measurement.universal_file import universal_file
+from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.figures import frf
+from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.frf_text import frf_summary, nearest_mode
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+
+
+def frf_files(sweep: ResponseSweep, result: Mapping[str, Any]) -> dict[str, str | bytes]:
+    """Contents of every file of the report, by name; `result` as `frf_json` gives it."""
+    axes = sweep.point.rotation if result["frame"] == "platform" else np.eye(3)
+    plate = Plate(
+        "frf",
+        "Frequency response",
+        svg("frf", frf.SIZE, lambda figure: frf.draw_frf(figure, sweep)),
+        frf.frf_caption(sweep),
+    )
+    return {
+        "frf.csv": frf_csv(sweep),
+        "frf.uff": universal_file(sweep.response, sweep.point.robot.name, axes),
+        "modes.csv": csv_text({"frequency_hz": sweep.modes.hertz, "kind": sweep.modes.kinds}),
+        "frf.svg": plate.svg,
+        "report.html": render_page(_page(sweep, result, plate)),
+    }
+
+
+def frf_csv(sweep: ResponseSweep) -> str:
+    """frequency_hz, real, imag, respond, excite: the form in which measured responses are read, SI units."""
+    found = sweep.response
+    count = len(found.respond)
+    return csv_text(
+        {
+            "frequency_hz": np.tile(found.hertz, count),
+            "real": found.response.real.T.ravel(),
+            "imag": found.response.imag.T.ravel(),
+            "respond": np.repeat([port.name for port in found.respond], len(found.hertz)),
+            "excite": [found.excite.name] * (count * len(found.hertz)),
+        }
+    )
+
+
+def _page(sweep: ResponseSweep, result: Mapping[str, Any], plate: Plate) -> Page:
+    robot, (x, y, z) = sweep.point.robot, sweep.point.position
+    return Page(
+        title=f"{robot.name}: frequency response",
+        subtitle=(
+            f"{result['quantity']} under {result['excite']}; {len(robot.cables)} cables, platform "
+            f"{robot.platform.mass:g} kg at ({x:.4g}, {y:.4g}, {z:.4g}) m; cable model {result['model']}, damping "
+            f"{result['damping']}"
+        ),
+        verdict=[frf_summary(result)],
+        holds=bool(result["count_certified"]),
+        facts=[
+            (f"{len(result['natural_frequencies_hz'])}", "eigenfrequencies in the band"),
+            *((f"{_highest(r)[0]:.3f} Hz", f"highest peak of {r['respond']}") for r in result["responses"]),
+        ],
+        plates=[plate],
+        tables=[_table(result, response) for response in result["responses"]],
+        notes=[("How it was computed", _NOTES)],
+        command=shlex.join(result["command"]),
+    )
+
+
+_NOTES = (
+    "H(ω) = (−ω² M + K(ω))⁻¹ of eq. (3.25) with the cables' dynamic stiffness K(ω); velocity is iω H, "
+    "acceleration −ω² H (eqs 3.28, 3.29). Damping acts in the cables only and enters their stiffness before the "
+    "inversion; the law and its formula are in docs/damping.md.",
+    "Eigenfrequencies are those of the undamped robot, found by counting (Wittrick-Williams) and bisection, so that "
+    "none is missed. Peaks are local maxima that stand out by 5 %.",
+    "Assumed: small vibrations about the rest pose, rigid platform, fixed frame anchors, winches that hold their "
+    "lengths.",
+)
+
+
+def _highest(response: Mapping[str, Any]) -> tuple[float, float]:
+    if len(response["peaks_hz"]) == 0:
+        return float("nan"), float("nan")
+    index = int(np.argmax(response["peak_magnitudes"]))
+    return float(response["peaks_hz"][index]), float(response["peak_magnitudes"][index])
+
+
+def _table(result: Mapping[str, Any], response: Mapping[str, Any]) -> HtmlTable:
+    rows = []
+    for hertz, size in zip(response["peaks_hz"], response["peak_magnitudes"], strict=True):
+        near, kind = nearest_mode(result, float(hertz))
+        rows.append([f"{hertz:.4f}", f"{size:.4g}", "-" if near is None else f"{near:.4f}", kind])
+    columns = ["peak [Hz]", f"magnitude [{response['unit']}]", "nearest mode [Hz]", "kind"]
+    return HtmlTable(f"Peaks of {response['respond']}", columns, rows)

@@ -1,0 +1,49 @@
+"""result.json of a frequency response."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.dynamics.frequency_sweep import ResponseSweep
+from cdpr_struct.measurement.universal_file import response_unit
+from cdpr_struct.robot.pose import angles_from_rotation
+
+
+def frf_json(sweep: ResponseSweep, described: Mapping[str, Any]) -> dict[str, Any]:
+    """The result under the keys that scripts rely on; `described` is what the command was told, as text.
+
+    `peaks_hz` are the peaks of all responses together, ascending; `responses` has them one by one.
+    """
+    found, modes = sweep.response, sweep.modes
+    responses: list[dict[str, Any]] = []
+    for column, port in enumerate(found.respond):
+        hertz, size = found.peaks(column)
+        unit = response_unit(port, found.excite, found.quantity)
+        responses.append({"respond": port.name, "unit": unit, "peaks_hz": hertz, "peak_magnitudes": size})
+    angles = np.degrees(angles_from_rotation(sweep.point.rotation))
+    first = float(found.hertz[0])
+    return {
+        "robot": sweep.point.robot.name,
+        "pose": [*sweep.point.position, *angles],
+        "model": sweep.model,
+        "quantity": found.quantity,
+        "excite": found.excite.name,
+        **described,
+        "frequencies": len(found.hertz),
+        "peaks_hz": _merged([r["peaks_hz"] for r in responses], float(found.hertz[1] - found.hertz[0])),
+        "responses": responses,
+        "natural_frequencies_hz": modes.hertz[modes.hertz >= first],
+        "kinds": [kind for kind, hertz in zip(modes.kinds, modes.hertz, strict=True) if hertz >= first],
+        "count_certified": modes.certified,
+        "all_modes_of_the_band": modes.complete,
+    }
+
+
+def _merged(lists: list[np.ndarray], step: float) -> list[float]:
+    """All peaks ascending; those of several responses within a grid step are one."""
+    merged: list[float] = []
+    for hertz in np.sort(np.concatenate(lists)).tolist():
+        if not merged or hertz - merged[-1] > step:
+            merged.append(hertz)
+    return merged

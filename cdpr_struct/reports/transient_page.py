@@ -1,0 +1,108 @@
+"""The files of a predicted or measured vibration: CSV, figure and the report page."""
+
+import shlex
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.dynamics.vibration_record import VibrationRecord
+from cdpr_struct.measurement.spectrogram import Spectrogram, spectrogram
+from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.figures import spectrogram as figure
+from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.transient_text import port_rows, transient_summary
+
+
+def transient_files(
+    record: VibrationRecord, result: Mapping[str, Any], window: float | None = None
+) -> dict[str, str | bytes]:
+    """Contents of every file of the report, by name; `result` as `transient_json` gives it."""
+    time, signal = record.vibration.time, record.vibration.acceleration[:, :3]
+    spectrum = spectrogram(time, signal, window)
+    names = [port.name for port in record.ports[:3]]
+    plate = Plate(
+        "vibration",
+        "Acceleration of the platform",
+        svg(
+            "vibration",
+            figure.SIZE,
+            lambda f: figure.draw_vibration(f, time, signal, names, spectrum, record.modes, record.highest_hertz),
+        ),
+        figure.vibration_caption(spectrum),
+    )
+    return {
+        "transient.csv": transient_csv(record),
+        "spectrogram.csv": spectrogram_csv(spectrum, record.highest_hertz),
+        "modes.csv": csv_text({"frequency_hz": record.modes.hertz, "kind": record.modes.kinds}),
+        "vibration.svg": plate.svg,
+        "report.html": render_page(_page(record, result, plate)),
+    }
+
+
+def transient_csv(record: VibrationRecord) -> str:
+    """time_s, then of every port displacement, velocity and acceleration, then energy_J."""
+    vibration = record.vibration
+    columns: dict[str, Any] = {"time_s": vibration.time}
+    for index, port in enumerate(record.ports):
+        length = "rad" if port.turns else "m"
+        columns[f"{port.name}_{length}"] = vibration.displacement[:, index]
+        columns[f"{port.name}_{length}_s"] = vibration.velocity[:, index]
+        columns[f"{port.name}_{length}_s2"] = vibration.acceleration[:, index]
+    if np.abs(record.nominal).max() > 0.0:
+        for index, name in enumerate(("x", "y", "z")):
+            columns[f"nominal_{name}_m_s2"] = record.nominal[:, index]
+    return csv_text({**columns, "energy_J": vibration.energy})
+
+
+def spectrogram_csv(spectrum: Spectrogram, highest_hertz: float) -> str:
+    """time_s, frequency_hz, density of all channels together [(m/s^2)^2/Hz]."""
+    shown = spectrum.hertz <= highest_hertz
+    density = spectrum.total()[shown]
+    return csv_text(
+        {
+            "time_s": np.tile(spectrum.time, density.shape[0]),
+            "frequency_hz": np.repeat(spectrum.hertz[shown], density.shape[1]),
+            "density": density.ravel(),
+        }
+    )
+
+
+def _page(record: VibrationRecord, result: Mapping[str, Any], plate: Plate) -> Page:
+    robot, (x, y, z) = record.point.robot, record.point.position
+    summary = transient_summary(result)
+    return Page(
+        title=f"{robot.name}: vibration in time",
+        subtitle=(
+            f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg at ({x:.4g}, {y:.4g}, {z:.4g}) m; "
+            f"cable model {result['model']}, damping {result['damping']}"
+        ),
+        verdict=[summary],
+        holds=bool(result["count_certified"]),
+        facts=[
+            (f"{result['dominant_hz']:.3f} Hz", "dominant frequency of the platform"),
+            (f"{len(result['natural_frequencies_hz'])}", f"modes up to {result['highest_hz']:g} Hz"),
+            (f"{100.0 * result['energy_share']:.2f} %", "of the excitation's energy held by these modes"),
+        ],
+        plates=[plate],
+        tables=[
+            HtmlTable(
+                "Vibration", ["", "largest displacement", "largest acceleration", "dominant [Hz]"], port_rows(result)
+            )
+        ],
+        notes=[("How it was computed", _NOTES)],
+        command=shlex.join(result["command"]),
+    )
+
+
+_NOTES = (
+    "Superposition of the robot's modes, platform and cables together, with the damped (complex) modes of the given "
+    "law. A law that is no differential equation in time (hysteretic, frequency-dependent) damps each mode as at its "
+    "own frequency.",
+    "Emergency stop: at time zero the platform has the given velocity, each piece of cable the share of it that is "
+    "linear in its place along the cable, and the lengths are locked. Along a trajectory the vibration is driven by "
+    "the inertia of the nominal motion, M q'' + C q' + K q = -M a(t), linearised at one pose; a trajectory that ends "
+    "moving is stopped there.",
+    "Assumed: small vibrations about the rest pose, rigid platform, fixed frame anchors, linear elastic cables.",
+)

@@ -1,0 +1,52 @@
+"""result.json of a predicted vibration."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.dynamics.ports import CablePort
+from cdpr_struct.dynamics.vibration_record import VibrationRecord
+from cdpr_struct.measurement.spectrogram import dominant_frequency
+from cdpr_struct.robot.pose import angles_from_rotation
+
+
+def transient_json(record: VibrationRecord, described: Mapping[str, Any]) -> dict[str, Any]:
+    """The result under the keys that scripts rely on; `described` is what the command was told, as text.
+
+    `dominant_hz` is the highest peak in the spectrum of the platform's translational acceleration.
+    """
+    vibration, time = record.vibration, record.vibration.time
+    angles = np.degrees(angles_from_rotation(record.point.rotation))
+    return {
+        "robot": record.point.robot.name,
+        "pose": [*record.point.position, *angles],
+        "model": record.model,
+        **described,
+        "duration_s": float(time[-1]),
+        "sample_rate_hz": 1.0 / float(time[1] - time[0]),
+        "highest_hz": record.highest_hertz,
+        "dominant_hz": dominant_frequency(time, vibration.acceleration[:, :3]),
+        "energy_share": vibration.energy_share,
+        "energy_first_J": float(vibration.energy[0]),
+        "energy_last_J": float(vibration.energy[-1]),
+        "ports": [_port(record, column) for column in range(len(record.ports))],
+        "natural_frequencies_hz": record.modes.hertz,
+        "kinds": record.modes.kinds,
+        "count_certified": record.modes.certified,
+        "damped_frequencies_hz": vibration.modes.damped_hertz,
+        "damping_ratios": vibration.modes.damping_ratio,
+    }
+
+
+def _port(record: VibrationRecord, column: int) -> dict[str, Any]:
+    port, vibration = record.ports[column], record.vibration
+    length = "rad" if port.turns else "m"
+    signal = vibration.acceleration[:, [column]]
+    return {
+        "name": port.name,
+        "on": f"cable {port.cable + 1}" if isinstance(port, CablePort) else "platform",
+        f"largest_displacement_{length}": float(np.abs(vibration.displacement[:, column]).max()),
+        f"largest_acceleration_{length}_s2": float(np.abs(signal).max()),
+        "dominant_hz": dominant_frequency(vibration.time, signal),
+    }
