@@ -8,16 +8,14 @@ import numpy as np
 import fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.crosscheck.validity_limits import check_limits
-from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
-from cdpr_struct.dynamics.mode_shapes import kind_of_mode, mode_shapes
-from cdpr_struct.dynamics.natural_frequencies import highest_omega, natural_frequencies
+from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.ritz_modes import kind_of_mode
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import CdprError
 
 Model = Literal["static", "dsm", "exact", "fem"]
 MODELS: tuple[Model, ...] = get_args(Model)
-STATIONS = np.linspace(0.1, 0.9, 9)
 
 
 class OutsideValidityError(CdprError):
@@ -58,11 +56,15 @@ def robot_modes(
     """
     if model == "fem":
         return _fem_modes(point, count, elements)
-    highest = highest_omega(point, cable_dynamics(point, model), count, assembly)
-    cables = cable_dynamics(point, model, highest)
-    found = natural_frequencies(point, cables, count, assembly)
-    shapes = mode_shapes(point, cables, count, highest, STATIONS, assembly)
-    return RobotModes(found.hertz, shapes.platform, shapes.platform_energy, shapes.cable_energy, found.certified)
+    found = certified_modes(point, model, count, assembly)
+    shapes = found.shapes
+    return RobotModes(
+        found.frequencies.hertz,
+        shapes.platform,
+        shapes.platform_energy,
+        shapes.cable_energy,
+        found.frequencies.certified,
+    )
 
 
 def require_validity(point: OperatingPoint) -> None:

@@ -12,9 +12,8 @@ from cdpr_struct.crosscheck.determinant_minima import DeterminantScan, match_min
 from cdpr_struct.crosscheck.fem_robot import fem_shapes, sampling_mass, solve_in_fem
 from cdpr_struct.crosscheck.mode_pairing import modal_assurance, pair_modes, shared_subspace
 from cdpr_struct.crosscheck.validity_limits import ValidityLimits, check_limits
-from cdpr_struct.dynamics.cable_dynamics import CableModel, cable_dynamics
-from cdpr_struct.dynamics.mode_shapes import mode_shapes
-from cdpr_struct.dynamics.natural_frequencies import NaturalFrequencies, highest_omega, natural_frequencies
+from cdpr_struct.dynamics.cable_dynamics import CableModel
+from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     Assembly,
@@ -126,11 +125,9 @@ def verify(
     dsm, exact = (_model_modes(point, model, modes, assembly, stations) for model in ("dsm", "exact"))
     extrapolated = fem.extrapolate(elements, sweep.hertz)
     assurance = modal_assurance(sweep.shapes, dsm.shapes, mass)
-    partner = pair_modes(assurance, sweep.hertz[-1], dsm.frequencies.hertz)
-    exact_partner = pair_modes(
-        modal_assurance(sweep.shapes, exact.shapes, mass), sweep.hertz[-1], exact.frequencies.hertz
-    )
-    dsm_hertz = dsm.frequencies.hertz[partner]
+    partner = pair_modes(assurance, sweep.hertz[-1], dsm.hertz)
+    exact_partner = pair_modes(modal_assurance(sweep.shapes, exact.shapes, mass), sweep.hertz[-1], exact.hertz)
+    dsm_hertz = dsm.hertz[partner]
     progress("determinant scan")
     scans = _scans(point, assembly, dsm_hertz.max())
     matched = {
@@ -146,9 +143,9 @@ def verify(
         fem_uncertainty_hertz=extrapolated.error_estimate,
         observed_order=extrapolated.order,
         dsm_hertz=dsm_hertz,
-        dsm_certified=dsm.frequencies.certified,
-        exact_hertz=exact.frequencies.hertz[exact_partner],
-        assurance=shared_subspace(assurance, dsm.frequencies.hertz, partner),
+        dsm_certified=dsm.certified,
+        exact_hertz=exact.hertz[exact_partner],
+        assurance=shared_subspace(assurance, dsm.hertz, partner),
         kinds=tuple(dsm.kinds[j] for j in partner),
         static_hertz=_static_partners(point, assembly, sweep.platform_shapes, platform_mass),
         determinant_hertz=matched[_REPORTED_STEP],
@@ -160,7 +157,8 @@ def verify(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _ModelModes:
-    frequencies: NaturalFrequencies
+    hertz: np.ndarray
+    certified: bool
     shapes: np.ndarray
     kinds: list[str]
 
@@ -169,14 +167,10 @@ def _model_modes(
     point: OperatingPoint, model: CableModel, modes: int, assembly: Assembly, stations: int
 ) -> _ModelModes:
     """Frequencies of the model with shapes (k, 6 + 3 m (stations - 1)) sampled where the FEM's are."""
-    count = modes + _SPARE_MODES
-    rough = cable_dynamics(point, model)
-    highest = highest_omega(point, rough, count, assembly)
-    cables = cable_dynamics(point, model, highest)
-    frequencies = natural_frequencies(point, cables, count, assembly)
-    found = mode_shapes(point, cables, count, highest, np.arange(1, stations) / stations, assembly)
-    flat = np.concatenate([found.platform, found.cable_motion.reshape(count, -1)], axis=1)
-    return _ModelModes(frequencies, flat, found.kinds())
+    found = certified_modes(point, model, modes + _SPARE_MODES, assembly)
+    motion = found.shapes.cable_motion(np.arange(1, stations) / stations)
+    shapes = np.concatenate([found.shapes.platform, motion.reshape(len(motion), -1)], axis=1)
+    return _ModelModes(found.frequencies.hertz, found.frequencies.certified, shapes, found.shapes.kinds())
 
 
 def _sweep_elements(

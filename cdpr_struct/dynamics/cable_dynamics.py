@@ -165,4 +165,4 @@ class CatenaryCables:
         return (self.full.omega_squared < np.asarray(omega)[..., None] ** 2).sum(axis=-1)
 
     def expansion(self, omega: float) -> ModalExpansion:
-        return self.full
+        return self.full.reduced(omega)

@@ -28,13 +28,22 @@ class NaturalFrequencies:
     """The first k natural frequencies, multiplicities repeated.
 
     hertz         : (k,) ascending
-    bracket_hertz : (k, 2) interval over which the count passes the number of the frequency
-    certified     : the count below the last bracket plus those inside equals k or more, from exact counts
+    bracket_hertz : (k, 2) interval over which the exact count passes the number of the frequency: the proof that none
+                    is missing
     """
 
     hertz: np.ndarray
     bracket_hertz: np.ndarray
-    certified: bool
+
+    @property
+    def certified(self) -> bool:
+        """The count encloses every frequency within a millionth."""
+        width = self.bracket_hertz[:, 1] - self.bracket_hertz[:, 0]
+        return bool((width <= 1e-6 * self.hertz).all())
+
+    @classmethod
+    def in_brackets(cls, bracket_hertz: np.ndarray) -> "NaturalFrequencies":
+        return cls(bracket_hertz.mean(axis=-1), bracket_hertz)
 
 
 def count_below(
@@ -51,7 +60,9 @@ def count_below(
 def natural_frequencies(
     point: OperatingPoint, cables: CableDynamics, count: int, assembly: Assembly = "consistent"
 ) -> NaturalFrequencies:
-    """First `count` undamped natural frequencies of the robot.
+    """First `count` undamped natural frequencies of the robot, by bisection of the count alone.
+
+    Slow and independent of any eigenproblem; `certified_modes` gives the same numbers quickly.
 
     Raises
     ------
@@ -60,18 +71,24 @@ def natural_frequencies(
     """
     if int(count_below(point, cables, np.array([1e-6]), assembly)[0]) > 0:
         raise CdprError("the equilibrium is unstable: the platform stiffness has negative eigenvalues at rest")
-    number = np.arange(1, count + 1)
-    low, high = np.zeros(count), np.full(count, highest_omega(point, cables, count, assembly))
+    bracket = np.stack(bisect_count(point, cables, np.arange(1, count + 1), assembly), axis=-1)
+    return NaturalFrequencies.in_brackets(bracket / (2.0 * np.pi))
+
+
+def bisect_count(
+    point: OperatingPoint, cables: CableDynamics, number: np.ndarray, assembly: Assembly, precision: float = 1e-15
+) -> tuple[np.ndarray, np.ndarray]:
+    """Brackets low, high (k,) [rad/s] of the frequencies with these numbers (k,): fewer than `number` below low,
+    `number` or more below high, relative width 2 `precision` or what rounding allows."""
+    high = np.full(len(number), highest_omega(point, cables, int(number.max()), assembly))
+    low = np.zeros(len(number))
     for _ in range(_HALVINGS):
+        if (high - low <= 2.0 * precision * low).all():
+            break
         middle = 0.5 * (low + high)
         below = count_below(point, cables, middle, assembly) < number
         low, high = np.where(below, middle, low), np.where(below, high, middle)
-    bracket = np.stack([low, high], axis=-1) / (2.0 * np.pi)
-    certified = bool(
-        (count_below(point, cables, np.maximum(low, 1e-6), assembly) < number).all()
-        and (count_below(point, cables, high, assembly) >= number).all()
-    )
-    return NaturalFrequencies(bracket.mean(axis=-1), bracket, certified)
+    return low, high
 
 
 def highest_omega(point: OperatingPoint, cables: CableDynamics, count: int, assembly: Assembly = "consistent") -> float:

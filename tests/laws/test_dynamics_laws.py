@@ -5,17 +5,18 @@ import dataclasses
 import numpy as np
 import pytest
 
+import cdpr_struct.dynamics.certified_modes as certified_modes_module
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics, damped
+from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.clamped_cable import clamped_count, symmetric_roots
-from cdpr_struct.dynamics.mode_shapes import mode_shapes
 from cdpr_struct.dynamics.natural_frequencies import (
     count_below,
-    highest_omega,
     natural_frequencies,
     static_frequencies,
 )
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
+    attachment,
     geometric_stiffness,
     platform_dynamic_stiffness,
     platform_mass_matrix,
@@ -139,20 +140,37 @@ def test_count_jumps_by_one_at_every_natural_frequency(point, model):
     assert (count_below(point, cables, omega * (1.0 + 1e-9)) >= np.arange(1, 46)).all()
 
 
-def test_ritz_frequencies_bound_the_certified_ones_from_above(point, model):
-    """Two ways through the same model: the count of the transcendental matrix, and an ordinary eigenproblem."""
-    highest = highest_omega(point, cable_dynamics(point, model), 40)
-    cables = cable_dynamics(point, model, highest)
-    certified = natural_frequencies(point, cables, 40).hertz
-    ritz = mode_shapes(point, cables, 40, highest, np.array([0.5])).hertz
-    assert (ritz > certified * (1.0 - 1e-9)).all()
-    np.testing.assert_allclose(ritz, certified, rtol=2e-4 if model == "dsm" else 1e-9)
+def test_quick_modes_are_those_of_the_count(point, model):
+    """Two ways through the same model: bisection of the transcendental count, and an eigenproblem with a correction."""
+    quick = certified_modes(point, model, 40)
+    slow = natural_frequencies(point, quick.cables, 40).hertz
+    np.testing.assert_allclose(quick.frequencies.hertz, slow, rtol=2e-9)
+    assert (2.0 * np.pi * slow < quick.shapes.omega * (1.0 + 1e-9)).all(), "Ritz frequencies are upper bounds"
 
 
-def test_energy_shares_sum_to_one(point, model):
-    modes = mode_shapes(point, cable_dynamics(point, model), 30, 60.0, np.linspace(0.1, 0.9, 5))
-    np.testing.assert_allclose(modes.platform_energy + modes.cable_energy.sum(axis=1), 1.0, atol=1e-9)
-    assert modes.platform_energy.min() > -1e-12
+def test_a_bad_first_guess_is_repaired_by_bisection(point, monkeypatch):
+    """Twin: frequencies off by 1 % must not be certified; the count finds the right ones."""
+    right = certified_modes(point, "exact", 12).frequencies
+    monkeypatch.setattr(certified_modes_module, "_corrected", lambda point, cables, shapes, way: 1.01 * shapes.omega)
+    repaired = certified_modes(point, "exact", 12).frequencies
+    assert repaired.certified
+    np.testing.assert_allclose(repaired.hertz, right.hertz, rtol=3e-9)
+
+
+def test_reduced_expansion_keeps_the_stiffness(point):
+    full = cable_dynamics(point, "exact", 60.0).full
+    omega2 = np.linspace(1.0, 60.0, 200)[:, None] ** 2
+    reference, ours = full.stiffness(omega2), full.reduced(60.0).stiffness(omega2)
+    assert full.reduced(60.0).omega_squared.shape[1] < full.omega_squared.shape[1]
+    assert (np.abs(ours - reference).max(axis=(-1, -2)) / np.abs(reference).max(axis=(-1, -2))).max() < 2e-8
+
+
+def test_energy_shares_sum_to_one_and_shapes_meet_the_platform(point, model):
+    shapes = certified_modes(point, model, 30).shapes
+    np.testing.assert_allclose(shapes.platform_energy + shapes.cable_energy.sum(axis=1), 1.0, atol=1e-9)
+    ends = shapes.cable_motion(np.array([1.0]))[:, :, 0]
+    moved = np.einsum("mai,ki->kma", attachment(point), shapes.platform)
+    np.testing.assert_allclose(ends, moved, atol=1e-9 * np.abs(moved).max())
 
 
 def test_clamped_count_steps_at_the_listed_frequencies(point):

@@ -1,0 +1,113 @@
+"""The robot's modes as an ordinary eigenproblem: platform motion and the clamped cables' modal coordinates."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+
+from cdpr_struct.dynamics.modal_expansion import ModalExpansion
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, assemble, attachment, platform_mass_matrix
+from cdpr_struct.errors import CdprError
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RitzModes:
+    """The first k undamped modes of unit modal mass that an expansion of the cables spans.
+
+    omega         : (k,) ascending [rad/s], upper bounds of the model's
+    platform      : (k, 6) motion of the platform origin and rotation, world axes
+    end           : (k, m, 3) motion of the cables' platform ends, local axes of `expansion`
+    modal         : (k, m, p) coordinates of the clamped cables' modes
+    platform_mass : (6, 6) world axes;  to_cable : (m, 3, 6) platform motion to `end`
+    """
+
+    omega: np.ndarray
+    platform: np.ndarray
+    end: np.ndarray
+    modal: np.ndarray
+    platform_mass: np.ndarray
+    to_cable: np.ndarray
+    expansion: ModalExpansion
+
+    @property
+    def platform_energy(self) -> np.ndarray:
+        """(k,) share of the kinetic energy [-]."""
+        return np.einsum("ki,ij,kj->k", self.platform, self.platform_mass, self.platform)
+
+    @property
+    def cable_energy(self) -> np.ndarray:
+        """(k, m) shares of the kinetic energy [-]."""
+        return self.expansion.kinetic_energy(self.end, self.modal)
+
+    def kinds(self) -> list[str]:
+        """Per mode "platform", "cable i", "cables" or "mixed", by where the kinetic energy sits."""
+        return [kind_of_mode(p, c) for p, c in zip(self.platform_energy, self.cable_energy, strict=True)]
+
+    def cable_motion(self, stations: np.ndarray) -> np.ndarray:
+        """(k, m, s, 3) motion at fractions (s,) of each cable from the frame, world axes."""
+        return self.expansion.motion(stations, self.end, self.modal)
+
+
+def ritz_modes(
+    point: OperatingPoint, expansion: ModalExpansion, count: int, assembly: Assembly = "consistent"
+) -> RitzModes:
+    """First `count` modes (or as many as the expansion has).
+
+    Solved for 1 / omega^2 in coordinates in which the stiffness is the unit matrix: the fastest modes lie many decades
+    above the slowest, and so rounding falls on the fast ones.
+
+    Raises
+    ------
+    CdprError : the platform's stiffness at rest is not positive, so the equilibrium is unstable.
+    """
+    to_cable = np.swapaxes(expansion.frame, -1, -2) @ attachment(point)
+    platform_mass = platform_mass_matrix(point.robot, point.rotation)
+    scale = _unit_stiffness(point, expansion, assembly)
+    mass = _mass(expansion, to_cable, platform_mass)
+    mass[:6] = scale[0].T @ mass[:6]
+    mass[:, :6] = mass[:, :6] @ scale[0]
+    mass[6:] *= scale[1][:, None]
+    mass[:, 6:] *= scale[1]
+    size = len(mass)
+    count = min(count, size)
+    periods, vectors = scipy.linalg.eigh(mass, subset_by_index=(size - count, size - 1), check_finite=False)
+    omega = 1.0 / np.sqrt(periods[::-1])
+    vectors = vectors[:, ::-1] * omega
+    platform = (scale[0] @ vectors[:6]).T
+    modal = (scale[1][:, None] * vectors[6:]).T.reshape(count, *expansion.omega_squared.shape)
+    return RitzModes(
+        omega, platform, np.einsum("mai,ki->kma", to_cable, platform), modal, platform_mass, to_cable, expansion
+    )
+
+
+def _unit_stiffness(
+    point: OperatingPoint, expansion: ModalExpansion, assembly: Assembly
+) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates of unit stiffness: platform motion (6, 6) and modal coordinates (m p,)."""
+    ends = expansion.frame @ expansion.static_stiffness @ np.swapaxes(expansion.frame, -1, -2)
+    try:
+        lower = np.linalg.cholesky(assemble(point, ends, assembly))
+    except np.linalg.LinAlgError as error:
+        raise CdprError(
+            "the equilibrium is unstable: the platform stiffness has negative eigenvalues at rest"
+        ) from error
+    return np.linalg.inv(lower).T, 1.0 / np.sqrt(expansion.omega_squared.ravel())
+
+
+def _mass(expansion: ModalExpansion, to_cable: np.ndarray, platform_mass: np.ndarray) -> np.ndarray:
+    modal_count = expansion.omega_squared.size
+    mass = np.eye(6 + modal_count)
+    mass[:6, :6] = platform_mass + np.einsum("mai,mab,mbj->ij", to_cable, expansion.end_mass, to_cable)
+    mass[6:, :6] = (expansion.coupling @ to_cable).reshape(modal_count, 6)
+    mass[:6, 6:] = mass[6:, :6].T
+    return mass
+
+
+def kind_of_mode(platform: float, cables: np.ndarray) -> str:
+    """ "platform" or "cable i" if it holds half of the kinetic energy, else "cables" (nine tenths) or "mixed"."""
+    if platform >= 0.5:
+        return "platform"
+    if cables.max() >= 0.5:
+        return f"cable {int(cables.argmax()) + 1}"
+    return "cables" if platform < 0.1 else "mixed"
