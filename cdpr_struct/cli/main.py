@@ -11,6 +11,7 @@ from cdpr_struct.cli import (
     forward,
     frf,
     import_caspr,
+    interruption,
     inverse,
     map,
     modes,
@@ -21,6 +22,7 @@ from cdpr_struct.cli import (
     transient,
     verify,
 )
+from cdpr_struct.cli.interruption import Interrupted
 from cdpr_struct.errors import CdprError, InputError
 
 app = typer.Typer(
@@ -57,16 +59,18 @@ def main(arguments: list[str] | None = None) -> None:
 def run(arguments: list[str] | None) -> int:
     """Run one command and return its exit code."""
     try:
-        return int(app(args=arguments, standalone_mode=False) or 0)
+        code = int(app(args=arguments, standalone_mode=False) or 0)
+        return _fail(code, "interrupted; nothing was written") if code == interruption.CODE else code
     except TyperException as error:
         return _fail(2, error.format_message().replace("\n", " ") + " See cdpr-struct --help.")
     except InputError as error:
         return _fail(2, str(error))
     except CdprError as error:
         return _fail(1, str(error))
-    except (Abort, KeyboardInterrupt) as stop:
-        said = str(stop) or str(stop.__cause__ or "")
-        return _fail(130, said or "interrupted; nothing was written")
+    except Interrupted as stop:
+        return _fail(interruption.CODE, str(stop))
+    except (Abort, KeyboardInterrupt):
+        return _fail(interruption.CODE, "interrupted; nothing was written")
     except Exception as error:
         if type(error).__module__.partition(".")[0] == "fem_reference":
             return _fail(1, f"FEM reference: {error}")

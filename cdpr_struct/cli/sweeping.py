@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from cdpr_struct.cli.checkpoint import Checkpoint
 from cdpr_struct.cli.executors import executor
+from cdpr_struct.cli.interruption import Interrupted
 from cdpr_struct.cli.progress import steps
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def run_sweep(sweep: "Sweep", workers: int, scheduler: str | None, out: Path | N
         try:
             columns = sweep.run(pool, known, finished)
         except KeyboardInterrupt as stop:
-            raise _interruption(store, sweep) from stop
+            raise Interrupted(_what_is_kept(store, sweep)) from stop
     return columns, len(known)
 
 
@@ -37,8 +38,8 @@ def clear_checkpoint(sweep: "Sweep", out: Path) -> None:
     Checkpoint(out, sweep.fingerprint).clear()
 
 
-def _interruption(store: Checkpoint | None, sweep: "Sweep") -> KeyboardInterrupt:
+def _what_is_kept(store: Checkpoint | None, sweep: "Sweep") -> str:
     if store is None:
-        return KeyboardInterrupt("interrupted; nothing was written (with --out, finished poses are kept)")
+        return "interrupted; nothing was written (with --out, finished poses are kept)"
     kept = len(store.chunks(sweep.chunks))
-    return KeyboardInterrupt(f"interrupted; {kept} of {sweep.chunks} chunks are kept, the same command continues")
+    return f"interrupted; {kept} of {sweep.chunks} chunks are kept, the same command continues"

@@ -59,7 +59,7 @@ def draw_loads(figure: Figure, item: Reproduction) -> None:
         marks = ((float(cell.printed), GREY, 0.95, "printed"), (cell.ours, GREEN, 0.88, "ours"))
         for mass_kg, colour, height, who in marks:
             axes.axvline(mass_kg, color=colour, linewidth=1.2)
-            left = mass_kg < 55.0
+            left = mass_kg == max(float(cell.printed), cell.ours)
             axes.annotate(f"{who}: {mass_kg:.0f} kg", (mass_kg, height), (4 if left else -4, 0),
                           xycoords=("data", "axes fraction"), textcoords="offset points",
                           ha="left" if left else "right", color=colour)  # fmt: skip

@@ -54,9 +54,13 @@ def robot_geometry(point: OperatingPoint) -> RobotGeometry:
 def _curves(point: OperatingPoint, frame: np.ndarray) -> np.ndarray:
     cables = point.cables
     s = np.linspace(0.0, 1.0, _POINTS_PER_CABLE)[None, :] * cables.length[:, None]
-    five = (cables.force_x, cables.force_z, cables.length, cables.axial_stiffness, cables.weight)
+    straight = cables.weight == 0.0
+    pull, weight = np.where(straight, 1.0, cables.force_z), np.where(straight, 1.0, cables.weight)
+    five = (cables.force_x, pull, cables.length, cables.axial_stiffness, weight)
     along, up = catenary.profile(s, *(value[:, None] for value in five))
-    return frame[:, None, :] + along[..., None] * cables.heading[:, None, :] + up[..., None] * np.array([0.0, 0.0, 1.0])
+    hanging = along[..., None] * cables.heading[:, None, :] + up[..., None] * np.array([0.0, 0.0, 1.0])
+    taut = np.linspace(0.0, 1.0, _POINTS_PER_CABLE)[None, :, None] * cables.offset[:, None, :]
+    return frame[:, None, :] + np.where(straight[:, None, None], taut, hanging)
 
 
 def _hull(platform: np.ndarray, origin: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

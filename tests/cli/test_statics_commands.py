@@ -1,0 +1,240 @@
+"""forward, pose-error, map: what they print, what they write, and how a map survives an interruption."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cdpr_struct.cli.main import run
+from cdpr_struct.workspace import quantities, sweep
+
+GRID = "-3:3:7,-3:3:7,0.5"
+MAP = ["map", "thesis-3-1", "--grid=-3:3:9,-3:3:9,0.5", "--quantity", "tension-max", "--chunk", "20"]
+
+
+def result_of(arguments, capsys) -> dict:
+    """result.json on stdout, and nothing else there."""
+    assert run([*arguments, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+@pytest.mark.parametrize("model", ["sagging", "spring", "ideal"])
+def test_forward_undoes_inverse(model, capsys):
+    pose = [0.7, -0.4, 0.8, 2.0, -1.0, 3.0]
+    held = result_of(["inverse", "cogiro", f"--pose={','.join(map(str, pose))}", "--model", model], capsys)
+    lengths = ",".join(repr(v) for v in held["lengths_m"])
+    found = result_of(["forward", "cogiro", "--lengths", lengths, "--model", model], capsys)
+    ideal = model == "ideal"
+    assert found["pose"] == pytest.approx(pose, abs=1e-3 if ideal else 1e-8)
+    if not ideal:  # ideal cables of a redundant robot leave the tensions open
+        assert found["tensions_N"] == pytest.approx(held["tensions_N"], rel=1e-6)
+    assert found["stable"] is True
+    assert max(abs(v) for v in found["residual_wrench"]) < (1e-2 if ideal else 1e-6)  # ideal: EA of 2.5e11 N
+
+
+def test_forward_flags_slack_springs(capsys):
+    lengths = ["9.5"] * 7 + ["14.0"]
+    found = result_of(["forward", "thesis-3-1", "--lengths", ",".join(lengths), "--model", "spring"], capsys)
+    assert found["slack"][7] is True
+    assert found["tensions_N"][7] == 0.0
+
+
+def test_forward_hangs_a_platform_on_four_of_its_cables(tmp_path, capsys):
+    """Fewer cables than degrees of freedom: gravity holds the rest."""
+    from importlib import resources
+
+    text = resources.files("cdpr_struct.robot.builtin").joinpath("thesis-3-1.toml").read_text("utf-8")
+    path = tmp_path / "four.toml"
+    path.write_text(text.partition("[[cables]]  # 5")[0])
+    found = result_of(["forward", str(path), "--lengths", "10.6,10.6,10.6,10.6"], capsys)
+    assert found["stable"] is True
+    assert np.abs(found["pose"][:2]).max() < 1e-6
+
+
+def test_forward_and_inverse_write_whole_reports(tmp_path):
+    for arguments in (
+        ["inverse", "thesis-3-1", "--model", "spring"],
+        ["forward", "thesis-3-1", "--lengths", "9.5,9.5,9.5,9.5,9.5,9.5,9.5,14", "--model", "spring"],
+    ):
+        out = tmp_path / arguments[0]
+        assert run([*arguments, "--out", str(out)]) == 0
+        assert {p.name for p in out.iterdir()} == {"result.json", "cables.csv", "robot.svg", "report.html"}
+        assert "nan" not in (out / "cables.csv").read_text()
+
+
+def test_pose_error_meets_table_3_2(capsys):
+    """4 mm, 30 kg: 5.4, -9.7, -4.3 mm."""
+    found = result_of(["pose-error", "thesis-3-1", f"--grid={GRID}", "--mass", "30"], capsys)
+    means = [found["mean_mm"][part] for part in ("sag", "axial", "global")]
+    assert means == pytest.approx([5.4, -9.7, -4.3], abs=0.07)
+    assert found["poses"] == found["held"] == found["stable"] == 49
+    assert found["mean_mm"]["global"] == pytest.approx(found["mean_mm"]["sag"] + found["mean_mm"]["axial"], abs=1e-12)
+
+
+def test_payload_is_added_to_the_mass(capsys):
+    grid = "--grid=-1:1:3,0,0.5"
+    by_mass = result_of(["pose-error", "thesis-3-1", grid, "--mass", "75"], capsys)["mean_mm"]
+    by_load = result_of(["pose-error", "thesis-3-1", grid, "--payload", "15"], capsys)["mean_mm"]
+    assert by_mass == pytest.approx(by_load, rel=1e-9)
+
+
+def test_poses_that_cannot_be_held_do_not_count(tmp_path, capsys):
+    arguments = ["pose-error", "thesis-3-1", "--grid=0:20:3,0,0.5", "--out", str(tmp_path)]
+    found = result_of(arguments, capsys)
+    assert found["poses"] == 3
+    assert found["held"] == 1
+    rows = (tmp_path / "pose_error.csv").read_text().splitlines()
+    assert len(rows) == 4
+    centre = result_of(["pose-error", "thesis-3-1", "--grid=0,0,0.5"], capsys)
+    assert found["mean_mm"] == pytest.approx(centre["mean_mm"], rel=1e-9)
+
+
+def test_a_grid_outside_the_workspace_is_refused_with_the_reason(capsys):
+    assert run(["pose-error", "thesis-3-1", "--grid=20:30:3,0,0.5"]) == 1
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert "ideal cables hold 0" in captured.err
+
+
+def test_sufficient_load_keeps_its_promise(capsys):
+    """Just below the mass the spring model is off by more than the tolerance, just above by less."""
+    found = result_of(["pose-error", "six-cable-4mm", "--sufficient-load", "1"], capsys)["sufficient_load"]
+    mass = found["mass_kg"]
+    pose = ",".join(str(v) for v in found["pose"][:3])
+    for factor, inside in ((0.99, False), (1.01, True)):
+        at = result_of(["pose-error", "six-cable-4mm", f"--grid={pose}", "--mass", str(factor * mass)], capsys)
+        assert (abs(at["mean_mm"]["sag"]) <= 1.0) is inside
+
+
+def test_pose_error_writes_every_file(tmp_path):
+    arguments = [
+        "pose-error",
+        "thesis-3-1",
+        "--grid=-2:2:5,-2:2:5,0.5",
+        "--sufficient-load",
+        "1",
+        "--out",
+        str(tmp_path),
+    ]
+    assert run(arguments) == 0
+    names = {path.name for path in tmp_path.iterdir()}
+    tables = {"result.json", "pose_error.csv", "sufficient_load.csv"}
+    assert names == tables | {"pose_error.svg", "sufficient_load.svg", "report.html"}
+
+
+@pytest.mark.parametrize("name", list(quantities.QUANTITIES))
+def test_every_quantity_can_be_mapped(name, tmp_path):
+    out = tmp_path / name
+    assert run(["map", "thesis-3-1", "--grid=-2:2:3,-2:2:3,0.5", "--quantity", name, "--out", str(out)]) == 0
+    result = json.loads((out / "result.json").read_text())
+    assert result["smallest"]["value"] <= result["mean"] <= result["largest"]["value"]
+    assert {p.name for p in out.iterdir()} == {"result.json", "map.csv", "map.svg", "report.html"}
+
+
+def test_smallest_stiffness_is_the_softest_direction(capsys):
+    """No direction is softer than the reported one, the vertical among them."""
+    least = result_of(["map", "thesis-3-1", "--grid=1,0.5,0.5", "--quantity", "stiffness-min"], capsys)["mean"]
+    vertical = result_of(["map", "thesis-3-1", "--grid=1,0.5,0.5", "--quantity", "stiffness-vertical"], capsys)["mean"]
+    assert 0.0 < least <= vertical
+
+
+def test_vertical_stiffness_is_the_slope_of_the_forward_kinematics(capsys):
+    """Load steps at locked lengths, central difference."""
+    pose = "1,0.5,0.5"
+    held = result_of(["inverse", "thesis-3-1", f"--pose={pose}"], capsys)
+    lengths = ",".join(repr(v) for v in held["lengths_m"])
+    heights = [
+        result_of(["forward", "thesis-3-1", "--lengths", lengths, "--mass", str(mass)], capsys)["pose"][2]
+        for mass in (59.99, 60.01)
+    ]
+    slope = 0.02 * 9.81 / (heights[0] - heights[1]) * 1e-3  # N/mm
+    mapped = result_of(["map", "thesis-3-1", f"--grid={pose}", "--quantity", "stiffness-vertical"], capsys)["mean"]
+    assert mapped == pytest.approx(slope, rel=1e-5)
+
+
+def test_chunks_and_processes_do_not_change_a_map(tmp_path, capsys):
+    one = tmp_path / "one"
+    two = tmp_path / "two"
+    assert run([*MAP[:-1], "1000", "--out", str(one)]) == 0
+    assert run([*MAP, "--workers", "2", "--out", str(two)]) == 0
+    assert (one / "map.csv").read_text() == (two / "map.csv").read_text()
+
+
+def test_an_interrupted_map_continues(tmp_path, capsys, monkeypatch):
+    """Stop after two chunks; the second run computes the other three only, and the files are the same."""
+    clean, torn = tmp_path / "clean", tmp_path / "torn"
+    assert run([*MAP, "--out", str(clean)]) == 0
+    computed = []
+    real = quantities.evaluate
+
+    def failing(*arguments):
+        computed.append(1)
+        if len(computed) == 3:
+            raise KeyboardInterrupt
+        return real(*arguments)
+
+    monkeypatch.setattr(sweep, "evaluate", failing)
+    assert run([*MAP, "--out", str(torn)]) == 130
+    assert "2 of 5 chunks are kept" in capsys.readouterr().err
+    assert not (torn / "result.json").exists()
+    computed.extend([1] * 10)
+    before = len(computed)
+    assert run([*MAP, "--out", str(torn)]) == 0
+    assert len(computed) - before == 3
+    assert json.loads((torn / "result.json").read_text())["resumed_chunks"] == 2
+    assert (torn / "map.csv").read_text() == (clean / "map.csv").read_text()
+    assert not [p for p in torn.iterdir() if p.name.startswith(".")], "the checkpoint was left behind"
+
+
+def test_a_checkpoint_of_another_load_is_not_mixed_in(tmp_path, monkeypatch, capsys):
+    def interrupted(*arguments):
+        raise KeyboardInterrupt
+
+    out = tmp_path / "map"
+    real = quantities.evaluate
+    calls = iter([real, interrupted])
+    monkeypatch.setattr(sweep, "evaluate", lambda *a: next(calls, interrupted)(*a))
+    assert run([*MAP, "--out", str(out)]) == 130
+    monkeypatch.setattr(sweep, "evaluate", real)
+    capsys.readouterr()
+    found = result_of([*MAP, "--mass", "30", "--out", str(out)], capsys)
+    assert found["resumed_chunks"] == 0
+
+
+def test_a_torn_checkpoint_file_is_computed_again(tmp_path):
+    from cdpr_struct.cli.checkpoint import Checkpoint
+
+    store = Checkpoint(tmp_path, "abc")
+    store.keep(0, {"a": np.arange(3.0)})
+    store.keep(1, {"a": np.arange(3.0)})
+    (tmp_path / ".checkpoint-abc" / "chunk-000001.npz").write_bytes(b"PK\x03\x04 torn")
+    assert list(store.chunks(5)) == [0]
+
+
+@pytest.mark.slow
+def test_a_killed_map_continues(tmp_path):
+    """SIGINT from outside, as a user presses it."""
+    command = [sys.executable, "-c", "from cdpr_struct.cli.main import main; main()", "map", "six-cable-8mm"]
+    command += ["--grid=-3:3:61,-3:3:61,0.5", "--quantity", "tension-max", "--chunk", "64", "--out", str(tmp_path)]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 60.0
+    while len(list(Path(tmp_path).glob(".checkpoint-*/chunk-*"))) < 2 and time.monotonic() < deadline:
+        time.sleep(0.1)
+    process.send_signal(signal.SIGINT)
+    assert "the same command continues" in process.communicate(timeout=60)[1]
+    assert process.returncode == 130
+
+
+def test_a_dask_cluster_does_the_same(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None
+    ) as cluster:
+        assert run([*MAP, "--scheduler", cluster.scheduler_address, "--out", str(tmp_path / "dask")]) == 0
+    assert run([*MAP, "--out", str(tmp_path / "here")]) == 0
+    assert (tmp_path / "dask" / "map.csv").read_text() == (tmp_path / "here" / "map.csv").read_text()
