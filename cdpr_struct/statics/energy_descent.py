@@ -110,11 +110,11 @@ class EnergyDescent:
 
 def newton_step(tangent: np.ndarray, wrench: np.ndarray, scale: float) -> np.ndarray:
     """Descent steps (n, 6) in scaled coordinates: Newton where the tangent is positive, else made positive."""
-    trace = np.maximum(np.einsum("nii->n", np.abs(tangent)), 1e-300)
-    regular = tangent + (1e-14 * trace)[:, None, None] * np.eye(6)
-    step = np.linalg.solve(regular, wrench[..., None])[..., 0]
+    force = np.linalg.norm(wrench, axis=-1)
+    shift = 1e-14 * np.einsum("nii->n", np.abs(tangent)) + 1e-12 * force / LONGEST_STEP + 1e-100
+    step = np.linalg.solve(tangent + shift[:, None, None] * np.eye(6), wrench[..., None])[..., 0]
     power = np.einsum("ni,ni->n", step, wrench)
-    size, force = np.linalg.norm(step, axis=-1), np.linalg.norm(wrench, axis=-1)
+    size = np.linalg.norm(step, axis=-1)
     suspect = ~(power > 1e-6 * size * force) | (size > LONGEST_STEP)
     if suspect.any():
         step[suspect] = _positive_step(tangent[suspect], wrench[suspect])

@@ -27,7 +27,8 @@ class PoseError:
     reference_position, reference_rotation : (..., 3) [m], (..., 3, 3)
     sagging, spring   : ForwardSolution (...) at the same cable lengths
     more_stable_pose  : (...) bool, the spring model has another equilibrium of lower energy near the sagging pose; the
-                        one reported is that reached from the reference by softening the cables
+                        one reported is that reached from the reference by softening the cables. Found by one descent
+                        from the sagging pose: a probe, not a search
     """
 
     reference_position: np.ndarray

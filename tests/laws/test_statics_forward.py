@@ -144,6 +144,15 @@ def test_batches_broadcast_over_poses_loads_masses_and_robot_parameters():
     assert np.abs(batch.position[1, 2, 1] - one.position).max() > 1e-4
 
 
+@pytest.mark.parametrize("moment", [0.0, 1e-150, 1.0])
+def test_a_start_with_every_cable_slack_falls_into_the_cables(moment):
+    """No stiffness at all at the start: only the weight says where to go."""
+    lengths = 1.02 * reference_lengths(ROBOT, [0.0, 0.0, 1.0], np.eye(3))
+    solution = forward(ROBOT, lengths, [0.0, 0.0, 1.0], model="spring", external_wrench=[0, 0, 0, 0, 0, moment])
+    assert solution.stable
+    assert solution.position[2] < 1.0
+
+
 def test_ideal_cables_keep_their_lengths():
     place = np.array([0.5, 0.3, 0.5])
     solution = forward(ROBOT, reference_lengths(ROBOT, place, np.eye(3)), place, model="ideal")
