@@ -4,6 +4,7 @@ Plain arrays, SI units, z up. Imports NumPy and SciPy only and shares no formula
 """
 
 from fem_reference.cable import CableData, CableEquilibrium
+from fem_reference.cable_damping import damping_rates
 from fem_reference.cable_modes import CableModes, cable_count_below, cable_modes, end_dynamic_stiffness
 from fem_reference.cable_statics import solve_cable
 from fem_reference.errors import (
@@ -19,12 +20,15 @@ from fem_reference.errors import (
     UnstableEquilibriumError,
 )
 from fem_reference.extrapolation import Extrapolation, extrapolate
+from fem_reference.frequency_response import frequency_response
+from fem_reference.motion_problem import TimeHistory
 from fem_reference.pulley import PulleyData, Wrap
 from fem_reference.rigid_platform import PlatformData
 from fem_reference.robot import PointForce, RobotData, RobotEquilibrium
 from fem_reference.robot_dynamics import count_below, platform_dynamic_stiffness
 from fem_reference.robot_modes import RobotModes, robot_modes
 from fem_reference.robot_statics import solve_robot
+from fem_reference.time_integration import integrate
 
 __all__ = [
     "CableData",
@@ -45,14 +49,18 @@ __all__ = [
     "RobotModes",
     "RobotNotConvergedError",
     "StepNotConvergedError",
+    "TimeHistory",
     "UndefinedSwivelError",
     "UnstableEquilibriumError",
     "Wrap",
     "cable_count_below",
     "cable_modes",
     "count_below",
+    "damping_rates",
     "end_dynamic_stiffness",
     "extrapolate",
+    "frequency_response",
+    "integrate",
     "platform_dynamic_stiffness",
     "robot_modes",
     "solve_cable",

@@ -6,13 +6,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fem_reference.bar_element import MassModel
+from fem_reference.cable_damping import damping_rates
 from fem_reference.rigid_platform import platform_mass_matrix
 from fem_reference.robot import RobotEquilibrium
 from fem_reference.substructure import condensed_and_counted, dynamic_ends
 
 
 def platform_dynamic_stiffness(
-    equilibrium: RobotEquilibrium, omegas: ArrayLike, mass: MassModel = "lumped", geometric_terms: bool = True
+    equilibrium: RobotEquilibrium,
+    omegas: ArrayLike,
+    mass: MassModel = "lumped",
+    geometric_terms: bool = True,
+    damping_ratio: ArrayLike | None = None,
 ) -> np.ndarray:
     """Wrench at the platform per small platform motion in steady vibration, cables condensed.
 
@@ -23,6 +28,7 @@ def platform_dynamic_stiffness(
     mass : "lumped" or "consistent", of the cables.
     geometric_terms : False drops the second-order terms of the turning lever arms (cable forces, weight of
         an offset centre of mass, external force), to show their effect.
+    damping_ratio : xi [-] of the cables, one or (m,), see `damping_rates`; None for none.
 
     Returns
     -------
@@ -30,7 +36,7 @@ def platform_dynamic_stiffness(
     """
     omega = np.asarray(omegas)
     squares = (omega * omega * 1.0).reshape(-1)
-    ends = dynamic_ends(equilibrium.element_stiffness(), equilibrium.element_mass(mass), squares)
+    ends = _cable_ends(equilibrium, omega.reshape(-1), mass, damping_rates(equilibrium, damping_ratio, mass))
     motion = equilibrium.end_motion()
     matrix = np.einsum("mka,wmkl,mlb->wab", motion, ends, motion, optimize=True)
     platform = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
@@ -38,6 +44,18 @@ def platform_dynamic_stiffness(
     if geometric_terms:
         matrix = matrix + equilibrium.geometric_stiffness()
     return (0.5 * (matrix + np.swapaxes(matrix, -1, -2))).reshape(*omega.shape, 6, 6)
+
+
+def _cable_ends(equilibrium: RobotEquilibrium, omegas: np.ndarray, mass: MassModel, rates: np.ndarray) -> np.ndarray:
+    """End dynamic stiffness (w, m, 3, 3) of all cables for omegas (w,) and damping rates (m,) [1/s]."""
+    stiffness, inertia, squares = equilibrium.element_stiffness(), equilibrium.element_mass(mass), omegas * omegas * 1.0
+    if not rates.any():
+        return dynamic_ends(stiffness, inertia, squares)
+    each = [
+        dynamic_ends(stiffness[index], inertia[index], squares - 1.0j * rate * omegas)
+        for index, rate in enumerate(rates)
+    ]
+    return np.stack(each, axis=1)
 
 
 def count_below(equilibrium: RobotEquilibrium, omega: float, mass: MassModel = "lumped") -> int:
