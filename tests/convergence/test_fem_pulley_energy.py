@@ -4,6 +4,7 @@ The tests find tangents by root finding and the share of length on the pulley by
 """
 
 import numpy as np
+import pytest
 import scipy.optimize
 
 from fem_reference import CableData, PlatformData, PulleyData, RobotData, solve_robot
