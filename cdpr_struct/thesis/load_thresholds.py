@@ -11,7 +11,7 @@ import numpy as np
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.forward_kinematics import forward
-from cdpr_struct.statics.sufficient_load import sufficient_load
+from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.thesis.reproduction import Cell, Reproduction, Statement, printed_table
 
 LIGHTEST, HEAVIEST = 10.0, 86.0  # kg, section 4.2.1
@@ -112,9 +112,12 @@ def _note(curves: dict[str, dict[str, np.ndarray]]) -> str:
 
 
 def _loads(diameter: str) -> list[str]:
+    """Sufficient loads at the printed pose, read off one ladder of loads."""
     robot = load_robot(f"six-cable-{diameter}mm")
-    pose = _table_4_2(diameter)[1], np.eye(3)
-    return [f"{mm:g} mm from {sufficient_load(robot, *pose, 1e-3 * mm).mass:.0f} kg" for mm in (1.0, 2.0, 5.0)]
+    ladder = np.geomspace(5.0, 150.0, 60)
+    error = pose_error(robot, _table_4_2(diameter)[1], np.eye(3), mass=ladder)
+    sag = 1e3 * np.abs(error.sag_error[:, 2])
+    return [f"{mm:g} mm from {_falls_to(ladder, sag, mm):.0f} kg" for mm in (1.0, 2.0, 5.0)]
 
 
 def _pose(curve: dict[str, np.ndarray]) -> str:
