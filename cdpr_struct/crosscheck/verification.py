@@ -11,6 +11,7 @@ import fem_reference as fem
 from cdpr_struct.crosscheck.determinant_minima import DeterminantScan, match_minima, scan_determinant
 from cdpr_struct.crosscheck.fem_robot import fem_shapes, sampling_mass, solve_in_fem
 from cdpr_struct.crosscheck.mode_pairing import modal_assurance, pair_modes, shared_subspace
+from cdpr_struct.crosscheck.stiffness_convergence import StiffnessConvergence, stiffness_convergence
 from cdpr_struct.crosscheck.validity_limits import ValidityLimits, check_limits
 from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.dynamics.certified_modes import certified_modes
@@ -52,7 +53,8 @@ class Verification:
     dsm_hertz         : (k,) the paired DSM frequency;  assurance : (k,) share of the FEM shape in its cluster
     static_hertz      : (k,) frequency on massless cables where this is the platform mode it stands for, else nan
     determinant_hertz : (k,) the minimum of the thesis's scan that stands for this mode, else nan
-    missed            : per scan step [Hz], how many of the k frequencies have no minimum of their own
+    missed, spurious  : per scan step [Hz], how many frequencies have no minimum, and how many minima no frequency
+    consistent_hertz  : (e, k) the FEM with consistent instead of lumped mass;  stiffness : K(omega) itself
     """
 
     point: OperatingPoint
@@ -72,6 +74,9 @@ class Verification:
     determinant_hertz: np.ndarray
     scan: DeterminantScan
     missed: dict[float, int]
+    spurious: dict[float, int]
+    consistent_hertz: np.ndarray
+    stiffness: StiffnessConvergence
     limits: ValidityLimits
 
     @property
@@ -85,6 +90,11 @@ class Verification:
         return np.abs(self.fem_hertz / self.fem_limit_hertz - 1.0)
 
     @property
+    def consistent_mesh_error(self) -> np.ndarray:
+        """(e, k) as `mesh_error`, with consistent mass [-]."""
+        return np.abs(self.consistent_hertz / self.fem_limit_hertz - 1.0)
+
+    @property
     def missed_by_scan(self) -> int:
         """Frequencies without a determinant minimum of their own, at the reported grid step."""
         return self.missed[_REPORTED_STEP]
@@ -96,7 +106,9 @@ class Verification:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _FemSweep:
+    meshes: list[fem.RobotEquilibrium]
     hertz: np.ndarray
+    consistent_hertz: np.ndarray
     shapes: np.ndarray
     platform_shapes: np.ndarray
 
@@ -151,6 +163,9 @@ def verify(
         determinant_hertz=matched[_REPORTED_STEP],
         scan=scans[_REPORTED_STEP],
         missed={step: int(np.isnan(m).sum()) for step, m in matched.items()},
+        spurious={step: len(scans[step].minima_hertz) - int(np.isfinite(m).sum()) for step, m in matched.items()},
+        consistent_hertz=sweep.consistent_hertz,
+        stiffness=stiffness_convergence(point, sweep.meshes, exact.hertz[:modes], assembly),
         limits=check_limits(point),
     )
 
@@ -177,19 +192,29 @@ def _sweep_elements(
     point: OperatingPoint, elements: Sequence[int], modes: int, mass: np.ndarray, progress: Callable[[str], None]
 ) -> _FemSweep:
     """FEM frequencies at every element count, each mode followed by its shape up to the finest mesh."""
-    found = []
+    meshes, lumped, consistent = [], [], []
     for n in elements:
         progress(f"FEM, {len(point.robot.cables)} x {n} elements")
         spare = 0 if n == elements[-1] else _SPARE_MODES
-        available = 6 + 3 * len(point.robot.cables) * (n - 1)
-        found.append(fem.robot_modes(solve_in_fem(point, n), min(modes + spare, available - 1)))
-    finest = found[-1]
+        count = min(modes + spare, 5 + 3 * len(point.robot.cables) * (n - 1))
+        meshes.append(solve_in_fem(point, n))
+        lumped.append(fem.robot_modes(meshes[-1], count))
+        consistent.append(fem.robot_modes(meshes[-1], count, "consistent"))
+    finest = lumped[-1]
     shapes = fem_shapes(finest, elements[0])
-    hertz = np.empty((len(elements), modes))
-    for row, coarse in zip(hertz, found, strict=True):
-        assurance = modal_assurance(shapes, fem_shapes(coarse, elements[0]), mass)
-        row[:] = coarse.frequencies_hz[pair_modes(assurance, finest.frequencies_hz, coarse.frequencies_hz)]
-    return _FemSweep(hertz, shapes, finest.platform_shapes)
+
+    def followed(found: list[fem.RobotModes]) -> np.ndarray:
+        return np.array([_followed(finest, shapes, coarse, elements[0], mass) for coarse in found])
+
+    return _FemSweep(meshes, followed(lumped), followed(consistent), shapes, finest.platform_shapes)
+
+
+def _followed(
+    finest: fem.RobotModes, shapes: np.ndarray, coarse: fem.RobotModes, stations: int, mass: np.ndarray
+) -> np.ndarray:
+    """(k,) frequencies [Hz] of another mesh or mass model, in the order of the finest mesh's modes."""
+    assurance = modal_assurance(shapes, fem_shapes(coarse, stations), mass)
+    return coarse.frequencies_hz[pair_modes(assurance, finest.frequencies_hz, coarse.frequencies_hz)]
 
 
 def _scans(point: OperatingPoint, assembly: Assembly, last: float) -> dict[float, DeterminantScan]:

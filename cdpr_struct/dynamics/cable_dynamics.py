@@ -5,7 +5,7 @@ dsm    : the thesis's closed form for taut cables with a small sag (eqs 2.31-2.4
 exact  : the linearised elastic catenary itself, any sag and inclination
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Literal, Protocol, get_args
 
 import numpy as np
@@ -18,6 +18,7 @@ from cdpr_struct.dynamics.taut_cable_expansion import expand_taut_cables
 from cdpr_struct.dynamics.taut_cables import TautCables, closed_form_stiffness, taut_cables
 from cdpr_struct.generated.cable_dsm import damped_omega_squared
 from cdpr_struct.statics.cable_response import end_stiffness
+from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 CableModel = Literal["static", "dsm", "exact"]
@@ -51,11 +52,29 @@ def cable_dynamics(point: OperatingPoint, model: CableModel, highest_omega: floa
         return StaticCables(point)
     if model == "dsm":
         return ClosedFormCables(taut_cables(point))
-    cables = point.cables
     half_waves = highest_omega / _first_frequency(point).min()
     order = int(np.clip(2.0 * half_waves + 24.0, 32.0, 400.0))
-    stiffness = end_stiffness(RobotArrays.of(point.robot), cables)
-    return CatenaryCables(expand_catenaries(cables, point.robot.linear_density, order, stiffness, _frame_ends(point)))
+    return CatenaryCables(expand_catenaries_at(point, order))
+
+
+def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
+    """Modal expansion (..., m) of the exact catenaries at a batch (...) of poses, pulleys included."""
+    cables = point.cables
+    shape = cables.length.shape
+    stiffness = end_stiffness(RobotArrays.of(point.robot), cables).reshape(-1, 3, 3)
+    density = np.broadcast_to(point.robot.linear_density, shape).reshape(-1)
+    return expand_catenaries(_flattened(cables), density, order, stiffness, _frame_ends(point)).reshaped(shape)
+
+
+def _flattened(cables: CableStates) -> CableStates:
+    """The same cables with the batch of poses and m in one axis."""
+    shape = cables.length.shape
+
+    def flat(value: np.ndarray, core: tuple[int, ...]) -> np.ndarray:
+        return np.broadcast_to(value, shape + core).reshape((-1, *core))
+
+    vectors = ("offset", "heading")
+    return CableStates(**{f.name: flat(getattr(cables, f.name), (3,) * (f.name in vectors)) for f in fields(cables)})
 
 
 def damped(cables: CableDynamics, damping_ratio: np.ndarray, omega: np.ndarray) -> np.ndarray:
@@ -83,14 +102,15 @@ def _frame_ends(point: OperatingPoint) -> FrameEnds | None:
         return None
     cables = point.cables
     tension = cables.tension_at_frame
-    tangent = cables.force_at_frame / tension[:, None]
-    cos = np.einsum("mi,mi->m", tangent, arrays.pulley_axis)
+    tangent = cables.force_at_frame / tension[..., None]
+    cos = np.einsum("...mi,...mi->...m", tangent, arrays.pulley_axis)
     across = np.cross(arrays.pulley_axis, tangent)
     sin = np.linalg.norm(across, axis=-1)
     axial = arrays.axial_stiffness / np.maximum(cables.wrapped_length, _SHORT * cables.length)
     arm = np.maximum(arrays.pulley_radius * (1.0 - cos), _SHORT * cables.length)
-    directions = np.stack([tangent, across / sin[:, None]], axis=-1)
-    return FrameEnds(directions, np.stack([axial, tension * sin / arm], axis=-1))
+    directions = np.stack([tangent, across / sin[..., None]], axis=-1)
+    springs = np.stack([axial, tension * sin / arm], axis=-1)
+    return FrameEnds(directions.reshape(-1, 3, 2), springs.reshape(-1, 2))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -156,7 +176,7 @@ class CatenaryCables:
 
     @property
     def first_frequency(self) -> np.ndarray:
-        return np.sqrt(self.full.omega_squared[:, 0])
+        return np.sqrt(self.full.omega_squared[..., 0])
 
     def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
         return self.full.stiffness(omega_squared)

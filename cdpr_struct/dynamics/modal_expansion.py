@@ -14,15 +14,15 @@ Shapes = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ModalExpansion:
-    """m cables with p clamped modes of unit modal mass each, in local axes.
+    """m cables with p clamped modes of unit modal mass each, in local axes; leading axes (...) are a batch of poses.
 
-    frame            : (m, 3, 3) local axes as columns in the world
-    static_stiffness : (m, 3, 3) of the moving end [N/m]
-    end_mass         : (m, 3, 3) mass of the static shapes [kg]
-    omega_squared    : (m, p) of the clamped cable [rad^2/s^2]
-    coupling         : (m, p, 3) mass coupling of modes and end [kg^(1/2)]
-    shapes           : stations (s,) in (0, 1), fractions of the cable from the frame -> static shapes (m, s, 3, 3)
-                       [motion component, end component] and modes (m, p, s, 3) [kg^(-1/2)]
+    frame            : (..., m, 3, 3) local axes as columns in the world
+    static_stiffness : (..., m, 3, 3) of the moving end [N/m]
+    end_mass         : (..., m, 3, 3) mass of the static shapes [kg]
+    omega_squared    : (..., m, p) of the clamped cable [rad^2/s^2]
+    coupling         : (..., m, p, 3) mass coupling of modes and end [kg^(1/2)]
+    shapes           : stations (s,) in (0, 1), fractions of the cable from the frame -> static shapes (..., m, s, 3, 3)
+                       [motion component, end component] and modes (..., m, p, s, 3) [kg^(-1/2)]
     """
 
     frame: np.ndarray
@@ -44,7 +44,7 @@ class ModalExpansion:
         gap = self.omega_squared - squared
         gain = squared**2 / np.where(gap == 0.0, np.finfo(float).eps * self.omega_squared, gap)
         outer = (self.coupling[..., :, None] * self.coupling[..., None, :]).reshape((*self.omega_squared.shape, 9))
-        modal = np.einsum("...mp,mpc->...mc", gain, outer)
+        modal = np.einsum("...mp,...mpc->...mc", gain, outer)
         local = self.static_stiffness - squared[..., None] * self.end_mass - modal.reshape((*modal.shape[:-1], 3, 3))
         return self.frame @ local @ np.swapaxes(self.frame, -1, -2)
 
@@ -55,50 +55,65 @@ class ModalExpansion:
         their first four moments (two steps of block Lanczos). Measured error of the stiffness up to `highest`: below
         1e-9 for factor 2.
         """
-        keep = int((self.omega_squared < (factor * highest) ** 2).sum(axis=1).max())
-        if self.omega_squared.shape[1] - keep <= 6:
+        keep = int((self.omega_squared < (factor * highest) ** 2).sum(axis=-1).max())
+        if self.omega_squared.shape[-1] - keep <= 6:
             return self
-        slow, basis = self.omega_squared[:, :keep], _tail_vectors(self.omega_squared[:, keep:], self.coupling[:, keep:])
-        vectors, squared = basis
-        tail = np.swapaxes(vectors, 1, 2)
+        slow, fast = self.omega_squared[..., :keep], self.omega_squared[..., keep:]
+        vectors, squared = _tail_vectors(fast, self.coupling[..., keep:, :])
+        tail = np.swapaxes(vectors, -1, -2)
 
         def shapes(stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             static, modes = self.shapes(stations)
-            fast = np.einsum("mkp,mpsa->mksa", tail, modes[:, keep:], optimize=True)
-            return static, np.concatenate([modes[:, :keep], fast], axis=1)
+            condensed = np.einsum("...kp,...psa->...ksa", tail, modes[..., keep:, :, :], optimize=True)
+            return static, np.concatenate([modes[..., :keep, :, :], condensed], axis=-3)
 
         return replace(
             self,
-            omega_squared=np.concatenate([slow, squared], axis=1),
-            coupling=np.concatenate([self.coupling[:, :keep], tail @ self.coupling[:, keep:]], axis=1),
+            omega_squared=np.concatenate([slow, squared], axis=-1),
+            coupling=np.concatenate([self.coupling[..., :keep, :], tail @ self.coupling[..., keep:, :]], axis=-2),
             shapes=shapes,
         )
 
+    def reshaped(self, shape: tuple[int, ...]) -> "ModalExpansion":
+        """The same cables with their one axis m unfolded to `shape` (..., m)."""
+
+        def unfold(value: np.ndarray) -> np.ndarray:
+            return value.reshape(shape + value.shape[1:])
+
+        def shapes(stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            static, modes = self.shapes(stations)
+            return unfold(static), unfold(modes)
+
+        fields = ("frame", "static_stiffness", "end_mass", "omega_squared", "coupling")
+        return ModalExpansion(**{name: unfold(getattr(self, name)) for name in fields}, shapes=shapes)
+
     def motion(self, stations: np.ndarray, end: np.ndarray, modal: np.ndarray) -> np.ndarray:
-        """Motion along the cables, (k, m, s, 3), world axes.
+        """Motion along the cables, (..., k, m, s, 3), world axes.
 
         Parameters
         ----------
-        end : (k, m, 3) displacement of the moving end, local axes
-        modal : (k, m, p) modal coordinates
+        end : (..., k, m, 3) displacement of the moving end, local axes
+        modal : (..., k, m, p) modal coordinates
         """
-        static_shapes, modes = self.shapes(stations)
-        local = np.einsum("mscb,kmb->kmsc", static_shapes, end) + np.einsum("mpsc,kmp->kmsc", modes, modal)
-        return np.einsum("mac,kmsc->kmsa", self.frame, local)
+        static, modes = self.shapes(stations)
+        local = np.einsum("...mscb,...kmb->...kmsc", static, end, optimize=True)
+        local += np.einsum("...mpsc,...kmp->...kmsc", modes, modal, optimize=True)
+        return np.einsum("...mac,...kmsc->...kmsa", self.frame, local, optimize=True)
 
     def kinetic_energy(self, end: np.ndarray, modal: np.ndarray) -> np.ndarray:
-        """(k, m) twice the kinetic energy at unit frequency: displacement^T mass displacement of each cable."""
-        own = np.einsum("kma,mab,kmb->km", end, self.end_mass, end)
-        return own + (modal**2).sum(-1) + 2.0 * np.einsum("kmp,mpa,kma->km", modal, self.coupling, end)
+        """(..., k, m) twice the kinetic energy at unit frequency: displacement^T mass displacement of each cable."""
+        own = np.einsum("...kma,...mab,...kmb->...km", end, self.end_mass, end, optimize=True)
+        cross = np.einsum("...kmp,...mpa,...kma->...km", modal, self.coupling, end, optimize=True)
+        return own + (modal**2).sum(-1) + 2.0 * cross
 
 
 def _tail_vectors(omega_squared: np.ndarray, coupling: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Ritz vectors (m, p, 6) of unit modal mass of the modes that the moving end excites, and their omega^2 (m, 6)."""
+    """Ritz vectors (..., p, 6) of unit modal mass of the modes that the moving end excites; omega^2 (..., 6)."""
     root = np.sqrt(omega_squared)[..., None]
     first, _ = np.linalg.qr(coupling / root)
     image = first / omega_squared[..., None]
-    own = np.swapaxes(first, 1, 2) @ image
+    own = np.swapaxes(first, -1, -2) @ image
     second, _ = np.linalg.qr(image - first @ own)
     basis, _ = np.linalg.qr(np.concatenate([first, second], axis=-1))
-    periods, turn = np.linalg.eigh(np.swapaxes(basis, 1, 2) @ (basis / omega_squared[..., None]))
-    return basis @ turn / root / np.sqrt(periods)[:, None, :], 1.0 / periods
+    periods, turn = np.linalg.eigh(np.swapaxes(basis, -1, -2) @ (basis / omega_squared[..., None]))
+    return basis @ turn / root / np.sqrt(periods)[..., None, :], 1.0 / periods

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
 
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
@@ -13,13 +12,13 @@ from cdpr_struct.errors import CdprError
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RitzModes:
-    """The first k undamped modes of unit modal mass that an expansion of the cables spans.
+    """The first k undamped modes of unit modal mass that an expansion of the cables spans, at a batch (...) of poses.
 
-    omega         : (k,) ascending [rad/s], upper bounds of the model's
-    platform      : (k, 6) motion of the platform origin and rotation, world axes
-    end           : (k, m, 3) motion of the cables' platform ends, local axes of `expansion`
-    modal         : (k, m, p) coordinates of the clamped cables' modes
-    platform_mass : (6, 6) world axes;  to_cable : (m, 3, 6) platform motion to `end`
+    omega         : (..., k) ascending [rad/s], upper bounds of the model's
+    platform      : (..., k, 6) motion of the platform origin and rotation, world axes
+    end           : (..., k, m, 3) motion of the cables' platform ends, local axes of `expansion`
+    modal         : (..., k, m, p) coordinates of the clamped cables' modes
+    platform_mass : (..., 6, 6) world axes;  to_cable : (..., m, 3, 6) platform motion to `end`
     """
 
     omega: np.ndarray
@@ -32,20 +31,20 @@ class RitzModes:
 
     @property
     def platform_energy(self) -> np.ndarray:
-        """(k,) share of the kinetic energy [-]."""
-        return np.einsum("ki,ij,kj->k", self.platform, self.platform_mass, self.platform)
+        """(..., k) share of the kinetic energy [-]."""
+        return np.einsum("...ki,...ij,...kj->...k", self.platform, self.platform_mass, self.platform, optimize=True)
 
     @property
     def cable_energy(self) -> np.ndarray:
-        """(k, m) shares of the kinetic energy [-]."""
+        """(..., k, m) shares of the kinetic energy [-]."""
         return self.expansion.kinetic_energy(self.end, self.modal)
 
     def kinds(self) -> list[str]:
-        """Per mode "platform", "cable i", "cables" or "mixed", by where the kinetic energy sits."""
+        """At one pose, per mode "platform", "cable i", "cables" or "mixed", by where the kinetic energy sits."""
         return [kind_of_mode(p, c) for p, c in zip(self.platform_energy, self.cable_energy, strict=True)]
 
     def cable_motion(self, stations: np.ndarray) -> np.ndarray:
-        """(k, m, s, 3) motion at fractions (s,) of each cable from the frame, world axes."""
+        """(..., k, m, s, 3) motion at fractions (s,) of each cable from the frame, world axes."""
         return self.expansion.motion(stations, self.end, self.modal)
 
 
@@ -63,44 +62,43 @@ def ritz_modes(
     """
     to_cable = np.swapaxes(expansion.frame, -1, -2) @ attachment(point)
     platform_mass = platform_mass_matrix(point.robot, point.rotation)
-    scale = _unit_stiffness(point, expansion, assembly)
+    turn, stretch = _unit_stiffness(point, expansion, assembly)
     mass = _mass(expansion, to_cable, platform_mass)
-    mass[:6] = scale[0].T @ mass[:6]
-    mass[:, :6] = mass[:, :6] @ scale[0]
-    mass[6:] *= scale[1][:, None]
-    mass[:, 6:] *= scale[1]
-    size = len(mass)
-    count = min(count, size)
-    periods, vectors = scipy.linalg.eigh(mass, subset_by_index=(size - count, size - 1), check_finite=False)
-    omega = 1.0 / np.sqrt(periods[::-1])
-    vectors = vectors[:, ::-1] * omega
-    platform = (scale[0] @ vectors[:6]).T
-    modal = (scale[1][:, None] * vectors[6:]).T.reshape(count, *expansion.omega_squared.shape)
-    return RitzModes(
-        omega, platform, np.einsum("mai,ki->kma", to_cable, platform), modal, platform_mass, to_cable, expansion
-    )
+    mass[..., :6, :] = np.swapaxes(turn, -1, -2) @ mass[..., :6, :]
+    mass[..., :, :6] = mass[..., :, :6] @ turn
+    mass[..., 6:, :] *= stretch[..., :, None]
+    mass[..., :, 6:] *= stretch[..., None, :]
+    periods, vectors = np.linalg.eigh(mass)
+    omega = 1.0 / np.sqrt(periods[..., : -count - 1 : -1])
+    vectors = vectors[..., : -count - 1 : -1] * omega[..., None, :]
+    platform = np.swapaxes(turn @ vectors[..., :6, :], -1, -2)
+    modal = np.swapaxes(stretch[..., None] * vectors[..., 6:, :], -1, -2)
+    modal = modal.reshape((*omega.shape, *expansion.omega_squared.shape[-2:]))
+    end = np.einsum("...mai,...ki->...kma", to_cable, platform)
+    return RitzModes(omega, platform, end, modal, platform_mass, to_cable, expansion)
 
 
 def _unit_stiffness(
     point: OperatingPoint, expansion: ModalExpansion, assembly: Assembly
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates of unit stiffness: platform motion (6, 6) and modal coordinates (m p,)."""
+    """Coordinates of unit stiffness: platform motion (..., 6, 6) and modal coordinates (..., m p)."""
     ends = expansion.frame @ expansion.static_stiffness @ np.swapaxes(expansion.frame, -1, -2)
     try:
         lower = np.linalg.cholesky(assemble(point, ends, assembly))
     except np.linalg.LinAlgError as error:
-        raise CdprError(
-            "the equilibrium is unstable: the platform stiffness has negative eigenvalues at rest"
-        ) from error
-    return np.linalg.inv(lower).T, 1.0 / np.sqrt(expansion.omega_squared.ravel())
+        raise CdprError("the equilibrium is unstable: the platform's stiffness has a negative eigenvalue") from error
+    squared = expansion.omega_squared
+    return np.swapaxes(np.linalg.inv(lower), -1, -2), 1.0 / np.sqrt(squared.reshape((*squared.shape[:-2], -1)))
 
 
 def _mass(expansion: ModalExpansion, to_cable: np.ndarray, platform_mass: np.ndarray) -> np.ndarray:
-    modal_count = expansion.omega_squared.size
-    mass = np.eye(6 + modal_count)
-    mass[:6, :6] = platform_mass + np.einsum("mai,mab,mbj->ij", to_cable, expansion.end_mass, to_cable)
-    mass[6:, :6] = (expansion.coupling @ to_cable).reshape(modal_count, 6)
-    mass[:6, 6:] = mass[6:, :6].T
+    batch, modal_count = expansion.omega_squared.shape[:-2], np.prod(expansion.omega_squared.shape[-2:], dtype=int)
+    mass = np.zeros((*batch, 6 + modal_count, 6 + modal_count))
+    mass[..., np.arange(6, 6 + modal_count), np.arange(6, 6 + modal_count)] = 1.0
+    carried = np.einsum("...mai,...mab,...mbj->...ij", to_cable, expansion.end_mass, to_cable, optimize=True)
+    mass[..., :6, :6] = platform_mass + carried
+    mass[..., 6:, :6] = (expansion.coupling @ to_cable).reshape((*batch, modal_count, 6))
+    mass[..., :6, 6:] = np.swapaxes(mass[..., 6:, :6], -1, -2)
     return mass
 
 

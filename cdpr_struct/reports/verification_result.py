@@ -30,12 +30,16 @@ def verification_json(v: Verification, pose: list[float]) -> dict[str, Any]:
         "convergence": {
             "elements": list(v.elements),
             "max_relative_error": v.mesh_error.max(axis=1),
+            "max_relative_error_consistent_mass": v.consistent_mesh_error.max(axis=1),
+            "stiffness_max_error": v.stiffness.fem_error.max(axis=1),
+            "stiffness_max_error_dsm": float(v.stiffness.dsm_error.max()),
+            "stiffness_compared_at_hz": v.stiffness.omega_hertz,
             "observed_order": float(np.nanmedian(v.observed_order)),
             "observed_order_range": [float(np.nanmin(v.observed_order)), float(np.nanmax(v.observed_order))],
         },
         "max_relative_error": float(np.abs(v.relative_error).max()),
         "missed_by_determinant_scan": v.missed_by_scan,
-        "determinant_scan": {"step_hz": v.scan.step_hertz, "missed_by_step": v.missed},
+        "determinant_scan": {"step_hz": v.scan.step_hertz, "missed_by_step": v.missed, "spurious_by_step": v.spurious},
         "limits": limits_json(v.limits),
         "verdict": {"holds": not v.objections(), "objections": v.objections()},
     }
