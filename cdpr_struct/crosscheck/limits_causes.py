@@ -126,11 +126,12 @@ def candidates(values: dict[str, np.ndarray], bad: np.ndarray, good: np.ndarray,
 
 
 def rounded_down(value: float) -> float:
-    """To two significant digits, towards zero."""
+    """To two significant digits, never above the value."""
     if value <= 0.0:
         return 0.0
     unit = 10.0 ** (np.floor(np.log10(value)) - 1.0)
-    return float(f"{np.floor(value / unit * (1.0 + 1e-12)) * unit:.12g}")
+    rounded = float(f"{np.floor(value / unit) * unit:.12g}")
+    return rounded if rounded <= value else float(f"{rounded - unit:.12g}")
 
 
 def _missing(

@@ -1,5 +1,6 @@
 """The printed limits over many poses of a robot: grids and trajectories, all at once."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, InverseStatus, inverse
 
+CHUNK = 512
 PARAMETERS = ("lambda2", "crossover_distance", "alpha_deg", "epsilon", "sag_ratio")
 _DIRECTIONS = ("force x [N]", "force y [N]", "force z [N]", "moment x [N m]", "moment y [N m]", "moment z [N m]")
 
@@ -68,12 +70,36 @@ class PoseAudit:
         return np.where(self.held, self.largest_use.max(axis=0).argmax(axis=-1) + 1, 0)
 
 
-def audit_poses(robot: Robot, position: np.ndarray, rotation: np.ndarray, lower_bound: float = 0.0) -> PoseAudit:
+def chunk_count(poses: int) -> int:
+    """Calls of `progress` that an audit of so many poses makes."""
+    return max(1, -(-poses // CHUNK))
+
+
+def audit_poses(
+    robot: Robot,
+    position: np.ndarray,
+    rotation: np.ndarray,
+    lower_bound: float = 0.0,
+    progress: Callable[[str], None] = lambda _: None,
+) -> PoseAudit:
     """Cable parameters at poses (k, 3), (k, 3, 3) held by sagging cables of minimum-norm tension.
 
-    lower_bound : smallest tension at the platform [N]
+    lower_bound : smallest tension at the platform [N];  progress : called once a batch of poses
     """
     rotation = np.broadcast_to(rotation, (len(position), 3, 3))
+    parts = []
+    for numbers in np.array_split(np.arange(len(position)), chunk_count(len(position))):
+        progress(f"{len(position)} poses")
+        parts.append(_batch(robot, position[numbers], rotation[numbers], lower_bound))
+    held, tension, reason = (np.concatenate([part[i] for part in parts]) for i in range(3))
+    values = {name: np.concatenate([part[3][name] for part in parts]) for name in PARAMETERS}
+    return PoseAudit(robot, position, rotation, held, tuple(reason), tension, values, *_against_limits(values))
+
+
+def _batch(
+    robot: Robot, position: np.ndarray, rotation: np.ndarray, lower_bound: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+    """Held or not, tensions, reasons and parameters of one batch of poses."""
     solution = inverse(robot, position, rotation, lower_bound=lower_bound, allow_unheld=True)
     held = solution.held & (solution.tensions > 0.0).all(axis=-1)
     numbers = np.flatnonzero(held)
@@ -82,9 +108,8 @@ def audit_poses(robot: Robot, position: np.ndarray, rotation: np.ndarray, lower_
         own = CableStates(*(getattr(solution.cables, name)[numbers] for name in CableStates.__slots__))
         for name, value in _parameters(OperatingPoint(robot, position[numbers], rotation[numbers], own)).items():
             values[name][numbers] = value
-    reason = tuple("" if h else _reason(solution, i) for i, h in enumerate(held))
-    tension = np.where(held[:, None], solution.tensions, np.nan)
-    return PoseAudit(robot, position, rotation, held, reason, tension, values, *_against_limits(values))
+    reason = np.array(["" if h else _reason(solution, i) for i, h in enumerate(held)], dtype=object)
+    return held, np.where(held[:, None], solution.tensions, np.nan), reason, values
 
 
 def audit_rest(point: OperatingPoint) -> PoseAudit:

@@ -38,7 +38,7 @@ def judge(groups: CableGroups, elements: Sequence[int] = ELEMENTS) -> list[Refer
 
 def _judge(one: CableGroups, elements: Sequence[int]) -> RefereeVerdict:
     planes = reference_planes(one, np.array([0.5]))
-    meshes = [_hang(one, n, upwards=True) for n in elements]
+    meshes = [hang(one, n, upwards=True) for n in elements]
     known = fem.extrapolate(elements, [_frequencies(mesh) for mesh in meshes])
     catenary = np.concatenate(
         [planes.in_plane.frequencies[0, :IN_PLANE_MODES], planes.across.frequencies[0, :ACROSS_MODES]]
@@ -52,7 +52,7 @@ def _judge(one: CableGroups, elements: Sequence[int]) -> RefereeVerdict:
     )
 
 
-def _hang(one: CableGroups, elements: int, upwards: bool) -> fem.CableEquilibrium:
+def hang(one: CableGroups, elements: int, upwards: bool) -> fem.CableEquilibrium:
     """The cable held at the origin, its moving end above or below."""
     angle = float(np.arctan2(one.along[0], one.epsilon[0])) * (1.0 if upwards else -1.0)
     x, z, weight = float(np.cos(angle)), float(np.sin(angle)), float(one.weight[0])
@@ -75,7 +75,7 @@ def _stiffness_deviation(one: CableGroups, meshes: list[fem.CableEquilibrium], e
     scale = np.sqrt(np.append(np.diagonal(planes.in_plane.static[0, 0]), planes.across.static[0, 0, 0, 0]))
     worst = 0.0
     for end, upwards in enumerate((True, False)):
-        used = meshes if upwards else [_hang(one, n, upwards) for n in elements]
+        used = meshes if upwards else [hang(one, n, upwards) for n in elements]
         known = fem.extrapolate(elements, [_in_chord_axes(mesh, omega) for mesh in used]).limit
         ours = np.zeros_like(known)
         ours[:, :2, :2] = planes.in_plane.stiffness(omega[None])[0, end]

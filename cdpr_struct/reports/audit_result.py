@@ -1,0 +1,184 @@
+"""result.json, table and words of an audit of a robot's cables against the printed limits."""
+
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.crosscheck.limits_poses import PARAMETERS, PoseAudit
+from cdpr_struct.crosscheck.validity_limits import (
+    CROSSOVER_DISTANCE,
+    INCLINATION_EPSILON_PAIRS,
+    LAMBDA_SQUARED_LIMIT,
+    SAG_RATIO_LIMIT,
+)
+from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.text import paragraphs, plain_table
+from cdpr_struct.robot.pose import angles_from_rotation
+
+
+def audit_json(audit: PoseAudit, time: np.ndarray | None = None) -> dict[str, Any]:
+    """The result under the keys that scripts rely on; poses as [x, y, z, rx, ry, rz] in m and deg."""
+    poses = poses_in_degrees(audit)
+    return {
+        "robot": audit.robot.name,
+        "platform_mass_kg": audit.robot.platform.mass,
+        "poses": len(poses),
+        "poses_held": int(audit.held.sum()),
+        "poses_violated": int((audit.count > 0).sum()),
+        "valid": bool(audit.held.any() and not (audit.count > 0).any()),
+        "violations": _violations(audit, poses, time),
+        "counts": {name: int(audit.broken[name].sum()) for name in PARAMETERS},
+        "counts_by_cable": np.sum([audit.broken[name].sum(axis=0) for name in PARAMETERS], axis=0),
+        "extremes": {name: _extreme(audit, name, poses) for name in PARAMETERS} if audit.held.any() else {},
+        "unheld": [{"pose": poses[i], **_at(time, i), "reason": audit.reason[i]} for i in np.flatnonzero(~audit.held)],
+        "printed_limits": {
+            "lambda2": LAMBDA_SQUARED_LIMIT,
+            "crossover_distance": CROSSOVER_DISTANCE,
+            "alpha_deg_and_epsilon": [list(pair) for pair in INCLINATION_EPSILON_PAIRS],
+            "sag_ratio": SAG_RATIO_LIMIT,
+        },
+        "verdict": sentences(audit),
+    }
+
+
+def poses_in_degrees(audit: PoseAudit) -> list[list[float]]:
+    """[x, y, z, rx, ry, rz] of every pose, m and deg."""
+    degrees = np.degrees(angles_from_rotation(audit.rotation)) + 0.0
+    return np.concatenate([audit.position, degrees], axis=1).tolist()
+
+
+def audit_csv(audit: PoseAudit, time: np.ndarray | None = None) -> str:
+    """One row a pose and cable."""
+    m = audit.tension.shape[1]
+    poses = np.repeat(poses_in_degrees(audit), m, axis=0)
+    names = ("x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg")
+    when = {} if time is None else {"time_s": np.repeat(time, m)}
+    broken = np.stack([audit.broken[name].ravel() for name in PARAMETERS], axis=1)
+    columns: dict[str, Any] = {
+        **when,
+        **dict(zip(names, poses.T, strict=True)),
+        "cable": np.tile(np.arange(1, m + 1), len(audit.held)),
+        "held": np.repeat(audit.held.astype(int), m),
+        "tension_N": audit.tension.ravel(),
+        **{name: audit.value[name].ravel() for name in PARAMETERS},
+        "epsilon_limit": audit.limit["epsilon"].ravel(),
+        "violates": [";".join(n for n, b in zip(PARAMETERS, row, strict=True) if b) for row in broken],
+    }
+    return csv_text(columns)
+
+
+def audit_text(audit: PoseAudit) -> str:
+    """Verdict, with the cables of a single pose or the counts over many."""
+    table = _cables(audit) if len(audit.held) == 1 else _counts(audit)
+    return paragraphs(table, "\n".join(sentences(audit)))
+
+
+def sentences(audit: PoseAudit) -> list[str]:
+    """The outcome in plain words."""
+    total, held, bad = len(audit.held), int(audit.held.sum()), int((audit.count > 0).sum())
+    where = "the pose" if total == 1 else f"{held} poses"
+    unheld = [f"{total - held} of {total} poses cannot be held by the cables and were not checked."]
+    found = unheld if held < total else []
+    if not held:
+        return [f"NOT CHECKED: {unheld[0]}"]
+    if not bad:
+        return [f"WITHIN THE PRINTED LIMITS: every cable at {where}.", *found]
+    share = "" if total == 1 else f" {bad} of {held} poses are affected."
+    parts = [f"{name} {_whose(b)} ({_worst(audit, name)})" for name, b in audit.broken.items() if b.any()]
+    return [f"OUTSIDE THE PRINTED LIMITS: {', '.join(parts)}.{share}", *found]
+
+
+def _whose(broken: np.ndarray) -> str:
+    """Which cables at one pose; how many of all cables at many."""
+    if len(broken) == 1:
+        return "of cable " + ", ".join(str(i + 1) for i in np.flatnonzero(broken[0]))
+    return f"in {int(broken.sum())} cases"
+
+
+def _worst(audit: PoseAudit, name: str) -> str:
+    value = np.where(audit.broken[name], audit.value[name], np.nan)
+    least = name == "crossover_distance"
+    worst = float(np.nanmin(value) if least else np.nanmax(value))
+    limit = "a limit by inclination" if name == "epsilon" else f"{float(audit.limit[name].flat[0]):.4g}"
+    return f"worst {worst:.4g} against {limit}"
+
+
+def _violations(audit: PoseAudit, poses: list[list[float]], time: np.ndarray | None) -> list[dict[str, Any]]:
+    found = []
+    for name in PARAMETERS:
+        for pose, cable in np.argwhere(audit.broken[name]):
+            found.append(
+                {
+                    "pose": poses[pose],
+                    **_at(time, pose),
+                    "cable": int(cable) + 1,
+                    "parameter": name,
+                    "value": float(audit.value[name][pose, cable]),
+                    "limit": float(audit.limit[name][pose, cable]),
+                }
+            )
+    return found
+
+
+def _at(time: np.ndarray | None, pose: np.integer) -> dict[str, float]:
+    return {} if time is None else {"time_s": float(time[pose])}
+
+
+def _extreme(audit: PoseAudit, name: str, poses: list[list[float]]) -> dict[str, Any]:
+    value = audit.value[name]
+    flat = int(np.nanargmin(value) if name == "crossover_distance" else np.nanargmax(value))
+    pose, cable = divmod(flat, value.shape[1])
+    limit = float(audit.limit[name][pose, cable])
+    return {"value": float(value[pose, cable]), "limit": limit, "cable": cable + 1, "pose": poses[pose]}
+
+
+CABLE_COLUMNS = ["cable", "tension [N]", "λ²", "crossover distance", "|α| [deg]", "ε", "ε limit", "sag/chord", "breaks"]
+
+
+def cable_rows(audit: PoseAudit, pose: int) -> list[list[str]]:
+    """One row a cable at one pose."""
+    rows = []
+    for i in range(audit.tension.shape[1]):
+        value = {name: audit.value[name][pose, i] for name in PARAMETERS}
+        broken = ", ".join(name for name in PARAMETERS if audit.broken[name][pose, i])
+        rows.append(
+            [
+                str(i + 1), f"{audit.tension[pose, i]:.2f}", f"{value['lambda2']:.3f}",
+                f"{value['crossover_distance']:.2f}", f"{value['alpha_deg']:.1f}", f"{value['epsilon']:.4f}",
+                f"{audit.limit['epsilon'][pose, i]:g}", f"{value['sag_ratio']:.4f}", broken or "-",
+            ]
+        )  # fmt: skip
+    return rows
+
+
+def _cables(audit: PoseAudit) -> str:
+    x, y, z = audit.position[0]
+    return plain_table(f"{audit.robot.name} at ({x:g}, {y:g}, {z:g}) m", CABLE_COLUMNS, cable_rows(audit, 0))
+
+
+COUNT_COLUMNS = [
+    "limit",
+    *("cables outside", "poses", "worst value", "limit there", "cable", "x [m]", "y [m]", "z [m]"),
+]
+
+
+def count_rows(audit: PoseAudit) -> list[list[str]]:
+    """One row a printed limit over all poses."""
+    if not audit.held.any():
+        return []
+    poses, rows = poses_in_degrees(audit), []
+    for name in PARAMETERS:
+        worst = _extreme(audit, name, poses)
+        rows.append(
+            [
+                name, str(int(audit.broken[name].sum())), str(int(audit.broken[name].any(axis=1).sum())),
+                f"{worst['value']:.4g}", f"{worst['limit']:.4g}" if worst["limit"] else "steep",
+                str(worst["cable"]), *(f"{v:g}" for v in worst["pose"][:3]),
+            ]
+        )  # fmt: skip
+    return rows
+
+
+def _counts(audit: PoseAudit) -> str:
+    title = f"{audit.robot.name}, {len(audit.held)} poses, {int(audit.held.sum())} held"
+    return plain_table(title, COUNT_COLUMNS, count_rows(audit))
