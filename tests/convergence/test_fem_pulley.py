@@ -163,6 +163,24 @@ def test_a_weight_pulled_aside_hangs_and_swings_as_a_textbook_says():
     assert tension / (straight + radius * angle) != pytest.approx(tension / straight, rel=1e-2)
 
 
+def test_a_stretching_cable_slides_over_its_pulley():
+    """Slowly pulled along, every piece moves in proportion to its distance s from the entry, the wrap without mass.
+
+    The end then feels the mass of mu s^2 / L^2 beyond the wrap: mu (L^3 - w^3) / 3 L^2.
+    """
+    radius, counts, felt = 2.0, [10, 20, 40], []
+    for elements in counts:
+        cable = hung(one_cable(radius, 10.0, axial_stiffness=4000.0, gravity=np.zeros(3)), OFFSET, elements)
+        along = cable.tension_vectors[-1] / cable.tensions[-1]
+        stiffness = end_dynamic_stiffness(cable, np.array([0.0, 0.1]))
+        felt.append(-along @ (stiffness[1] - stiffness[0]) @ along / 0.01)
+    wound = cable.wrap.unstrained_length
+    assert wound > 0.2 * 10.0
+    result = extrapolate(counts, felt)
+    assert result.limit == pytest.approx(MU * (10.0**3 - wound**3) / (3.0 * 10.0**2), rel=1e-4)
+    assert result.order == pytest.approx(2.0, abs=0.05)
+
+
 FRAME = np.array([[x, y, z] for z in (5.0, 4.0) for x, y in ((-8, 5.5), (-8, -5.5), (8, -5.5), (8, 5.5))])
 PLATFORM = 0.4 * np.array(
     [[1, 1, 1], [-1, 1, 1], [-1, -1, 1], [1, -1, 1], [-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1]]
