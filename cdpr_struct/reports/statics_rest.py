@@ -147,7 +147,7 @@ def _caption(point: OperatingPoint, model: str) -> str:
 def _facts(result: Mapping[str, Any], cables: CableStates) -> list[tuple[str, str]]:
     tension = cables.tension_at_platform
     facts = [(f"{tension.min():.4g} N", "smallest tension"), (f"{tension.max():.4g} N", "largest tension")]
-    if np.isfinite(cables.sag).any():
+    if result["model"] == "sagging":
         facts.append((f"{1e3 * np.nanmax(cables.sag):.3g} mm", "largest sag"))
     return [*facts, (f"{result['mass_kg']:g} kg", "platform with its load")]
 

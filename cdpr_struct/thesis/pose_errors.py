@@ -34,8 +34,9 @@ def table_3_2() -> Reproduction:
     note = (
         f"Averages over {POSES} x {POSES} poses, edges included, as in the print; the whole hanging mass is the "
         "printed load, E = 20 GPa, rho = 0.067 and 0.251 kg/m. `converged` is the average over the area (Gauss "
-        "quadrature): a mean over 7 x 7 poses gives the corners, where sag is largest, too much weight, so the averages "
-        "overstate what sag adds by up to 28 %. The spring equilibrium is the one continuous with the reference pose."
+        "quadrature): a mean over 7 x 7 poses gives the corners, where sag is largest, too much weight, so those "
+        "averages overstate what sag adds by up to 28 %. The spring equilibrium is the one continuous with the "
+        "reference pose."
     )
     return Reproduction("table-3.2", "Average pose error in the sub-workspace [mm]", tuple(cells), note)
 

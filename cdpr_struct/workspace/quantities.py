@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
@@ -71,17 +72,30 @@ def tensions(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Colum
 
 
 def stiffnesses(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
-    """Static stiffness of the platform origin [N/mm], platform free to turn, lengths locked, minimum-norm tensions."""
+    """Static stiffness of the platform origin [N/mm], free to turn, and first frequency on massless cables [Hz].
+
+    Lengths locked, minimum-norm tensions.
+    """
     solution = _held(robot, positions, rotation)
-    values = {name: np.full(len(positions), np.nan) for name in ("stiffness_min_N_mm", "stiffness_vertical_N_mm")}
+    names = ("stiffness_min_N_mm", "stiffness_vertical_N_mm", "platform_frequency_Hz")
+    values = {name: np.full(len(positions), np.nan) for name in names}
     good = np.flatnonzero(solution.held)
     if good.size:
         states = CableStates(*(getattr(solution.cables, name)[good] for name in CableStates.__slots__))
-        compliance = static_stiffness(robot, positions[good], rotation, states).compliance[:, :3, :3]
+        stiffness = static_stiffness(robot, positions[good], rotation, states)
+        compliance = stiffness.compliance[:, :3, :3]
         softest = np.linalg.eigvalsh(0.5 * (compliance + np.swapaxes(compliance, -1, -2)))[:, -1]
         values["stiffness_min_N_mm"][good] = 1e-3 / softest
         values["stiffness_vertical_N_mm"][good] = 1e-3 / compliance[:, 2, 2]
+        values["platform_frequency_Hz"][good] = _first_frequency(robot, rotation, stiffness.symmetric)
     return {**values, "held": solution.held}
+
+
+def _first_frequency(robot: Robot, rotation: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
+    """(k,) first frequency of the platform on springs of stiffness (k, 6, 6) [Hz]; nan where it is not stable."""
+    inverse_root = np.linalg.inv(np.linalg.cholesky(platform_mass_matrix(robot, rotation)))
+    squared = np.linalg.eigvalsh(inverse_root @ stiffness @ inverse_root.T)[:, 0]
+    return np.sqrt(np.where(squared > 0.0, squared, np.nan)) / (2.0 * np.pi)
 
 
 def _held(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> InverseSolution:
@@ -113,6 +127,13 @@ QUANTITIES: dict[str, Quantity] = {
         "N/mm",
         "vertical force per vertical displacement of the platform origin",
         "stiffness_vertical_N_mm",
+        stiffnesses,
+    ),
+    "platform-frequency": Quantity(
+        "first platform frequency, massless cables",
+        "Hz",
+        "first frequency of the platform on its static stiffness, cable mass left out",
+        "platform_frequency_Hz",
         stiffnesses,
     ),
     "tension-max": Quantity("largest tension", "N", "largest cable tension at the platform", "tension_max_N", tensions),

@@ -1,0 +1,53 @@
+"""First natural frequencies over the workspace, for all poses at once (fig 3.9)."""
+
+import numpy as np
+
+from cdpr_struct.dynamics.cable_dynamics import expand_catenaries_at
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.ritz_modes import ritz_modes
+from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_static_stiffness
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.inverse_kinematics import inverse
+
+_ORDER = 24
+_MODES = 60
+_HALF_WAVES = 2.5
+
+
+def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> dict[str, np.ndarray]:
+    """First frequencies [Hz] of the robot, of its platform and of each cable, exact catenary dynamics.
+
+    The platform's is that of the mode whose platform motion is most like the platform's first mode on massless cables:
+    where cable modes come near, they share its energy. A cable's frequency is that with both ends held. Minimum-norm
+    tensions.
+    """
+    solution = inverse(robot, positions, rotation, allow_unheld=True)
+    good = np.flatnonzero(solution.held)
+    names = ["first_Hz", "platform_Hz", *(f"cable_{i + 1}_Hz" for i in range(len(robot.cables)))]
+    columns = {name: np.full(len(positions), np.nan) for name in names}
+    if good.size:
+        states = CableStates(*(getattr(solution.cables, name)[good] for name in CableStates.__slots__))
+        turns = np.broadcast_to(rotation, (len(good), 3, 3))
+        found = _at_rest(OperatingPoint(robot, positions[good], turns, states))
+        for name, values in zip(names, found, strict=True):
+            columns[name][good] = values
+    return {**columns, "held": solution.held}
+
+
+def _at_rest(point: OperatingPoint) -> list[np.ndarray]:
+    full = expand_catenaries_at(point, _ORDER)
+    first = np.sqrt(full.omega_squared[..., 0])
+    modes = ritz_modes(point, full.reduced(_HALF_WAVES * float(first.max()), factor=1.2), _MODES)
+    weighted = modes.platform @ modes.platform_mass
+    alike = np.einsum("nki,ni->nk", weighted, _first_static_shape(point, modes.platform_mass)) ** 2
+    of_platform = np.take_along_axis(modes.omega, alike.argmax(axis=-1)[:, None], axis=-1)[:, 0]
+    return [values / (2.0 * np.pi) for values in (modes.omega[:, 0], of_platform, *first.T)]
+
+
+def _first_static_shape(point: OperatingPoint, mass: np.ndarray) -> np.ndarray:
+    """(n, 6) first mode of the platform on massless cables."""
+    inverse_root = np.linalg.inv(np.linalg.cholesky(mass))
+    scaled = inverse_root @ platform_static_stiffness(point) @ np.swapaxes(inverse_root, -1, -2)
+    _, vectors = np.linalg.eigh(scaled)
+    return np.einsum("nij,ni->nj", inverse_root, vectors[..., 0])
