@@ -13,8 +13,9 @@ from enum import IntEnum
 import numpy as np
 import numpy.typing as npt
 
-from cdpr_struct.errors import UnholdablePoseError
+from cdpr_struct.errors import ConvergenceError, UnholdablePoseError
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics import holding_tensions
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import cable_wrench
@@ -92,6 +93,7 @@ def inverse(
     Raises
     ------
     UnholdablePoseError : a pose cannot be held (unless `allow_unheld`); it names cable or direction, and the amount.
+    ConvergenceError : the iteration was cut short (unless `allow_unheld`).
     ValueError : bounds that are negative or crossed.
     """
     arrays = RobotArrays.of(robot, None if mass is None else np.asarray(mass, dtype=float))
@@ -105,6 +107,10 @@ def inverse(
     pose, bounds = (flat[0], turns), (flat[2], flat[3])
     problem = HoldingProblem.at(arrays.flattened(shape), cable_model(model), pose, flat[1], bounds)
     solution = _solve(problem)
+    if not allow_unheld and (solution.status == InverseStatus.NOT_CONVERGED).any():
+        left = float(np.abs(solution.residual_wrench).max())
+        hint = "Raise the lower bound: the tensions may lie where cable weight and tension balance."
+        raise ConvergenceError("inverse kinematics", left, int(solution.iterations.max()), hint)
     if not allow_unheld and not solution.held.all():
         raise unholdable(problem, solution.held, solution.residual_wrench)
     return _reshaped(solution, shape)
@@ -143,7 +149,8 @@ def _solve(problem: HoldingProblem) -> InverseSolution:
     margin = BALANCED * size[:, None]
     inside = ((pull >= problem.low - margin) & (pull <= problem.high + margin)).all(axis=1)
     status = np.where(balanced & inside, InverseStatus.HELD, InverseStatus.UNHOLDABLE)
-    status[(status == InverseStatus.HELD) & ~settled] = InverseStatus.NOT_CONVERGED
+    cut_short = ~settled & ((status == InverseStatus.HELD) | (iterations >= holding_tensions.MAX_ITERATIONS))
+    status[cut_short] = InverseStatus.NOT_CONVERGED
     return InverseSolution(states, residual, status, iterations)
 
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
 
-from cdpr_struct.errors import UnholdablePoseError
+from cdpr_struct.errors import ConvergenceError, UnholdablePoseError
 from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import builtin_names, load_robot
@@ -162,6 +162,15 @@ def test_one_bad_pose_in_a_batch_is_reported_without_spoiling_the_others():
     assert solution.status.tolist() == [InverseStatus.HELD, InverseStatus.UNHOLDABLE, InverseStatus.HELD]
     with pytest.raises(UnholdablePoseError, match="1 of 3 poses"):
         inverse(ROBOT, [0.0, 0.0, 0.5], np.eye(3), external_wrench=lift)
+
+
+def test_an_iteration_cut_short_is_not_called_unholdable(monkeypatch):
+    """Low bounds on the fully constrained robot take seven steps; after two nothing is known yet."""
+    monkeypatch.setattr("cdpr_struct.statics.holding_tensions.MAX_ITERATIONS", 2)
+    solution = inverse(FIXED, [0.0, 0.0, 2.5], np.eye(3), allow_unheld=True)
+    assert solution.status == InverseStatus.NOT_CONVERGED
+    with pytest.raises(ConvergenceError, match=r"inverse kinematics: residual .* after 2 iterations"):
+        inverse(FIXED, [0.0, 0.0, 2.5], np.eye(3))
 
 
 def test_bounds_are_checked():
