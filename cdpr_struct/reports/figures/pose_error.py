@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cdpr_struct.reports.figures.style import BLACK, BLUE, GREEN, VERMILLION, plain_ticks
-from cdpr_struct.reports.figures.workspace_map import Layer, draw_heat, draw_line, legend_handles
+from cdpr_struct.reports.figures.workspace_map import Layer, draw_heat, draw_line, hatch_gaps, legend_handles
 from cdpr_struct.statics.sufficient_load import SufficientLoad
 from cdpr_struct.workspace.pose_error_map import PoseErrorMap
 
@@ -35,6 +35,7 @@ def draw_pose_error(figure: Figure, errors: PoseErrorMap) -> None:
         axes = figure.subplots()
         for part, layer in layers.items():
             draw_line(axes, errors.grid, layer, _COLOURS[part], layer.title)
+        hatch_gaps(axes, errors.grid, errors.vertical("global"))
         axes.set_ylabel("pose error along z [mm]")
         axes.legend()
     handles = legend_handles(list(layers.values()))

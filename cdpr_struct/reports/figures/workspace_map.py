@@ -54,6 +54,7 @@ def draw_map(figure: Figure, grid: Grid, layer: Layer) -> None:
         draw_heat(figure, axes, grid, layer)
     else:
         draw_line(axes, grid, layer, BLUE)
+        hatch_gaps(axes, grid, layer.values)
         axes.set_ylabel(f"{layer.title} [{layer.unit}]")
     _legend(figure, layer)
 
@@ -92,6 +93,18 @@ def draw_line(axes: Axes, grid: Grid, layer: Layer, colour: str, label: str = ""
     if layer.marked.any():
         axes.plot(grid.axes[free][layer.marked], layer.values[layer.marked], "^", color=BLACK, markersize=4)
     axes.set_xlabel(f"{AXES[free]} [m]")
+
+
+def hatch_gaps(axes: Axes, grid: Grid, values: np.ndarray) -> None:
+    """Hatch what lies between the poses of a curve that have a value and those that have none."""
+    (free,) = grid.free
+    x, missing = grid.axes[free], np.isnan(values)
+    edges = np.concatenate([x[:1], 0.5 * (x[1:] + x[:-1]), x[-1:]])
+    starts = np.flatnonzero(missing & ~np.concatenate([[False], missing[:-1]]))
+    ends = np.flatnonzero(missing & ~np.concatenate([missing[1:], [False]]))
+    for start, end in zip(starts, ends, strict=True):
+        axes.axvspan(edges[start], edges[end + 1], facecolor=LIGHT, edgecolor=GREY, hatch=_HATCH, linewidth=0, zorder=0)
+    axes.set_xlim(x[0], x[-1])
 
 
 def legend_handles(layers: list[Layer]) -> list[Patch | Line2D]:
