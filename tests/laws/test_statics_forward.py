@@ -142,6 +142,9 @@ def test_batches_broadcast_over_poses_loads_masses_and_robot_parameters():
     one = forward(single, lengths[1], place[1], external_wrench=wrench[1, 0, 0], mass=80.0)
     assert np.abs(batch.position[1, 3, 1] - one.position).max() < 1e-9
     assert np.abs(batch.position[1, 2, 1] - one.position).max() > 1e-4
+    loaded = forward(ROBOT.with_load(mass=80.0), lengths[1], place[1])
+    assert forward(RobotArrays.of(ROBOT), lengths[1], place[1], mass=80.0).position == pytest.approx(loaded.position)
+    assert np.abs(forward(ROBOT, lengths[1], place[1]).position - loaded.position).max() > 1e-3
 
 
 @pytest.mark.parametrize("moment", [0.0, 1e-150, 1.0])
