@@ -26,7 +26,7 @@ def reproduction_json(item: Reproduction) -> dict[str, Any]:
         "title": item.title,
         "cells": [_cell_json(cell) for cell in item.cells],
         "within_tolerance": item.within_tolerance,
-        "worst": _cell_json(item.worst),
+        "worst": _cell_json(item.worst) if item.cells else None,
         "statements": [{"thesis": s.text, "ours": s.ours, "holds": s.holds} for s in item.statements],
         "note": item.note,
     }
@@ -37,7 +37,8 @@ def reproduction_text(item: Reproduction) -> str:
     beside = any(cell.converged is not None for cell in item.cells)
     columns = ["", "", "printed", "ours", "deviation", *(["converged"] if beside else []), ""]
     said = [f"{'as printed' if s.holds else 'DIFFERS'}: {s.text}. Ours: {s.ours}." for s in item.statements]
-    table = plain_table(_headline(item), columns, [_row(cell, beside, "differs") for cell in item.cells])
+    rows = [_row(cell, beside, "differs") for cell in item.cells]
+    table = plain_table(_headline(item), columns, rows) if rows else _headline(item)
     return paragraphs("\n".join([table, *said]), item.note)
 
 
@@ -101,6 +102,8 @@ def _statements(items: Sequence[Reproduction]) -> list[HtmlTable]:
 
 
 def _headline(item: Reproduction) -> str:
+    if not item.cells:
+        return f"{item.id}: {item.title}"
     stated = {cell.tolerance for cell in item.cells}
     how = "round to the printed number" if stated == {None} else f"are within {max(c.allowed for c in item.cells):g}"
     return f"{item.id}: {item.title} ({item.within_tolerance} of {len(item.cells)} {how})"

@@ -101,16 +101,15 @@ class InertiaFit:
 
 @cache
 def _fit(mass: float, free_stiffness: bool) -> InertiaFit:
-    """Best of the six ways to leave one mode unseen, from several starts."""
+    """Best of the six ways to leave one mode unseen."""
     fits = []
     for left_out in range(6):
-        for start in ((0.5, 0.4, 0.3, 0.0), (-0.3, 0.0, 0.3, 0.6)):
-            free = np.array(start[: 3 + free_stiffness])
-            solution = least_squares(
-                lambda x, n=left_out: np.delete(_modes(mass, x), n) - STATED_MODES, free, bounds=(-2.0, 2.0)
-            )
-            factor = float(np.exp(solution.x[3])) if free_stiffness else 1.0
-            fits.append(InertiaFit(_inertia(mass, solution.x), factor, _modes(mass, solution.x), left_out))
+        start = np.array([0.2, 0.1, 0.0, 0.4][: 3 + free_stiffness])
+        found = least_squares(
+            lambda x, n=left_out: np.delete(_modes(mass, x), n) - STATED_MODES, start, bounds=(-2.0, 2.0)
+        ).x
+        factor = float(np.exp(found[3])) if free_stiffness else 1.0
+        fits.append(InertiaFit(_inertia(mass, found), factor, _modes(mass, found), left_out))
     return min(fits, key=lambda fit: fit.rms)
 
 

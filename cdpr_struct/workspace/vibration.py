@@ -16,7 +16,7 @@ _HALF_WAVES = 2.5
 
 
 def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> dict[str, np.ndarray]:
-    """First frequencies [Hz] of the robot, of its platform and of each cable, exact catenary dynamics.
+    """First frequencies [Hz] of the robot, of its platform (also on massless cables) and of each cable; exact catenaries.
 
     The platform's is that of the mode whose platform motion is most like the platform's first mode on massless cables:
     where cable modes come near, they share its energy. A cable's frequency is that with both ends held. Minimum-norm
@@ -24,7 +24,12 @@ def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray)
     """
     solution = inverse(robot, positions, rotation, allow_unheld=True)
     good = np.flatnonzero(solution.held)
-    names = ["first_Hz", "platform_Hz", *(f"cable_{i + 1}_Hz" for i in range(len(robot.cables)))]
+    names = [
+        "first_Hz",
+        "platform_Hz",
+        "platform_massless_Hz",
+        *(f"cable_{i + 1}_Hz" for i in range(len(robot.cables))),
+    ]
     columns = {name: np.full(len(positions), np.nan) for name in names}
     if good.size:
         states = CableStates(*(getattr(solution.cables, name)[good] for name in CableStates.__slots__))
@@ -39,15 +44,17 @@ def _at_rest(point: OperatingPoint) -> list[np.ndarray]:
     full = expand_catenaries_at(point, _ORDER)
     first = np.sqrt(full.omega_squared[..., 0])
     modes = ritz_modes(point, full.reduced(_HALF_WAVES * float(first.max()), factor=1.2), _MODES)
-    weighted = modes.platform @ modes.platform_mass
-    alike = np.einsum("nki,ni->nk", weighted, _first_static_shape(point, modes.platform_mass)) ** 2
+    massless, shape = _first_static_mode(point, modes.platform_mass)
+    alike = np.einsum("nki,ni->nk", modes.platform @ modes.platform_mass, shape) ** 2
     of_platform = np.take_along_axis(modes.omega, alike.argmax(axis=-1)[:, None], axis=-1)[:, 0]
-    return [values / (2.0 * np.pi) for values in (modes.omega[:, 0], of_platform, *first.T)]
+    return [values / (2.0 * np.pi) for values in (modes.omega[:, 0], of_platform, massless, *first.T)]
 
 
-def _first_static_shape(point: OperatingPoint, mass: np.ndarray) -> np.ndarray:
-    """(n, 6) first mode of the platform on massless cables."""
+def _first_static_mode(point: OperatingPoint, mass: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """omega (n,) [rad/s] (nan where unstable) and shape (n, 6) of the platform's first mode on massless cables."""
     inverse_root = np.linalg.inv(np.linalg.cholesky(mass))
-    scaled = inverse_root @ platform_static_stiffness(point) @ np.swapaxes(inverse_root, -1, -2)
-    _, vectors = np.linalg.eigh(scaled)
-    return np.einsum("nij,ni->nj", inverse_root, vectors[..., 0])
+    squared, vectors = np.linalg.eigh(
+        inverse_root @ platform_static_stiffness(point) @ np.swapaxes(inverse_root, -1, -2)
+    )
+    omega = np.sqrt(np.where(squared[:, 0] > 0.0, squared[:, 0], np.nan))
+    return omega, np.einsum("nij,ni->nj", inverse_root, vectors[..., 0])

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.figure import Figure
 
+from cdpr_struct.reports.figures import vibration_reproductions as vibration
 from cdpr_struct.reports.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILLION
 from cdpr_struct.reports.figures.workspace_map import Layer, draw_heat, legend_handles
 from cdpr_struct.thesis.reproduction import Cell, Reproduction
@@ -93,5 +94,8 @@ def _signed(cell: Cell) -> str:
 FIGURES: dict[str, tuple[Draw, tuple[float, float], Callable[[Reproduction], str]]] = {
     "fig-2.4": (draw_profiles, (7.2, 5.6), _profiles_caption),
     **{f"fig-3.{n}": (draw_pose_errors, (9.6, 3.4), _maps_caption) for n in (4, 5, 6, 7)},
+    "fig-2.5": (vibration.draw_trace, (7.2, 3.6), vibration.trace_caption),
+    "fig-3.8": (vibration.draw_determinants, (9.6, 4.0), vibration.determinants_caption),
+    "fig-3.9": (vibration.draw_first_frequencies, (12.0, 4.8), vibration.first_frequencies_caption),
     "fig-4.4": (draw_loads, (9.6, 4.2), _loads_caption),
 }
