@@ -6,6 +6,7 @@ import typer
 from typer.exceptions import Abort, TyperException
 
 from cdpr_struct.cli import (
+    audit,
     cable,
     derive,
     forward,
@@ -46,6 +47,7 @@ COMMANDS = (
     frf,
     transient,
     spectrogram,
+    audit,
 )
 for command in COMMANDS:
     app.command(name=command.NAME)(command.run)

@@ -30,7 +30,7 @@ SYMBOLS = {
     "strain": "τ/EA",
     "lambda2": "λ²",
     "inverse_lambda2": "1/λ²",
-    "alpha_deg": "α [deg]",
+    "alpha_deg": "α [°]",
     "crossover_closeness": "1/(crossover distance)",
     "frequency": "Ω",
     "axial_phase": "Ω √(τ/EA)",
@@ -58,7 +58,7 @@ def limits_trial_text(trial: LimitsTrial) -> str:
     return paragraphs(*blocks)
 
 
-INSIDE_COLUMNS = ["quantity", "largest error [%]", "volume above tolerance [%]", "at α [deg]", "ε", "λ²", "τ/EA [%]"]
+INSIDE_COLUMNS = ["quantity", "largest error [%]", "volume above tolerance [%]", "at α [°]", "ε", "λ²", "τ/EA [%]"]
 
 
 def inside_rows(trial: LimitsTrial) -> list[list[str]]:
@@ -140,7 +140,7 @@ def held_out_rows(trial: LimitsTrial) -> list[list[str]]:
     ]
 
 
-REFEREE_COLUMNS = ["α [deg]", "ε", "λ²", "τ/EA [%]", "DSM-FEM [%]", "exact-FEM", "FEM ±", "exact-FEM, K(ω)"]
+REFEREE_COLUMNS = ["α [°]", "ε", "λ²", "τ/EA [%]", "DSM-FEM [%]", "exact-FEM", "FEM ±", "exact-FEM, K(ω)"]
 
 
 def referee_rows(trial: LimitsTrial) -> list[list[str]]:

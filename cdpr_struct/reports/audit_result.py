@@ -132,7 +132,7 @@ def _extreme(audit: PoseAudit, name: str, poses: list[list[float]]) -> dict[str,
     return {"value": float(value[pose, cable]), "limit": limit, "cable": cable + 1, "pose": poses[pose]}
 
 
-CABLE_COLUMNS = ["cable", "tension [N]", "λ²", "crossover distance", "|α| [deg]", "ε", "ε limit", "sag/chord", "breaks"]
+CABLE_COLUMNS = ["cable", "tension [N]", "λ²", "crossover distance", "|α| [°]", "ε", "ε limit", "sag/chord", "breaks"]
 
 
 def cable_rows(audit: PoseAudit, pose: int) -> list[list[str]]:

@@ -20,6 +20,7 @@ from cdpr_struct.crosscheck.limits_reference import EFFECTS, CablePlanes, Effect
 from cdpr_struct.crosscheck.limits_sweep import take
 from cdpr_struct.crosscheck.limits_trial import SMALL_EXTENT, Extent, step_count, try_limits
 from cdpr_struct.crosscheck.limits_veering import veering
+from cdpr_struct.crosscheck.validity_limits import crossover_distance
 from cdpr_struct.reports.audit_limits_result import limits_trial_json
 from cdpr_struct.reports.audit_limits_text import limits_trial_text
 
@@ -179,3 +180,19 @@ def test_threads_change_nothing_and_the_bar_never_overruns():
     assert not alone.holds
     assert all((threaded.measured[q].error == s.error).all() for q, s in alone.measured.items())
     assert 0 < len(calls) <= step_count(TINY_EXTENT)
+
+
+def test_rule_of_the_docs_keeps_frequencies_and_shapes():
+    """docs/limits.md: strain, epsilon tan(alpha) and crossovers in place of the print, any lambda^2 and inclination."""
+    random = np.random.default_rng(4)
+    drawn = CableGroups.of(
+        random.uniform(0.0, 87.0, 4000),
+        np.exp(random.uniform(np.log(0.003), np.log(0.24), 4000)),
+        np.exp(random.uniform(np.log(0.05), np.log(500.0), 4000)),
+    )
+    kept = (drawn.strain < 0.02) & (drawn.along < 0.05) & (crossover_distance(drawn.lambda_squared) > 0.2)
+    found = measure(drawn.take(np.flatnonzero(kept)[:150]))
+    assert max(found[q].error.max() for q in ("in_plane_frequency", "across_frequency")) < 0.01
+    assert (found["mode_shape"].error.max(axis=1) > 0.01).mean() < 0.02
+    refused = measure(drawn.take(np.flatnonzero((drawn.strain > 0.025) & (drawn.strain < 0.1))[:50]))
+    assert (refused["across_frequency"].error.max(axis=1) > 0.01).all(), "the limit on strain is not idle"

@@ -1,0 +1,143 @@
+"""`cdpr-struct audit`: the cables against the printed validity limits, or the limits themselves on trial."""
+
+import shlex
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from cdpr_struct.cli.command_words import command_words
+from cdpr_struct.cli.operating_point import rest
+from cdpr_struct.cli.options import (
+    GridText,
+    Json,
+    Lengths,
+    LowerBound,
+    Mass,
+    Out,
+    Payload,
+    PoseText,
+    number,
+    read_grid,
+    read_robot,
+)
+from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.progress import steps
+from cdpr_struct.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from cdpr_struct.crosscheck.limits_poses import PoseAudit
+    from cdpr_struct.robot.robot import Robot
+    from cdpr_struct.workspace.grid import Grid
+
+NAME = "audit"
+_THREADS = 2
+_INSTANTS = 301
+_TRAJECTORY = "helix, or a CSV file time_s,x_m,y_m,z_m[,rx_deg,ry_deg,rz_deg]."
+
+
+def run(
+    robot: Annotated[
+        str | None, typer.Argument(metavar="ROBOT", help="Built-in name or path to a robot file; not with --limits.")
+    ] = None,
+    pose: PoseText = None,
+    lengths: Lengths = None,
+    grid: GridText = None,
+    trajectory: Annotated[str | None, typer.Option("--trajectory", metavar="T", help=_TRAJECTORY)] = None,
+    payload: Payload = 0.0,
+    mass: Mass = None,
+    lower_bound: LowerBound = 0.0,
+    limits: Annotated[bool, typer.Option("--limits", help="Put the printed limits themselves on trial.")] = False,
+    small: Annotated[bool, typer.Option("--small", help="With --limits: a coarse grid, some seconds.")] = False,
+    tolerance: Annotated[
+        float, typer.Option("--tolerance", parser=number, help="With --limits: error that counts as a failure.")
+    ] = 0.01,
+    out: Out = None,
+    json: Json = False,
+) -> int:
+    """Check each cable at each pose against the printed limits; exit 1 if one is broken (or, with --limits, fails)."""
+    ways = {"--pose": pose, "--lengths": lengths, "--grid": grid, "--trajectory": trajectory}
+    given = {option: text for option, text in ways.items() if text is not None}
+    if limits:
+        for option, text in ({"ROBOT": robot} if robot else given).items():
+            raise InputError(option, "", text, "--limits tries single cables of every kind; leave this out")
+        return _try_limits(small, tolerance, out, json)
+    if robot is None:
+        raise InputError("ROBOT", "", "nothing", "give a robot, or --limits")
+    if len(given) > 1:
+        last = list(given)[-1]
+        raise InputError(last, "", given[last], f"give only one of {', '.join(ways)}")
+    if not 0.0 <= lower_bound < float("inf"):
+        raise InputError("--lower-bound", "", lower_bound, "give a force in N, zero or more")
+    audit, poses, time = _audit(read_robot(robot, payload, mass), ways, lower_bound)
+    command = command_words(NAME, robot, payload, mass, **ways, **{"--lower-bound": lower_bound or None})
+    return _report(audit, poses, time, shlex.join(command), out, json)
+
+
+def _audit(
+    machine: "Robot", ways: Mapping[str, str | None], lower_bound: float
+) -> "tuple[PoseAudit, Grid | None, np.ndarray | None]":
+    """The audit where the options say, and the grid or the times that its poses are ordered by."""
+    if (text := ways["--grid"]) is not None:
+        poses = read_grid(text)
+        return _at_poses(machine, poses.positions, poses.rotation, lower_bound), poses, None
+    if (text := ways["--trajectory"]) is not None:
+        from cdpr_struct.cli.trajectory_input import read_trajectory
+
+        path = read_trajectory(text, _INSTANTS if text == "helix" or text.startswith("line:") else None)
+        return _at_poses(machine, path.position, path.rotation, lower_bound), None, path.time
+    from cdpr_struct.crosscheck.limits_poses import audit_rest
+
+    return audit_rest(rest(machine, ways["--pose"], ways["--lengths"], lower_bound)), None, None
+
+
+def _at_poses(machine: "Robot", position: "np.ndarray", rotation: "np.ndarray", lower_bound: float) -> "PoseAudit":
+    from cdpr_struct.crosscheck.limits_poses import audit_poses, chunk_count
+
+    with steps(chunk_count(len(position))) as progress:
+        return audit_poses(machine, position, rotation, lower_bound, progress)
+
+
+def _report(
+    audit: "PoseAudit", grid: "Grid | None", time: "np.ndarray | None", command: str, out: Path | None, json: bool
+) -> int:
+    from cdpr_struct.reports.audit_result import audit_json, audit_text
+
+    result = audit_json(audit, time)
+    emit(result, json, lambda: print(audit_text(audit)))
+    if out is not None:
+        from cdpr_struct.reports.audit_page import audit_files
+
+        write_files(out, {"result.json": result_json(result), **audit_files(audit, command, grid, time)})
+    return 0 if result["valid"] else 1
+
+
+def _try_limits(small: bool, tolerance: float, out: Path | None, json: bool) -> int:
+    if not 0.0 < tolerance < 1.0:
+        raise InputError("--tolerance", "", tolerance, "give a ratio between 0 and 1, like 0.01")
+    from cdpr_struct.crosscheck.limits_trial import FULL_EXTENT, SMALL_EXTENT, step_count, try_limits
+    from cdpr_struct.reports.audit_limits_result import limits_trial_json
+    from cdpr_struct.reports.audit_limits_text import limits_trial_text
+
+    extent = SMALL_EXTENT if small else FULL_EXTENT
+    with ThreadPoolExecutor(_THREADS) as pool, steps(step_count(extent)) as progress:
+        trial = try_limits(extent, tolerance, pool, progress)
+    result = limits_trial_json(trial)
+    emit(result, json, lambda: print(limits_trial_text(trial)))
+    if out is not None:
+        from cdpr_struct.reports.audit_limits_page import limits_trial_files
+
+        words = [
+            "cdpr-struct",
+            NAME,
+            "--limits",
+            *(["--small"] if small else []),
+            f"--tolerance={tolerance:g}",
+            "--out=DIR",
+        ]
+        write_files(out, {"result.json": result_json(result), **limits_trial_files(trial, shlex.join(words))})
+    return 0 if trial.holds else 1
