@@ -40,13 +40,13 @@ def run(
     first: tuple[Any, Any] = (None, None) if origin is None else (origin.position, origin.rotation)
     solution = forward(machine, length, *first, chosen).require_converged()
     result = report.forward_json(machine, chosen, length, solution)
-    emit(result, json, lambda: print(report.forward_text(result)))
     if out is not None:
         options = {"--lengths": lengths, "--model": model, "--start": start}
         command = command_words(NAME, robot, payload, mass, **options)
         write_files(
             out, {"result.json": result_json(result), **report.forward_files(machine, solution, result, command)}
         )
+    emit(result, json, lambda: print(report.forward_text(result)))
     return 0 if result["stable"] else 1
 
 

@@ -57,7 +57,6 @@ def run(
 
     solution = inverse(machine, where.position, where.rotation, chosen, extra, lower_bound, upper_bound)
     result = report.inverse_json(machine, chosen, where, solution)
-    emit(result, json, lambda: print(report.inverse_text(result)))
     if out is not None:
         bounds = {
             "--lower-bound": lower_bound or None,
@@ -68,6 +67,7 @@ def run(
         write_files(
             out, {"result.json": result_json(result), **report.inverse_files(machine, where, solution, result, command)}
         )
+    emit(result, json, lambda: print(report.inverse_text(result)))
     return 0
 
 

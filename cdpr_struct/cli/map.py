@@ -44,10 +44,10 @@ def run(
     sweep = Sweep(quantity, machine, poses, chunk)
     columns, resumed = run_sweep(sweep, workers, scheduler, out)
     result = report.map_json(machine, quantity, poses, columns) | {"resumed_chunks": resumed}
-    emit(result, json, lambda: print(report.map_sentence(result)))
     if out is not None:
         command = command_words(NAME, robot, payload, mass, **{"--grid": grid, "--quantity": quantity})
         files = report.map_files(machine, quantity, poses, columns, command)
         write_files(out, {"result.json": result_json(result), **files})
         clear_checkpoint(sweep, out)
+    emit(result, json, lambda: print(report.map_sentence(result)))
     return 0 if result["held"] else 1

@@ -50,12 +50,7 @@ def run(
     json: Json = False,
 ) -> int:  # fmt: skip
     """Static pose error over a grid, split into what sag adds and what stretch adds (thesis 3.2.2)."""
-    if grid is None and sufficient_load is None:
-        raise InputError("--grid", "", "nothing", "give --grid, --sufficient-load, or both")
-    if sufficient_load is not None and not 0.0 < sufficient_load < float("inf"):
-        raise InputError("--sufficient-load", "", sufficient_load, "give a tolerance in mm above zero")
-    if pose is not None and sufficient_load is None:
-        raise InputError("--pose", "", pose, "a pose is for --sufficient-load; errors over poses take --grid")
+    _check(grid, sufficient_load, pose)
     check_workers(workers, scheduler)
     machine = read_robot(robot, payload, mass)
     poses = None if grid is None else read_grid(grid)
@@ -72,7 +67,6 @@ def run(
         result |= report.pose_error_json(errors)
     if load is not None:
         result["sufficient_load"] = report.sufficient_load_json(*load)
-    emit(result, json, lambda: print("\n".join(report.pose_error_sentences(errors, load))))
     if out is not None:
         command = command_words(
             NAME, robot, payload, mass, **{"--grid": grid, "--sufficient-load": sufficient_load, "--pose": pose}
@@ -82,7 +76,18 @@ def run(
         )
         if sweep is not None:
             clear_checkpoint(sweep, out)
+    emit(result, json, lambda: print("\n".join(report.pose_error_sentences(errors, load))))
     return 0
+
+
+def _check(grid: str | None, sufficient_load: float | None, pose: str | None) -> None:
+    """What is asked for, and whether the options belong together."""
+    if grid is None and sufficient_load is None:
+        raise InputError("--grid", "", "nothing", "give --grid, --sufficient-load, or both")
+    if sufficient_load is not None and not 0.0 < sufficient_load < float("inf"):
+        raise InputError("--sufficient-load", "", sufficient_load, "give a tolerance in mm above zero")
+    if pose is not None and sufficient_load is None:
+        raise InputError("--pose", "", pose, "a pose is for --sufficient-load; errors over poses take --grid")
 
 
 def _load(machine: "Robot", where: "Pose", tolerance: float) -> "tuple[SufficientLoad, Pose]":

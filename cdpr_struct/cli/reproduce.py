@@ -31,7 +31,7 @@ def run(
             begin(name)
             found.append(ITEMS[name]())
     result = {"items": [report.reproduction_json(item) for item in found]}
-    emit(result, json, lambda: print("\n\n".join(report.reproduction_text(item) for item in found)))
     if out is not None:
         write_files(out, {"result.json": result_json(result), **report.reproduction_files(found, items or [])})
+    emit(result, json, lambda: print("\n\n".join(report.reproduction_text(item) for item in found)))
     return 0

@@ -10,7 +10,8 @@ import pytest
 from cdpr_struct.cli.main import run
 from cdpr_struct.robot.robot_file import load_robot
 
-EXTERNAL = Path(os.environ.get("CASPR_MODELS", Path(__file__).parents[2] / ".." / "shared" / "external" / "caspr"))
+DEFAULT = Path(__file__).parents[3] / "shared" / "external"
+EXTERNAL = Path(os.environ.get("CDPR_EXTERNAL_DATA", DEFAULT)) / "caspr"
 
 BODIES = """<?xml version="1.0" encoding="utf-8"?>
 <!DOCTYPE bodies_system SYSTEM "../bodies.dtd">

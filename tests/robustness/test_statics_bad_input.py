@@ -99,10 +99,22 @@ frame_anchor = [0, 0, 4]
     assert "NOT STABLE" in capsys.readouterr().out
 
 
-def test_output_that_cannot_be_written(tmp_path, capsys):
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["map", "thesis-3-1", "--grid", "0,0,0.5", "--quantity", "sag-max"],
+        ["pose-error", "thesis-3-1", "--grid", "0,0,0.5"],
+        ["pose-error", "thesis-3-1", "--sufficient-load", "2"],
+        ["inverse", "thesis-3-1"],
+        ["forward", "thesis-3-1", "--lengths", EIGHT],
+        ["reproduce", "table-2.4"],
+    ],
+    ids=" ".join,
+)
+def test_output_that_cannot_be_written(arguments, tmp_path, capsys):
     taken = tmp_path / "taken"
     taken.write_text("x")
-    assert run(["map", "thesis-3-1", "--grid", "0,0,0.5", "--quantity", "sag-max", "--out", str(taken)]) == 2
+    assert run([*arguments, "--out", str(taken)]) == 2
     captured = capsys.readouterr()
     assert captured.out == ""
     assert "--out" in captured.err
