@@ -6,15 +6,16 @@ from typing import Any
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 
 def plain_table(title: str, columns: list[str], rows: list[list[str]]) -> str:
     """A titled table with right-aligned columns after the first, without colour codes."""
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for i, column in enumerate(columns):
-        table.add_column(column, justify="left" if i == 0 else "right", no_wrap=True)
+        table.add_column(Text(column), justify="left" if i == 0 else "right", no_wrap=True)
     for row in rows:
-        table.add_row(*row)
+        table.add_row(*map(Text, row))
     console = Console(file=io.StringIO(), width=400, color_system=None, highlight=False)
     console.print(table)
     body = console.file.getvalue()  # type: ignore[attr-defined]

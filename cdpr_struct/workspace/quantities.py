@@ -15,6 +15,7 @@ from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.statics.static_stiffness import static_stiffness
+from cdpr_struct.workspace.vibration import first_frequencies
 
 Columns = dict[str, np.ndarray]
 
@@ -135,6 +136,16 @@ QUANTITIES: dict[str, Quantity] = {
         "first frequency of the platform on its static stiffness, cable mass left out",
         "platform_frequency_Hz",
         stiffnesses,
+    ),
+    "first-frequency": Quantity(
+        "first frequency", "Hz", "first natural frequency of the robot, cables vibrating", "first_Hz", first_frequencies
+    ),
+    "first-platform-frequency": Quantity(
+        "first platform frequency",
+        "Hz",
+        "frequency of the mode most like the platform's first on massless cables, cables vibrating",
+        "platform_Hz",
+        first_frequencies,
     ),
     "tension-max": Quantity("largest tension", "N", "largest cable tension at the platform", "tension_max_N", tensions),
     "tension-min": Quantity(
