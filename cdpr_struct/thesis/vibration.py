@@ -92,14 +92,14 @@ def fig_3_9() -> Reproduction:
     axis = np.linspace(-REACH, REACH, POSES)
     grid = Grid(axis, axis, np.array([HEIGHT]), np.zeros(3))
     columns = first_frequencies(robot, grid.positions, grid.rotation)
-    massless, platform = (columns[f"platform_{k}Hz"].reshape(POSES, POSES) for k in ("massless_", ""))
+    first, massless = (columns[name].reshape(POSES, POSES) for name in ("first_Hz", "platform_massless_Hz"))
     middle = POSES // 2
     statement = Statement(
         "the first natural frequency of the end-effector is highest at the centre and falls towards the edge",
-        f"on massless cables {massless[middle, middle]:.2f} Hz at the centre, {massless.min():.2f} to {massless.max():.2f} Hz "
-        f"over the area, with a saddle at the centre; with the cables' dynamics {platform[middle, middle]:.2f} Hz at the "
-        "centre, and elsewhere what the nearest cable modes leave",
-        bool(massless[middle, middle] >= massless.max()),
+        f"so does the first frequency of the robot, {first[middle, middle]:.2f} Hz at the centre and {first.min():.2f} Hz at "
+        "the corners; but that is a mode of the cables. The platform's own first, on massless cables, is "
+        f"{massless[middle, middle]:.2f} Hz at the centre and {massless.min():.2f} to {massless.max():.2f} Hz over the area",
+        bool(first[middle, middle] >= first.max() and first.min() == first[[0, 0, -1, -1], [0, -1, 0, -1]].min()),
     )
     data = {"x_m": grid.positions[:, 0], "y_m": grid.positions[:, 1], **columns}
     data["held"] = data["held"].astype(float)

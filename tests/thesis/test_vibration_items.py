@@ -20,12 +20,12 @@ def test_stated_first_frequency_is_a_cable_mode():
     assert abs(cell.deviation) < 0.1
 
 
-def test_platform_frequency_is_not_highest_at_the_centre():
-    """The thesis says it is; on massless cables the centre is a saddle between 3.06 and 3.31 Hz."""
+def test_first_frequency_is_highest_at_the_centre_and_belongs_to_the_cables():
+    """2.48 Hz at the centre, 1.30 Hz at the corners; the platform's own is nearly flat, a saddle at the centre."""
     item = vibration.fig_3_9()
-    assert not item.statements[0].holds
-    assert item.columns["platform_massless_Hz"].max() < 3.35
-    assert item.columns["platform_massless_Hz"].min() > 3.0
+    assert item.statements[0].holds
+    assert item.columns["first_Hz"].max() == pytest.approx(2.483, abs=1e-3)
+    assert 3.0 < item.columns["platform_massless_Hz"].min() < item.columns["platform_massless_Hz"].max() < 3.35
     assert (item.columns["first_Hz"] <= item.columns["platform_Hz"] + 1e-9).all()
     assert np.isfinite(item.columns["cable_8_Hz"]).all()
 
