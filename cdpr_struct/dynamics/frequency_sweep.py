@@ -10,11 +10,10 @@ from cdpr_struct.dynamics.frequency_response import FrequencyResponse, Quantity,
 from cdpr_struct.dynamics.mode_shapes import mode_shapes
 from cdpr_struct.dynamics.natural_frequencies import count_below, natural_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.dynamics.ports import CablePort, Port
+from cdpr_struct.dynamics.ports import MODES_OF_A_POINT, CablePort, Port
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 
 MOST_MODES = 400
-_MARGIN_OF_A_SHAKEN_CABLE = 4.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,9 +54,9 @@ def sweep_response(
 ) -> ResponseSweep:
     """Response over the band (f,) [Hz] and the eigenfrequencies below its top.
 
-    Where a cable itself is shaken its modal sum converges with the number of modes only; four times as many are taken.
+    Where a cable itself is shaken its modal sum converges as slowly as 1 / number of modes; so more are taken then.
     """
-    margin = _MARGIN_OF_A_SHAKEN_CABLE if isinstance(excite, CablePort) else 1.0
+    margin = MODES_OF_A_POINT if isinstance(excite, CablePort) else 1.0
     cables = cable_dynamics(point, model, margin * 2.0 * np.pi * float(hertz[-1]))
     response = frequency_response(point, cables, law, excite, respond, hertz, quantity, assembly)
     return ResponseSweep(point, model, response, modes_below(point, cables, float(hertz[-1]), assembly))

@@ -3,49 +3,38 @@
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
 
 from cdpr_struct.dynamics.cable_dynamics import CableDynamics
 from cdpr_struct.dynamics.damping import DampingLaw, rates
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ports import CablePort, Port
-from cdpr_struct.dynamics.robot_dynamic_stiffness import (
-    Assembly,
-    assemble,
-    attachment,
-    platform_mass_matrix,
-)
+from cdpr_struct.dynamics.ritz_modes import RitzModes, ritz_modes
+from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ModalBasis:
-    """k undamped modes of unit modal mass: coordinates x with x'' + C x' + omega^2 x = participation^T force.
+    """k undamped modes of unit modal mass: coordinates x with x'' + C x' + omega^2 x = modal force.
 
-    omega    : (k,) ascending [rad/s]
-    platform : (k, 6) motion of the platform origin and rotation, world axes
-    end      : (k, m, 3) motion of the cables' platform ends, local axes of `expansion`
-    modal    : (k, m, p) coordinates of the clamped cables' modes
-    damping  : (k, k) symmetric [1/s]
+    modes   : `RitzModes`
+    damping : (k, k) C, symmetric [1/s]
     """
 
-    omega: np.ndarray
-    platform: np.ndarray
-    end: np.ndarray
-    modal: np.ndarray
+    modes: RitzModes
     damping: np.ndarray
-    platform_mass: np.ndarray
-    to_cable: np.ndarray
-    expansion: ModalExpansion
+
+    @property
+    def omega(self) -> np.ndarray:
+        """(k,) ascending [rad/s]."""
+        return self.modes.omega
 
     def shape_at(self, port: Port) -> np.ndarray:
         """(k,) displacement (or rotation) of each mode at a port."""
         if not isinstance(port, CablePort):
-            return self.platform @ port.twist
-        c = port.cable
-        static, modes = self.expansion.shapes(np.array([port.station]))
-        local = self.expansion.frame[c].T @ port.direction
-        return self.end[:, c] @ (static[c, 0].T @ local) + self.modal[:, c] @ (modes[c, :, 0] @ local)
+            return self.modes.platform @ port.twist
+        motion = self.modes.cable_motion(np.array([port.station]))
+        return motion[:, port.cable, 0] @ port.direction
 
     def rigid_motion(self) -> tuple[np.ndarray, np.ndarray]:
         """Modal coordinates (k, 6) of a unit platform motion that the cables share linearly along their length.
@@ -53,12 +42,13 @@ class ModalBasis:
         Also the (6, 6) mass matrix of that motion: its kinetic energy is half of twist^T mass twist, of which the k
         modes hold half of twist^T coordinates^T coordinates twist.
         """
-        ramp_end, ramp_modal, ramp_mass = _ramp_products(self.expansion)
-        coordinates = self.platform @ self.platform_mass
-        coordinates += np.einsum("kma,mab,mbi->ki", self.end, ramp_end, self.to_cable, optimize=True)
-        coordinates += np.einsum("kmp,mpa,mai->ki", self.modal, ramp_modal, self.to_cable, optimize=True)
-        shared = np.einsum("ma,mai,maj->ij", ramp_mass, self.to_cable, self.to_cable)
-        return coordinates, self.platform_mass + shared
+        modes = self.modes
+        ramp_end, ramp_modal, ramp_mass = _ramp_products(modes.expansion)
+        coordinates = modes.platform @ modes.platform_mass
+        coordinates += np.einsum("kma,mab,mbi->ki", modes.end, ramp_end, modes.to_cable, optimize=True)
+        coordinates += np.einsum("kmp,mpa,mai->ki", modes.modal, ramp_modal, modes.to_cable, optimize=True)
+        shared = np.einsum("ma,mai,maj->ij", ramp_mass, modes.to_cable, modes.to_cable)
+        return coordinates, modes.platform_mass + shared
 
 
 def modal_basis(
@@ -74,60 +64,24 @@ def modal_basis(
     The damping matrix is that of the law where the law is a differential equation in time (`constant_rates`). Else it
     is diagonal, each mode with the losses that the law gives at its own frequency.
     """
-    expansion = cables.expansion(highest)
-    to_cable = np.swapaxes(expansion.frame, -1, -2) @ attachment(point)
-    platform_mass = platform_mass_matrix(point.robot, point.rotation)
-    stiffness, mass = _matrices(point, expansion, to_cable, platform_mass, assembly)
-    size = len(mass)
-    periods, vectors = scipy.linalg.eigh(mass, stiffness, subset_by_index=(size - count, size - 1))
-    omega = 1.0 / np.sqrt(periods[::-1])
-    vectors = vectors[:, ::-1] * omega
-    platform = vectors[:6].T
-    end = np.einsum("mai,ki->kma", to_cable, platform)
-    modal = vectors[6:].T.reshape(count, *expansion.omega_squared.shape)
-    damping = _damping(law, cables.first_frequency, omega, expansion, end, modal)
-    return ModalBasis(omega, platform, end, modal, damping, platform_mass, to_cable, expansion)
+    modes = ritz_modes(point, cables.expansion(highest), count, assembly)
+    return ModalBasis(modes, _damping(law, cables.first_frequency, modes))
 
 
-def _matrices(
-    point: OperatingPoint,
-    expansion: ModalExpansion,
-    to_cable: np.ndarray,
-    platform_mass: np.ndarray,
-    assembly: Assembly,
-) -> tuple[np.ndarray, np.ndarray]:
-    clamped = expansion.omega_squared.size
-    mass = np.eye(6 + clamped)
-    mass[:6, :6] = platform_mass + np.einsum("mai,mab,mbj->ij", to_cable, expansion.end_mass, to_cable)
-    mass[6:, :6] = np.einsum("mpa,mai->mpi", expansion.coupling, to_cable).reshape(clamped, 6)
-    mass[:6, 6:] = mass[6:, :6].T
-    stiffness = np.diag(np.concatenate([np.zeros(6), expansion.omega_squared.ravel()]))
-    ends = expansion.frame @ expansion.static_stiffness @ np.swapaxes(expansion.frame, -1, -2)
-    stiffness[:6, :6] = assemble(point, ends, assembly)
-    return stiffness, mass
-
-
-def _damping(
-    law: DampingLaw,
-    first: np.ndarray,
-    omega: np.ndarray,
-    expansion: ModalExpansion,
-    end: np.ndarray,
-    modal: np.ndarray,
-) -> np.ndarray:
+def _damping(law: DampingLaw, first: np.ndarray, modes: RitzModes) -> np.ndarray:
     """(k, k) sum over the cables of a_i M_i + b_i K_i in modal coordinates."""
-    mass_rate, stiffness_time = rates(law, omega[:, None], first)
+    expansion, end, modal = modes.expansion, modes.end, modes.modal
+    mass_rate, stiffness_time = rates(law, modes.omega[:, None], first)
     if law.constant_rates:
         a, b = mass_rate[0], stiffness_time[0]
-        total = np.zeros((len(omega), len(omega)))
+        total = np.zeros((len(end), len(end)))
         for i in range(len(first)):
             own_mass, own_stiffness = _cable_matrices(expansion, end[:, i], modal[:, i], i)
             total += a[i] * own_mass + b[i] * own_stiffness
         return 0.5 * (total + total.T)
-    mass = expansion.kinetic_energy(end, modal)
     elastic = np.einsum("kma,mab,kmb->km", end, expansion.static_stiffness, end)
     elastic += np.einsum("kmp,mp->km", modal**2, expansion.omega_squared)
-    return np.diag((mass_rate * mass + stiffness_time * elastic).sum(axis=1))
+    return np.diag((mass_rate * modes.cable_energy + stiffness_time * elastic).sum(axis=1))
 
 
 def _cable_matrices(

@@ -42,6 +42,7 @@ class CablePort:
 
 
 Port = PlatformPort | CablePort
+MODES_OF_A_POINT = 8.0  # times the top of the band: so far the modes of a cable are summed at one of its points
 
 
 def platform_port(name: str, axis: np.ndarray, turns: bool, arm: np.ndarray) -> PlatformPort:
@@ -94,7 +95,7 @@ def _add_cable_ports(
     twist: np.ndarray,
     direct: np.ndarray,
 ) -> None:
-    expansion = cables.expansion(1.5 * float(omega[-1]))
+    expansion = cables.expansion(MODES_OF_A_POINT * float(omega[-1]))
     to_cable = np.swapaxes(expansion.frame, -1, -2) @ attachment(point)
     inertia = law.inertia(omega[:, None], cables.first_frequency) + np.zeros_like(expansion.omega_squared[:, 0])
     elasticity = law.elasticity(omega[:, None], cables.first_frequency)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from cdpr_struct.dynamics.cable_dynamics import CableDynamics
+from cdpr_struct.dynamics.cable_dynamics import CableDynamics, ClosedFormCables
 from cdpr_struct.dynamics.damping import DampingLaw
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
@@ -23,10 +23,10 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
 
 RELATIVE_TOLERANCE = 1e-9
 _NODES = 16
-_POLES_PER_SEGMENT = 16
+_POLES_PER_SEGMENT = 12
 _NEAR = 2.5  # poles within this many half widths of a segment's centre are summed one by one
 _HALVINGS = 4
-_BLOCK = 256
+_BLOCK = 64
 _UPPER = np.triu_indices(6)
 _DIAGONAL = np.flatnonzero(_UPPER[0] == _UPPER[1])
 _FULL = np.array(
@@ -85,7 +85,8 @@ def swept_dynamic_stiffness(
         for low, high in segments:
             part = slice(*np.searchsorted(omega, [low, high]))
             matrices[part] = dynamic_stiffness(point, cables, law, omega[part], assembly)
-    matrices[-1:] = dynamic_stiffness(point, cables, law, omega[-1:], assembly)
+    ends = [0, -1]  # at rest a law may jump; the last frequency lies outside the half-open segments
+    matrices[ends] = dynamic_stiffness(point, cables, law, omega[ends], assembly)
     return matrices
 
 
@@ -128,8 +129,7 @@ def _interpolate(
     x = np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)
     middle, half = segments.mean(axis=1), 0.5 * np.diff(segments, axis=1)[:, 0]
     nodes = middle[:, None] + half[:, None] * x
-    full = dynamic_stiffness(point, cables, law, nodes.ravel(), assembly)
-    values = full[:, *_UPPER].reshape(*nodes.shape, 21)
+    values = _at_nodes(point, cables, law, nodes.ravel(), poles, assembly).reshape(*nodes.shape, 21)
     to_coefficients = 2.0 / _NODES * chebyshev.chebvander(x, _NODES - 1).T
     to_coefficients[0] *= 0.5
     place = np.sqrt(poles.omega_squared)
@@ -148,12 +148,15 @@ class _Poles:
     omega_squared   : (p,) [rad^2/s^2]
     cable           : (p,) number of the cable, from 0
     strength        : (p, 21) of the pole in the platform's matrix, upper triangle
+    static, mass    : (m, 21) what is left of each cable without poles, in the platform's matrix [N/m, kg, ..]
     first_frequency : (m,) of the clamped cables [rad/s]
     """
 
     omega_squared: np.ndarray
     cable: np.ndarray
     strength: np.ndarray
+    static: np.ndarray
+    mass: np.ndarray
     first_frequency: np.ndarray
 
     def sum(self, chosen: np.ndarray, law: DampingLaw, omega: np.ndarray) -> np.ndarray:
@@ -181,8 +184,29 @@ def _poles(point: OperatingPoint, cables: CableDynamics, highest: float) -> _Pol
         omega_squared,
         np.repeat(np.arange(len(arms)), arms.shape[1]),
         (arms[..., _UPPER[0]] * arms[..., _UPPER[1]]).reshape(len(omega_squared), 21),
+        (np.swapaxes(to_cable, 1, 2) @ expansion.static_stiffness @ to_cable)[:, *_UPPER],
+        (np.swapaxes(to_cable, 1, 2) @ expansion.end_mass @ to_cable)[:, *_UPPER],
         cables.first_frequency,
     )
+
+
+def _at_nodes(
+    point: OperatingPoint,
+    cables: CableDynamics,
+    law: DampingLaw,
+    omega: np.ndarray,
+    poles: _Poles,
+    assembly: Assembly,
+) -> np.ndarray:
+    """(f, 21) full matrices. The closed form is evaluated as such: its modal expansion is only a truncated series."""
+    if isinstance(cables, ClosedFormCables):
+        return dynamic_stiffness(point, cables, law, omega, assembly)[:, *_UPPER]
+    rigid = assemble(point, np.zeros((len(poles.static), 3, 3)), assembly)[_UPPER]
+    mass = platform_mass_matrix(point.robot, point.rotation)[_UPPER]
+    inertia = law.inertia(omega[:, None], poles.first_frequency)
+    elasticity = law.elasticity(omega[:, None], poles.first_frequency)
+    smooth = elasticity @ poles.static - inertia @ poles.mass + rigid - (omega**2)[:, None] * mass
+    return smooth + poles.sum(np.arange(len(poles.omega_squared)), law, omega)
 
 
 def _cable_part(

@@ -50,7 +50,12 @@ def spectrogram(time: np.ndarray, signal: np.ndarray, window: float | None = Non
         raise ValueError(f"the window must be between {8 * step:.4g} and {len(time) * step:.4g} s, got {window!r} s")
     hop = max(count // _OVERLAP, 1)
     transform = ShortTimeFFT(
-        hann(count, sym=False), hop, 1.0 / step, mfft=next_fast_len(4 * count, real=True), scale_to="psd"
+        hann(count, sym=False),
+        hop,
+        1.0 / step,
+        fft_mode="onesided2X",
+        mfft=next_fast_len(4 * count, real=True),
+        scale_to="psd",
     )
     density = transform.spectrogram(signal - signal.mean(axis=0), axis=0)
     density = np.moveaxis(density, -1, 1)

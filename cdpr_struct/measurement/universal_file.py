@@ -31,7 +31,7 @@ def response_sets(response: FrequencyResponse, robot: str, axes: np.ndarray) -> 
         unit = response_unit(port, response.excite, response.quantity)
         sets.append(
             pyuff.prepare_58(
-                binary=1, func_type=FREQUENCY_RESPONSE,
+                binary=0, func_type=FREQUENCY_RESPONSE,
                 id1=f"{robot}: {port.name} over {response.excite.name}", id2=f"{response.quantity} in {unit}",
                 id3="predicted by cdpr-struct", id4="NONE", id5="NONE",
                 rsp_ent_name="ROBOT", rsp_node=node(port), rsp_dir=direction(port, axes),
@@ -46,10 +46,10 @@ def response_sets(response: FrequencyResponse, robot: str, axes: np.ndarray) -> 
 
 
 def universal_file(response: FrequencyResponse, robot: str, axes: np.ndarray) -> bytes:
-    """The responses as the content of a universal file."""
+    """The responses as a universal file: text with 12 digits, which every reader takes."""
     with tempfile.TemporaryDirectory() as directory:
         path = Path(directory) / "response.uff"
-        pyuff.UFF(str(path)).write_sets(response_sets(response, robot, axes), mode="overwrite")
+        pyuff.UFF(str(path)).write_sets(response_sets(response, robot, axes), mode="add")
         return path.read_bytes()
 
 

@@ -1,0 +1,152 @@
+"""frf, transient and spectrogram as a script uses them: exit code, stdout, files, and one line for bad input."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+import pyuff
+
+from cdpr_struct.cli.main import run
+
+POSE = ["--pose", "1.3,-0.8,0.9"]
+FRF = ["frf", "thesis-3-1", *POSE, "--excite", "fz", "--respond", "x,z,cable5@0.3:z", "--band", "0.5:8:0.01"]
+STOP = ["transient", "thesis-3-1", *POSE, "--initial-velocity", "0.3,-0.2,0.1", "--duration", "2"]
+
+
+def result_of(arguments, capsys) -> dict:
+    assert run([*arguments, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_frf_lists_the_peaks_of_every_response(capsys):
+    r = result_of(FRF, capsys)
+    assert [x["respond"] for x in r["responses"]] == ["x", "z", "cable5@0.3:z"]
+    every = [hertz for x in r["responses"] for hertz in x["peaks_hz"]]
+    assert set(r["peaks_hz"]) <= set(every)
+    assert r["peaks_hz"] == sorted(r["peaks_hz"])
+    assert r["count_certified"] is True
+    strongest = r["responses"][1]
+    index = int(np.argmax(strongest["peak_magnitudes"]))
+    vertical = next(h for h, k in zip(r["natural_frequencies_hz"], r["kinds"], strict=True) if k == "platform")
+    assert strongest["peaks_hz"][index] == pytest.approx(vertical, abs=0.01)
+
+
+def test_frf_writes_csv_universal_file_and_report(tmp_path, capsys):
+    assert run([*FRF, "--out", str(tmp_path)]) == 0
+    rows = list(csv.DictReader((tmp_path / "frf.csv").read_text().splitlines()))
+    assert list(rows[0]) == ["frequency_hz", "real", "imag", "respond", "excite"]
+    assert len(rows) == 3 * 751
+    sets = pyuff.UFF(str(tmp_path / "frf.uff")).read_sets()
+    values = [complex(float(r["real"]), float(r["imag"])) for r in rows]
+    np.testing.assert_allclose(np.concatenate([s["data"] for s in sets]), values, rtol=1e-10)
+    page = (tmp_path / "report.html").read_text()
+    assert "frf thesis-3-1" in page
+    assert "peaks in the band" in page
+    assert (tmp_path / "frf.svg").read_text().startswith("<?xml")
+
+
+def test_velocity_and_frame_change_what_they_say(capsys, tmp_path):
+    """At a pose turned by 90 degrees about z the platform's x is the world's y."""
+    turned = ["frf", "thesis-3-1", "--pose", "0,0,0.5,0,0,10", "--band", "1:4:0.1", "--out"]
+    run([*turned, str(tmp_path / "a"), "--excite", "fx", "--respond", "x", "--frame", "platform"])
+    run([*turned, str(tmp_path / "b"), "--excite", "fx", "--respond", "x,y"])
+    run([*turned, str(tmp_path / "c"), "--excite", "fy", "--respond", "x,y"])
+    read = [np.genfromtxt(tmp_path / n / "frf.csv", delimiter=",", skip_header=1, usecols=(1, 2)) for n in "abc"]
+    own, by_x, by_y = (a[:, 0] + 1j * a[:, 1] for a in read)
+    c, s = np.cos(np.radians(10.0)), np.sin(np.radians(10.0))
+    n = len(own)
+    expected = c * c * by_x[:n] + c * s * (by_x[n:] + by_y[:n]) + s * s * by_y[n:]
+    np.testing.assert_allclose(own, expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "damping", ["none", "viscous", "viscous:0.02", "hysteretic:0.03", "rayleigh:0.1,1e-4", "frequency-dependent",
+                "frequency-dependent:0.02,0.5,3"],
+)  # fmt: skip
+@pytest.mark.parametrize("model", ["exact", "dsm"])
+def test_every_law_runs_with_every_model(damping, model, capsys):
+    r = result_of([*FRF, "--damping", damping, "--model", model, "--force"], capsys)
+    assert len(r["peaks_hz"]) > 3
+
+
+def test_transient_finds_the_dominant_frequency(capsys):
+    r = result_of([*STOP, "--watch", "cable5@0.25:z"], capsys)
+    assert r["dominant_hz"] == pytest.approx(7.04, abs=0.15)
+    assert [port["name"] for port in r["ports"]] == ["x", "y", "z", "rx", "ry", "rz", "cable5@0.25:z"]
+    assert r["energy_last_J"] < r["energy_first_J"]
+    assert r["energy_share"] > 0.999
+
+
+def test_transient_file_feeds_the_spectrogram(tmp_path, capsys):
+    assert run([*STOP, "--out", str(tmp_path)]) == 0
+    rows = list(csv.DictReader((tmp_path / "transient.csv").read_text().splitlines()))
+    assert {"time_s", "x_m", "x_m_s", "x_m_s2", "rz_rad_s2", "energy_J"} <= rows[0].keys()
+    measured = tmp_path / "measured.csv"
+    lines = [f"{r['time_s']},{r['x_m_s2']},{r['y_m_s2']},{r['z_m_s2']}" for r in rows]
+    measured.write_text("\n".join(["time_s,ax,ay,az", *lines]) + "\n")
+    capsys.readouterr()
+    picture = tmp_path / "picture"
+    r = result_of(["spectrogram", str(measured), "--robot", "thesis-3-1", *POSE, "--out", str(picture)], capsys)
+    own = json.loads((tmp_path / "result.json").read_text())
+    assert r["dominant_hz"] == pytest.approx(own["dominant_hz"], rel=1e-9)
+    assert r["natural_frequencies_hz"] == pytest.approx(own["natural_frequencies_hz"])
+    assert {"spectrogram.svg", "spectrogram.csv", "modes.csv"} <= {path.name for path in picture.iterdir()}
+
+
+def test_transient_along_a_trajectory_ends_where_it_ends(tmp_path, capsys):
+    """A trajectory file that ends at full speed: an emergency stop. The pose is its last one."""
+    path = tmp_path / "way.csv"
+    rows = [f"{0.1 * i:.1f},{0.02 * i!r},0,0.5" for i in range(21)]
+    path.write_text("\n".join(["time_s,x_m,y_m,z_m", *rows]) + "\n")
+    r = result_of(["transient", "thesis-3-1", "--trajectory", str(path), "--duration", "5"], capsys)
+    assert r["pose"][:3] == pytest.approx([0.4, 0.0, 0.5])
+    at_once = result_of(
+        ["transient", "thesis-3-1", "--pose", "0.4,0,0.5", "--initial-velocity", "0.2,0,0", "--duration", "3"], capsys
+    )
+    largest = [x["ports"][0]["largest_displacement_m"] for x in (r, at_once)]
+    assert largest[0] == pytest.approx(largest[1], rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ([*FRF[:4], "--excite", "fq", *FRF[6:]], ["--excite", "fq", "fz"]),
+        ([*FRF[:4], "--excite", "fx,fy", *FRF[6:]], ["--excite", "one"]),
+        ([*FRF[:6], "--respond", "cable9@0.3:z", *FRF[8:]], ["--respond", "cable9", "1 to 8"]),
+        ([*FRF[:6], "--respond", "cable5@1.3:z", *FRF[8:]], ["--respond", "cable5@1.3:z"]),
+        ([*FRF[:6], "--respond", "cable5@0.3:rx", *FRF[8:]], ["--respond", "cable5@0.3:rx"]),
+        ([*FRF[:8], "--band", "1:2"], ["--band", "1:2", "F0:F1:DF"]),
+        ([*FRF[:8], "--band", "8:2:0.1"], ["--band", "8:2:0.1"]),
+        ([*FRF[:8], "--band", "0:8:1e-9"], ["--band", "at most"]),
+        ([*FRF[:8], "--band", "0:8:nan"], ["--band", "nan"]),
+        ([*FRF, "--quantity", "jerk"], ["--quantity", "jerk", "velocity"]),
+        ([*FRF, "--model", "rubber"], ["--model", "rubber", "exact"]),
+        ([*FRF, "--frame", "sky"], ["--frame", "sky"]),
+        ([*FRF, "--at", "1,2"], ["--at", "1,2"]),
+        ([*FRF, "--damping", "magic"], ["--damping", "magic", "hysteretic"]),
+        ([*FRF, "--damping", "rayleigh"], ["--damping", "2 numbers"]),
+        ([*FRF, "--damping", "rayleigh:1,-1"], ["--damping", "zero or more"]),
+        ([*FRF, "--damping", "viscous:1.5"], ["--damping", "viscous:1.5"]),
+        ([*FRF, "--damping", "frequency-dependent", "--model", "static"], ["--damping", "F_REF"]),
+        ([*FRF[:4], "--excite", "cable1@0.5:z", *FRF[6:], "--model", "static"], ["--excite", "massless"]),
+        (STOP[:4], ["--initial-velocity", "--trajectory"]),
+        ([*STOP, "--trajectory", "helix"], ["--initial-velocity", "either"]),
+        ([*STOP[:5], "0,0,0", *STOP[6:]], ["--initial-velocity", "zero"]),
+        ([*STOP[:5], "1,2", *STOP[6:]], ["--initial-velocity", "1,2"]),
+        ([*STOP[:7], "-2"], ["--duration", "-2"]),
+        ([*STOP, "--highest", "0"], ["--highest", "0"]),
+        ([*STOP, "--window", "9"], ["--window", "9"]),
+        ([*STOP, "--watch", "cable0@0.3:z"], ["--watch", "cable0"]),
+        (["transient", "thesis-3-1", "--trajectory", "none.csv"], ["none.csv"]),
+        (["spectrogram", "none.csv", "--robot", "thesis-3-1"], ["none.csv"]),
+    ],
+    ids=lambda value: " ".join(value)[-60:] if isinstance(value, list) else None,
+)  # fmt: skip
+def test_bad_options_are_one_line(arguments, words, capsys):
+    assert run(arguments) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    lines = captured.err.strip().splitlines()
+    assert len(lines) == 1, captured.err
+    assert all(word in lines[0] for word in words), lines[0]
