@@ -4,14 +4,11 @@ import numpy as np
 
 import fem_reference as fem
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.errors import InputError
 from cdpr_struct.robot.robot import Robot
 
 
 def to_fem(robot: Robot, lengths: np.ndarray) -> fem.RobotData:
     """The referee's description of the robot with unstrained cable lengths (m,) [m]."""
-    if any(pulley is not None for pulley in robot.pulleys):
-        raise InputError(robot.name, "pulley", "given", "the FEM reference has no pulleys yet; leave them out")
     cables = tuple(
         fem.CableData(float(length), cable.axial_stiffness, cable.linear_density)
         for length, cable in zip(lengths, robot.cables, strict=True)
@@ -19,7 +16,9 @@ def to_fem(robot: Robot, lengths: np.ndarray) -> fem.RobotData:
     body = robot.platform
     platform = fem.PlatformData(body.mass, np.array(body.center_of_mass), np.array(body.inertia))
     gravity = np.array([0.0, 0.0, -robot.gravity])
-    return fem.RobotData(np.array(robot.frame_anchors), np.array(robot.platform_anchors), cables, platform, gravity)
+    pulleys = tuple(None if p is None else fem.PulleyData(p.radius, np.array(p.axis)) for p in robot.pulleys)
+    anchors = np.array(robot.frame_anchors), np.array(robot.platform_anchors)
+    return fem.RobotData(*anchors, cables, platform, gravity, pulleys)
 
 
 def solve_in_fem(point: OperatingPoint, elements: int) -> fem.RobotEquilibrium:
