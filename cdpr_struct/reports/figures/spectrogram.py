@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cdpr_struct.dynamics.frequency_sweep import ModesInBand
@@ -46,15 +47,19 @@ def draw_vibration(
     lower.set_xlabel("time [s]")
     lower.set_ylabel("frequency [Hz]")
     lower.grid(False)
+    _draw_modes(lower, modes, highest_hertz)
+
+
+def _draw_modes(axes: Axes, modes: ModesInBand, highest_hertz: float) -> None:
     for hertz, kind in zip(modes.hertz, modes.kinds, strict=True):
         if hertz <= highest_hertz:
             long = kind_group(kind) != "cable"
-            lower.plot(
-                [1.005, 1.06 if long else 1.03], [hertz, hertz], transform=lower.get_yaxis_transform(),
+            axes.plot(
+                [1.005, 1.06 if long else 1.03], [hertz, hertz], transform=axes.get_yaxis_transform(),
                 color=KIND_COLOURS[kind_group(kind)], linewidth=1.6 if long else 0.8, clip_on=False,
             )  # fmt: skip
             if long:
-                lower.axhline(hertz, color="white", linewidth=0.6, linestyle=(0, (2, 4)), alpha=0.8)
+                axes.axhline(hertz, color="white", linewidth=0.6, linestyle=(0, (2, 4)), alpha=0.8)
 
 
 def vibration_caption(spectrum: Spectrogram) -> str:
