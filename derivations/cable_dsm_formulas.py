@@ -92,9 +92,7 @@ def crossover() -> FormulaRecord:
     value = sp.Symbol("L", positive=True)
     at_crossing = (sp.tan(Y) - Y + 4 / value * Y**3).subs(Y, n * sp.pi)
     derived = sp.solve(at_crossing, value)[0]
-    return verdict(
-        "cable_dsm.crossover", "2.2.3", 4 * n**2 * sp.pi**2, derived, left=r"\lambda^2_{crossover}"
-    )
+    return verdict("cable_dsm.crossover", "2.2.3", 4 * n**2 * sp.pi**2, derived, left=r"\lambda^2_{crossover}")
 
 
 def static_limit() -> FormulaRecord:
@@ -124,9 +122,7 @@ def _at_zero(form: Any) -> Any:
 def string_limit() -> FormulaRecord:
     """lambda -> 0 (weightless across the chord): the in-plane and out-of-plane string."""
     names = ("k_xx", "k_xz", "k_zz")
-    derived = tuple(
-        sp.simplify(cable_dsm.derived_stiffness()[name].subs(perpendicular_weight, 0)) for name in names
-    )
+    derived = tuple(sp.simplify(cable_dsm.derived_stiffness()[name].subs(perpendicular_weight, 0)) for name in names)
     string = cable_dsm.out_of_plane_stiffness()
     return verdict(
         "cable_dsm.string_limit",
@@ -232,9 +228,7 @@ def _length_functions(short: tuple[Any, ...]) -> tuple[GeneratedFunction, ...]:
     exact = cable_length.effective_length_integral()
     second_order = cable_length.effective_length_approximation()
     return (
-        GeneratedFunction(
-            "effective_length_integral", short, (stable.effective_length_integral(),), (exact,)
-        ),
+        GeneratedFunction("effective_length_integral", short, (stable.effective_length_integral(),), (exact,)),
         GeneratedFunction(
             "effective_length_approximation",
             short,
@@ -246,9 +240,7 @@ def _length_functions(short: tuple[Any, ...]) -> tuple[GeneratedFunction, ...]:
 
 def _damping_function() -> GeneratedFunction:
     arguments = (omega, damping_ratio, reference_omega)
-    return GeneratedFunction(
-        "damped_omega_squared", arguments, (damped_omega_squared(),), (damped_omega_squared(),)
-    )
+    return GeneratedFunction("damped_omega_squared", arguments, (damped_omega_squared(),), (damped_omega_squared(),))
 
 
 def _clamped_function() -> GeneratedFunction:

@@ -75,9 +75,7 @@ def _limits(steep: Any, flat: Any) -> tuple[FormulaRecord, ...]:
     rounded = "8/33 = 0.2424, printed with two digits."
     return (
         verdict("cable_dsm.limit_steep", "2.41, first line", sp.Float("0.01", 2), steep, note, left % 80),
-        verdict(
-            "cable_dsm.limit_flat", "2.41, second line", sp.Rational(24, 100), two_digits, rounded, left % 33
-        ),
+        verdict("cable_dsm.limit_flat", "2.41, second line", sp.Rational(24, 100), two_digits, rounded, left % 33),
     )
 
 

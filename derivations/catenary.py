@@ -231,8 +231,6 @@ def functions() -> tuple[GeneratedFunction, ...]:
         GeneratedFunction("profile", (s, *five), stable.end_point(piece), profile()),
         GeneratedFunction("elongation", five, (stable.elongation(cable),), (elongation(),)),
         GeneratedFunction("chord_tension", five, (stable.chord_tension(cable),), (tau,)),
-        GeneratedFunction(
-            "chord_parallel_coordinate", five, (stable.chord_parallel_coordinate(cable),), (s_q,)
-        ),
+        GeneratedFunction("chord_parallel_coordinate", five, (stable.chord_parallel_coordinate(cable),), (s_q,)),
         GeneratedFunction("sag", five, (stable.sag(cable),), (sp.Abs(z * xq - x * zq) / chord,)),
     )

@@ -127,8 +127,7 @@ def points(item: GeneratedFunction) -> Iterator[dict[str, float]]:
     """Three general points, and each of them with the limits of this function."""
     names = [str(argument) for argument in item.arguments]
     generic = [
-        {name: POINTS.get(name, OTHERWISE)[(k + shift) % 3] for shift, name in enumerate(names)}
-        for k in range(3)
+        {name: POINTS.get(name, OTHERWISE)[(k + shift) % 3] for shift, name in enumerate(names)} for k in range(3)
     ]
     yield from generic
     for zeros, point in itertools.product(LIMITS.get(item.name, ()), generic):

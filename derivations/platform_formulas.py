@@ -94,9 +94,7 @@ def attachment() -> FormulaRecord:
         "coordinates), "
         "moments and phases of rotations do not."
     )
-    return verdict(
-        "platform.attachment", "3.9", platform.attachment_printed(), platform.attachment(), note, left="A"
-    )
+    return verdict("platform.attachment", "3.9", platform.attachment_printed(), platform.attachment(), note, left="A")
 
 
 def frame_change() -> FormulaRecord:
@@ -147,9 +145,7 @@ def lagrange() -> tuple[FormulaRecord, ...]:
     row = r"\partial V/\partial q_i = {}^eK_{Ei}^T\,"
     return (
         FormulaRecord("platform.momentum", "3.15-3.17", _status(momentum_ok), "", momenta, momenta),
-        FormulaRecord(
-            "platform.restoring_force", "3.18", _status(same_force), note_q, row + r"\dot q", row + "q"
-        ),
+        FormulaRecord("platform.restoring_force", "3.18", _status(same_force), note_q, row + r"\dot q", row + "q"),
         FormulaRecord("platform.equation_of_motion", "3.11, 3.19", _status(equation_ok), "", motion, motion),
     )
 
@@ -168,9 +164,7 @@ def closed_mass_matrix() -> Any:
 def mass_matrix() -> FormulaRecord:
     """Eq. (3.12): the mass matrix for an offset centre of mass."""
     note = "The thesis prints the symbol only; shown is the parallel-axis form about the reference point."
-    return verdict(
-        "platform.mass_matrix", "3.12", closed_mass_matrix(), platform.mass_matrix(), note, left="M"
-    )
+    return verdict("platform.mass_matrix", "3.12", closed_mass_matrix(), platform.mass_matrix(), note, left="M")
 
 
 def formulas() -> tuple[FormulaRecord, ...]:
@@ -186,18 +180,14 @@ def functions() -> tuple[GeneratedFunction, ...]:
     return (
         _matrix_function("rotation", (rx, ry, rz), platform.rotation(), _rotation_by_columns()),
         _matrix_function("attachment", arm, platform.attachment(), _identity_and(-cross_matrix(ARM))),
-        _matrix_function(
-            "attachment_printed", arm, platform.attachment_printed(), _identity_and(cross_matrix(ARM))
-        ),
+        _matrix_function("attachment_printed", arm, platform.attachment_printed(), _identity_and(cross_matrix(ARM))),
         _matrix_function(
             "geometric_stiffness",
             (*force, *arm),
             platform.geometric_stiffness(),
             closed_geometric_stiffness(),
         ),
-        _matrix_function(
-            "mass_matrix", (mass, *centre, *inertia), platform.mass_matrix(), closed_mass_matrix()
-        ),
+        _matrix_function("mass_matrix", (mass, *centre, *inertia), platform.mass_matrix(), closed_mass_matrix()),
     )
 
 

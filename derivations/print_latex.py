@@ -49,12 +49,7 @@ def escaped(text: str) -> str:
 def _summary(formulas: tuple[FormulaRecord, ...]) -> str:
     rows = [f"{escaped(r.id)} & {escaped(r.thesis_equation)} & {r.status} \\\\" for r in formulas]
     head = r"\section*{Summary}" + "\n" + r"\begin{center}\small\begin{tabular}{lll}" + "\n"
-    return (
-        head
-        + "formula & equation & status \\\\ \\hline\n"
-        + "\n".join(rows)
-        + "\n\\end{tabular}\\end{center}\n"
-    )
+    return head + "formula & equation & status \\\\ \\hline\n" + "\n".join(rows) + "\n\\end{tabular}\\end{center}\n"
 
 
 def _entry(record: FormulaRecord) -> str:

@@ -161,6 +161,4 @@ def prove_series() -> None:
         expansion = sp.series(definition, u, 0, 6).removeO()
         for k in range(3):
             if sp.simplify(expansion.coeff(u, 2 * k) - coefficient(k)) != 0:
-                raise ArithmeticError(
-                    f"series of {function.__name__}: coefficient {k} is not {coefficient(k)}"
-                )
+                raise ArithmeticError(f"series of {function.__name__}: coefficient {k} is not {coefficient(k)}")

@@ -89,9 +89,7 @@ def formulas() -> tuple[FormulaRecord, ...]:
     )
 
 
-def _record(
-    formula_id: str, equation: str, note: str, printed: Any, derived: Any, left: str
-) -> FormulaRecord:
+def _record(formula_id: str, equation: str, note: str, printed: Any, derived: Any, left: str) -> FormulaRecord:
     agrees = sp.simplify(printed - derived) == 0 and unit_of(printed) == unit_of(derived)
     status = "verified" if agrees else "corrected"
     return FormulaRecord(formula_id, equation, status, note, left + tex(printed), left + tex(derived))

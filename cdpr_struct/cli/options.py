@@ -102,8 +102,10 @@ def read_assembly(text: str) -> "Assembly":
     ------
     InputError : neither consistent nor thesis.
     """
-    if text == "consistent" or text == "thesis":
-        return text
+    if text == "consistent":
+        return "consistent"
+    if text == "thesis":
+        return "thesis"
     raise InputError("--assembly", "", text, "consistent or thesis")
 
 

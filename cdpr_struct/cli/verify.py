@@ -1,5 +1,6 @@
 """`cdpr-struct verify`: the DSM model on trial before the finite-element referee."""
 
+from itertools import pairwise
 from typing import Annotated
 
 import typer
@@ -79,7 +80,7 @@ def read_elements(text: str) -> list[int]:
     """
     values = read_numbers(text, "--elements", None, "element counts")
     counts = [int(v) for v in values]
-    ascending = all(a < b for a, b in zip(counts, counts[1:], strict=False))
+    ascending = all(a < b for a, b in pairwise(counts))
     whole = [float(c) for c in counts] == values
     if not (whole and len(counts) >= 3 and counts[0] >= 4 and ascending and all(c % counts[0] == 0 for c in counts)):
         raise InputError(

@@ -74,7 +74,7 @@ def require_validity(point: OperatingPoint) -> None:
         worst = "; ".join(f"cable {v.cable}: {v.parameter} {v.value:.4g} (limit {v.limit:.4g})" for v in violations[:4])
         more = f" and {len(violations) - 4} more" if len(violations) > 4 else ""
         raise OutsideValidityError(
-            f"outside the printed limits of the closed-form DSM: {worst}{more}. Use --model exact, or --force to insist."
+            f"outside the printed limits of the closed-form DSM: {worst}{more}. Use --model exact, or --force."
         )
 
 

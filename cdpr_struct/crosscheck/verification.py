@@ -247,7 +247,7 @@ def _objections(v: Verification) -> list[tuple[bool, str]]:
         (
             abs(v.relative_error[worst]) > v.criteria.relative_error,
             f"mode {worst + 1}: DSM {v.dsm_hertz[worst]:.4f} Hz deviates by {100 * v.relative_error[worst]:+.2f} % from "
-            f"the FEM's {v.fem_limit_hertz[worst]:.4f} Hz, more than {100 * v.criteria.relative_error:g} %",
+            f"the FEM's {v.fem_limit_hertz[worst]:.4f} Hz, over {100 * v.criteria.relative_error:g} %",
         ),
         (
             v.assurance[lost] < v.criteria.assurance,

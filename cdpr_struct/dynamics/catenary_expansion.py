@@ -141,7 +141,7 @@ def _condense(
     freedoms: np.ndarray,
     springs: np.ndarray | None,
 ) -> _Plane:
-    """Static shapes of the moving end and modes of the clamped cable, from stiffness (m, i, c, i, c), mass (m, i, i)."""
+    """Static shapes of the moving end and modes of the clamped cable; stiffness (m, i, c, i, c), mass (m, i, i)."""
     (m, count, _), size = mass.shape, len(components)
     turned = np.swapaxes(freedoms, 1, 2)
     stiffness = turned @ stiffness.reshape(m, count * size, count * size) @ freedoms

@@ -40,15 +40,21 @@ def certified_modes(
     CdprError : the equilibrium is unstable, or the model has fewer modes (massless cables: six).
     """
     cables, shapes = _enough_modes(point, model, count, assembly)
+    return CertifiedModes(certified(point, cables, shapes, assembly), shapes, cables)
+
+
+def certified(
+    point: OperatingPoint, cables: CableDynamics, shapes: RitzModes, assembly: Assembly = "consistent"
+) -> NaturalFrequencies:
+    """The model's natural frequencies near those of Ritz modes, enclosed by the count."""
     omega = _corrected(point, cables, shapes, assembly)
     low, high = omega * (1.0 - _BRACKET), omega * (1.0 + _BRACKET)
-    number = np.arange(1, count + 1)
+    number = np.arange(1, len(omega) + 1)
     low_count, high_count = np.split(count_below(point, cables, np.concatenate([low, high]), assembly), 2)
     open_ = ~((low_count < number) & (high_count >= number))
     if open_.any():
         low[open_], high[open_] = bisect_count(point, cables, number[open_], assembly, _BRACKET)
-    frequencies = NaturalFrequencies.in_brackets(np.stack([low, high], axis=-1) / (2.0 * np.pi))
-    return CertifiedModes(frequencies, shapes, cables)
+    return NaturalFrequencies.in_brackets(np.stack([low, high], axis=-1) / (2.0 * np.pi))
 
 
 def _enough_modes(

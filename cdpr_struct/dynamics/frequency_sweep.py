@@ -5,12 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import CableDynamics, CableModel, cable_dynamics
+from cdpr_struct.dynamics.certified_modes import certified
 from cdpr_struct.dynamics.damping import DampingLaw
 from cdpr_struct.dynamics.frequency_response import FrequencyResponse, Quantity, frequency_response
-from cdpr_struct.dynamics.mode_shapes import mode_shapes
-from cdpr_struct.dynamics.natural_frequencies import count_below, natural_frequencies
+from cdpr_struct.dynamics.natural_frequencies import count_below
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ports import MODES_OF_A_POINT, CablePort, Port
+from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 
 MOST_MODES = 400
@@ -21,7 +22,7 @@ class ModesInBand:
     """Undamped eigenfrequencies from zero to the top of a band.
 
     hertz     : (k,) ascending
-    kinds     : k names, as `ModeShapes.kinds`
+    kinds     : k names, as `RitzModes.kinds`
     certified : an exact count proves that none is missing
     complete  : False if there are more than MOST_MODES; the list then ends before the band does
     """
@@ -71,6 +72,6 @@ def modes_below(
     count = min(below, MOST_MODES)
     if count == 0:
         return ModesInBand(np.zeros(0), [], True, True)
-    found = natural_frequencies(point, cables, count, assembly)
-    shapes = mode_shapes(point, cables, count, omega, np.array([0.5]), assembly)
+    shapes = ritz_modes(point, cables.expansion(omega), count, assembly)
+    found = certified(point, cables, shapes, assembly)
     return ModesInBand(found.hertz, shapes.kinds(), found.certified, count == below)

@@ -44,7 +44,7 @@ class ModalExpansion:
         gap = self.omega_squared - squared
         gain = squared**2 / np.where(gap == 0.0, np.finfo(float).eps * self.omega_squared, gap)
         outer = (self.coupling[..., :, None] * self.coupling[..., None, :]).reshape((*self.omega_squared.shape, 9))
-        modal = np.einsum("...mp,...mpc->...mc", gain, outer)
+        modal = (gain[..., None, :] @ outer)[..., 0, :]
         local = self.static_stiffness - squared[..., None] * self.end_mass - modal.reshape((*modal.shape[:-1], 3, 3))
         return self.frame @ local @ np.swapaxes(self.frame, -1, -2)
 

@@ -17,6 +17,7 @@ from cdpr_struct.thesis.reproduction import Cell, Reproduction, Statement, print
 CENTRE = np.array([0.012, 0.0697, 1.219])
 EDGE = np.array([4.012, 0.0697, 1.219])
 CABLE = 5
+_LISTED = {"centre": "334 N (simulated) and 307 N (measured)", "edge": "394 N (simulated) and 383 N (measured)"}
 STATED_MODES = np.array([5.1, 5.5, 7.2, 8.5, 12.8])
 
 
@@ -46,8 +47,7 @@ def _cable_table(item: str, table: str, where: str, position: np.ndarray) -> Rep
     note = (
         f"Ours: a taut string between the anchors ({chord:.3f} m) at the tension of 118.5 kg, {tau:.0f} N. The printed "
         f"simulation needs {implied['dsm_Hz']:.0f} N, the experiment {implied['experiment_Hz']:.0f} N; Table 4.4 lists "
-        f"{'334 (simulated) and 307 (measured)' if where == 'centre' else '394 (simulated) and 383 (measured)'} N without "
-        "the shaker, whose mass hung on the platform in the vibration tests."
+        f"{_LISTED[where]} without the shaker, whose mass hung on the platform in the vibration tests."
     )
     return Reproduction(item, f"Natural frequencies of cable 5 at the {where}", tuple(cells), note)
 
@@ -67,14 +67,14 @@ def fig_4_9() -> Reproduction:
     )
     statement = Statement(
         "the stated modes are the rigid-body modes of the platform on cables of E = 20 GPa",
-        f"with EA as stated no inertia brings them within {stated_stiffness.rms:.1f} Hz rms; what they fix is EA per mass, "
-        f"twice the stated: {text}",
+        f"with EA as stated no inertia brings them within {stated_stiffness.rms:.1f} Hz rms; what they fix is EA per "
+        f"mass, twice the stated: {text}",
         stated_stiffness.rms < 0.2,
     )
     note = (
         "The inertia of CoGiRo is not printed. Massless cables, centre of mass at the platform origin, principal axes "
-        "along the platform's; fitted are three moments of inertia that obey the triangle inequality, and in the second "
-        "fit a common factor on EA. Five numbers cannot fix mass, EA, inertia and centre of mass at once."
+        "along the platform's; fitted are three moments of inertia that obey the triangle inequality, and in the "
+        "second fit a common factor on EA. Five numbers cannot fix mass, EA, inertia and centre of mass at once."
     )
     return Reproduction("fig-4.9", "Platform modes of CoGiRo at the centre", cells, note, (statement,))
 
@@ -105,12 +105,14 @@ def _fit(mass: float, free_stiffness: bool) -> InertiaFit:
     fits = []
     for left_out in range(6):
         start = np.array([0.2, 0.1, 0.0, 0.4][: 3 + free_stiffness])
-        found = least_squares(
-            lambda x, n=left_out: np.delete(_modes(mass, x), n) - STATED_MODES, start, bounds=(-2.0, 2.0)
-        ).x
+        found = least_squares(_misses, start, bounds=(-2.0, 2.0), args=(mass, left_out)).x
         factor = float(np.exp(found[3])) if free_stiffness else 1.0
         fits.append(InertiaFit(_inertia(mass, found), factor, _modes(mass, found), left_out))
     return min(fits, key=lambda fit: fit.rms)
+
+
+def _misses(x: np.ndarray, mass: float, left_out: int) -> np.ndarray:
+    return np.delete(_modes(mass, x), left_out) - STATED_MODES
 
 
 def _inertia(mass: float, x: np.ndarray) -> np.ndarray:
@@ -123,7 +125,7 @@ def _inertia(mass: float, x: np.ndarray) -> np.ndarray:
 
 
 def _modes(mass: float, x: np.ndarray) -> np.ndarray:
-    """Six modes [Hz] on massless cables; x[:3] gives the inertia, x[3], if there, is the logarithm of a factor on EA."""
+    """Six modes [Hz] on massless cables; x[:3] gives the inertia, x[3], if there, the logarithm of a factor on EA."""
     factor = float(np.exp(x[3])) if len(x) > 3 else 1.0
     point = _stiffened(mass, factor)
     robot = point.robot

@@ -74,9 +74,9 @@ def fig_3_8() -> Reproduction:
     cell = Cell("fundamental frequency", "Hz", "2.4", float(hertz[0]))
     note = (
         f"With 60 kg the minimum-norm tensions are {tension.min():.0f}-{tension.max():.0f} N; the first, "
-        f"{hertz[0]:.3f} Hz, is a mode of the cables, the first of sixteen up to {hertz[15]:.3f} Hz, and the platform's first is "
-        f"{platform:.3f} Hz. 2.4 Hz would need tensions about {100 * (1 - (2.4 / hertz[0]) ** 2):.0f} % lower; read off a "
-        "plot it means 2.35 to 2.45 or more."
+        f"{hertz[0]:.3f} Hz, is a mode of the cables, the first of sixteen up to {hertz[15]:.3f} Hz; the platform's "
+        f"first is {platform:.3f} Hz. 2.4 Hz would need tensions {100 * (1 - (2.4 / hertz[0]) ** 2):.0f} % lower; "
+        "read off a plot it means 2.35 to 2.45 or more."
     )
     columns = {
         "frequency_Hz": scan.hertz,
@@ -96,9 +96,9 @@ def fig_3_9() -> Reproduction:
     middle = POSES // 2
     statement = Statement(
         "the first natural frequency of the end-effector is highest at the centre and falls towards the edge",
-        f"so does the first frequency of the robot, {first[middle, middle]:.2f} Hz at the centre and {first.min():.2f} Hz at "
-        "the corners; but that is a mode of the cables. The platform's own first, on massless cables, is "
-        f"{massless[middle, middle]:.2f} Hz at the centre and {massless.min():.2f} to {massless.max():.2f} Hz over the area",
+        f"so does the first frequency of the robot, {first[middle, middle]:.2f} Hz at the centre, {first.min():.2f} Hz "
+        "at the corners; but that is a mode of the cables. The platform's own first, on massless cables, is "
+        f"{massless[middle, middle]:.2f} Hz at the centre, {massless.min():.2f} to {massless.max():.2f} Hz in all",
         bool(first[middle, middle] >= first.max() and first.min() == first[[0, 0, -1, -1], [0, -1, 0, -1]].min()),
     )
     data = {"x_m": grid.positions[:, 0], "y_m": grid.positions[:, 1], **columns}

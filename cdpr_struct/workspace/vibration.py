@@ -16,7 +16,7 @@ _HALF_WAVES = 2.5
 
 
 def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> dict[str, np.ndarray]:
-    """First frequencies [Hz] of the robot, of its platform (also on massless cables) and of each cable; exact catenaries.
+    """First frequencies [Hz] of the robot, its platform (also on massless cables) and each cable; exact catenaries.
 
     The platform's is that of the mode whose platform motion is most like the platform's first mode on massless cables:
     where cable modes come near, they share its energy. A cable's frequency is that with both ends held. Minimum-norm
