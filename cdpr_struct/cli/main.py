@@ -9,6 +9,8 @@ from cdpr_struct.cli import (
     audit,
     cable,
     derive,
+    diagnose,
+    distribute,
     forward,
     frf,
     import_caspr,
@@ -16,6 +18,7 @@ from cdpr_struct.cli import (
     inverse,
     map,
     modes,
+    plan,
     pose_error,
     reproduce,
     robots,
@@ -44,10 +47,13 @@ COMMANDS = (
     reproduce,
     import_caspr,
     derive,
+    distribute,
     frf,
     transient,
     spectrogram,
     audit,
+    diagnose,
+    plan,
 )
 for command in COMMANDS:
     app.command(name=command.NAME)(command.run)

@@ -29,17 +29,17 @@ _FORCES_NOTE = (
 _ENERGY_NOTE = (
     "The thesis does not define its energy. Taken here: the sum over the cables of the integral of |force at the "
     "platform| |d unstrained length|, without recuperation. With straight weightless cables this gives 137600 and "
-    "154180 J, both 0.8 % below the print, and 10.75 % saved; with sagging cables both are 3.5 to 4 % above it. Work of "
-    "driving winches only (0.53 of the print), net work (0.02) and the integral of the forces over time (1.46) do not "
-    "meet it."
+    "154180 J, both 0.8 % below the print, and 10.75 % saved; with sagging cables both are 3.5 to 4 % above it. Work "
+    "of driving winches only (0.53 of the print), net work (0.02) and the integral of the forces over time (1.46) do "
+    "not meet it."
 )
 _BOUND_NOTE = (
-    "The demand b^2/pi^2 rho g l is largest where a cable is longest. Cables 2 and 5 tie to 2e-5 by the symmetry of the "
-    "helix; the maximum is flat (0.05 % over half a second)."
+    "The demand b^2/pi^2 rho g l is largest where a cable is longest. Cables 2 and 5 tie to 2e-5 by the symmetry of "
+    "the helix; the maximum is flat (0.05 % over half a second)."
 )
 _REDUCTION_NOTE = (
-    "The print's relative differences are over the force with the pose-dependent bound, ours too; the thesis calls them "
-    "reductions, which over the force with the fixed bound are smaller (cable 8: 15 %, not 19 %)."
+    "The print's relative differences are over the force with the pose-dependent bound, ours too; the thesis calls "
+    "them reductions, which over the force with the fixed bound are smaller (cable 8: 15 %, not 19 %)."
 )
 _STATIC_NOTE = (
     "Minimum-norm forces of sagging cables at the platform for a hanging mass of 118.5 kg, which is not in the thesis "

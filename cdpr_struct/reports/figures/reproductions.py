@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.figure import Figure
 
+from cdpr_struct.reports.figures import force_reproductions as forces
 from cdpr_struct.reports.figures import vibration_reproductions as vibration
 from cdpr_struct.reports.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILLION
 from cdpr_struct.reports.figures.workspace_map import Layer, draw_heat, legend_handles
@@ -98,4 +99,7 @@ FIGURES: dict[str, tuple[Draw, tuple[float, float], Callable[[Reproduction], str
     "fig-3.8": (vibration.draw_determinants, (9.6, 4.0), vibration.determinants_caption),
     "fig-3.9": (vibration.draw_first_frequencies, (12.0, 4.8), vibration.first_frequencies_caption),
     "fig-4.4": (draw_loads, (9.6, 4.2), _loads_caption),
+    "fig-5.4": (forces.draw_panels, forces.PANELS_SIZE, forces.bounds_caption),
+    "fig-5.5": (forces.draw_panels, forces.PANELS_SIZE, forces.forces_caption),
+    "fig-5.6": (forces.draw_energy, forces.ENERGY_SIZE, forces.energy_caption),
 }

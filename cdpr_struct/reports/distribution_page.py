@@ -1,0 +1,157 @@
+"""The files of a force distribution: CSV over time, figures, and the report page."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from cdpr_struct.dynamics.trajectory_distribution import TrajectoryDistribution
+from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.distribution_notes import distribution_notes
+from cdpr_struct.reports.distribution_result import missed_json
+from cdpr_struct.reports.distribution_text import BOUND_NAMES, frequency_sentence, saving_sentence
+from cdpr_struct.reports.figures import distribution as figures
+from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+
+Found = Sequence[TrajectoryDistribution]
+
+
+def distribution_files(found: Found) -> dict[str, str | bytes]:
+    """Contents of every file of the report, by name; the first entry is the bound that was asked for."""
+    plates = distribution_plates(found)
+    return {
+        **{f"forces_{f.rule.replace('-', '_')}.csv": _forces_csv(f) for f in found},
+        **{f"{plate.name}.svg": plate.svg for plate in plates},
+        "report.html": render_page(distribution_page(found, plates)),
+    }
+
+
+def distribution_plates(found: Found) -> list[Plate]:
+    """The figures, in the order of the page."""
+    return [*thesis_plates(found), _frequency_plate(found)]
+
+
+def thesis_plates(found: Found) -> list[Plate]:
+    """Figures 5.4 to 5.6 of the thesis."""
+    size = figures.panels_size(found)
+    return [
+        Plate(
+            "lower_bounds",
+            "Lower bound of each cable",
+            svg("lower_bounds", size, lambda f: figures.draw_bounds(f, found)),
+            "What each cable must carry at least. Longer cables need more; the fixed bound takes the largest demand of "
+            "all cables and instants for everyone (thesis fig. 5.4).",
+        ),
+        Plate(
+            "cable_forces",
+            "Force of each cable at the platform",
+            svg("cable_forces", size, lambda f: figures.draw_forces(f, found)),
+            "The forces of least cost that balance weight and inertia of the platform above the bounds (thesis "
+            "fig. 5.5).",
+        ),
+        Plate(
+            "energy",
+            "Energy spent",
+            svg("energy", figures.ENERGY_SIZE, lambda f: figures.draw_energy(f, found)),
+            "Work of the cable forces, paid for in both directions: the integral of |force| |change of unstrained "
+            "length|, all cables (thesis fig. 5.6).",
+        ),
+    ]
+
+
+def _frequency_plate(found: Found) -> Plate:
+    return Plate(
+        "cable_frequencies",
+        "Does each cable vibrate as fast as wanted?",
+        svg("cable_frequencies", figures.panels_size(found), lambda f: figures.draw_frequencies(f, found)),
+        f"Lowest natural frequency of each cable held at both ends, exact model with sag, over the wanted "
+        f"{found[0].b / (2.0 * np.pi):.4g} Hz (black line). Below it the bound does not keep its promise. Cut off "
+        f"at {figures.FREQUENCY_RANGE[1]:g}.",
+    )
+
+
+def distribution_page(found: Found, plates: list[Plate]) -> Page:
+    """The report page around the given figures."""
+    first, path = found[0], found[0].trajectory
+    d = first.distribution
+    saved = [saving_sentence(a, b) for a in found for b in found if b.rule == "fixed" and a.rule != "fixed"]
+    return Page(
+        title=f"{first.robot.name}: cable forces along a trajectory",
+        subtitle=(
+            f"{len(first.max_force)} cables, platform {first.robot.platform.mass:g} kg, {len(path)} instants over "
+            f"{path.time[-1] - path.time[0]:.4g} s; {BOUND_NAMES[first.rule]}, {first.model} cables, "
+            f"cost {first.cost.name}"
+        ),
+        verdict=[frequency_sentence(first), *saved],
+        holds=not first.missed.any(),
+        facts=[
+            (f"{first.max_force.max():.0f} N", f"largest cable force (cable {int(first.max_force.argmax()) + 1})"),
+            (f"{first.work.total / 1000.0:.1f} kJ", "energy spent"),
+            (f"{d.lower.min():.0f} to {d.lower.max():.0f} N", "lower bound"),
+            (
+                f"{first.frequency.min() / (2.0 * np.pi):.3f} Hz",
+                f"lowest cable frequency, wanted {first.b / 6.283185:.3f}",
+            ),
+            (f"{first.work.winch_power.max() / 1000.0:.2f} kW", "largest power of one winch"),
+        ],
+        plates=plates,
+        tables=[_force_table(found), _motor_table(first), _bound_table(found)],
+        notes=distribution_notes(first),
+        command=_command(found),
+    )
+
+
+def _force_table(found: Found) -> HtmlTable:
+    cables = len(found[0].max_force)
+    rows = [[BOUND_NAMES[f.rule], *(f"{v:.0f}" for v in f.max_force), f"{f.max_force.mean():.0f}"] for f in found]
+    columns = ["[N]", *(f"cable {i + 1}" for i in range(cables)), "mean"]
+    return HtmlTable("Largest force of each cable", columns, rows, "At the platform; thesis Table 5.3.")
+
+
+def _motor_table(found: TrajectoryDistribution) -> HtmlTable:
+    work, frame = found.work, found.distribution.cables.tension_at_frame
+    peaks = np.stack([frame.max(axis=0), work.winch_power.max(axis=0), -work.winch_power.min(axis=0)], axis=1)
+    rows = [[f"cable {i}", *(f"{v:.0f}" for v in peak)] for i, peak in enumerate(peaks, start=1)]
+    note = (
+        f"With the {BOUND_NAMES[found.rule]}. All winches together give {work.driving[-1] / 1000.0:.1f} kJ while "
+        f"driving and take up {work.braking[-1] / 1000.0:.1f} kJ while braking."
+    )
+    return HtmlTable("What the motors see", ["", "force [N]", "power [W]", "braking power [W]"], rows, note)
+
+
+def _bound_table(found: Found) -> HtmlTable:
+    columns = ["", "least [N]", "most [N]", "set by", "energy [kJ]", "lowest [Hz]", "missed"]
+    rows, marked = [], set()
+    for number, f in enumerate(found):
+        lower, missed = f.distribution.lower, missed_json(f)["instants"]
+        setters = ", ".join(f"cable {i} at {t:.2f} s" for i, t in f.bound_is_set_by[:3])
+        lowest = f"{f.frequency.min() / (2.0 * np.pi):.4f}"
+        size = [f"{lower.min():.1f}", f"{lower.max():.1f}"]
+        rows.append([BOUND_NAMES[f.rule], *size, setters, f"{f.work.total / 1000.0:.1f}", lowest, str(missed)])
+        marked |= {number} if missed else set()
+    note = (
+        "Set by: where the demand is largest. Lowest: cable frequency; missed: instants with a cable below the wanted "
+    )
+    note += f"{found[0].b / (2.0 * np.pi):.4f} Hz, of {len(found[0].trajectory)}."
+    return HtmlTable("The lower bounds", columns, rows, note, frozenset(marked))
+
+
+def _forces_csv(found: TrajectoryDistribution) -> str:
+    d, path = found.distribution, found.trajectory
+    columns: dict[str, np.ndarray] = {"time_s": path.time}
+    columns |= dict(zip(("x_m", "y_m", "z_m"), path.position.T, strict=True))
+    for name, values in (
+        ("force_{}_N", d.tensions), ("lower_bound_{}_N", d.lower), ("length_{}_m", d.lengths),
+        ("frequency_{}_hz", found.frequency / (2.0 * np.pi)), ("winch_power_{}_W", found.work.winch_power),
+    ):  # fmt: skip
+        columns |= {name.format(i + 1): values[:, i] for i in range(values.shape[1])}
+    columns |= {"energy_J": found.work.spent, "cost": d.cost, "kkt_residual": d.kkt_residual}
+    return csv_text(columns)
+
+
+def _command(found: Found) -> str:
+    first = found[0]
+    beside = ",".join(f.rule for f in found[1:])
+    text = f"cdpr-struct distribute {first.robot.name} --trajectory=T --bound={first.rule} --b={first.b:.12g}"
+    text += f" --cost={first.cost.name} --model={first.model}" + (f" --compare={beside}" if beside else "")
+    return text + " --out=DIR\n# T: the trajectory it was run with; robot file and load options as entered"

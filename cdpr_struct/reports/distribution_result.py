@@ -1,0 +1,103 @@
+"""result.json of a force distribution along a trajectory."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.dynamics.trajectory_distribution import TrajectoryDistribution
+from cdpr_struct.statics.tension_distribution import TensionDistribution
+
+ENERGY = "sum over the cables of the integral of |tension at the platform| |d unstrained length|"
+
+
+def distribution_json(found: TrajectoryDistribution, beside: Sequence[TrajectoryDistribution] = ()) -> dict[str, Any]:
+    """The result under the keys that scripts rely on; SI units, cables numbered from 1."""
+    path = found.trajectory
+    return {
+        "robot": found.robot.name,
+        "platform_mass_kg": found.robot.platform.mass,
+        "trajectory": {
+            "instants": len(path),
+            "duration_s": path.time[-1] - path.time[0],
+            "max_speed_m_s": path.speed.max(),
+            "max_acceleration_m_s2": path.acceleration_size.max(),
+        },
+        "b_rad_s": found.b,
+        "model": found.model,
+        "cost_function": found.cost.name,
+        "energy_definition": ENERGY,
+        **_rule_json(found),
+        "beside": [_rule_json(other) for other in beside],
+    }
+
+
+def _rule_json(found: TrajectoryDistribution) -> dict[str, Any]:
+    d, work = found.distribution, found.work
+    frequency = found.frequency / (2.0 * np.pi)
+    return {
+        "bound": found.rule,
+        "max_force_N": found.max_force,
+        "energy_J": work.total,
+        "lower_bound_N": {"min": d.lower.min(), "max": d.lower.max()},
+        "lower_bound_set_by": [{"cable": i, "time_s": t} for i, t in found.bound_is_set_by],
+        "min_cable_frequency_hz": frequency.min(),
+        "min_cable_frequency_by_cable_hz": frequency.min(axis=0),
+        "wanted_frequency_hz": found.b / (2.0 * np.pi),
+        "frequency_missed": missed_json(found),
+        "at_lower_bound_share": d.at_lower.mean(axis=0),
+        "at_force_limit": limit_stretches(found),
+        "motor": {
+            "max_force_N": d.cables.tension_at_frame.max(axis=0),
+            "max_power_W": work.winch_power.max(axis=0),
+            "max_braking_power_W": -work.winch_power.min(axis=0),
+            "driving_energy_J": work.driving[-1],
+            "braking_energy_J": work.braking[-1],
+        },
+        "cost": {"mean": d.cost.mean(), "max": d.cost.max()},
+        "certificate": _certificate(d),
+    }
+
+
+def _certificate(d: TensionDistribution) -> dict[str, Any]:
+    return {
+        "max_kkt_residual": d.kkt_residual.max(),
+        "max_unbalanced_N": np.abs(d.residual_wrench[:, :3]).max(),
+        "max_unbalanced_Nm": np.abs(d.residual_wrench[:, 3:]).max(),
+        "singular_instants": int((d.rank < 6).sum()),
+    }
+
+
+def missed_json(found: TrajectoryDistribution) -> dict[str, Any]:
+    """Where and by how much cables stay below the wanted frequency."""
+    missed, time = found.missed, found.trajectory.time
+    pose, cable = np.unravel_index(int(found.frequency.argmin()), found.frequency.shape)
+    any_ = missed.any(axis=1)
+    return {
+        "instants": int(any_.sum()),
+        "share_of_cable_instants": missed.mean(),
+        "from_s": time[any_][0] if any_.any() else None,
+        "to_s": time[any_][-1] if any_.any() else None,
+        "cables": (np.flatnonzero(missed.any(axis=0)) + 1).tolist(),
+        "worst": {
+            "cable": int(cable) + 1,
+            "time_s": time[pose],
+            "frequency_over_wanted": found.frequency[pose, cable] / found.b,
+            "length_m": found.distribution.lengths[pose, cable],
+        },
+    }
+
+
+def limit_stretches(found: TrajectoryDistribution) -> list[dict[str, Any]]:
+    """When each cable lies at its force limit: one entry per cable that does."""
+    at, time = found.distribution.at_upper, found.trajectory.time
+    return [
+        {
+            "cable": int(i) + 1,
+            "limit_N": found.distribution.upper[at[:, i], i].min(),
+            "instants": int(at[:, i].sum()),
+            "first_s": time[at[:, i]][0],
+            "last_s": time[at[:, i]][-1],
+        }
+        for i in np.flatnonzero(at.any(axis=0))
+    ]

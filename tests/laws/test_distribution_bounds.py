@@ -1,0 +1,105 @@
+"""Lower bounds say what they promise: by the exact lowest frequency of every cable."""
+
+import numpy as np
+import pytest
+
+from cdpr_struct.dynamics.catenary_expansion import expand_catenaries
+from cdpr_struct.dynamics.fundamental_frequency import fundamental_frequency
+from cdpr_struct.dynamics.trajectory_distribution import THESIS_B, distribute_along
+from cdpr_struct.generated.tension_bound import lower_bound_frequency, lower_bound_printed
+from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.statics.cable_state import CableStates, cable_stiffness
+from cdpr_struct.statics.tension_bound import chord_tension_at, constant
+from cdpr_struct.statics.tension_distribution import holding_problem
+from cdpr_struct.statics.trajectory import helix
+
+ROBOT = load_robot("thesis-5")
+
+
+@pytest.fixture(scope="module")
+def found():
+    return {rule: distribute_along(ROBOT, helix(61), rule) for rule in ("fixed", "pose-dependent", "frequency")}
+
+
+def test_frequency_bound_keeps_its_promise(found):
+    r = found["frequency"]
+    assert not r.missed.any()
+    assert r.frequency.min() / THESIS_B - 1.0 < 1e-6
+    tight = r.distribution.at_lower
+    assert tight.any()
+    np.testing.assert_allclose(r.frequency[tight], THESIS_B, rtol=1e-5)
+
+
+@pytest.mark.slow
+def test_frequency_bound_keeps_its_promise_at_every_pose_of_the_helix():
+    r = distribute_along(ROBOT, helix(), "frequency")
+    assert not r.missed.any()
+    assert r.frequency.min() < THESIS_B * (1.0 + 1e-8)
+
+
+@pytest.mark.parametrize("rule", ["fixed", "pose-dependent"])
+def test_printed_bounds_break_it_for_long_cables(found, rule):
+    """A cable on the bound has b sqrt(9.81 m / l), so 0.88 b at 12.6 m; sag changes it by less than a per cent."""
+    r = found[rule]
+    assert r.frequency.min() / THESIS_B == pytest.approx(np.sqrt(9.81 / 12.62), rel=0.01)
+    length = r.distribution.lengths
+    assert (length[r.missed] > 9.7).all()
+    if rule == "pose-dependent":
+        tight = r.distribution.at_lower
+        expected = THESIS_B * np.sqrt(9.81 / length[tight])
+        np.testing.assert_allclose(r.frequency[tight], expected, rtol=0.012)
+
+
+def test_printed_bound_is_right_at_one_length_only():
+    """9.81 m: there the missing length in (5.10) equals the number of g."""
+    for length, sign in ((5.0, 1.0), (9.81, 0.0), (15.0, -1.0)):
+        printed = lower_bound_printed(THESIS_B, 0.12, 9.81, length)
+        needed = lower_bound_frequency(THESIS_B, 0.12, length)
+        assert np.sign(round(printed - needed, 9)) == sign
+
+
+def test_bounds_are_met_at_the_solution_itself(found):
+    """(5.14) with the unstrained length that the cable really gets, not that of a first guess."""
+    d = found["pose-dependent"].distribution
+    needed = lower_bound_printed(THESIS_B, ROBOT.linear_density, ROBOT.gravity, d.lengths)
+    assert (d.tensions >= needed * (1.0 - 1e-9)).all()
+    fixed = found["fixed"].distribution
+    longest = lower_bound_printed(THESIS_B, 0.12, 9.81, fixed.lengths.max())
+    assert fixed.lower.max() == pytest.approx(longest, rel=1e-4)
+
+
+@pytest.mark.parametrize("factor", [0.01, 0.1, 1.0, 50.0])
+def test_fundamental_frequency_equals_the_robot_model(factor):
+    """The expansion that the robot's modes use, order 40, from slack (sag over a third of the span) to taut."""
+    path = helix(5)
+    holding = holding_problem(ROBOT, path.position, path.rotation, np.zeros(6))
+    tau, _ = chord_tension_at(holding, constant(237.8 * max(factor, 0.0)))
+    states = holding.model.hold(holding.arrays, holding.arms.points, tau).states
+    ours = fundamental_frequency(states, ROBOT.linear_density)
+    for i in range(len(tau)):
+        cables = CableStates(*(getattr(states, name)[i] for name in states.__slots__))
+        exact = expand_catenaries(cables, ROBOT.linear_density, 40, cable_stiffness(cables)).omega_squared[:, 0]
+        np.testing.assert_allclose(ours[i], np.sqrt(exact), rtol=1e-8)
+
+
+def test_taut_string_is_the_limit():
+    path = helix(5)
+    holding = holding_problem(ROBOT, path.position, path.rotation, np.zeros(6))
+    tau, _ = chord_tension_at(holding, constant(20000.0))
+    states = holding.model.hold(holding.arrays, holding.arms.points, tau).states
+    string = np.pi / states.length * np.sqrt(states.tension / ROBOT.linear_density / (1.0 + states.tension / 231870.0))
+    ours = fundamental_frequency(states, ROBOT.linear_density)
+    np.testing.assert_allclose(ours, string, rtol=1e-5)
+    wrong = fundamental_frequency(states, 1.02 * ROBOT.linear_density)  # twin
+    assert np.abs(wrong / string - 1.0).min() > 5e-3
+
+
+def test_own_weight_above_the_wanted_tension():
+    """A cable that pulls harder than wanted at any length gets its least tension, on the taut side."""
+    path = helix(3)
+    holding = holding_problem(ROBOT, path.position, path.rotation, np.zeros(6))
+    tau, tension = chord_tension_at(holding, constant(1.0))
+    assert (tension > 1.0).all()
+    for other in (0.8, 1.3):
+        states = holding.model.hold(holding.arrays, holding.arms.points, other * tau).states
+        assert (states.tension_at_platform > tension * (1.0 - 0.02)).all()
