@@ -53,6 +53,7 @@ class RobotTable(_Table):
     platform: PlatformTable
     cable: CableTable = CableTable()
     cables: Annotated[list[CablesEntry], Field(min_length=1)]
+    extensions: dict[str, Any] = {}
 
 
 def builtin_names() -> list[str]:

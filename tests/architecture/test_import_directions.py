@@ -16,10 +16,11 @@ MAY_IMPORT = {
     "dynamics": {"robot", "statics"},
     "crosscheck": {"robot", "statics", "dynamics"},
     "measurement": {"robot", "statics", "dynamics"},
+    "diagnosis": {"robot", "statics", "dynamics", "measurement"},
     "workspace": {"robot", "statics", "dynamics"},
     "thesis": {"robot", "statics", "dynamics", "crosscheck", "workspace"},
-    "reports": {"robot", "statics", "dynamics", "crosscheck", "measurement", "workspace", "thesis"},
-    "cli": {"robot", "statics", "dynamics", "crosscheck", "measurement", "workspace", "thesis", "reports"},
+    "reports": {"robot", "statics", "dynamics", "crosscheck", "measurement", "diagnosis", "workspace", "thesis"},
+    "cli": {"robot", "statics", "dynamics", "crosscheck", "measurement", "diagnosis", "workspace", "thesis", "reports"},
 }
 NUMERICS = ("generated", "statics", "dynamics", "crosscheck", "workspace")
 SCREEN_AND_FILES = {"matplotlib", "plotly", "rich", "typer", "jinja2", "pathlib", "json", "csv"}

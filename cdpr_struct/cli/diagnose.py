@@ -1,0 +1,38 @@
+"""`cdpr-struct diagnose`: what the simulation gets wrong, why, and what a better model gains."""
+
+from typing import Annotated
+
+import typer
+
+from cdpr_struct.cli.options import Json, Out
+from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.progress import steps
+from cdpr_struct.errors import InputError
+
+NAME = "diagnose"
+
+
+def run(
+    campaign: Annotated[str, typer.Argument(metavar="CAMPAIGN.toml", help="Path to a campaign file.")],
+    budget: Annotated[str, typer.Option("--budget", help="small (under half a minute) or full.")] = "small",
+    out: Out = None,
+    json: Json = False,
+) -> int:
+    """Name the cause of differences between a simulation and measured data."""
+    if budget not in ("small", "full"):
+        raise InputError("--budget", "", budget, "small or full")
+    from cdpr_struct.diagnosis.diagnose import diagnose
+    from cdpr_struct.measurement.campaign_file import load_campaign
+    from cdpr_struct.reports.diagnosis_result import diagnosis_json
+    from cdpr_struct.reports.diagnosis_text import diagnosis_text
+
+    measured = load_campaign(campaign)
+    with steps(4) as progress:
+        found = diagnose(measured, budget, progress)
+    result = diagnosis_json(found)
+    emit(result, json, lambda: print(diagnosis_text(result)))
+    if out is not None:
+        from cdpr_struct.reports.diagnosis_page import diagnosis_files
+
+        write_files(out, {"result.json": result_json(result), **diagnosis_files(found, result)})
+    return 0

@@ -1,0 +1,21 @@
+"""What does the simulation get wrong, why, and how much does a better model gain?
+
+| file                   | answers                                                                            |
+|------------------------|------------------------------------------------------------------------------------|
+| world.py               | every parameter that could be other than entered, as arrays with batch axes        |
+| readings.py            | what the sensors said, as arrays that can be perturbed                             |
+| conditioned_state.py   | wrench balance and length compatibility at the measured state                      |
+| locked_pose.py         | the pose at locked lengths, beside the measured one                                |
+| cable_pitch.py         | natural frequencies of single cables at the measured state                         |
+| robot_pitch.py         | natural frequencies of the robot at the measured state, and who pairs with whom    |
+| residuals.py           | all residuals of a campaign for a batch of worlds and readings                     |
+| null_model.py          | tolerances and sensor noise as standard normal numbers, and their covariance       |
+| causes/                | the library: what may be wrong, with parameters, priors and one function each      |
+| evidence.py            | how much better than the null does a cause predict the residuals?                  |
+| selection.py           | one cause, several causes, a class of causes, unknown, or nothing                  |
+| heldout.py             | does the cause predict states and kinds of data that it was not fitted to?         |
+| simulation_error.py    | what the user sees: simulated minus measured, in his units                         |
+| verdict.py             | the sentence and the result                                                        |
+| extended_model.py      | the robot with its causes, for every other command                                 |
+| plan.py                | before measuring: what can be detected, what be confused, what to measure next     |
+"""

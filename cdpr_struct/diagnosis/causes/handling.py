@@ -1,0 +1,131 @@
+"""What people do to data and models: units, signs, exchanged channels and poses, effects left out.
+
+Each hypothesis is a corrected campaign. They are compared first: one wrong column looks like many physical causes.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.measurement.campaign import Campaign, States
+
+TENSION_UNITS = {"kgf": 9.80665, "lbf": 4.4482216, "kN": 1000.0, "daN": 10.0}
+LENGTH_UNITS = {"mm": 1e-3, "ft": 0.3048}
+PAIRS_OF_STATES = 200
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Correction:
+    """A corrected campaign: what was wrong with the recorded one, in words, and how many alternatives were tried.
+
+    flips : the pose, tensions or lengths of the readings differ from those recorded
+    """
+
+    cause: str
+    sentence: str
+    campaign: Campaign
+    alternatives: int = 1
+    parameters: dict[str, Any] = field(default_factory=dict)
+
+
+def corrections(campaign: Campaign) -> list[Correction]:
+    """Every hypothesis about the handling of the data, with the number of its kind filled in."""
+    families = [list(f(campaign)) for f in (_units, _signs, _swaps, _exchanged_poses)]
+    return [replace(c, alternatives=len(family)) for family in families for c in family]
+
+
+def shortcuts(campaign: Campaign) -> list[Correction]:
+    """Effects that the simulation under test leaves out."""
+    found = []
+    if campaign.model == "spring":
+        better = replace(campaign, model="dsm")
+        found.append(Correction("cable_sag", "the simulation leaves out the weight of the cables", better))
+    if campaign.model == "static" and campaign.robot_frequencies.hertz.size:
+        better = replace(campaign, model="dsm")
+        found.append(Correction("cable_dynamics", "the simulation leaves out the cables' own vibration", better))
+    if campaign.assembly == "thesis" and campaign.robot_frequencies.hertz.size:
+        better = replace(campaign, assembly="consistent")
+        why = "the simulation leaves out the work of the cable forces on the rotating attachment"
+        found.append(Correction("attachment_geometric_stiffness", why, better))
+    return found
+
+
+def _with(campaign: Campaign, **changes: Any) -> Campaign:
+    return replace(campaign, states=replace(campaign.states, **changes))
+
+
+def _units(campaign: Campaign) -> Iterator[Correction]:
+    states, m = campaign.states, campaign.states.tension.shape[1]
+    whole = range(-1, m)
+    for which in whole if states.has_tension.any() else ():
+        for unit, factor in TENSION_UNITS.items():
+            for size, wrong in ((factor, unit), (1.0 / factor, f"N taken for {unit}")):
+                scale = np.ones(m)
+                scale[slice(None) if which < 0 else which] = size
+                who = "the tensions" if which < 0 else f"the tensions of cable {which + 1}"
+                new = _with(campaign, tension=states.tension * scale, tension_sigma=states.tension_sigma)
+                yield Correction("unit_error", f"{who} are not in N but in {wrong}", new, parameters={"factor": size})
+    for unit, factor in LENGTH_UNITS.items():
+        for what in ("length", "position"):
+            new = _with(campaign, **{what: getattr(states, what) * factor})
+            yield Correction("unit_error", f"the {what}s are in {unit}", new, parameters={"factor": factor})
+    turned = ((np.degrees(1.0), "rad"), (np.radians(1.0), "deg written as if rad"))
+    for factor, unit in turned if np.any(states.angles) else ():
+        new = _with(campaign, angles=states.angles * factor)
+        yield Correction("unit_error", f"the pose angles are in {unit}", new, parameters={"factor": factor})
+    for factor, unit in ((0.45359237, "lb"), (1.0 / 9.80665, "N")) if np.any(states.payload) else ():
+        new = _with(campaign, payload=states.payload * factor)
+        yield Correction("unit_error", f"the payloads are in {unit}", new, parameters={"factor": factor})
+    for what in ("cable_frequencies", "robot_frequencies"):
+        rows = getattr(campaign, what)
+        if rows.hertz.size:
+            turn = 0.5 / np.pi
+            new = replace(campaign, **{what: replace(rows, hertz=rows.hertz * turn, sigma=rows.sigma * turn)})
+            yield Correction(
+                "unit_error", f"the {what.replace('_', ' ')} are in rad/s", new, parameters={"factor": turn}
+            )
+
+
+def _signs(campaign: Campaign) -> Iterator[Correction]:
+    states = campaign.states
+    for who in range(-1, len(states.names)):
+        rows = slice(None) if who < 0 else slice(who, who + 1)
+        where = "" if who < 0 else f" of case {states.names[who]}"
+        for what, names in (("position", "x y"), ("angles", "rx ry rz")):
+            for axis, name in enumerate(names.split()):
+                values = getattr(states, what).copy()
+                if not np.any(np.abs(values[rows, axis]) > 1e-3):
+                    continue
+                values[rows, axis] *= -1.0
+                new = _with(campaign, **{what: values})
+                yield Correction("sign_error", f"the sign of {name}{where} is wrong", new, parameters={"column": name})
+
+
+def _swaps(campaign: Campaign) -> Iterator[Correction]:
+    states = campaign.states
+    for what in ("tension", "length"):
+        values = getattr(states, what)
+        if not np.isfinite(values).any():
+            continue
+        for i, j in combinations(range(values.shape[1]), 2):
+            order = np.arange(values.shape[1])
+            order[[i, j]] = j, i
+            new = _with(
+                campaign, **{what: values[:, order], f"{what}_sigma": getattr(states, f"{what}_sigma")[:, order]}
+            )
+            says = f"the {what} channels of cables {i + 1} and {j + 1} are exchanged"
+            yield Correction("swapped_channels", says, new, parameters={"first": i + 1, "second": j + 1})
+
+
+def _exchanged_poses(campaign: Campaign) -> Iterator[Correction]:
+    states: States = campaign.states
+    pairs = list(combinations(range(len(states.names)), 2))
+    for i, j in pairs[:PAIRS_OF_STATES]:
+        order = np.arange(len(states.names))
+        order[[i, j]] = j, i
+        new = _with(campaign, position=states.position[order], angles=states.angles[order])
+        says = f"the poses of cases {states.names[i]} and {states.names[j]} are exchanged"
+        yield Correction("pose_mismatch", says, new, parameters={"first": i + 1, "second": j + 1})

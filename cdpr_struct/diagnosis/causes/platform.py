@@ -1,0 +1,98 @@
+"""What hangs on the cables."""
+
+import numpy as np
+
+from cdpr_struct.diagnosis.causes.cause import Cause, Parameter
+from cdpr_struct.diagnosis.world import World
+
+_XYZ = ("x", "y", "z")
+
+
+def _mass(world: World, theta: np.ndarray) -> World:
+    return world.times(mass=np.exp(theta[..., 0]))
+
+
+def _joint(world: World, theta: np.ndarray) -> World:
+    return world.plus(joint_mass=theta)
+
+
+def _center(world: World, theta: np.ndarray) -> World:
+    return world.plus(center_of_mass=theta)
+
+
+def _inertia(world: World, theta: np.ndarray) -> World:
+    half = np.exp(0.5 * theta)
+    return world.times(inertia=half[..., :, None] * half[..., None, :])
+
+
+def _force(world: World, theta: np.ndarray) -> World:
+    return world.plus(force=theta)
+
+
+def _hose(world: World, theta: np.ndarray) -> World:
+    return world.plus(hose=theta[..., 0])
+
+
+CAUSES = (
+    Cause(
+        "platform_mass",
+        "mass of the platform",
+        (Parameter("platform_mass", "ratio", 0.05, True),),
+        _mass,
+        seen_in=("EQ", "LP", "RF"),
+        sentence="the platform's mass is {percent} of what was entered",
+        separated_by="weighing it; a payload series",
+        extension="mass",
+    ),
+    Cause(
+        "joint_mass",
+        "mass of joints, rings and shackles at the platform anchors",
+        (Parameter("joint_mass", "kg", 0.2, positive=True),),
+        _joint,
+        True,
+        seen_in=("EQ", "LP", "RF"),
+        sentence="joints at the platform anchors weigh {value} kg each",
+        separated_by="weighing a joint; rotational frequencies",
+        extension="joint_mass",
+    ),
+    Cause(
+        "center_of_mass",
+        "centre of mass of the platform",
+        tuple(Parameter(f"center_of_mass_{a}", "m", 0.015) for a in _XYZ),
+        _center,
+        seen_in=("EQ", "LP", "RF"),
+        sentence="the platform's centre of mass is off by {norm} m",
+        separated_by="tilted poses",
+        extension="center_of_mass",
+    ),
+    Cause(
+        "platform_inertia",
+        "inertia of the platform",
+        tuple(Parameter(f"inertia_{a}", "ratio", 0.2, True) for a in _XYZ),
+        _inertia,
+        seen_in=("RF",),
+        sentence="the platform's inertia is {percent} of what was entered",
+        separated_by="rotational frequencies; a bifilar pendulum",
+        extension="inertia",
+    ),
+    Cause(
+        "external_force",
+        "a constant force on the platform",
+        tuple(Parameter(f"force_{a}", "N", 10.0) for a in _XYZ),
+        _force,
+        seen_in=("EQ", "LP"),
+        sentence="a constant force of {norm} N acts on the platform",
+        separated_by="a payload series; removing hoses and wires",
+        extension="force",
+    ),
+    Cause(
+        "hose_stiffness",
+        "a hose or energy chain holds the platform",
+        (Parameter("hose_stiffness", "N/m", 20.0, positive=True),),
+        _hose,
+        seen_in=("EQ", "LP", "RF"),
+        sentence="a hose holds the platform with {value} N/m",
+        separated_by="removing the hose; poses farther apart",
+        extension="hose",
+    ),
+)

@@ -1,0 +1,43 @@
+"""All causes by name."""
+
+from cdpr_struct.diagnosis.causes import cables, geometry, platform, sensors, stiffness
+from cdpr_struct.diagnosis.causes.cause import Cause
+from cdpr_struct.diagnosis.residuals import Setting
+
+LIBRARY: dict[str, Cause] = {
+    cause.name: cause for family in (stiffness, geometry, platform, cables, sensors) for cause in family.CAUSES
+}
+HANDLING = ("unit_error", "sign_error", "swapped_channels")
+SHORTCUTS = ("cable_sag", "cable_dynamics", "attachment_geometric_stiffness")
+NEEDS_SIGNALS = {
+    "viscous_damping": "needs free decays or FRFs",
+    "hysteretic_damping": "needs decays at several amplitudes",
+    "coulomb_damping": "needs decays at several amplitudes",
+    "accelerometer_gain": "needs FRFs",
+    "accelerometer_mass": "needs FRFs",
+    "flexible_platform": "needs FRFs of three or more accelerometers",
+}
+
+
+def causes_for(setting: Setting) -> tuple[list[Cause], dict[str, str]]:
+    """Causes that the campaign's data can show in principle, and why not the others."""
+    testable, not_testable = [], {}
+    for cause in (*LIBRARY.values(), sensors.internal_force(setting)):
+        reason = cause.needs(setting)
+        if not reason and not set(cause.seen_in) & set(setting.labels.block.tolist()):
+            reason = "not seen in these kinds of data"
+        if reason:
+            not_testable[cause.name] = reason
+        else:
+            testable.append(cause)
+    not_testable |= NEEDS_SIGNALS
+    campaign = setting.campaign
+    if campaign.model != "spring":
+        not_testable["cable_sag"] = "the simulation under test has sagging cables"
+    if campaign.model != "static" or not campaign.robot_frequencies.hertz.size:
+        not_testable["cable_dynamics"] = (
+            "the simulation under test has cable dynamics, or no robot frequency was measured"
+        )
+    if campaign.assembly == "consistent" or not campaign.robot_frequencies.hertz.size:
+        not_testable["attachment_geometric_stiffness"] = "the simulation under test has this term"
+    return testable, not_testable

@@ -1,0 +1,184 @@
+"""Tolerances and sensor noise as independent standard normal numbers, and what they do to the residuals.
+
+Residuals are linear in these numbers near what was recorded: r = A u, so their covariance under the null is A A'.
+A state's noise of pose and tension enters wrench balance, compatibility and frequencies together; states of one lock
+share their length readings.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.residuals import Setting, residuals
+from cdpr_struct.diagnosis.world import World
+
+_STEP = 0.1  # of a sigma
+FLOOR = {"EQ": 0.05, "CO": 0.02, "NS": 0.02, "LP": 0.02, "CF": 0.03, "RF": 0.05}  # what the model itself may miss
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NullModel:
+    """The null at a world: residuals (n,), their Jacobian to standard normal numbers, and the whitening.
+
+    r : as recorded;  columns : (n, N) readings, then tolerances, then frequency noise and model floor
+    lower : Cholesky factor of the covariance
+    """
+
+    r: np.ndarray
+    columns: np.ndarray
+    lower: np.ndarray
+
+    def white(self, value: np.ndarray) -> np.ndarray:
+        """L^-1 value for (n,) or (n, d)."""
+        result: np.ndarray = np.linalg.solve(self.lower, value)
+        return result
+
+    @property
+    def log_volume(self) -> float:
+        """Half the logarithm of the covariance's determinant."""
+        return float(np.log(np.diagonal(self.lower)).sum())
+
+    @property
+    def level(self) -> float:
+        """Minus the log evidence of the null, but for a constant."""
+        z = self.white(self.r)
+        return float(0.5 * z @ z) + self.log_volume
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """(n, n)."""
+        result: np.ndarray = self.lower @ self.lower.T
+        return result
+
+
+def tolerance_count(setting: Setting) -> int:
+    """How many numbers describe the tolerances."""
+    m = setting.campaign.robot.platform_anchors.shape[0]
+    return 6 * m + m + 2 * (m + 1) + 1 + 3 + 3 + 2 * m + 1
+
+
+def tolerated(setting: Setting, world: World, u: np.ndarray) -> World:
+    """World whose tolerances are u (..., t) sigmas off."""
+    tol, m = setting.campaign.tolerances, world.cables
+    sizes = (3 * m, 3 * m, m, m, 1, m, 1, 1, 3, 3, m, m, 1)
+    parts = np.split(u, np.cumsum(sizes)[:-1], axis=-1)
+    lead, half = u.shape[:-1], np.sqrt(0.5)
+    body = np.sqrt(np.diagonal(setting.campaign.robot.platform.inertia))
+    inertia = np.exp(0.5 * tol.platform_inertia * parts[9])
+    ball = 1.0 + (0.0 * body + 1.0) * (inertia - 1.0)
+    moved = world.plus(
+        frame_anchors=tol.anchor_m * parts[0].reshape((*lead, m, 3)),
+        platform_anchors=tol.anchor_m * parts[1].reshape((*lead, m, 3)),
+        length_offset=tol.length_m * parts[2],
+        mass=tol.platform_mass_kg * parts[7][..., 0],
+        center_of_mass=tol.center_of_mass_m * parts[8],
+        cell_bias=tol.load_cell_bias_N * parts[11],
+        pulley_radius=np.where(world.pulley_radius > 0.0, tol.pulley_radius_m * parts[12], 0.0),
+    )
+    return moved.times(
+        axial_stiffness=np.exp(half * tol.axial_stiffness * (parts[3] + parts[4])),
+        linear_density=np.exp(half * tol.linear_density * (parts[5] + parts[6])),
+        inertia=ball[..., :, None] * ball[..., None, :],
+        cell_gain=np.exp(tol.load_cell_gain * parts[10]),
+    )
+
+
+def reading_count(setting: Setting) -> int:
+    """Numbers of noise in the readings: pose and tension a state, length a lock."""
+    states, m = setting.campaign.states, setting.campaign.robot.platform_anchors.shape[0]
+    return len(states.names) * (6 + m) + (int(states.lock.max()) + 1) * m
+
+
+def misread(setting: Setting, readings: Readings, u: np.ndarray) -> Readings:
+    """Readings with noise u (..., k) taken off, in sigmas."""
+    states, m = setting.campaign.states, setting.campaign.robot.platform_anchors.shape[0]
+    s, locks = len(states.names), int(states.lock.max()) + 1
+    pose, tension, length = np.split(u, [6 * s, (6 + m) * s], axis=-1)
+    pose = pose.reshape((*u.shape[:-1], s, 6))
+    size = length.reshape((*u.shape[:-1], max(locks, 0), m))
+    spread = np.concatenate([size, np.zeros((*u.shape[:-1], 1, m))], axis=-2)[..., states.lock, :]
+    return readings.shifted(
+        states.sigma_position[:, None] * pose[..., :3],
+        states.sigma_rotation[:, None] * pose[..., 3:],
+        np.where(np.isfinite(states.tension_sigma), states.tension_sigma, 0.0) * tension.reshape((*u.shape[:-1], s, m)),
+        np.where(np.isfinite(states.length_sigma), states.length_sigma, 0.0) * spread,
+    )
+
+
+def null_model(setting: Setting, world: World, readings: Readings, extra: np.ndarray | None = None) -> NullModel:
+    """The null linearised at a world and readings; `extra` (n,) is further noise of each residual."""
+    r = residuals(setting, world, readings)
+    base = residuals(setting, world, readings, small=True)
+    noise = _reading_columns(setting, world, readings, base)
+    t = tolerance_count(setting)
+    moved = residuals(setting, tolerated(setting, world, _STEP * np.eye(t)), readings, small=True)
+    tolerance = (moved - base).T / _STEP
+    more = np.zeros((len(base), 0)) if extra is None else np.diag(extra)
+    columns = np.concatenate([noise, tolerance, _own_noise(setting), more], axis=1)
+    return NullModel(r, columns, np.linalg.cholesky(columns @ columns.T))
+
+
+def _reading_columns(setting: Setting, world: World, readings: Readings, base: np.ndarray) -> np.ndarray:
+    """(n, k): the same reading of every state is moved at once, and its effect given to each state's own column."""
+    states, m = setting.campaign.states, setting.campaign.robot.platform_anchors.shape[0]
+    s, locks = len(states.names), int(states.lock.max()) + 1
+    steps = np.zeros((6 + 2 * m, reading_count(setting)))
+    for j in range(6):
+        steps[j, j : 6 * s : 6] = _STEP
+    for i in range(m):
+        steps[6 + i, 6 * s + i : (6 + m) * s : m] = _STEP
+        steps[6 + m + i, (6 + m) * s + i :: m] = _STEP
+    moved = residuals(setting, world, misread(setting, readings, steps), small=True)
+    effect = (moved - base).T / _STEP
+    columns = np.zeros((len(base), reading_count(setting)))
+    row, state = np.arange(len(base)), setting.labels.state
+    for j in range(6):
+        columns[row, 6 * state + j] = effect[:, j]
+    for i in range(m):
+        columns[row, 6 * s + m * state + i] = effect[:, 6 + i]
+        locked = states.lock[state] >= 0
+        if locks:
+            columns[row[locked], (6 + m) * s + m * states.lock[state[locked]] + i] = effect[locked, 6 + m + i]
+    return columns
+
+
+def _own_noise(setting: Setting) -> np.ndarray:
+    """(n, .) noise of frequencies, and the floor of the model."""
+    labels = setting.labels
+    size = np.array([FLOOR[b] for b in labels.block])
+    size[labels.block == "RF"] = np.hypot(size[labels.block == "RF"], setting.robot_doubt)
+    floor = np.diag(size)
+    rows = setting.campaign
+    relative = [
+        rows.cable_frequencies.sigma / rows.cable_frequencies.hertz,
+        rows.robot_frequencies.sigma / rows.robot_frequencies.hertz,
+    ]
+    own = np.zeros((len(labels), 0))
+    for name, sigma in zip(("CF", "RF"), relative, strict=True):
+        mine = np.flatnonzero(labels.block == name)
+        block = np.zeros((len(labels), mine.size))
+        block[mine, np.arange(mine.size)] = 100.0 * sigma
+        own = np.concatenate([own, block], axis=1)
+    return np.concatenate([own, floor], axis=1)
+
+
+def null_with_draws(
+    setting: Setting, world: World, readings: Readings, count: int, seed: int
+) -> tuple[NullModel, np.ndarray, np.ndarray]:
+    """The null with what its linearisation misses added as noise; that noise (n,); draws (count, n) from the null.
+
+    Frequencies that veer past each other bend within their own uncertainty: such rows get the weight they deserve.
+    """
+    null = null_model(setting, world, readings)
+    generator = np.random.default_rng(seed)
+    noise, tolerance = reading_count(setting), tolerance_count(setting)
+    u = generator.standard_normal((count, noise + tolerance))
+    worlds, noisy = tolerated(setting, world, u[:, noise:]), misread(setting, readings, u[:, :noise])
+    moved = residuals(setting, worlds, noisy) - residuals(setting, world, readings)
+    missed = np.abs(moved - u @ null.columns[:, : noise + tolerance].T)
+    extra = np.maximum(np.sqrt((missed**2).mean(axis=0)), missed.max(axis=0) / 2.5)
+    columns = np.concatenate([null.columns, np.diag(extra)], axis=1)
+    own = _own_noise(setting)
+    drawn = moved + generator.standard_normal((count, own.shape[1])) @ own.T
+    return NullModel(null.r, columns, np.linalg.cholesky(columns @ columns.T)), extra, drawn

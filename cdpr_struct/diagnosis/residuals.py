@@ -1,0 +1,211 @@
+"""All residuals of a campaign, conditioned on what was measured, for a batch of worlds and readings.
+
+| block | rows of a state                       | unit | zero means |
+| ----- | ------------------------------------- | ---- | ---------------------------------------------------- |
+| EQ    | 6, moments over the platform's radius | N    | the measured tensions balance the weight |
+| CO    | m                                     | mm   | the encoder's lengths fit measured pose and tensions |
+| NS    | m - 6, states without encoder         | mm   | tensions sit where the commanded lengths put them |
+| LP    | 6, turns times the platform's radius  | mm   | the pose at locked lengths is the measured one |
+| CF    | one a cable frequency                 | %    | ln of measured over computed frequency at that state |
+| RF    | one a robot frequency                 | %    | same |
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cdpr_struct.diagnosis import robot_pitch
+from cdpr_struct.diagnosis.cable_pitch import cable_log_frequencies
+from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned, condition, incompatible, unbalanced
+from cdpr_struct.diagnosis.locked_pose import locked_pose, missed_pose
+from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.world import World
+from cdpr_struct.measurement.campaign import CableFrequencies, Campaign
+from cdpr_struct.statics.cable_state import CableStates
+
+BLOCKS = ("EQ", "CO", "NS", "LP", "CF", "RF")
+UNITS = {"EQ": "N", "CO": "mm", "NS": "mm", "LP": "mm", "CF": "%", "RF": "%"}
+KIND_OF_BLOCK = {
+    "EQ": "static_state", "CO": "static_state", "NS": "static_state", "LP": "loaded_pose", "CF": "cable_frequency",
+    "RF": "robot_frequency",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Labels:
+    """Of each of n residuals: block name, state, and cable (-1: none)."""
+
+    block: np.ndarray
+    state: np.ndarray
+    cable: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.block)
+
+    @property
+    def kind(self) -> np.ndarray:
+        """(n,) kind of data that the residual belongs to."""
+        return np.array([KIND_OF_BLOCK[b] for b in self.block], dtype=object)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Setting:
+    """The fixed part of the residuals.
+
+    held : states whose tensions were read;  locked : states known by their lengths only (indices)
+    with_length : among `held`, whether lengths were read too
+    null_space : (held, m, q) of the structure matrix at the states as recorded
+    commanded : (held, m) lengths that the simulation commands there [m]
+    radius : of the platform [m]
+    cable_rows, robot_rows : measured frequencies, and the gaps ln(exact / closed form) at the world as entered
+    robot_doubt : extra noise of each robot frequency [%]
+    """
+
+    campaign: Campaign
+    known: Circumstances
+    held: np.ndarray
+    locked: np.ndarray
+    with_length: np.ndarray
+    null_space: np.ndarray
+    commanded: np.ndarray
+    radius: float
+    labels: Labels
+    cable_rows: CableFrequencies
+    cable_gap: np.ndarray
+    robot_rows: robot_pitch.Rows
+    robot_gap: np.ndarray
+    robot_log: np.ndarray
+    robot_doubt: np.ndarray
+    entered: np.ndarray
+    entered_rate: np.ndarray
+    massless: bool = False
+    geometric: bool = True
+
+
+def residuals(setting: Setting, world: World, readings: Readings, small: bool = False) -> np.ndarray:
+    """(..., n) residuals in the units of the table above.
+
+    world : batch axes (B,) or none;  readings : (B, S, ...) or (S, ...)
+    small : robot frequencies to first order in the change of world and readings, for Jacobians
+    """
+    batch = _batch(world, readings)
+    wide = world.per_state()
+    blocks = []
+    states = _States(setting, wide, readings)
+    if setting.held.size:
+        blocks += _static_blocks(setting, wide, states, readings)
+    if setting.locked.size:
+        blocks.append(1e3 * _scaled(states.missed, setting.radius))
+    if setting.cable_rows.hertz.size:
+        model = cable_log_frequencies(wide, states.all.cables, setting.cable_rows) + setting.cable_gap
+        blocks.append(100.0 * (np.log(setting.cable_rows.hertz) - model))
+    if setting.robot_rows.omega.size:
+        blocks.append(100.0 * _robot_block(setting, wide, states.all, small))
+    flat = [np.broadcast_to(b, (*batch, *b.shape[len(b.shape) - _own(b, batch) :])) for b in blocks]
+    return np.concatenate([f.reshape((*batch, -1)) for f in flat], axis=-1)
+
+
+def _own(block: np.ndarray, batch: tuple[int, ...]) -> int:
+    """Axes of a block that are not batch: all, if it carries none."""
+    return block.ndim - len(batch) if batch and block.ndim > 1 and block.shape[0] == batch[0] else block.ndim
+
+
+def _batch(world: World, readings: Readings) -> tuple[int, ...]:
+    sizes = {getattr(world, name).shape[0] for name in World.__slots__ if world.is_batched(name)}
+    if readings.position.ndim > 2:
+        sizes.add(readings.position.shape[0])
+    if len(sizes - {1}) > 1:
+        raise ValueError(f"batch sizes differ: {sorted(sizes)}")
+    return (max(sizes),) if sizes else ()
+
+
+class _States:
+    """Conditioned states of those with tensions, locked ones of the others, and both together."""
+
+    def __init__(self, setting: Setting, world: World, readings: Readings) -> None:
+        parts = []
+        if setting.held.size:
+            self.held = condition(_sub(world, setting.held), _some(readings, setting.held), _at(setting, setting.held))
+            parts.append((setting.held, self.held))
+        if setting.locked.size:
+            part, known = _some(readings, setting.locked), _at(setting, setting.locked)
+            own = _sub(world, setting.locked)
+            found, _ = locked_pose(own, part, known)
+            self.missed = missed_pose(own, part, found)
+            arms = world.platform_anchors @ np.swapaxes(found.rotation, -1, -2)
+            parts.append(
+                (setting.locked, Conditioned(found.position, found.rotation, arms, found.tensions, found.cables))
+            )
+        self.all = _merged(parts)
+
+
+def _sub(world: World, index: np.ndarray) -> World:
+    """World per state whose pose offsets are those of the chosen states."""
+    offset = world.pose_offset
+    per = offset.reshape((*offset.shape[:-1], -1, 6))[..., index, :]
+    return replace(world, pose_offset=per.reshape((*offset.shape[:-1], -1)))
+
+
+def _some(readings: Readings, index: np.ndarray) -> Readings:
+    return Readings(
+        np.take(readings.position, index, axis=-2), np.take(readings.rotation, index, axis=-3),
+        np.take(readings.tension, index, axis=-2), np.take(readings.length, index, axis=-2),
+    )  # fmt: skip
+
+
+def _at(setting: Setting, index: np.ndarray) -> Circumstances:
+    known = setting.known
+    return replace(known, payload=known.payload[index], approach=known.approach[index], hours=known.hours[index])
+
+
+def _merged(parts: list[tuple[np.ndarray, Conditioned]]) -> Conditioned:
+    """One `Conditioned` over all states, in the campaign's order."""
+    order = np.argsort(np.concatenate([index for index, _ in parts]))
+
+    def join(values: list[np.ndarray], core: int) -> np.ndarray:
+        lead = np.broadcast_shapes(*(v.shape[: v.ndim - core - 1] for v in values))
+        wide = [np.broadcast_to(v, (*lead, *v.shape[v.ndim - core - 1 :])) for v in values]
+        return np.take(np.concatenate(wide, axis=len(lead)), order, axis=len(lead))
+
+    states = [state for _, state in parts]
+    cables = CableStates(
+        *(
+            join([getattr(s.cables, name) for s in states], 2 if name in ("offset", "heading") else 1)
+            for name in CableStates.__slots__
+        )
+    )
+    fields = (("position", 1), ("rotation", 2), ("arms", 2), ("tension", 1))
+    position, rotation, arms, tension = (join([getattr(s, name) for s in states], core) for name, core in fields)
+    return Conditioned(position, rotation, arms, tension, cables)
+
+
+def _scaled(twist: np.ndarray, radius: float) -> np.ndarray:
+    return np.concatenate([twist[..., :3], twist[..., 3:] * radius], axis=-1)
+
+
+def _static_blocks(setting: Setting, world: World, states: _States, readings: Readings) -> list[np.ndarray]:
+    part, known = _some(readings, setting.held), _at(setting, setting.held)
+    wrench = unbalanced(world, states.held, known)
+    blocks = [np.concatenate([wrench[..., :3], wrench[..., 3:] / setting.radius], axis=-1)]
+    if setting.with_length.any():
+        gap = incompatible(world, states.held, part, known)
+        blocks.append(1e3 * np.take(gap, np.flatnonzero(setting.with_length), axis=-2))
+    free = np.flatnonzero(~setting.with_length)
+    if free.size and setting.null_space.shape[-1]:
+        sent = setting.commanded * world.length_scale + world.length_offset
+        gap = np.take(sent - states.held.cables.total_length, free, axis=-2)
+        seen = np.einsum("smq,...sm->...sq", setting.null_space[free], gap)
+        q = seen.shape[-1]
+        own = world.internal.reshape((*world.internal.shape[:-1], -1, q))[..., setting.held[free], :]
+        own = own[..., 0, :, :] if own.ndim > 2 else own
+        blocks.append(1e3 * (seen + own))
+    return blocks
+
+
+def _robot_block(setting: Setting, world: World, state: Conditioned, small: bool) -> np.ndarray:
+    rows = setting.robot_rows
+    dynamics = robot_pitch.Dynamics.at(world, state, setting.known, rows.state, setting.massless, setting.geometric)
+    log = np.log(rows.omega) + robot_pitch.first_order(dynamics, rows, setting.entered, setting.entered_rate)
+    if not small:
+        log = np.log(robot_pitch.follow(dynamics, rows, np.exp(log)))
+    return setting.robot_log - log - setting.robot_gap

@@ -1,0 +1,203 @@
+"""Natural frequencies of the robot at the measured state, in any world, followed mode by mode.
+
+A mode is a root of D(omega) = K_E(omega) - omega^2 M. Small changes of the world move it by
+-v' dD v / (v' dD/domega^2 v) with its platform shape v; larger ones are followed by Newton's method from there.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned
+from cdpr_struct.diagnosis.world import World
+from cdpr_struct.dynamics.taut_cables import TautCables, closed_form_stiffness
+from cdpr_struct.generated import cable_dsm, platform
+from cdpr_struct.statics.cable_state import CableStates, cable_stiffness
+
+_STEP = 1e-5
+_ITERATIONS = 5
+_LARGEST_MOVE = 0.02  # of ln omega, beyond the first-order estimate
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rows:
+    """Paired robot frequencies: state (r,), omega (r,) of the model in the world as entered, platform shape (r, 6)."""
+
+    state: np.ndarray
+    omega: np.ndarray
+    shape: np.ndarray
+
+
+def taut(cables: CableStates, density: np.ndarray) -> TautCables:
+    """Parameters of the closed-form dynamic stiffness of cables (...)."""
+    across = cables.weight * np.cos(cables.inclination)
+    epsilon = cable_dsm.epsilon(cables.chord, cables.tension, across)
+    effective = cable_dsm.effective_length_integral(cables.chord, epsilon)
+    along = cables.offset / cables.chord[..., None]
+    sideways = np.cross([0.0, 0.0, 1.0], cables.heading)
+    return TautCables(
+        cables.chord, cables.tension, cables.axial_stiffness, effective,
+        np.broadcast_to(density, cables.chord.shape), across, np.zeros_like(cables.chord), epsilon,
+        cable_dsm.lambda_squared(cables.chord, cables.tension, cables.axial_stiffness, effective, across),
+        np.stack([along, sideways, np.cross(along, sideways)], axis=-1),
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Dynamics:
+    """Everything of D(omega) at the rows' states: arrays (..., r, ...)."""
+
+    cables: CableStates
+    density: np.ndarray
+    arms: np.ndarray
+    fixed: np.ndarray
+    mass: np.ndarray
+    frame_compliance: np.ndarray
+    masts: np.ndarray
+    massless: bool
+
+    @classmethod
+    def at(
+        cls, world: World, state: Conditioned, known: Circumstances, rows: np.ndarray, massless: bool, geometric: bool
+    ) -> "Dynamics":
+        """At the states (r,) of the rows; `world` per state."""
+        cables = CableStates(*(_pick(getattr(state.cables, n), rows, _CORE.get(n, 1)) for n in CableStates.__slots__))
+        rotation, arms = _pick(state.rotation, rows, 2), _pick(state.arms, rows, 2)
+        mass = _mass_matrix(world, rotation, arms, known.payload[rows])
+        fixed = _fixed_stiffness(world, cables, rotation, arms, geometric)
+        return cls(
+            cables, world.linear_density, arms, fixed, mass,
+            world.frame_compliance, known.masts, massless,
+        )  # fmt: skip
+
+    def matrix(self, omega_squared: np.ndarray) -> np.ndarray:
+        """D (..., r, 6, 6) at omega^2 (..., r) [rad^2/s^2]."""
+        if self.massless:
+            ends = cable_stiffness(self.cables)
+        else:
+            ends = closed_form_stiffness(taut(self.cables, self.density), omega_squared[..., None])
+        map_ = platform.attachment(*np.moveaxis(self.arms, -1, 0))
+        m = map_.shape[-3]
+        stacked = map_.reshape((*map_.shape[:-3], 3 * m, 6))
+        if np.any(self.frame_compliance):
+            carried = self._on_masts(ends) @ stacked
+        else:
+            carried = (ends @ map_).reshape((*np.broadcast_shapes(ends.shape[:-3], map_.shape[:-3]), 3 * m, 6))
+        stiffness = np.swapaxes(stacked, -1, -2) @ carried + self.fixed
+        result: np.ndarray = stiffness - omega_squared[..., None, None] * self.mass
+        return result
+
+    def _on_masts(self, ends: np.ndarray) -> np.ndarray:
+        """(..., 3m, 3m) K (1 + C K)^-1: cable ends behind masts that give way."""
+        m = ends.shape[-3]
+        block = np.zeros((*ends.shape[:-3], m, 3, m, 3))
+        for i in range(m):
+            block[..., i, :, i, :] = ends[..., i, :, :]
+        stiff = block.reshape((*ends.shape[:-3], 3 * m, 3 * m))
+        give = self.frame_compliance[..., None, None] * np.kron(self.masts, np.eye(3))
+        result: np.ndarray = stiff @ np.linalg.inv(np.eye(3 * m) + give @ stiff)
+        return result
+
+
+_CORE = {"offset": 2, "heading": 2}
+
+
+def _pick(value: np.ndarray, rows: np.ndarray, core: int) -> np.ndarray:
+    return np.take(value, rows, axis=value.ndim - core - 1)
+
+
+def _mass_matrix(world: World, rotation: np.ndarray, arms: np.ndarray, payload: np.ndarray) -> np.ndarray:
+    center = (rotation @ world.center_of_mass[..., None])[..., 0]
+    inertia = rotation @ world.inertia @ np.swapaxes(rotation, -1, -2)
+    body = platform.mass_matrix(world.mass, *_parts(center), *_inertia_parts(inertia))
+    matrix = np.array(np.broadcast_to(body, (*np.broadcast_shapes(body.shape[:-2], payload.shape), 6, 6)))
+    for i in range(3):
+        matrix[..., i, i] += payload
+    if np.any(world.joint_mass):
+        map_ = platform.attachment(*np.moveaxis(arms, -1, 0))
+        matrix = matrix + np.einsum("...m,...mai,...maj->...ij", world.joint_mass, map_, map_)
+    return matrix
+
+
+def _parts(vector: np.ndarray) -> list[np.ndarray]:
+    return [vector[..., i] for i in range(3)]
+
+
+def _inertia_parts(inertia: np.ndarray) -> list[np.ndarray]:
+    pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+    return [inertia[..., i, j] for i, j in pairs]
+
+
+def _fixed_stiffness(
+    world: World, cables: CableStates, rotation: np.ndarray, arms: np.ndarray, geometric: bool
+) -> np.ndarray:
+    """(..., r, 6, 6) geometric terms of cable force and weight, and the hose."""
+    center = (rotation @ world.center_of_mass[..., None])[..., 0]
+    weight = -world.mass * world.gravity
+    body = platform.geometric_stiffness(0.0, 0.0, weight, *_parts(center))
+    pull = platform.geometric_stiffness(*_parts(cables.force_on_platform), *_parts(arms)).sum(axis=-3)
+    rotational = (body + pull) * (1.0 if geometric else 0.0)
+    matrix = np.zeros((*np.broadcast_shapes(rotational.shape[:-2], world.hose.shape), 6, 6))
+    matrix[..., 3:, 3:] = rotational
+    for i in range(3):
+        matrix[..., i, i] += world.hose
+    return matrix
+
+
+def rate(dynamics: Dynamics, omega_squared: np.ndarray) -> np.ndarray:
+    """dD/d(omega^2) (..., r, 6, 6)."""
+    step = _STEP * omega_squared
+    above, below = dynamics.matrix(omega_squared + step), dynamics.matrix(omega_squared - step)
+    return (above - below) / (2.0 * step)[..., None, None]
+
+
+def first_order(dynamics: Dynamics, rows: Rows, entered: np.ndarray, entered_rate: np.ndarray) -> np.ndarray:
+    """Change of ln omega (..., r) to first order, from D as entered (r, 6, 6) and its rate."""
+    change = dynamics.matrix(rows.omega**2) - entered
+    top = np.einsum("ri,...rij,rj->...r", rows.shape, change, rows.shape)
+    bottom = np.einsum("ri,rij,rj->r", rows.shape, entered_rate, rows.shape)
+    return -top / bottom / (2.0 * rows.omega**2)
+
+
+def follow(dynamics: Dynamics, rows: Rows, start: np.ndarray | None = None) -> np.ndarray:
+    """omega (..., r) of each row's mode: Newton's method from a near start, the shape taken along.
+
+    Where neighbours veer and the steps would leave the neighbourhood of the start, the start is kept.
+    """
+    batch = dynamics.matrix(rows.omega**2).shape[:-2]
+    first = np.broadcast_to(rows.omega**2 if start is None else start**2, batch)
+    square, shape = first.copy(), np.broadcast_to(rows.shape, (*batch, 6))
+    scale = np.sqrt(np.abs(np.diagonal(dynamics.mass, axis1=-2, axis2=-1)))
+    for _ in range(_ITERATIONS):
+        values, vectors = np.linalg.eigh(dynamics.matrix(square) / scale[..., :, None] / scale[..., None, :])
+        overlap = np.abs(np.einsum("...i,...ij->...j", shape * scale, vectors))
+        choice = overlap.argmax(axis=-1)[..., None]
+        shape = np.take_along_axis(vectors, choice[..., None], axis=-1)[..., 0] / scale
+        value = np.take_along_axis(values, choice, axis=-1)[..., 0]
+        slope = np.einsum("...i,...ij,...j->...", shape, rate(dynamics, square), shape)
+        square = square + np.clip(-value / slope, -0.1 * square, 0.1 * square)
+    moved, expected = np.abs(np.log(square / first)), np.abs(np.log(first / rows.omega**2))
+    return np.sqrt(np.where(moved > _LARGEST_MOVE + 0.25 * expected, first, square))
+
+
+def pair_modes(measured: np.ndarray, model: np.ndarray, platform_energy: np.ndarray) -> np.ndarray:
+    """Index of the model's mode for each measured frequency, both ascending [Hz]; no two lines cross.
+
+    Modes in which the platform moves are preferred; the list of measured frequencies may be incomplete.
+    """
+    far = (np.log(measured)[:, None] - np.log(model)[None]) / 0.1
+    cost = np.minimum(far**2, 25.0) + 6.0 * (1.0 - platform_energy)[None]
+    r, k = cost.shape
+    if r > k:
+        raise ValueError(f"{r} measured frequencies, but the model has {k} in that band")
+    best = np.full((r + 1, k + 1), np.inf)
+    best[0] = 0.0
+    for i in range(1, r + 1):
+        for j in range(i, k + 1):
+            best[i, j] = min(best[i, j - 1], best[i - 1, j - 1] + cost[i - 1, j - 1])
+    chosen, j = np.zeros(r, dtype=int), k
+    for i in range(r, 0, -1):
+        while best[i, j - 1] == best[i, j] and j > i:
+            j -= 1
+        chosen[i - 1], j = j - 1, j - 1
+    return chosen

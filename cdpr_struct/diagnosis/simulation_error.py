@@ -1,0 +1,65 @@
+"""What the user sees: simulated minus measured, in his units, and how significant it is."""
+
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.diagnosis.diagnose import Diagnosis
+from cdpr_struct.diagnosis.null_model import NullModel
+from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.residuals import Setting
+from cdpr_struct.statics.inverse_kinematics import inverse
+
+UNIT = {"static_state": "N", "loaded_pose": "mm", "cable_frequency": "Hz", "robot_frequency": "Hz"}
+
+
+def tension_errors(setting: Setting) -> np.ndarray:
+    """(S, m) measured tensions minus those of the simulation's distribution at the measured pose [N]; nan if none."""
+    campaign = setting.campaign
+    readings, errors = Readings.of(campaign.states), np.full(campaign.states.tension.shape, np.nan)
+    model = "spring" if campaign.model == "spring" else "sagging"
+    for i in np.flatnonzero(campaign.states.has_tension & campaign.states.static):
+        robot = campaign.robot.with_load(float(campaign.states.payload[i]))
+        held = inverse(robot, readings.position[i], readings.rotation[i], model, allow_unheld=True)
+        errors[i] = campaign.states.tension[i] - held.tensions
+    return errors
+
+
+def simulation_error(found: Diagnosis) -> list[dict[str, Any]]:
+    """Per kind of data: root mean square, unit, chi^2 over its count, and the worst reading."""
+    null, setting = found.entered, found.entered_setting
+    labels, rows = setting.labels, []
+    for kind in dict.fromkeys(labels.kind.tolist()):
+        own = np.flatnonzero(labels.kind == kind)
+        values, worst = _in_units(kind, setting, null, own)
+        rows.append(
+            {"kind": kind, "rms": float(np.sqrt(np.nanmean(values**2))), "unit": UNIT[kind],
+             "chi2_per_n": _chi2_per_n(null, own), "worst": worst}
+        )  # fmt: skip
+    return rows
+
+
+def _in_units(kind: str, setting: Setting, null: NullModel, own: np.ndarray) -> tuple[np.ndarray, dict[str, Any]]:
+    labels, names = setting.labels, setting.campaign.states.names
+    if kind == "static_state":
+        errors = tension_errors(setting)
+        if np.isfinite(errors).any():
+            state, cable = np.unravel_index(int(np.nanargmax(np.abs(errors))), errors.shape)
+            return errors, {"case": names[state], "cable": int(cable) + 1}
+        return null.r[own], {"case": names[labels.state[own[np.abs(null.r[own]).argmax()]]]}
+    values = null.r[own]
+    if kind != "loaded_pose":
+        campaign = setting.campaign
+        rows = campaign.cable_frequencies if kind == "cable_frequency" else campaign.robot_frequencies
+        values = rows.hertz * -np.expm1(-values / 100.0)
+    worst = own[np.abs(values).argmax()]
+    found: dict[str, Any] = {"case": names[labels.state[worst]]}
+    if labels.cable[worst] >= 0:
+        found["cable"] = int(labels.cable[worst]) + 1
+    return values, found
+
+
+def _chi2_per_n(null: NullModel, rows: np.ndarray) -> float:
+    lower = np.linalg.cholesky(null.covariance[np.ix_(rows, rows)])
+    z = np.linalg.solve(lower, null.r[rows])
+    return float(z @ z) / len(z)

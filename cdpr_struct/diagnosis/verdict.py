@@ -1,0 +1,172 @@
+"""The sentence and the result: named, class, unknown or adequate."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.diagnosis.diagnose import ADEQUATE, SAME_CLASS, SIGNIFICANT, Diagnosis
+from cdpr_struct.diagnosis.evidence import Choice
+from cdpr_struct.diagnosis.residuals import KIND_OF_BLOCK, UNITS
+from cdpr_struct.diagnosis.selection import Fit
+
+LARGEST_CLASS = 4
+_PLACES = {
+    "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
+    "NS": "the null space of the structure matrix (internal force)", "LP": "the poses at locked lengths",
+    "CF": "the cable frequencies", "RF": "the robot frequencies",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """status is named, class, unknown or adequate; `classes` lists, per effect, the causes not told apart."""
+
+    status: str
+    causes: tuple[str, ...]
+    classes: tuple[tuple[str, ...], ...]
+    probability: float
+    location: str
+    next_measurement: str
+    sentence: str
+
+
+def verdict(found: Diagnosis) -> Verdict:
+    """What to tell the user."""
+    if found.p_value >= SIGNIFICANT:
+        text = "Nothing significant: simulation and measurements agree within their uncertainty"
+        text += f" (p = {found.p_value:.2g})."
+        return Verdict("adequate", (), (), 0.99, "", "", text)
+    fit, corrected = found.selection.fit, [c for c, _ in found.corrections]
+    place = location(found)
+    if found.p_adequate < ADEQUATE or (fit is None and not corrected):
+        tail = f" The best candidate, {fit.names[0].replace('_', ' ')}, leaves a structured remainder." if fit else ""
+        text = f"Something is wrong in {place}, and no cause in the library explains it.{tail}"
+        return Verdict("unknown", (), (), _probability(found), place, "repeat the worst state; see location", text)
+    names = tuple(c.cause for c in corrected) + (fit.names if fit else ())
+    classes = tuple((c.cause,) for c in corrected) + tuple(
+        _class(found, i) for i in range(len(fit.names) if fit else 0)
+    )
+    separable = all(len(c) == 1 for c in classes)
+    status = "named" if separable else "class"
+    if any(len(c) > LARGEST_CLASS for c in classes):
+        text = f"Something is wrong in {place}; these data leave more than {LARGEST_CLASS} causes open."
+        return Verdict("class", names, classes, _probability(found), place, _next(found, classes), text)
+    return Verdict(status, names, classes, _probability(found), place, _next(found, classes), _sentence(found, classes))
+
+
+def location(found: Diagnosis) -> str:
+    """Where the entered model's residuals sit: block, state, cable."""
+    null, labels = found.entered, found.entered_setting.labels
+    score = {}
+    for block in dict.fromkeys(labels.block.tolist()):
+        rows = labels.block == block
+        lower = np.linalg.cholesky(null.covariance[np.ix_(rows, rows)])
+        z = np.linalg.solve(lower, null.r[rows])
+        score[block] = (float(z @ z) - len(z)) / np.sqrt(2.0 * len(z))
+    worst = max(score, key=lambda b: score[b])
+    rows = np.flatnonzero(labels.block == worst)
+    size = np.abs(null.r[rows]) / np.sqrt(np.diagonal(null.covariance)[rows])
+    top = rows[size.argmax()]
+    where = f"case {found.campaign.states.names[labels.state[top]]}"
+    if labels.cable[top] >= 0:
+        where += f", cable {labels.cable[top] + 1}"
+    return f"{_PLACES[worst]}, most in {where}"
+
+
+def _class(found: Diagnosis, i: int) -> tuple[str, ...]:
+    """The i-th chosen cause with all that are within `SAME_CLASS` nats of it."""
+    fit = found.selection.fit
+    assert fit is not None
+    rivals = found.selection.rivals[i] if i < len(found.selection.rivals) else []
+    near = [r.names[-1] for r in rivals if r.gain > fit.gain - SAME_CLASS]
+    return (fit.names[i], *dict.fromkeys(n for n in near if n not in fit.names))
+
+
+def _probability(found: Diagnosis) -> float:
+    """Of the chosen causes among all combinations that were fitted, null included."""
+    fit = found.selection.fit
+    if fit is None:
+        return 0.99 if found.corrections else 0.0
+    rivals = [r.gain for row in found.selection.rivals for r in row]
+    gains = np.array([fit.gain, 0.0, *rivals])
+    weights = np.exp(gains - gains.max())
+    return float(np.round(min(weights[0] / weights.sum(), 0.99), 2))
+
+
+def _next(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
+    """What would separate the causes of the first class, or confirm a single one."""
+    library = {c.name: c.cause for c in found.ground.candidates}
+    for names in classes:
+        hints = [library[n].separated_by for n in names if n in library and library[n].separated_by]
+        if hints and (len(names) > 1 or names is classes[-1]):
+            return hints[0]
+    return ""
+
+
+def _sentence(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
+    fit = found.selection.fit
+    parts = [c.sentence for c, _ in found.corrections]
+    if fit is not None:
+        parts += [described(choice, theta) for choice, theta in zip(fit.choices, fit.parts(), strict=True)]
+    text = "; ".join(parts)
+    text = text[:1].upper() + text[1:] + "."
+    others = [names for names in classes if len(names) > 1]
+    for names in others:
+        text += f" These data do not tell {' from '.join(n.replace('_', ' ') for n in names)}."
+    if fit is not None:
+        text += f" This explains {100.0 * fit.explained(found.ground.z):.0f} % of the significant error"
+        if found.held is not None:
+            text += f"; states that were not fitted are predicted {found.held.ratio():.1f} times better"
+        text += "."
+    return text
+
+
+def described(choice: Choice, theta: np.ndarray) -> str:
+    """The cause's sentence with its size."""
+    value = theta * choice.prior
+    first = choice.pattern.parameters[0].shown(float(value[0]), 0.0)
+    rms, norm = float(np.sqrt(np.mean(value**2))), float(np.linalg.norm(value))
+    words = {
+        "value": f"{first['value']:.3g}", "percent": f"{100.0 * np.exp(float(value.mean())):.1f} %",
+        "rms": f"{rms:.2g}", "norm": f"{norm:.2g}", "unit": str(first["unit"]),
+    }  # fmt: skip
+    label = choice.pattern.label
+    return choice.candidate.cause.sentence.format(**words) + (f" ({label})" if label else "")
+
+
+def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
+    """Every cause that was fitted, best first, with its parameters."""
+    rows: list[dict[str, Any]] = [
+        {
+            "cause": c.cause, "parameters": {}, "description": c.sentence, "log_evidence_gain": gain,
+            "heldout_rms": None, "explained_fraction": 1.0,
+        }
+        for c, gain in found.corrections
+    ]  # fmt: skip
+    fits = ([found.selection.fit] if found.selection.fit else []) + [
+        f for f in found.selection.first if found.selection.fit is None or f is not found.selection.fit
+    ]
+    return rows + [row for fit in fits for row in _fit_rows(found, fit)]
+
+
+def _fit_rows(found: Diagnosis, fit: Fit) -> list[dict[str, Any]]:
+    sizes = np.cumsum([c.signature.shape[1] for c in fit.choices])[:-1]
+    sigmas = np.split(np.sqrt(np.diagonal(fit.covariance)), sizes)
+    chosen = fit is found.selection.fit
+    after = found.held.after / found.held.sigma if chosen and found.held is not None else None
+    return [
+        {
+            "cause": choice.candidate.name, "pattern": choice.pattern.label,
+            "parameters": {
+                p.name: p.shown(float(t * prior), float(s * prior))
+                for p, t, s, prior in zip(choice.pattern.parameters, theta, sigma, choice.prior, strict=True)
+            },
+            "log_evidence_gain": fit.gain, "explained_fraction": fit.explained(found.ground.z),
+            "heldout_rms": None if after is None else float(np.sqrt(np.mean(after**2))),
+        }
+        for choice, theta, sigma in zip(fit.choices, fit.parts(), sigmas, strict=True)
+    ]  # fmt: skip
+
+
+__all__ = ["KIND_OF_BLOCK", "UNITS", "Verdict", "candidate_rows", "location", "verdict"]

@@ -1,0 +1,162 @@
+"""What was measured on a robot: states, readings, how sure they are, and the simulation they are held against."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from cdpr_struct.robot.robot import Robot
+
+KINDS = (
+    "static_state", "loaded_pose", "cable_frequency", "robot_frequency", "frf", "free_decay", "platform_motion",
+)  # fmt: skip
+MODELS = ("static", "dsm", "exact", "spring")
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerances:
+    """One sigma of what is never exactly known about a robot; the defaults are those of a carefully built one.
+
+    anchor_m             : each coordinate of each anchor, both ends [m]
+    length_m             : zero of each cable's length [m]
+    axial_stiffness, linear_density : relative, per cable, half of the variance common to all (one reel)
+    platform_mass_kg, center_of_mass_m, platform_inertia (relative)
+    load_cell_gain       : relative;  load_cell_bias_N [N]
+    damping              : relative
+    pulley_radius_m      : [m]
+    """
+
+    anchor_m: float = 0.001
+    length_m: float = 0.0005
+    axial_stiffness: float = 0.03
+    linear_density: float = 0.01
+    platform_mass_kg: float = 0.1
+    center_of_mass_m: float = 0.002
+    platform_inertia: float = 0.03
+    load_cell_gain: float = 0.005
+    load_cell_bias_N: float = 0.5
+    damping: float = 0.3
+    pulley_radius_m: float = 0.0002
+
+
+@dataclass(frozen=True, slots=True)
+class Sigmas:
+    """Certificates of the sensors, one sigma; a frequency's is relative (3 per mille) unless given."""
+
+    tension_N: float = 2.0
+    position_m: float = 0.0005
+    rotation_deg: float = 0.02
+    length_m: float = 0.0005
+    frequency_hz: float | None = None
+    acceleration: float | None = None
+
+    def frequency(self, hertz: np.ndarray) -> np.ndarray:
+        """Sigma of natural frequencies [Hz]."""
+        return 0.003 * hertz if self.frequency_hz is None else np.full_like(hertz, self.frequency_hz)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class States:
+    """S states of the robot (cases) with m cables; nan where nothing was measured.
+
+    names : S;  position (S, 3) [m];  angles (S, 3) rx, ry, rz [rad]
+    sigma_position, sigma_rotation : (S,) [m], [rad]
+    payload : (S,) point mass at the platform origin [kg]
+    tension, tension_sigma : (S, m) at the platform [N]
+    length, length_sigma : (S, m) unstrained, as the encoder says [m]
+    lock    : (S,) states with the same number share one length reading; -1 without lengths
+    loaded  : (S,) bool, the state is a row of a `loaded_pose` file
+    static  : (S,) bool, the state is in a `static_state` file
+    temperature : (S,) [K];  approach : (S, m) sign of the last motion;  time : (S,) [s]
+    """
+
+    names: tuple[str, ...]
+    position: np.ndarray
+    angles: np.ndarray
+    sigma_position: np.ndarray
+    sigma_rotation: np.ndarray
+    payload: np.ndarray
+    tension: np.ndarray
+    tension_sigma: np.ndarray
+    length: np.ndarray
+    length_sigma: np.ndarray
+    lock: np.ndarray
+    loaded: np.ndarray
+    static: np.ndarray
+    temperature: np.ndarray
+    approach: np.ndarray
+    time: np.ndarray
+
+    @property
+    def has_tension(self) -> np.ndarray:
+        """(S,) bool: the tensions of all cables were read."""
+        return np.isfinite(self.tension).all(axis=1)
+
+    @property
+    def has_length(self) -> np.ndarray:
+        """(S,) bool: the lengths of all cables were read."""
+        return np.isfinite(self.length).all(axis=1)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CableFrequencies:
+    """Natural frequencies of single cables: state, cable (from 0), mode (from 1), in plane or not, [Hz], sigma [Hz]."""
+
+    state: np.ndarray
+    cable: np.ndarray
+    mode: np.ndarray
+    in_plane: np.ndarray
+    hertz: np.ndarray
+    sigma: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RobotFrequencies:
+    """Natural frequencies of the robot, unlabelled: state, [Hz], sigma [Hz]."""
+
+    state: np.ndarray
+    hertz: np.ndarray
+    sigma: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Series:
+    """Raw rows of a kind that holds signals: its case names and numeric columns, as read and checked."""
+
+    kind: str
+    file: str
+    case: tuple[str, ...]
+    columns: dict[str, np.ndarray]
+    labels: dict[str, tuple[str, ...]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Campaign:
+    """A measuring campaign and the simulation under test.
+
+    model : static, dsm, exact or spring
+    stated : names of the tolerances that the file gives; the others are defaults
+    """
+
+    source: str
+    robot: Robot
+    robot_name: str
+    model: str
+    tolerances: Tolerances
+    stated: frozenset[str]
+    states: States
+    cable_frequencies: CableFrequencies
+    robot_frequencies: RobotFrequencies
+    series: tuple[Series, ...] = ()
+    assembly: str = "consistent"
+    tension_distribution: str = "minimum_norm"
+
+    def kinds(self) -> list[str]:
+        """Kinds of data that the campaign holds, in the fixed order."""
+        found = {s.kind for s in self.series}
+        flags = {
+            "static_state": self.states.static.any(),
+            "loaded_pose": self.states.loaded.any(),
+            "cable_frequency": self.cable_frequencies.hertz.size,
+            "robot_frequency": self.robot_frequencies.hertz.size,
+        }
+        return [k for k in KINDS if k in found or flags.get(k)]

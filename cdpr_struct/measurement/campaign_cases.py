@@ -1,0 +1,179 @@
+"""Rows of several files become states: the same case in two files is the same state with the same readings."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from cdpr_struct.errors import InputError
+from cdpr_struct.measurement.campaign import CableFrequencies, RobotFrequencies, Series, Sigmas, States
+from cdpr_struct.measurement.campaign_rows import POSE, Rows, length_columns
+
+_SAME_POSE = (1e-9, 1e-9)
+
+
+@dataclass(slots=True)
+class _State:
+    name: str
+    pose: np.ndarray
+    payload: float
+    sigma_position: float
+    sigma_rotation: float
+    tension: np.ndarray
+    tension_sigma: np.ndarray
+    length: np.ndarray
+    length_sigma: np.ndarray
+    approach: np.ndarray
+    temperature: float
+    time: float
+    loaded: bool = False
+    static: bool = False
+
+
+@dataclass(slots=True)
+class Gathering:
+    """Collects the rows of all files of a campaign for a robot with m cables."""
+
+    m: int
+    known: dict[str, _State] = field(default_factory=dict)
+    cable_rows: list[tuple[int, int, int, bool, float, float]] = field(default_factory=list)
+    robot_rows: list[tuple[int, float, float]] = field(default_factory=list)
+    series: list[Series] = field(default_factory=list)
+
+    def add(self, rows: Rows, sigmas: Sigmas) -> None:
+        """Take in the rows of one file.
+
+        Raises
+        ------
+        InputError : a case with two poses or payloads, a cable given twice or not at all.
+        """
+        if rows.kind in ("frf", "free_decay", "platform_motion"):
+            labels = {k: tuple(v) for k, v in rows.words.items() if k != "case"}
+            self.series.append(Series(rows.kind, rows.file, tuple(rows.words["case"]), dict(rows.numbers), labels))
+            return
+        states = [self._state(rows, i, sigmas) for i in range(len(rows))]
+        if rows.kind == "static_state":
+            self._static(rows, states, sigmas)
+        elif rows.kind == "loaded_pose":
+            self._loaded(rows, states, sigmas)
+        elif rows.kind == "cable_frequency":
+            self._cable_frequency(rows, states, sigmas)
+        else:
+            self._robot_frequency(rows, states, sigmas)
+
+    def _state(self, rows: Rows, i: int, sigmas: Sigmas) -> _State:
+        name = rows.words["case"][i]
+        pose = np.array([rows.get(c, 0.0)[i] for c in POSE])
+        payload = float(rows.get("payload_kg", 0.0)[i])
+        found = self.known.get(name)
+        if found is None:
+            blank = np.full((5, self.m), np.nan)
+            found = _State(
+                name, pose, payload, sigmas.position_m, float(np.radians(sigmas.rotation_deg)),
+                blank[0], blank[1], blank[2], blank[3], blank[4],
+                float(rows.get("temperature_K")[i]), float(rows.get("time_s")[i]),
+            )  # fmt: skip
+            self.known[name] = found
+        elif np.abs(found.pose - pose).max() > _SAME_POSE[0] or found.payload != payload:
+            raise InputError(
+                rows.file, f"row {i + 1}, case {name}", [*pose.tolist(), payload],
+                f"the pose and payload given before for this case, {[*found.pose.tolist(), found.payload]}",
+            )  # fmt: skip
+        return found
+
+    def _static(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
+        own = rows.get("sigma")
+        has_tension = "tension_N" in rows.numbers
+        seen = set()
+        for i, state in enumerate(states):
+            cable = int(rows.numbers["cable"][i]) - 1
+            if (state.name, cable) in seen:
+                raise InputError(rows.file, f"row {i + 1}, column cable", cable + 1, f"one row a cable in {state.name}")
+            seen.add((state.name, cable))
+            state.static = True
+            given = own[i] if np.isfinite(own[i]) else None
+            state.tension[cable] = rows.get("tension_N")[i]
+            state.tension_sigma[cable] = given or sigmas.tension_N
+            state.length[cable] = rows.get("length_m")[i]
+            state.length_sigma[cable] = sigmas.length_m if has_tension else given or sigmas.length_m
+            state.approach[cable] = rows.get("approach")[i]
+        for state in states:
+            partly = [np.isfinite(a).any() and not np.isfinite(a).all() for a in (state.tension, state.length)]
+            if any(partly):
+                values = state.tension if partly[0] else state.length
+                lacking = (np.flatnonzero(~np.isfinite(values)) + 1).tolist()
+                raise InputError(rows.file, f"case {state.name}", f"no value for cables {lacking}", "one row for each")
+
+    def _loaded(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
+        own = rows.get("sigma")
+        for i, state in enumerate(states):
+            length = np.array([rows.numbers[c][i] for c in length_columns(self.m)])
+            state.loaded = True
+            if np.isfinite(state.length).all() and np.abs(state.length - length).max() > _SAME_POSE[0]:
+                raise InputError(
+                    rows.file, f"row {i + 1}, case {state.name}", length.tolist(), "the lengths given before"
+                )
+            state.length, state.length_sigma = length, np.full(self.m, sigmas.length_m)
+            state.sigma_position = own[i] if np.isfinite(own[i]) else sigmas.position_m
+
+    def _cable_frequency(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
+        order = {name: i for i, name in enumerate(self.known)}
+        own, planes = rows.get("sigma"), rows.words.get("plane", [""] * len(rows))
+        for i, state in enumerate(states):
+            cable, hertz = int(rows.numbers["cable"][i]) - 1, rows.numbers["frequency_hz"][i]
+            sigma = own[i] if np.isfinite(own[i]) else float(sigmas.frequency(np.array(hertz)))
+            mode = int(rows.numbers["mode"][i])
+            self.cable_rows.append((order[state.name], cable, mode, planes[i] != "out", hertz, sigma))
+            tension = rows.get("tension_N")[i]
+            if np.isfinite(tension) and not np.isfinite(state.tension[cable]):
+                state.tension[cable], state.tension_sigma[cable] = tension, sigmas.tension_N
+
+    def _robot_frequency(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
+        order = {name: i for i, name in enumerate(self.known)}
+        own = rows.get("sigma")
+        for i, state in enumerate(states):
+            hertz = rows.numbers["frequency_hz"][i]
+            sigma = own[i] if np.isfinite(own[i]) else float(sigmas.frequency(np.array(hertz)))
+            self.robot_rows.append((order[state.name], hertz, sigma))
+
+    def states(self) -> States:
+        """All states, in the order of their first appearance."""
+        found = list(self.known.values())
+        length = np.array([s.length for s in found]).reshape((-1, self.m))
+        return States(
+            names=tuple(s.name for s in found),
+            position=np.array([s.pose[:3] for s in found]).reshape((-1, 3)),
+            angles=np.radians(np.array([s.pose[3:] for s in found]).reshape((-1, 3))),
+            sigma_position=np.array([s.sigma_position for s in found]),
+            sigma_rotation=np.array([s.sigma_rotation for s in found]),
+            payload=np.array([s.payload for s in found]),
+            tension=np.array([s.tension for s in found]).reshape((-1, self.m)),
+            tension_sigma=np.array([s.tension_sigma for s in found]).reshape((-1, self.m)),
+            length=length,
+            length_sigma=np.array([s.length_sigma for s in found]).reshape((-1, self.m)),
+            lock=_locks(length),
+            loaded=np.array([s.loaded for s in found], dtype=bool),
+            static=np.array([s.static for s in found], dtype=bool),
+            temperature=np.array([s.temperature for s in found]),
+            approach=np.array([s.approach for s in found]).reshape((-1, self.m)),
+            time=np.array([s.time for s in found]),
+        )
+
+    def cable_frequencies(self) -> CableFrequencies:
+        """All frequencies of cables."""
+        table = np.array(self.cable_rows, dtype=float).reshape((-1, 6))
+        state, cable, mode = (table[:, i].astype(int) for i in range(3))
+        return CableFrequencies(state, cable, mode, table[:, 3] > 0.5, table[:, 4], table[:, 5])
+
+    def robot_frequencies(self) -> RobotFrequencies:
+        """All frequencies of the robot."""
+        table = np.array(self.robot_rows, dtype=float).reshape((-1, 3))
+        return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2])
+
+
+def _locks(length: np.ndarray) -> np.ndarray:
+    """(S,) number of the lock of each state, -1 without lengths: equal lengths are one lock."""
+    found: dict[tuple[float, ...], int] = {}
+    locks = []
+    for row in length:
+        locks.append(found.setdefault(tuple(row.tolist()), len(found)) if np.isfinite(row).all() else -1)
+    return np.array(locks, dtype=int)

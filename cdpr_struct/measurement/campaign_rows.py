@@ -1,0 +1,136 @@
+"""Rows of a measured-data file, checked: columns known and present, numbers finite and in their range."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from cdpr_struct.errors import InputError
+
+POSE = ("x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg")
+_NEEDED: dict[str, tuple[str, ...]] = {
+    "static_state": ("x_m", "y_m", "z_m", "cable"),
+    "loaded_pose": ("x_m", "y_m", "z_m"),
+    "cable_frequency": ("x_m", "y_m", "z_m", "cable", "mode", "frequency_hz"),
+    "robot_frequency": ("x_m", "y_m", "z_m", "frequency_hz"),
+    "frf": ("frequency_hz", "real", "imag", "respond", "excite"),
+    "free_decay": ("time_s", "ax", "ay", "az"),
+    "platform_motion": ("x_m", "y_m", "z_m", "time_s"),
+}
+_ALSO: dict[str, tuple[str, ...]] = {
+    "static_state": ("tension_N", "length_m"),
+    "cable_frequency": ("tension_N", "plane"),
+}
+_ALWAYS = ("case", *POSE, "payload_kg", "sigma", "temperature_K", "approach", "time_s")
+_WORDS = ("case", "respond", "excite", "plane")
+_POSITIVE = ("tension_N", "length_m", "frequency_hz", "sigma", "temperature_K", "mode", "cable")
+_BLANK_ALLOWED = ("sigma", "temperature_K", "approach", "tension_N", "length_m", "time_s")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rows:
+    """A checked table: numbers by column (n,), words by column, and the file it came from."""
+
+    kind: str
+    file: str
+    numbers: dict[str, np.ndarray]
+    words: dict[str, list[str]]
+
+    def __len__(self) -> int:
+        return len(self.words["case"])
+
+    def get(self, column: str, default: float = np.nan) -> np.ndarray:
+        """Column (n,), or the default throughout."""
+        found = self.numbers.get(column)
+        return np.full(len(self), default) if found is None else found
+
+
+def read_rows(kind: str, path: Path, cables: int) -> Rows:
+    """Checked rows of a CSV file of the given kind, for a robot with `cables` cables.
+
+    Raises
+    ------
+    InputError : file, column or row that cannot be used.
+    """
+    if path.suffix.lower() in (".uff", ".unv"):
+        raise InputError(str(path), "", path.suffix, "a CSV file; universal files are not read by diagnose yet")
+    try:
+        table = pd.read_csv(path, dtype=str, keep_default_na=False, skipinitialspace=True, comment="#")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(str(path), "", path.name, "a CSV file that can be read") from error
+    except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
+        raise InputError(str(path), "", str(error).strip(), "a CSV file with a header line") from error
+    _check_columns(kind, str(path), list(table.columns), cables)
+    if not len(table):
+        raise InputError(str(path), "", "no rows", "at least one row of data")
+    numbers = {str(c): _numbers(str(path), str(c), table[c]) for c in table.columns if c not in _WORDS}
+    words = {str(c): [str(v).strip() for v in table[c]] for c in table.columns if c in _WORDS}
+    rows = Rows(kind, str(path), numbers, words)
+    _check_values(rows, cables)
+    if "case" not in words:
+        words["case"] = _cases_from_poses(rows)
+    return rows
+
+
+def length_columns(cables: int) -> list[str]:
+    """Names of the length columns, one a cable."""
+    return [f"length_{i}_m" for i in range(1, cables + 1)]
+
+
+def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> None:
+    lengths = length_columns(cables)
+    needed = [*_NEEDED[kind], *(lengths if kind == "loaded_pose" else [])]
+    for name in needed:
+        if name not in columns:
+            raise InputError(source, name, "no such column", f"a {kind} file needs {', '.join(needed)}")
+    known = {*_ALWAYS, *_NEEDED[kind], *_ALSO.get(kind, ()), *lengths}
+    for name in columns:
+        if name not in known:
+            raise InputError(source, name, "a column", f"unknown for {kind}; known are {', '.join(sorted(known))}")
+    if kind == "static_state" and not {"tension_N", "length_m"} & set(columns):
+        raise InputError(source, "tension_N", "no such column", "give tension_N or length_m or both")
+
+
+def _numbers(source: str, name: str, column: pd.Series) -> np.ndarray:
+    values = np.empty(len(column))
+    for i, text in enumerate(column):
+        place = f"row {i + 1}, column {name}"
+        if not str(text).strip():
+            if name in _BLANK_ALLOWED:
+                values[i] = np.nan
+                continue
+            raise InputError(source, place, "nothing", "a number")
+        try:
+            values[i] = float(text)
+        except ValueError as error:
+            raise InputError(source, place, text, "a number") from error
+        if not np.isfinite(values[i]):
+            raise InputError(source, place, text, "a finite number")
+        if (name in _POSITIVE or name.startswith("length_")) and not values[i] > 0.0:
+            raise InputError(source, place, text, "a number above zero")
+        if name == "payload_kg" and values[i] < 0.0:
+            raise InputError(source, place, text, "a mass in kg, zero or more")
+    return values
+
+
+def _check_values(rows: Rows, cables: int) -> None:
+    for name, last in (("cable", cables), ("mode", 50)):
+        for i, value in enumerate(rows.numbers.get(name, ())):
+            if value != int(value) or not 1 <= value <= last:
+                raise InputError(rows.file, f"row {i + 1}, column {name}", value, f"a whole number from 1 to {last}")
+    for i, plane in enumerate(rows.words.get("plane", ())):
+        if plane not in ("in", "out", ""):
+            raise InputError(rows.file, f"row {i + 1}, column plane", plane, "in or out")
+    for i, sign in enumerate(rows.numbers.get("approach", ())):
+        if np.isfinite(sign) and abs(sign) > 1.0:
+            raise InputError(rows.file, f"row {i + 1}, column approach", sign, "+1 or -1 (0 if neither)")
+    for i, case in enumerate(rows.words.get("case", ())):
+        if not case:
+            raise InputError(rows.file, f"row {i + 1}, column case", "nothing", "a name")
+
+
+def _cases_from_poses(rows: Rows) -> list[str]:
+    """Without a case column, equal poses and payloads are one case."""
+    columns = [rows.get(name, 0.0) for name in (*POSE, "payload_kg")]
+    return ["pose " + ",".join(f"{v:g}" for v in values) for values in zip(*columns, strict=True)]

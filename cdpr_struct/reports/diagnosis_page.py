@@ -1,0 +1,118 @@
+"""The files of a diagnosis: residuals as CSV, figures, extended robot, and the report page."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.diagnosis.diagnose import Diagnosis
+from cdpr_struct.diagnosis.extended_model import extended_robot_toml
+from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.figures import diagnosis as figures
+from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+
+
+def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, str | bytes]:
+    """Contents of every file of the report, by name."""
+    plates = [
+        Plate(
+            "residuals",
+            "What the simulation gets wrong",
+            svg("residuals", figures.RESIDUAL_SIZE, lambda f: figures.draw_residuals(f, found)),
+            "Each point is one residual at the measured state, in its own standard deviation under noise and "
+            "tolerances. "
+            "Inside the shaded band there is nothing to explain.",
+        ),
+        Plate(
+            "evidence",
+            "Which cause explains it",
+            svg("evidence", figures.EVIDENCE_SIZE, lambda f: figures.draw_evidence(f, result)),
+            "Three nats are a factor of twenty in probability.",
+        ),
+    ]
+    files: dict[str, str | bytes] = {
+        "residuals.csv": _residuals_csv(found),
+        **{f"{plate.name}.svg": plate.svg for plate in plates},
+        "report.html": render_page(diagnosis_page(found, result, plates)),
+    }
+    if result["extended_model"]:
+        files["extended_robot.toml"] = extended_robot_toml(found)
+    return files
+
+
+def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Plate]) -> Page:
+    """The report page."""
+    said = result["verdict"]
+    more = [f"Where: {said['location']}."] if said["location"] else []
+    more += [f"To measure next: {said['next_measurement']}."] if said["next_measurement"] else []
+    facts = [
+        (f"{row['rms']:.3g} {row['unit']}", f"rms error, {row['kind'].replace('_', ' ')}")
+        for row in result["simulation_error"]
+    ]
+    if result["gain"]["ratio"]:
+        facts.append((f"{result['gain']['ratio']:.1f}×", "smaller error on states that were not fitted"))
+        facts.append((f"{result['gain']['generic_fudge_ratio']:.1f}×", "a generic fit of common EA and cell gain"))
+    return Page(
+        title=f"{found.campaign.robot_name}: what the simulation gets wrong, and why",
+        subtitle=f"model {found.campaign.model}, {len(found.campaign.states.names)} states, {found.campaign.source}",
+        verdict=[said["sentence"], *more],
+        holds=said["status"] == "adequate",
+        facts=facts,
+        plates=plates,
+        tables=_tables(result),
+        notes=[("How it was computed", [_METHOD])],
+        command=f"cdpr-struct diagnose {found.campaign.source} --out=DIR",
+    )
+
+
+_METHOD = (
+    "Measured pose and tensions are put into the model; what is left of wrench balance, cable lengths and frequencies "
+    "is judged against sensor noise and tolerances together. Every cause of the library is fitted with a prior on its "
+    "size; "
+    "the evidence counts how well it predicts and how many numbers it needed. Held-out states were predicted from "
+    "fits to all the others."
+)
+
+
+def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
+    tables = []
+    rows = [
+        [
+            c["cause"].replace("_", " "),
+            f"{c['log_evidence_gain']:.1f}",
+            name,
+            f"{p['value']:.4g} ± {p['sigma']:.2g}",
+            p["unit"],
+        ]
+        for c in result["candidates"][:6]
+        for name, p in list(c["parameters"].items())[:8]
+    ]
+    tables.append(HtmlTable("Candidates", ["cause", "evidence [nats]", "parameter", "size", "unit"], rows))
+    gain = [
+        [kind, f"{g['before']:.3g}", f"{g['after']:.3g}", g["unit"], f"{g['ratio']:.2f}"]
+        for kind, g in result["gain"]["per_kind"].items()
+    ]
+    tables.append(HtmlTable("States that were not fitted", ["kind", "before", "after", "unit", "ratio"], gain))
+    why = [[name.replace("_", " "), reason] for name, reason in sorted(result["why_not_testable"].items())]
+    tables.append(HtmlTable("What these data cannot show", ["cause", "why"], why))
+    sizes = [[n.replace("_", " "), f"{v['value']:.3g}", v["unit"]] for n, v in result["minimum_detectable"].items()]
+    tables.append(HtmlTable("Smallest size found 4 times out of 5", ["cause", "size", "unit"], sizes))
+    tolerances = [
+        [n, f"{v['value']:g}", "stated" if v["stated"] else "default"] for n, v in result["tolerances"].items()
+    ]
+    tables.append(HtmlTable("Tolerances taken into account, one sigma", ["tolerance", "size", "source"], tolerances))
+    return tables
+
+
+def _residuals_csv(found: Diagnosis) -> str:
+    labels, null = found.entered_setting.labels, found.entered
+    return csv_text(
+        {
+            "block": labels.block,
+            "case": [found.campaign.states.names[i] for i in labels.state],
+            "cable": labels.cable + 1,
+            "residual": null.r,
+            "sigma": np.sqrt(np.diagonal(null.covariance)),
+        }
+    )

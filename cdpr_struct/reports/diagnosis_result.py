@@ -1,0 +1,50 @@
+"""A diagnosis as result.json."""
+
+from typing import Any
+
+from cdpr_struct.diagnosis.diagnose import SIGNIFICANT, Diagnosis
+from cdpr_struct.diagnosis.plan import minimum_detectable
+from cdpr_struct.diagnosis.simulation_error import simulation_error
+from cdpr_struct.diagnosis.verdict import candidate_rows, verdict
+
+
+def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
+    """result.json of `diagnose`."""
+    said = verdict(found)
+    return {
+        "campaign": found.campaign.source,
+        "robot": found.campaign.robot_name,
+        "model": found.campaign.model,
+        "simulation_error": simulation_error(found),
+        "significant": found.p_value < SIGNIFICANT,
+        "p_value": found.p_value,
+        "p_adequate": found.p_adequate,
+        "verdict": {
+            "status": said.status, "causes": list(said.causes), "class": [list(c) for c in said.classes],
+            "probability": said.probability, "location": said.location, "next_measurement": said.next_measurement,
+            "sentence": said.sentence,
+        },
+        "candidates": candidate_rows(found),
+        "gain": _gain(found),
+        "extended_model": "extended_robot.toml" if said.causes else None,
+        "not_testable": sorted(found.not_testable),
+        "why_not_testable": found.not_testable,
+        "minimum_detectable": minimum_detectable(found.ground.candidates),
+        "tolerances": {
+            name: {"value": getattr(found.campaign.tolerances, name), "stated": name in found.campaign.stated}
+            for name in found.campaign.tolerances.__slots__
+        },
+        "not_used": sorted({s.kind for s in found.campaign.series}),
+    }  # fmt: skip
+
+
+def _gain(found: Diagnosis) -> dict[str, Any]:
+    if found.held is None:
+        return {"heldout_rms_before": None, "heldout_rms_after": None, "ratio": None, "per_kind": {}, "transfer": {}}
+    held = found.held
+    before, after = ((r / held.sigma) for r in (held.before, held.after))
+    return {
+        "heldout_rms_before": float((before**2).mean() ** 0.5), "heldout_rms_after": float((after**2).mean() ** 0.5),
+        "unit": "standard deviations under the null", "ratio": held.ratio(), "per_kind": held.by_kind(),
+        "generic_fudge_ratio": None if found.fudge is None else found.fudge.ratio(), "transfer": found.transfer,
+    }  # fmt: skip

@@ -1,0 +1,56 @@
+"""Residuals before and after, and the evidence for each candidate."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from cdpr_struct.diagnosis.diagnose import Diagnosis
+from cdpr_struct.reports.figures.style import BLUE, GREY, ORANGE, quiet
+
+RESIDUAL_SIZE, EVIDENCE_SIZE, MEASURED_SIZE = (9.6, 3.6), (9.6, 3.2), (9.6, 3.2)
+
+
+def draw_residuals(figure: Figure, found: Diagnosis) -> None:
+    """Each residual in its own sigma, as entered and with the causes found, block by block."""
+    axes = figure.subplots()
+    labels, null = found.entered_setting.labels, found.entered
+    sigma = np.sqrt(np.diagonal(null.covariance))
+    order = np.argsort([("EQ", "CO", "NS", "LP", "CF", "RF").index(b) for b in labels.block], kind="stable")
+    place = np.arange(len(order))
+    axes.axhspan(-2.0, 2.0, color="#f4f7f5", linewidth=0)
+    axes.plot(place, (null.r / sigma)[order], ".", color=ORANGE, markersize=4, label="as entered")
+    fit = found.selection.fit
+    if fit is not None:
+        after = fit.ground.null.lower @ fit.white / np.sqrt(np.diagonal(fit.ground.null.covariance))
+        axes.plot(
+            place[: len(after)],
+            after[order] if len(after) == len(order) else after,
+            ".",
+            color=BLUE,
+            markersize=4,
+            label="with causes",
+        )
+    edges = np.flatnonzero(np.diff(np.array([hash(b) for b in labels.block[order]]))) + 0.5
+    for edge in edges:
+        axes.axvline(edge, color=GREY, linewidth=0.6)
+    axes.set_yscale("symlog", linthresh=3.0)
+    axes.set_ylabel("residual / its sigma [-]")
+    axes.set_xlabel("wrench balance | lengths | locked poses | cable frequencies | robot frequencies")
+    axes.legend(loc="upper right", ncols=2)
+    quiet(axes)
+
+
+def draw_evidence(figure: Figure, result: Mapping[str, Any]) -> None:
+    """Log evidence of every cause that was fitted, against nothing being wrong."""
+    axes = figure.subplots()
+    best: dict[str, float] = {}
+    for row in result["candidates"]:
+        best[row["cause"]] = max(best.get(row["cause"], -np.inf), row["log_evidence_gain"])
+    rows = sorted(best.items(), key=lambda x: x[1])[-10:]
+    if rows:
+        axes.barh([n.replace("_", " ") for n, _ in rows], [max(v, 0.0) for _, v in rows], color=BLUE)
+    axes.axvline(5.0, color=GREY, linewidth=0.9, linestyle="--")
+    axes.set_xlabel("log evidence against nothing being wrong [nats]; dashed: needed to be named")
+    quiet(axes, "x")
