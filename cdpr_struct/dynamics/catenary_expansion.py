@@ -72,25 +72,24 @@ def expand_catenaries(
     arc, rate = coordinate.arc(nodes)
     density = _stiffness_density(cables, arc)
     scale = weights / rate
-    mass = np.einsum("iq,jq,mq->mij", values, values, linear_density[:, None] * rate * weights, optimize=True)
+    mass = _products(values, linear_density[:, None] * rate * weights)
     directions = None if frame_ends is None else to_local @ frame_ends.directions
     springs = None if frame_ends is None else frame_ends.stiffness
     planes = []
     for components in ((0, 2), (1,)) if frame_ends is None else ((0, 1, 2),):
         own = density[..., components, :][..., components]
-        stiffness = np.einsum("iq,mqab,jq,mq->miajb", slopes, own, slopes, scale, optimize=True)
+        stiffness = np.moveaxis(_products(slopes, np.moveaxis(own * scale[..., None, None], 1, -1)), (1, 2), (2, 4))
         freedoms = _freedoms(order, len(components), directions)
         planes.append(_condense(components, stiffness, mass, freedoms, springs))
-    omega_squared = np.concatenate([plane.omega_squared for plane in planes], axis=1)
-    rank = np.argsort(omega_squared, axis=1)
-    return ModalExpansion(
+    found = ModalExpansion(
         frame=frame,
         static_stiffness=to_local @ end_stiffness @ frame,
         end_mass=_end_mass(planes),
-        omega_squared=np.take_along_axis(omega_squared, rank, axis=1),
-        coupling=np.take_along_axis(_coupling(planes), rank[..., None], axis=1),
-        shapes=lambda stations: _shapes(planes, rank, coordinate.xi(stations), order),
+        omega_squared=np.concatenate([plane.omega_squared for plane in planes], axis=1),
+        coupling=_coupling(planes),
+        shapes=lambda stations: _shapes(planes, coordinate.xi(stations), order),
     )
+    return found.ascending()
 
 
 def _frame(cables: CableStates) -> np.ndarray:
@@ -106,6 +105,11 @@ def _basis(xi: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
     slopes = np.sqrt((2 * k - 1) / 2.0) * polynomials[1:-1]
     half = np.full_like(xi, 0.5)[None]
     return np.concatenate([bubbles, half - 0.5 * xi, half + 0.5 * xi]), np.concatenate([slopes, -half, half])
+
+
+def _products(functions: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """(..., i, j) weighted sums over q of products of functions (i, q), weights (..., q)."""
+    return (functions * weights[..., None, :]) @ functions.T
 
 
 def _stiffness_density(cables: CableStates, arc: np.ndarray) -> np.ndarray:
@@ -194,7 +198,7 @@ def _coupling(planes: list[_Plane]) -> np.ndarray:
     return np.concatenate(blocks, axis=1)
 
 
-def _shapes(planes: list[_Plane], rank: np.ndarray, xi: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
+def _shapes(planes: list[_Plane], xi: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
     """Static shapes (m, s, 3, 3) and modes (m, p, s, 3) at the coordinates xi (m, s)."""
     values, _ = _basis(xi, order)
     inner, ramp = values[:-1], values[-1]
@@ -208,5 +212,4 @@ def _shapes(planes: list[_Plane], rank: np.ndarray, xi: np.ndarray, order: int) 
         block = np.zeros((*plane.omega_squared.shape, xi.shape[1], 3))
         block[..., plane.components] = np.einsum("ims,miap->mpsa", inner, plane.modes, optimize=True)
         blocks.append(block)
-    modes = np.concatenate(blocks, axis=1)
-    return static, np.take_along_axis(modes, rank[:, :, None, None], axis=1)
+    return static, np.concatenate(blocks, axis=1)

@@ -10,6 +10,9 @@ from cdpr_struct.dynamics.taut_cables import TautCables
 from cdpr_struct.generated.cable_dsm import clamped_frequency_function
 
 
+_ROOT_STEPS = 60
+
+
 def clamped_count(cables: TautCables, omega: np.ndarray) -> np.ndarray:
     """Number of clamped natural frequencies strictly below omega, per cable.
 
@@ -39,14 +42,23 @@ def _symmetric_count(parameter: np.ndarray, lambda2: np.ndarray) -> np.ndarray:
 
 
 def symmetric_roots(lambda2: np.ndarray, count: int) -> np.ndarray:
-    """First `count` symmetric in-plane frequency parameters Omega (..., count) by bisection of Irvine's equation."""
+    """First `count` symmetric in-plane frequency parameters Omega (..., count): roots of Irvine's equation.
+
+    False position in the interval that holds exactly one root, the stuck end's value halved (Illinois).
+    """
     number = np.arange(1, count + 1)
     lambda2 = np.asarray(lambda2)[..., None]
     low = np.broadcast_to((2 * number - 1) * np.pi, (*lambda2.shape[:-1], count)).copy()
     high = low + 2.0 * np.pi
-    sign = np.where(number % 2 == 1, 1.0, -1.0)
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        before = clamped_frequency_function(middle, lambda2) * sign > 0.0
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    return 0.5 * (low + high)
+    below, above = clamped_frequency_function(low, lambda2), clamped_frequency_function(high, lambda2)
+    for _ in range(_ROOT_STEPS):
+        root = np.clip((low * above - high * below) / (above - below), low, high)
+        value = clamped_frequency_function(root, lambda2)
+        left = value * above < 0.0
+        below = np.where(left, value, 0.5 * below)
+        above = np.where(left, 0.5 * above, value)
+        moved = np.where(left, root - low, high - root)
+        low, high = np.where(left, root, low), np.where(left, high, root)
+        if (moved <= 1e-15 * root).all() or (value == 0.0).all():
+            break
+    return root

@@ -48,6 +48,21 @@ class ModalExpansion:
         local = self.static_stiffness - squared[..., None] * self.end_mass - modal.reshape((*modal.shape[:-1], 3, 3))
         return self.frame @ local @ np.swapaxes(self.frame, -1, -2)
 
+    def ascending(self) -> "ModalExpansion":
+        """The same expansion with each cable's modes in the order of frequency, which `reduced` needs."""
+        rank = np.argsort(self.omega_squared, axis=-1)
+
+        def shapes(stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            static, modes = self.shapes(stations)
+            return static, np.take_along_axis(modes, rank[..., None, None], axis=-3)
+
+        return replace(
+            self,
+            omega_squared=np.take_along_axis(self.omega_squared, rank, axis=-1),
+            coupling=np.take_along_axis(self.coupling, rank[..., None], axis=-2),
+            shapes=shapes,
+        )
+
     def reduced(self, highest: float, factor: float = 2.0) -> "ModalExpansion":
         """The same cables with fewer modes, for motion up to `highest` [rad/s].
 

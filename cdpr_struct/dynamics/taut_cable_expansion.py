@@ -28,7 +28,8 @@ def expand_taut_cables(cables: TautCables, pairs: int) -> ModalExpansion:
         return static, scale[..., None, None] * _clamped_shapes(symmetric, stations)
 
     omega_squared = _omega_squared(cables, symmetric)
-    return ModalExpansion(cables.frame, _static_stiffness(cables), end_mass, omega_squared, coupling, shapes)
+    found = ModalExpansion(cables.frame, _static_stiffness(cables), end_mass, omega_squared, coupling, shapes)
+    return found.ascending()
 
 
 def _static_shapes(cables: TautCables, xi: np.ndarray) -> np.ndarray:
