@@ -93,9 +93,10 @@ def test_every_pose_of_the_helix_equals_slsqp(rule):
     """3001 poses, each to 1e-6 N."""
     path = helix()
     found = {name: distribute_along(ROBOT, path, name) for name in ("fixed", rule)}
+    x = None
     for i, ours in enumerate(found[rule].distribution.cost):
         problem = pose_problem(path, found, rule, i)
-        x, _ = slsqp(problem)
+        x, _ = slsqp(problem, x, 1e-13)
         cost = np.linalg.norm(problem.tensions(x))
         if abs(cost - ours) > COST_TOLERANCE:  # stopped early
             cost = general_cost(problem)
