@@ -120,6 +120,7 @@ def _convergence_csv(trial: Verification) -> str:
             "mode": np.tile(np.arange(1, modes + 1), len(trial.elements)),
             "fem_hz": trial.fem_hertz.ravel(),
             "relative_error": trial.mesh_error.ravel(),
+            "relative_error_consistent_mass": trial.consistent_mesh_error.ravel(),
         }
     )
 

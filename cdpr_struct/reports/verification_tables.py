@@ -62,20 +62,43 @@ def _mode(trial: Verification, i: int) -> list[str]:
 def _convergence(trial: Verification) -> HtmlTable:
     model = 100.0 * np.abs(trial.relative_error)
     rows = []
-    for count, error in zip(trial.elements, 100.0 * trial.mesh_error, strict=True):
-        resolved = int((error < model).sum())
-        rows.append([str(count), f"{error.max():.4f}", f"{np.median(error):.4f}", f"{resolved} of {len(model)}"])
+    each = zip(trial.elements, trial.mesh_error, trial.consistent_mesh_error, trial.stiffness.fem_error, strict=True)
+    for count, lumped, consistent, stiffness in each:
+        errors = [lumped.max(), np.median(lumped), consistent.max(), stiffness.max()]
+        resolved = f"{int((100.0 * lumped < model).sum())} of {len(model)}"
+        rows.append([str(count), *(f"{100.0 * error:.4f}" for error in errors), resolved])
+    rows.append(
+        [
+            "DSM",
+            f"{model.max():.4f}",
+            f"{np.median(model):.4f}",
+            "",
+            f"{100.0 * trial.stiffness.dsm_error.max():.4f}",
+            "",
+        ]
+    )
     return HtmlTable(
         "Convergence of the FEM",
-        ["elements per cable", "largest error [%]", "median error [%]", "modes whose mesh error is below the DSM's"],
+        [
+            "elements per cable",
+            "largest error [%]",
+            "median error [%]",
+            "largest, consistent mass [%]",
+            "K(ω) against exact [%]",
+            "modes whose mesh error is below the DSM's",
+        ],
         rows,
     )
 
 
 def _scan(trial: Verification) -> HtmlTable:
     count = len(trial.kinds)
-    rows = [[f"{step:g}", f"{missed}", f"{count - missed}"] for step, missed in trial.missed.items()]
-    return HtmlTable("Determinant scan", ["step [Hz]", "modes missed", "modes seen"], rows)
+    rows = [
+        [f"{step:g}", f"{missed}", f"{count - missed}", f"{trial.spurious[step]}"]
+        for step, missed in trial.missed.items()
+    ]
+    columns = ["step [Hz]", "modes missed", "modes seen", "minima that stand for no mode"]
+    return HtmlTable("Determinant scan", columns, rows)
 
 
 def _cables(trial: Verification) -> HtmlTable:
