@@ -6,11 +6,14 @@ from functools import cache
 import numpy as np
 from scipy.optimize import least_squares
 
+from cdpr_struct.crosscheck.determinant_minima import scan_determinant
+from cdpr_struct.dynamics.cable_dynamics import cable_dynamics, damped
 from cdpr_struct.dynamics.natural_frequencies import static_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.statics.cable_state import cable_stiffness
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.thesis.reproduction import Cell, Reproduction, Statement, printed_table
 
@@ -52,6 +55,42 @@ def _cable_table(item: str, table: str, where: str, position: np.ndarray) -> Rep
     return Reproduction(item, f"Natural frequencies of cable 5 at the {where}", tuple(cells), note)
 
 
+def fig_4_7() -> Reproduction:
+    """Trace of cable 5's dynamic stiffness at the centre."""
+    return _trace_figure("fig-4.7", "centre", CENTRE, table_4_5())
+
+
+def fig_4_8() -> Reproduction:
+    """Trace of cable 5's dynamic stiffness at the edge."""
+    return _trace_figure("fig-4.8", "edge", EDGE, table_4_6())
+
+
+def _trace_figure(item: str, where: str, position: np.ndarray, table: Reproduction) -> Reproduction:
+    point = _at(load_robot("cogiro"), position)
+    cables = cable_dynamics(point, "dsm")
+    hertz = np.arange(0.01, 20.0, 0.01)
+    squared = damped(cables, point.robot.damping_ratio, 2.0 * np.pi * hertz[:, None])
+    trace = np.abs(np.trace(cables.stiffness(squared)[:, CABLE - 1], axis1=-2, axis2=-1))
+    static = float(np.trace(cable_stiffness(point.cables)[CABLE - 1]))
+    columns = {
+        "frequency_Hz": hertz,
+        "dynamic_trace_N_m": trace,
+        "static_trace_N_m": np.full_like(hertz, static),
+    }
+    title = f"Trace of the dynamic stiffness of cable 5 at the {where}"
+    cells = tuple(cell for cell in table.cells if cell.column == "dsm_Hz")
+    return Reproduction(item, title, cells, table.note, (), columns)
+
+
+def fig_4_10() -> Reproduction:
+    """Determinants at the edge."""
+    point = _at(load_robot("cogiro"), EDGE)
+    scan = scan_determinant(point, 0.01, 20.0, 0.01)
+    columns = {"frequency_Hz": scan.hertz, "log10_dynamic": scan.log_dynamic, "log10_static": scan.log_static}
+    note = "With the assumed inertia of the built-in robot; the print gives none, see fig-4.9."
+    return Reproduction("fig-4.10", "Determinants of CoGiRo at the edge", (), note, (), columns)
+
+
 def fig_4_9() -> Reproduction:
     """Which mass, stiffness and inertia the stated platform modes 5.1, 5.5, 7.2, 8.5, 12.8 Hz allow."""
     stated_stiffness = _fit(118.5, free_stiffness=False)
@@ -74,9 +113,11 @@ def fig_4_9() -> Reproduction:
     note = (
         "The inertia of CoGiRo is not printed. Massless cables, centre of mass at the platform origin, principal axes "
         "along the platform's; fitted are three moments of inertia that obey the triangle inequality, and in the "
-        "second fit a common factor on EA. Five numbers cannot fix mass, EA, inertia and centre of mass at once."
+        "second fit a common factor on EA. The curves are those of the built-in robot with its assumed inertia. Five numbers cannot fix mass, EA, inertia and centre of mass at once."
     )
-    return Reproduction("fig-4.9", "Platform modes of CoGiRo at the centre", cells, note, (statement,))
+    scan = scan_determinant(_at(load_robot("cogiro"), CENTRE), 0.01, 20.0, 0.01)
+    columns = {"frequency_Hz": scan.hertz, "log10_dynamic": scan.log_dynamic, "log10_static": scan.log_static}
+    return Reproduction("fig-4.9", "Platform modes of CoGiRo at the centre", cells, note, (statement,), columns)
 
 
 @dataclasses.dataclass(frozen=True, slots=True, eq=False)

@@ -95,8 +95,11 @@ def _signed(cell: Cell) -> str:
 FIGURES: dict[str, tuple[Draw, tuple[float, float], Callable[[Reproduction], str]]] = {
     "fig-2.4": (draw_profiles, (7.2, 5.6), _profiles_caption),
     **{f"fig-3.{n}": (draw_pose_errors, (9.6, 3.4), _maps_caption) for n in (4, 5, 6, 7)},
-    "fig-2.5": (vibration.draw_trace, (7.2, 3.6), vibration.trace_caption),
-    "fig-3.8": (vibration.draw_determinants, (9.6, 4.0), vibration.determinants_caption),
+    **{f"fig-{n}": (vibration.draw_trace, (7.2, 3.6), vibration.trace_caption) for n in ("2.5", "4.7", "4.8")},
+    **{
+        f"fig-{n}": (vibration.draw_determinants, (9.6, 4.0), vibration.determinants_caption)
+        for n in ("3.8", "4.9", "4.10")
+    },
     "fig-3.9": (vibration.draw_first_frequencies, (12.0, 4.8), vibration.first_frequencies_caption),
     "fig-4.4": (draw_loads, (9.6, 4.2), _loads_caption),
     "fig-5.4": (forces.draw_panels, forces.PANELS_SIZE, forces.bounds_caption),

@@ -49,7 +49,7 @@ def trace_caption(item: Reproduction) -> str:
 
 
 def determinants_caption(item: Reproduction) -> str:
-    return "Every dip stands for one natural frequency or several: sixteen cable modes share the first few dips."
+    return "Every dip stands for one natural frequency or several: the cable modes of one group share a few dips."
 
 
 def first_frequencies_caption(item: Reproduction) -> str:
