@@ -113,7 +113,8 @@ def fig_4_9() -> Reproduction:
     note = (
         "The inertia of CoGiRo is not printed. Massless cables, centre of mass at the platform origin, principal axes "
         "along the platform's; fitted are three moments of inertia that obey the triangle inequality, and in the "
-        "second fit a common factor on EA. The curves are those of the built-in robot with its assumed inertia. Five numbers cannot fix mass, EA, inertia and centre of mass at once."
+        "second fit a common factor on EA. The curves are those of the built-in robot with its "
+        "assumed inertia. Five numbers cannot fix mass, EA, inertia and centre of mass at once."
     )
     scan = scan_determinant(_at(load_robot("cogiro"), CENTRE), 0.01, 20.0, 0.01)
     columns = {"frequency_Hz": scan.hertz, "log10_dynamic": scan.log_dynamic, "log10_static": scan.log_static}
