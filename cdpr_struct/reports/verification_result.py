@@ -38,6 +38,7 @@ def verification_json(v: Verification, pose: list[float]) -> dict[str, Any]:
             "observed_order_range": [float(np.nanmin(v.observed_order)), float(np.nanmax(v.observed_order))],
         },
         "max_relative_error": float(np.abs(v.relative_error).max()),
+        "geometric_term_effect": v.geometric_effect,
         "missed_by_determinant_scan": v.missed_by_scan,
         "determinant_scan": {"step_hz": v.scan.step_hertz, "missed_by_step": v.missed, "spurious_by_step": v.spurious},
         "limits": limits_json(v.limits),

@@ -32,7 +32,17 @@ def verdict(v: Verification) -> str:
         if not objections
         else "DOES NOT HOLD: " + "; ".join(objections) + "."
     )
-    return "\n".join([holds, doubled, limits])
+    return "\n".join([holds, doubled, geometric_text(v), limits])
+
+
+def geometric_text(v: Verification) -> str:
+    """What eq. (3.8) as printed would change."""
+    if math.isnan(v.geometric_effect):
+        return "Without the geometric term of the attachments, which eq. (3.8) lacks, this equilibrium is unstable."
+    return (
+        "The geometric term of the rotating attachments, which eq. (3.8) lacks, changes frequencies by up to "
+        f"{100.0 * v.geometric_effect:.2g} %."
+    )
 
 
 def violations_text(v: Verification) -> str:
