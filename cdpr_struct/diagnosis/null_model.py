@@ -182,3 +182,8 @@ def null_with_draws(
     own = _own_noise(setting)
     drawn = moved + generator.standard_normal((count, own.shape[1])) @ own.T
     return NullModel(null.r, columns, np.linalg.cholesky(columns @ columns.T)), extra, drawn
+
+
+def drawn_campaigns(setting: Setting, world: World, readings: Readings, count: int, seed: int) -> np.ndarray:
+    """(count, n) residuals of the null about those at hand, drawn through the whole nonlinear computation."""
+    return null_with_draws(setting, world, readings, count, seed)[2]

@@ -90,24 +90,19 @@ def residuals(setting: Setting, world: World, readings: Readings, small: bool = 
     """
     batch = _batch(world, readings)
     wide = world.per_state()
-    blocks = []
     states = _States(setting, wide, readings)
-    if setting.held.size:
-        blocks += _static_blocks(setting, wide, states, readings)
+    blocks = _static_blocks(setting, wide, states, readings) if setting.held.size else []
     if setting.locked.size:
         blocks.append(1e3 * _scaled(states.missed, setting.radius))
+    flat = [np.broadcast_to(b, (*batch, *b.shape[-2:])).reshape((*batch, -1)) for b in blocks]
+    rows = []
     if setting.cable_rows.hertz.size:
         model = cable_log_frequencies(wide, states.all.cables, setting.cable_rows) + setting.cable_gap
-        blocks.append(100.0 * (np.log(setting.cable_rows.hertz) - model))
+        rows.append(100.0 * (np.log(setting.cable_rows.hertz) - model))
     if setting.robot_rows.omega.size:
-        blocks.append(100.0 * _robot_block(setting, wide, states.all, small))
-    flat = [np.broadcast_to(b, (*batch, *b.shape[len(b.shape) - _own(b, batch) :])) for b in blocks]
-    return np.concatenate([f.reshape((*batch, -1)) for f in flat], axis=-1)
-
-
-def _own(block: np.ndarray, batch: tuple[int, ...]) -> int:
-    """Axes of a block that are not batch: all, if it carries none."""
-    return block.ndim - len(batch) if batch and block.ndim > 1 and block.shape[0] == batch[0] else block.ndim
+        rows.append(100.0 * _robot_block(setting, wide, states.all, small))
+    flat += [np.broadcast_to(r, (*batch, r.shape[-1])) for r in rows]
+    return np.concatenate(flat, axis=-1)
 
 
 def _batch(world: World, readings: Readings) -> tuple[int, ...]:

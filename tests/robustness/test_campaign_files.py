@@ -1,0 +1,62 @@
+"""Unusable campaigns: one line naming file, row, value and what would be right; exit code 2."""
+
+import pytest
+
+from cdpr_struct.cli.main import run
+
+HEAD = "case,x_m,y_m,z_m,cable,tension_N\n"
+ROWS = "".join(f"a,0,0,1,{i},300\n" for i in range(1, 9))
+CAMPAIGN = 'robot = "cogiro"\n[[measurement]]\nkind = "static_state"\nfile = "states.csv"\n'
+
+
+def complaint(tmp_path, capsys, campaign=CAMPAIGN, rows=HEAD + ROWS) -> str:
+    (tmp_path / "states.csv").write_text(rows)
+    path = tmp_path / "campaign.toml"
+    path.write_text(campaign)
+    assert run(["diagnose", str(path)]) == 2
+    captured = capsys.readouterr()
+    lines = captured.err.strip().splitlines()
+    assert captured.out == ""
+    assert len(lines) == 1, captured.err
+    return lines[0]
+
+
+@pytest.mark.parametrize(
+    ("rows", "words"),
+    [
+        ("", ["states.csv"]),
+        (HEAD, ["states.csv", "no rows"]),
+        (HEAD.replace("cable,", ""), ["cable", "no such column"]),
+        (HEAD.replace("tension_N", "tension_kN") + ROWS, ["tension_kN", "unknown"]),
+        (HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,1,3,much"), ["row 3", "tension_N", "much", "a number"]),
+        (HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,1,3,-5"), ["row 3", "-5", "above zero"]),
+        (HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,1,3,nan"), ["row 3", "nan", "finite"]),
+        (HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,1,9,300"), ["row 3", "cable", "9", "1 to 8"]),
+        (HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,1,2,300"), ["row 3", "cable", "one row a cable"]),
+        (HEAD + ROWS.replace("a,0,0,1,3,300\n", ""), ["case a", "[3]"]),
+        (HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,2,3,300"), ["row 3", "case a", "pose and payload"]),
+        (HEAD + ROWS.replace("a,0,0,1,3,300", ",0,0,1,3,300"), ["row 3", "case", "a name"]),
+    ],
+    ids=range(12),
+)
+def test_bad_rows(rows, words, tmp_path, capsys):
+    line = complaint(tmp_path, capsys, rows=rows)
+    assert all(word in line for word in words), line
+
+
+@pytest.mark.parametrize(
+    ("campaign", "words"),
+    [
+        (CAMPAIGN.replace("cogiro", "no-robot"), ["no-robot"]),
+        (CAMPAIGN.replace("static_state", "mood"), ["measurement[1].kind", "mood"]),
+        (CAMPAIGN.replace("states.csv", "missing.csv"), ["missing.csv"]),
+        ('robot = "cogiro"\n', ["measurement", "required"]),
+        (CAMPAIGN + "sigma = { tension_N = -1.0 }\n", ["sigma.tension_N", "-1"]),
+        (CAMPAIGN + "[tolerances]\nanchors = 1\n", ["tolerances.anchors"]),
+        (CAMPAIGN.replace('"cogiro"', '"cogiro"\nmodel = "jelly"'), ["model", "jelly"]),
+    ],
+    ids=range(7),
+)
+def test_bad_campaigns(campaign, words, tmp_path, capsys):
+    line = complaint(tmp_path, capsys, campaign=campaign)
+    assert all(word in line for word in words), line
