@@ -25,6 +25,7 @@ NEXT_THRESHOLD = 5.0
 SAME_CLASS = 3.0  # nats within which causes are not told apart
 SIGNIFICANT = 0.01
 ADEQUATE = 1e-3
+AMBIGUOUS = 8.0  # [%] doubt of a frequency whose partner is not clear
 SEED = 20240229
 
 
@@ -77,7 +78,7 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
     progress("simulating what was measured")
     ground, fine, gains, not_testable = prepare(campaign, plan)
     entered, entered_setting = fine, ground.setting
-    p_value = _significance(fine, ground, gains)
+    p_value = _significance(ground, gains)
     found: list[tuple[Correction, float]] = []
     progress("checking units, signs and channels")
     if p_value < SIGNIFICANT:
@@ -88,11 +89,11 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
             found.append(better)
             campaign = better[0].campaign
             ground, fine, gains, not_testable = prepare(campaign, plan)
-            if _significance(fine, ground, gains) >= SIGNIFICANT:
+            if _significance(ground, gains) >= SIGNIFICANT:
                 break
     progress("fitting causes")
     threshold = max(FIRST_THRESHOLD, float(np.quantile(gains, 0.975)))
-    quiet = (p_value if not found else _significance(fine, ground, gains)) >= SIGNIFICANT
+    quiet = (p_value if not found else _significance(ground, gains)) >= SIGNIFICANT
     selection = Selection(None, [], []) if quiet else select(ground, threshold, NEXT_THRESHOLD)
     progress("predicting what was left out")
     fit = selection.fit
@@ -100,7 +101,7 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
     carried: dict[str, float] = {}
     if fit is not None:
         held, fudge, carried = _held_out(ground, fine, fit)
-    adequate = adequacy(fit.white @ fit.white + fit.theta @ fit.theta, len(fine.r)) if fit else _chi2(fine)
+    adequate = _remainder(ground, fit) if fit else _chi2(ground.null)
     return Diagnosis(
         campaign, entered, entered_setting, ground, fine, found, selection, p_value, adequate, held, fudge, carried,
         gains, not_testable,
@@ -147,9 +148,20 @@ def _chi2(null: NullModel) -> float:
     return adequacy(float(z @ z), len(z))
 
 
-def _significance(null: NullModel, ground: Ground, gains: np.ndarray) -> float:
+def _remainder(ground: Ground, fit: Fit) -> float:
+    """p-value of what a fit leaves; frequencies whose partner was ambiguous as entered may be left out of it."""
+    whole = adequacy(float(fit.white @ fit.white + fit.theta @ fit.theta), len(fit.white))
+    clear = np.ones(len(fit.white), dtype=bool)
+    clear[ground.setting.labels.block == "RF"] = ground.setting.robot_doubt < AMBIGUOUS
+    null = fit.ground.null
+    lower = np.linalg.cholesky(null.covariance[np.ix_(clear, clear)])
+    z = np.linalg.solve(lower, (null.lower @ fit.white)[clear])
+    return max(whole, adequacy(float(z @ z + fit.theta @ fit.theta), len(z)))
+
+
+def _significance(ground: Ground, gains: np.ndarray) -> float:
     """p-value of the null: its chi^2, and the largest evidence of any cause beside that of draws from the null."""
-    overall = min(_chi2(null), _chi2(ground.null))
+    overall = _chi2(ground.null)
     best = float(largest_gains(ground.candidates, ground.z[:, None])[0])
     beaten = int((gains >= best).sum())
     count = len(gains)

@@ -11,6 +11,7 @@ from cdpr_struct.diagnosis.residuals import KIND_OF_BLOCK, UNITS
 from cdpr_struct.diagnosis.selection import Fit
 
 LARGEST_CLASS = 4
+CONFIRMED = 1.1  # times smaller error on data left out, below which a cause is fitted, not confirmed
 _PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
     "NS": "the null space of the structure matrix (internal force)", "LP": "the poses at locked lengths",
@@ -116,7 +117,9 @@ def _sentence(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
         text += f" These data do not tell {' from '.join(n.replace('_', ' ') for n in names)}."
     if fit is not None:
         text += f" This explains {100.0 * fit.explained(found.ground.z):.0f} % of the significant error"
-        if found.held is not None:
+        if found.held is not None and found.held.ratio() < CONFIRMED:
+            text += ", but no state that was left out confirms it"
+        elif found.held is not None:
             text += f"; states that were not fitted are predicted {found.held.ratio():.1f} times better"
         text += "."
     return text

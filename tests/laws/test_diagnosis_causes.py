@@ -1,0 +1,93 @@
+"""Each cause, put into readings made by the same model (crime=True), is found again with its size."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cdpr_struct.diagnosis.causes.registry import LIBRARY
+from cdpr_struct.diagnosis.diagnose import SAME_CLASS, diagnose
+from cdpr_struct.diagnosis.evidence import candidates, choices
+from cdpr_struct.diagnosis.null_model import null_model
+from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.selection import Ground, rank, refit
+from cdpr_struct.diagnosis.setting import make_setting
+from cdpr_struct.diagnosis.verdict import verdict
+from cdpr_struct.diagnosis.world import World
+from tests.laws.crime_campaign import clean_campaign, hidden
+
+# cause, pattern, hidden size in SI of theta (logarithm for ratios)
+HIDDEN = [
+    ("axial_stiffness", "all alike", -0.2),
+    ("joint_compliance", "all alike", 1e-5),
+    ("frame_compliance", "", 6e-6),
+    ("unstrained_length_offset", "cable 3 alone", 0.012),
+    ("drum_scale", "all alike", 1.5e-3),
+    ("pulley_radius", "all alike", 0.02),
+    ("platform_mass", "", 0.03),
+    ("joint_mass", "all alike", 0.4),
+    ("center_of_mass", "", 0.02),
+    ("external_force", "", 30.0),
+    ("cable_linear_density", "all alike", 0.09),
+    ("load_cell_gain", "cable 5 alone", 0.08),
+    ("load_cell_bias", "cable 2 alone", 15.0),
+    ("gravity_tilt", "", 0.025),
+    ("frame_anchor_position", "cable 4 alone", 0.015),
+    ("platform_anchor_position", "cable 6 alone", 0.012),
+]
+
+
+def ground_of(campaign, names) -> Ground:
+    """Ground with the named causes, without draws of the null."""
+    setting = make_setting(campaign)
+    world, readings = World.of(campaign.robot, len(campaign.states.names)), Readings.of(campaign.states)
+    null = null_model(setting, world, readings)
+    library = candidates(setting, world, readings, null, [LIBRARY[n] for n in names])
+    return Ground(setting, world, readings, null, library, 3, null.level, np.zeros(len(null.r)))
+
+
+@pytest.mark.parametrize(("name", "label", "size"), HIDDEN, ids=[h[0] for h in HIDDEN])
+def test_hidden_size_is_recovered(name, label, size):
+    """Fitted with the right pattern the size comes back within two of its sigmas, and beats the null."""
+    campaign = clean_campaign()
+    pattern = next(p for p in LIBRARY[name].patterns(make_setting(campaign)) if p.label == label)
+    theta = np.zeros(pattern.basis.shape[1])
+    theta[0] = size
+    ground = ground_of(hidden(lambda world: LIBRARY[name].apply(world, pattern.basis @ theta)), [name])
+    options = [c for c in choices(ground.candidates[0]) if c.pattern.label == label]
+    fit = max((refit(ground, (c,)) for c in options), key=lambda fit: fit.gain)
+    found = fit.theta * fit.choices[0].prior
+    sigma = np.sqrt(np.diagonal(fit.covariance)) * fit.choices[0].prior
+    assert fit.gain > 3.0
+    assert np.all(np.abs(found - theta) < 2.0 * sigma + 0.02 * abs(size)), (found, theta, sigma)
+
+
+def test_a_wrong_name_does_not_win():
+    """Heavier cables are not taken for anything else."""
+    campaign = hidden(lambda world: world.times(linear_density=np.full(8, 1.09)))
+    ground = ground_of(campaign, ["axial_stiffness", "cable_linear_density", "load_cell_gain", "joint_mass"])
+    assert rank(ground)[0].names == ("cable_linear_density",)
+
+
+@pytest.mark.slow
+def test_clean_readings_give_no_cause():
+    found = diagnose(clean_campaign())
+    assert verdict(found).status == "adequate"
+    assert found.p_value > 0.5
+
+
+def test_compliances_in_line_are_one_class():
+    """Elastic joints and cable behind the pulley are the same to these data: their evidence is within three nats."""
+    campaign = hidden(lambda world: world.plus(series_compliance=np.full(8, 1e-5)))
+    first, second = rank(ground_of(campaign, ["joint_compliance", "dead_length"]))
+    assert abs(first.gain - second.gain) < SAME_CLASS
+
+
+@pytest.mark.slow
+def test_exchanged_load_cells_are_found():
+    campaign = clean_campaign()
+    order = [0, 4, 2, 3, 1, 5, 6, 7]
+    swapped = replace(campaign, states=replace(campaign.states, tension=campaign.states.tension[:, order]))
+    found = diagnose(swapped)
+    assert [c.cause for c, _ in found.corrections] == ["swapped_channels"]
+    assert "cables 2 and 5" in verdict(found).sentence
