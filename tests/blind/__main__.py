@@ -1,0 +1,150 @@
+"""python -m tests.blind make|run|score|report|sizes|mesh
+
+make   draws campaigns and seals their truth        (script A)
+run    diagnoses every campaign without an answer   (script B)
+score  opens the truth and computes the figures     (script C)
+report writes docs/blind_tests.md
+sizes  measures the referee's smallest detectable sizes again
+mesh   measures the error of the referee's mesh again
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import shlex
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+from rich.progress import track
+
+from tests.blind.answers import asking_for_more
+from tests.blind.campaign_files import write_case
+from tests.blind.case_drawing import ROBOTS, CaseKind, can_be_separated, drawn_case
+from tests.blind.detectability import write_table
+from tests.blind.mesh_error import all_mesh_errors
+from tests.blind.report_page import write_page
+from tests.blind.running import default_command, diagnose_all
+from tests.blind.scoring import case_rows, figures, scored_cases
+from tests.blind.suite import composed, record_final_use, set_seed
+
+DOCS = Path(__file__).resolve().parents[2] / "docs" / "blind_tests.md"
+MESH = Path(__file__).with_name("mesh_error.json")
+FOLLOW_UPS = "followups"
+WHOLE = {"dev": 200, "final": 200, "ci": 12}
+
+
+def campaigns_of(out: Path) -> Path:
+    """Where the campaigns are: all that a diagnosis may see."""
+    return out / "campaigns"
+
+
+def sealed_of(options: argparse.Namespace) -> Path:
+    """Where the truth is."""
+    return Path(options.sealed) if options.sealed else Path(options.out).with_name(Path(options.out).name + "-sealed")
+
+
+def make(options: argparse.Namespace) -> int:
+    """Draw and write all cases of a set that are not there yet."""
+    out, base = Path(options.out), set_seed(options.set, options.release)
+    total = options.count or WHOLE[options.set]
+    kinds = composed(options.set, total, base)
+    run = {"set": options.set, "release": options.release, "count": total}
+    if options.set == "final" and not (out / "run.json").exists():
+        record_final_use(options.release)
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "run.json").write_text(json.dumps(run) + "\n", "utf-8")
+    jobs = [(kind, f"c{n:03d}", (base, n), out, sealed_of(options)) for n, kind in enumerate(kinds, start=1)]
+    jobs = [job for job in jobs if not (campaigns_of(out) / job[1] / "manifest.json").exists()]
+    with ProcessPoolExecutor(options.workers) as pool:
+        made = pool.map(_made, jobs)
+        for _ in track(made, "make", len(jobs), disable=not sys.stderr.isatty()):
+            pass
+    return 0
+
+
+def _made(job: tuple[CaseKind, str, tuple[int, ...], Path, Path]) -> None:
+    kind, name, seed, out, sealed = job
+    if can_be_separated(kind):
+        more = drawn_case(replace(kind, separated=True), seed)
+        write_case(more, name, seed, campaigns_of(out / FOLLOW_UPS), sealed / FOLLOW_UPS)
+    write_case(drawn_case(kind, seed), name, seed, campaigns_of(out), sealed)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Diagnose what has no answer yet."""
+    out = Path(options.out)
+    command = shlex.split(options.command) if options.command else default_command()
+    about = json.loads((out / "run.json").read_text("utf-8")) | {"budget": options.budget}
+    (out / "run.json").write_text(json.dumps(about) + "\n", "utf-8")
+    how = (options.budget, options.workers, command, options.again)
+    diagnose_all(campaigns_of(out), out / "answers", *how)
+    more = out / FOLLOW_UPS
+    asking = asking_for_more(out / "answers")
+    diagnose_all(campaigns_of(more), more / "answers", *how, only=asking)
+    return 0
+
+
+def score(options: argparse.Namespace) -> int:
+    """Compute the figures; prints them and writes score.json."""
+    out = Path(options.out)
+    cases = scored_cases(campaigns_of(out), out / "answers", sealed_of(options))
+    more = out / FOLLOW_UPS
+    served = scored_cases(campaigns_of(more), more / "answers", sealed_of(options) / FOLLOW_UPS)
+    about: dict[str, Any] = json.loads((out / "run.json").read_text("utf-8"))
+    about["date"] = datetime.now(UTC).date().isoformat()
+    scores = {"run": about, "figures": figures(cases, served), "rows": case_rows(cases)}
+    (out / "score.json").write_text(json.dumps(scores, indent=1) + "\n", "utf-8")
+    print(json.dumps(scores["figures"], indent=1))
+    return 0
+
+
+def report(options: argparse.Namespace) -> int:
+    """Write the page of the docs from score.json."""
+    scores = json.loads((Path(options.out) / "score.json").read_text("utf-8"))
+    mesh = json.loads(MESH.read_text("utf-8")) if MESH.exists() else None
+    write_page(scores, Path(options.page), mesh)
+    return 0
+
+
+def sizes(options: argparse.Namespace) -> int:
+    """Measure the smallest detectable sizes of the robots named, or of all."""
+    write_table([options.robot] if options.robot else list(ROBOTS))
+    return 0
+
+
+def mesh(_: argparse.Namespace) -> int:
+    """Measure the mesh error of all robots."""
+    MESH.write_text(json.dumps(all_mesh_errors(), indent=1) + "\n", "utf-8")
+    return 0
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Command line of the harness."""
+    parser = argparse.ArgumentParser(prog="python -m tests.blind", description=__doc__.splitlines()[0])
+    parser.add_argument("step", choices=("make", "run", "score", "report", "sizes", "mesh"))
+    parser.add_argument("--set", choices=("dev", "final", "ci"), default="dev")
+    parser.add_argument("--count", type=int, default=0, help="cases (default: the whole set)")
+    parser.add_argument("--out", default="results/blind", help="directory of campaigns and answers")
+    parser.add_argument("--sealed", default="", help="directory of the truth (default: OUT-sealed)")
+    parser.add_argument("--release", default="", help="name of the release, for the final set")
+    parser.add_argument("--budget", choices=("small", "full"), default="full")
+    parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--command", default="", help="what to run instead of cdpr-struct diagnose")
+    parser.add_argument("--again", action="store_true", help="diagnose also what has an answer")
+    parser.add_argument("--page", default=str(DOCS), help="page that report writes")
+    parser.add_argument("--robot", default="", help="robot whose sizes are measured")
+    options = parser.parse_args(arguments)
+    steps = {"make": make, "run": run, "score": score, "report": report, "sizes": sizes, "mesh": mesh}
+    return steps[options.step](options)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

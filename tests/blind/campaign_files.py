@@ -1,0 +1,72 @@
+"""What is handed to the diagnosis, and what is sealed away from it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+from tests.blind.case_drawing import Case
+from tests.blind.deviations import TOLERANCES
+from tests.blind.entered_robot import EnteredRobot
+from tests.blind.sensors import CABLE_HZ, ROBOT_HZ, SIGMA, Tables
+
+MODEL = "exact"
+POSE_SIGMA = ("position_m", "rotation_deg")
+
+
+def write_case(case: Case, name: str, seed: tuple[int, ...], campaigns: Path, sealed: Path) -> Path:
+    """Write the campaign to `campaigns/name` and its truth to `sealed/name.json`; returns the campaign file."""
+    folder = campaigns / name
+    folder.mkdir(parents=True, exist_ok=True)
+    sealed.mkdir(parents=True, exist_ok=True)
+    if case.robot.pulley_radius is not None:
+        (folder / "robot.toml").write_text(case.robot.text, "utf-8")
+    for kind, table in case.tables.items():
+        table.to_csv(folder / f"{kind}.csv", index=False, float_format="%.9g", lineterminator="\n")
+    (folder / "campaign.toml").write_text(campaign_text(case.robot, case.tables), "utf-8")
+    record = sealed_record(case.truth | {"case": name, "seed": list(seed)})
+    (sealed / f"{name}.json").write_text(json.dumps(record, indent=1, sort_keys=True) + "\n", "utf-8")
+    manifest = json.dumps({"truth_sha256": fingerprint(record)}) + "\n"
+    (folder / "manifest.json").write_text(manifest, "utf-8")
+    return folder / "campaign.toml"
+
+
+def sealed_record(truth: dict[str, Any]) -> dict[str, Any]:
+    """Truth with the salt that keeps its hash from being found by trying truths."""
+    salt = hashlib.sha256(json.dumps(["salt", truth["seed"], truth["case"]]).encode()).hexdigest()
+    return {"salt": salt, "truth": truth}
+
+
+def fingerprint(record: dict[str, Any]) -> str:
+    """sha256 of salt and truth."""
+    return hashlib.sha256(json.dumps(record, sort_keys=True).encode()).hexdigest()
+
+
+def opened_truth(name: str, campaigns: Path, sealed: Path) -> dict[str, Any]:
+    """Truth of a case, after checking that it is the one that was sealed when the campaign was written."""
+    record = json.loads((sealed / f"{name}.json").read_text("utf-8"))
+    expected = json.loads((campaigns / name / "manifest.json").read_text("utf-8"))["truth_sha256"]
+    if fingerprint(record) != expected:
+        raise ValueError(f"{name}: the sealed truth does not match the hash in its campaign's manifest.json")
+    return dict(record["truth"])
+
+
+def campaign_text(robot: EnteredRobot, tables: Tables) -> str:
+    """The campaign file (TOML)."""
+    file = robot.name if robot.pulley_radius is None else "robot.toml"
+    lines = [f'robot = "{file}"', f'model = "{MODEL}"', 'tension_distribution = "minimum_norm"', "", "[tolerances]"]
+    pulleys = robot.pulley_radius is not None
+    lines += [f"{key} = {value}" for key, value in TOLERANCES.items() if pulleys or key != "pulley_radius_m"]
+    for kind, table in tables.items():
+        names = [*POSE_SIGMA]
+        names += [key for key in ("tension_N",) if key in table]
+        names += [key for key in ("length_m",) if key in table or "length_1_m" in table]
+        pairs = [f"{key} = {SIGMA[key]}" for key in names]
+        relative = {"cable_frequency": CABLE_HZ, "robot_frequency": ROBOT_HZ}.get(kind)
+        if relative is not None:
+            pairs.append(f"frequency_hz = {relative * table['frequency_hz'].median():.4g}")
+        lines += ["", "[[measurement]]", f'kind = "{kind}"', f'file = "{kind}.csv"']
+        lines.append(f"sigma = {{ {', '.join(pairs)} }}")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,166 @@
+"""One campaign from a seed: robot, tolerances, hidden effect and its size, plan, readings, and the truth about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from fem_reference import FemError
+from tests.blind.catalogue import (
+    EQUIVALENT,
+    LIBRARY,
+    ONE_SIDED,
+    OUTSIDE,
+    STATICS_ONLY,
+    Effect,
+    drawn_pattern,
+)
+from tests.blind.detectability import reference_size, sigmas_left
+from tests.blind.deviations import Deviations, drawn_tolerances
+from tests.blind.entered_robot import EnteredRobot, entered_robot
+from tests.blind.measuring_plan import PlanSize, drawn_plan
+from tests.blind.note_errors import spoiled
+from tests.blind.observation import SlackStateError, observed
+from tests.blind.sensors import Noise, Tables, filed
+
+ROBOTS = ("thesis-3-1", "cogiro", "thesis-5", "thesis-5-pulleys")
+SHARES = (0.35, 0.25, 0.25, 0.15)
+SUSPENDED = ROBOTS[:2]
+SMALLEST_MULTIPLE_KEPT = 0.8  # of the multiple asked for, where the plausible size ends earlier
+ATTEMPTS = 60
+
+
+@dataclass(frozen=True)
+class CaseKind:
+    """What a case is to hold.
+
+    kind     : null, single, pair, ambiguous, outside or handling
+    effects  : (name, multiple of the smallest detectable size) of each hidden effect
+    noise    : white, coloured or outlier
+    lengths  : whether lengths are filed
+    separated : an ambiguous case with the measurements that tell its names apart, where there are any
+    """
+
+    kind: str
+    effects: tuple[tuple[str, float], ...] = ()
+    noise: str = "white"
+    lengths: bool = True
+    separated: bool = False
+    size: PlanSize = field(default_factory=PlanSize)
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A drawn case: what is handed out (robot, tables) and what is sealed (truth)."""
+
+    robot: EnteredRobot
+    tables: Tables
+    truth: dict[str, Any]
+
+
+class RejectedDrawError(Exception):
+    """This draw is slack, out of range or cannot have the effect: the next one is tried."""
+
+
+def drawn_case(kind: CaseKind, seed: tuple[int, ...]) -> Case:
+    """The case of a seed; the same seed gives the same case bit by bit."""
+    for attempt in range(ATTEMPTS):
+        try:
+            return _attempt(kind, seed, attempt)
+        except (RejectedDrawError, SlackStateError, FemError):
+            continue
+    raise RuntimeError(f"no campaign for {kind} with seed {seed} in {ATTEMPTS} attempts")
+
+
+def _attempt(kind: CaseKind, seed: tuple[int, ...], attempt: int) -> Case:
+    streams = np.random.SeedSequence([*seed, attempt]).spawn(5)
+    choice, workshop, hidden, route, sensor = (np.random.default_rng(stream) for stream in streams)
+    robot = entered_robot(str(choice.choice(ROBOTS, p=SHARES)))
+    tolerances, names = drawn_tolerances(robot.cables, workshop), [name for name, _ in kind.effects]
+    if robot.pulley_radius is None:
+        tolerances = tolerances.plus("pulley_radius", -tolerances["pulley_radius"])
+    deviations = tolerances
+    effects: list[dict[str, Any]] = []
+    if kind.kind != "handling":
+        deviations, effects = _hidden(kind, robot, tolerances, hidden)
+    lengths = kind.lengths and "internal_force" not in names
+    confused = kind.kind == "ambiguous" and not kind.separated
+    one_sided = confused and names[0] in ONE_SIDED
+    plan = drawn_plan(robot, route, deviations, kind.size, one_sided)
+    seen = observed(robot, deviations, plan)
+    tables = filed(plan, seen, deviations, Noise(sensor, kind.noise), lengths)
+    if confused and names[0] in STATICS_ONLY:
+        del tables["robot_frequency"]
+    if kind.kind == "handling":
+        effects = [{"cause": names[0], "multiple": None, "variant": spoiled(names[0], tables, hidden)}]
+    return Case(robot, tables, _truth(kind, robot, effects, deviations))
+
+
+def _hidden(
+    kind: CaseKind, robot: EnteredRobot, tolerances: Deviations, rng: np.random.Generator
+) -> tuple[Deviations, list[dict[str, Any]]]:
+    """The tolerances with the effects on top, and a record of each effect."""
+    effects = []
+    catalogue = {**(EQUIVALENT if kind.kind == "ambiguous" else LIBRARY), **OUTSIDE}
+    deviations = tolerances
+    for name, multiple in kind.effects:
+        effect = catalogue[name]
+        shape, pattern, size, reached = _sized(effect, robot, multiple, rng)
+        deviations = deviations.plus(name, size * pattern)
+        record = {"cause": name, "multiple": reached, "size": size, "unit": effect.unit, "shape": shape}
+        record["sigmas_left"] = sigmas_left(robot.name, name, size * pattern)
+        effects.append(record | {"change": (size * pattern).tolist(), "rivals": list(effect.rivals)})
+    for record in effects:
+        record["total"] = deviations[str(record["cause"])].tolist()
+    _refuse_impossible(robot, deviations)
+    return deviations, effects
+
+
+def _sized(
+    effect: Effect, robot: EnteredRobot, multiple: float, rng: np.random.Generator
+) -> tuple[str, np.ndarray, float, float]:
+    """Shape, pattern, size and the multiple of the reference size that it reaches."""
+    if effect.name == "internal_force" and robot.name not in SUSPENDED:
+        raise RejectedDrawError
+    shape, pattern = drawn_pattern(effect, robot.cables, rng)
+    reference = reference_size(robot.name, effect.name, pattern)
+    if reference is None:
+        raise RejectedDrawError
+    size = min(multiple * reference, effect.largest)
+    if size < SMALLEST_MULTIPLE_KEPT * multiple * reference:
+        raise RejectedDrawError
+    return shape, pattern, size, size / reference
+
+
+def _refuse_impossible(robot: EnteredRobot, deviations: Deviations) -> None:
+    """No negative masses or radii."""
+    radius = robot.pulley_radius
+    if radius is not None and radius + deviations["pulley_radius"].min() < 0.01:
+        raise RejectedDrawError
+    if robot.mass + deviations["platform_mass"][0] < 0.5 * robot.mass:
+        raise RejectedDrawError
+
+
+def _truth(
+    kind: CaseKind, robot: EnteredRobot, effects: list[dict[str, Any]], deviations: Deviations
+) -> dict[str, Any]:
+    return {
+        "kind": kind.kind,
+        "robot": robot.name,
+        "noise": kind.noise,
+        "lengths": kind.lengths,
+        "effects": effects,
+        "deviations": {name: value.tolist() for name, value in deviations.fields.items() if np.any(value)},
+    }
+
+
+def can_be_separated(kind: CaseKind) -> bool:
+    """Whether more measurements of the same robot would tell the names of an ambiguous case apart."""
+    return kind.kind == "ambiguous" and kind.effects[0][0] in (*ONE_SIDED, *STATICS_ONLY)
+
+
+def without_effect(kind: CaseKind) -> CaseKind:
+    """The same case with effects of size zero."""
+    return replace(kind, effects=tuple((name, 0.0) for name, _ in kind.effects))

@@ -1,0 +1,120 @@
+"""The effects that can be hidden: field, shape, how large it can plausibly be, and what it cannot be told from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tests.blind.deviations import field_sizes
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One hidden effect.
+
+    name    : the cause's name, or a name of its own if it is outside the library
+    unit    : of its size
+    shapes  : ways to spread it, one is drawn: `common`, `one` entry, `point` (one anchor), `spread` (all, random),
+              `direction` (a random unit vector)
+    signed  : may also be negative
+    largest : size beyond which it would be absurd
+    rivals  : names that all data of a campaign leave equally likely
+    """
+
+    name: str
+    unit: str
+    shapes: tuple[str, ...]
+    signed: bool = True
+    largest: float = np.inf
+    rivals: tuple[str, ...] = ()
+
+
+LIBRARY = {
+    effect.name: effect
+    for effect in (
+        Effect("axial_stiffness", "ln ratio", ("common", "one"), largest=0.5),
+        Effect("cable_linear_density", "ln ratio", ("common", "one"), largest=0.4),
+        Effect("platform_mass", "kg", ("common",), largest=20.0),
+        Effect("center_of_mass", "m", ("direction",), largest=0.1),
+        Effect("platform_inertia", "ln ratio", ("common", "one"), largest=0.7),
+        Effect("frame_anchor_position", "m", ("point", "spread"), largest=0.03),
+        Effect("platform_anchor_position", "m", ("point", "spread"), largest=0.03),
+        Effect("unstrained_length_offset", "m", ("one", "spread"), largest=0.03),
+        Effect("drum_scale", "ratio - 1", ("common",), largest=0.005),
+        Effect("temperature", "K", ("common",), largest=50.0),
+        Effect("frame_compliance", "m/N", ("common", "one"), signed=False, largest=1e-4),
+        Effect("pulley_radius", "m", ("common",), largest=0.04),
+        Effect("joint_mass", "kg", ("common",), signed=False, largest=2.0),
+        Effect("external_force", "N", ("direction",), largest=100.0),
+        Effect("hose_stiffness", "N/m", ("common",), signed=False, largest=200.0),
+        Effect("gravity_tilt", "rad", ("direction",), largest=0.1),
+        Effect("tracker_frame", "m, rad", ("direction",), largest=0.05),
+        Effect("load_cell_gain", "ratio - 1", ("one", "spread"), largest=0.3),
+        Effect("load_cell_bias", "N", ("one", "spread"), largest=60.0),
+        Effect("pulley_friction", "ln ratio per 90 deg", ("common", "one"), signed=False, largest=0.2),
+        Effect("internal_force", "N", ("direction",), largest=60.0),
+    )
+}
+
+EQUIVALENT = {
+    effect.name: effect
+    for effect in (
+        Effect("joint_compliance", "m/N", ("common",), signed=False, largest=3e-5, rivals=("dead_length",)),
+        Effect("dead_length", "m", ("common",), signed=False, largest=8.0, rivals=("joint_compliance",)),
+        Effect("drum_scale", "ratio - 1", ("common",), largest=0.005, rivals=("temperature",)),
+        Effect("platform_mass", "kg", ("common",), largest=20.0, rivals=("joint_mass", "external_force")),
+        Effect("pulley_friction", "ln ratio per 90 deg", ("one",), False, 0.2, rivals=("load_cell_gain",)),
+        Effect("tracker_frame", "m, rad", ("shift",), largest=0.05, rivals=("frame_anchor_position",)),
+    )
+}
+
+OUTSIDE = {
+    effect.name: effect
+    for effect in (
+        Effect("backlash", "m", ("common",), signed=False),
+        Effect("wind_gradient", "N/m^2", ("horizontal",)),
+        Effect("cell_quadratic", "N at 300 N", ("common",)),
+        Effect("cell_crosstalk", "ratio", ("common",), signed=False),
+        Effect("platform_hinge", "m", ("common",), signed=False),
+        Effect("drum_eccentricity", "m", ("common",), signed=False),
+    )
+}
+
+HANDLING = ("swapped_channels", "unit_error", "sign_error", "pose_mismatch")
+STATICS_ONLY = ("platform_mass",)  # equivalent pairs that robot frequencies would separate
+ONE_SIDED = ("pulley_friction",)  # equivalent if every cable is always approached from the same side
+
+
+def drawn_pattern(effect: Effect, cables: int, rng: np.random.Generator) -> tuple[str, np.ndarray]:
+    """Shape drawn, and the change of the field per unit size."""
+    size = field_sizes(cables)[effect.name]
+    shape = str(rng.choice(effect.shapes))
+    pattern = _shaped(shape, size, rng)
+    sign = rng.choice([-1.0, 1.0]) if effect.signed and shape in ("common", "one") else 1.0
+    return shape, sign * pattern
+
+
+def _shaped(shape: str, size: int, rng: np.random.Generator) -> np.ndarray:
+    """Unit pattern (size,): ones, one entry, or numbers of unit norm or unit rms."""
+    pattern = np.zeros(size)
+    if shape == "common":
+        return np.ones(size)
+    if shape == "one":
+        pattern[rng.integers(size)] = 1.0
+    elif shape == "point":
+        first = 3 * int(rng.integers(size // 3))
+        pattern[first : first + 3] = _unit(rng, 3)
+    elif shape == "spread":
+        pattern = _unit(rng, size) * np.sqrt(size)
+    elif shape in ("shift", "horizontal"):
+        held = 3 if shape == "shift" else 2
+        pattern[:held] = _unit(rng, held)
+    else:
+        pattern = _unit(rng, size)
+    return pattern
+
+
+def _unit(rng: np.random.Generator, size: int) -> np.ndarray:
+    drawn = rng.standard_normal(size)
+    return np.asarray(drawn / np.linalg.norm(drawn))

@@ -1,0 +1,125 @@
+"""By how much the real robot and its sensors differ from what was entered. All zero is the entered robot.
+
+Tolerances and hidden effects are both changes of these fields, so that an effect of size zero is the null.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+EXPANSION = 1.2e-5  # 1/K, steel: cables and frame
+
+
+NUMBERS_PER_CABLE = {
+    "frame_anchor_position": 3,  # m, cable by cable, x y z
+    "platform_anchor_position": 3,  # m
+    "unstrained_length_offset": 1,  # m
+    "axial_stiffness": 1,  # ln ratio
+    "cable_linear_density": 1,  # ln ratio
+    "joint_compliance": 1,  # m/N, a spring in series with each cable
+    "dead_length": 1,  # m of cable between winch and exit
+    "pulley_radius": 1,  # m
+    "joint_mass": 1,  # kg at each platform anchor
+    "load_cell_gain": 1,  # ratio - 1
+    "load_cell_bias": 1,  # N
+    "pulley_friction": 1,  # ln of the ratio winch side : platform side, per 90 degrees of wrap
+}
+NUMBERS_PER_ROBOT = {
+    "drum_scale": 1,  # ratio - 1
+    "temperature": 1,  # K, cables and frame expand
+    "platform_mass": 1,  # kg
+    "center_of_mass": 3,  # m
+    "platform_inertia": 3,  # ln ratio, axes of the platform
+    "frame_compliance": 4,  # m/N, one a mast
+    "external_force": 3,  # N, world, at the platform origin
+    "hose_stiffness": 1,  # N/m, towards the home position
+    "gravity_tilt": 2,  # rad, gravity turned about x, y
+    "tracker_frame": 6,  # m, rad: shift and turn of what the tracker calls the world
+    "internal_force": 2,  # N, along two directions of the null space
+    # outside the library of causes
+    "backlash": 1,  # m, with the sign of the last motion of the winch
+    "wind_gradient": 3,  # N a metre from home, squared distance
+    "cell_quadratic": 1,  # N at 300 N
+    "cell_crosstalk": 1,  # share of the next cable's tension
+    "platform_hinge": 1,  # m, the centre of mass tips over with the platform
+    "drum_eccentricity": 1,  # m, periodic in the paid-out length
+}
+
+
+def field_sizes(cables: int) -> dict[str, int]:
+    """Length of every field for a robot of m cables."""
+    return {name: count * cables for name, count in NUMBERS_PER_CABLE.items()} | NUMBERS_PER_ROBOT
+
+
+@dataclass(frozen=True, eq=False)
+class Deviations:
+    """Values of all fields."""
+
+    fields: Mapping[str, np.ndarray]
+
+    @classmethod
+    def none(cls, cables: int) -> Deviations:
+        """The robot exactly as entered."""
+        return cls({name: np.zeros(size) for name, size in field_sizes(cables).items()})
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.fields[name]
+
+    def plus(self, name: str, change: np.ndarray) -> Deviations:
+        """The same with one field changed."""
+        changed = self.fields[name] + change
+        return Deviations({**self.fields, name: changed})
+
+
+# 1 sigma of what is never exactly known, by the keys of a campaign file
+TOLERANCES = {
+    "anchor_m": 0.0005,
+    "length_m": 0.0005,
+    "axial_stiffness": 0.03,
+    "linear_density": 0.01,
+    "platform_mass_kg": 0.1,
+    "center_of_mass_m": 0.002,
+    "platform_inertia": 0.05,
+    "load_cell_gain": 0.005,
+    "load_cell_bias_N": 0.5,
+    "pulley_radius_m": 0.0002,
+}
+
+# which fields each tolerance fills, and whether half of the variance is common to all cables
+TOLERANCE_FIELDS = {
+    "anchor_m": (("frame_anchor_position", "platform_anchor_position"), False),
+    "length_m": (("unstrained_length_offset",), False),
+    "axial_stiffness": (("axial_stiffness",), True),
+    "linear_density": (("cable_linear_density",), True),
+    "platform_mass_kg": (("platform_mass",), False),
+    "center_of_mass_m": (("center_of_mass",), False),
+    "platform_inertia": (("platform_inertia",), False),
+    "load_cell_gain": (("load_cell_gain",), False),
+    "load_cell_bias_N": (("load_cell_bias",), False),
+    "pulley_radius_m": (("pulley_radius",), False),
+}
+
+
+def tolerance_columns(cables: int) -> list[tuple[str, np.ndarray]]:
+    """(field, change) per standard normal number of the null; their squares sum to its covariance."""
+    columns = []
+    sizes = field_sizes(cables)
+    for key, (names, reel) in TOLERANCE_FIELDS.items():
+        own = TOLERANCES[key] * (np.sqrt(0.5) if reel else 1.0)
+        for name in names:
+            columns += [(name, own * row) for row in np.eye(sizes[name])]
+            if reel:
+                columns.append((name, np.full(sizes[name], own)))
+    return columns
+
+
+def drawn_tolerances(cables: int, rng: np.random.Generator) -> Deviations:
+    """One robot as it may leave the workshop."""
+    drawn = Deviations.none(cables)
+    columns = tolerance_columns(cables)
+    for (name, change), number in zip(columns, rng.standard_normal(len(columns)), strict=True):
+        drawn = drawn.plus(name, number * change)
+    return drawn

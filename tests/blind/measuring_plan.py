@@ -1,0 +1,124 @@
+"""Which states are visited: drawn from a seed inside the workspace of each robot."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from tests.blind.controller import commanded_lengths, intended_tensions, null_directions
+from tests.blind.deviations import Deviations
+from tests.blind.entered_robot import EnteredRobot
+from tests.blind.true_robot import Command
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """Where a robot is sent.
+
+    low, high    : corners of the box of positions [m]
+    tilt_deg     : largest angle about each axis
+    payloads     : [kg] hung at the platform origin
+    most_tension : [N] that the controller allows
+    """
+
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+    tilt_deg: float
+    payloads: tuple[float, ...]
+    most_tension: float
+
+
+WORKSPACES = {
+    "thesis-3-1": Workspace((-2.0, -1.5, 0.3), (2.0, 1.5, 1.5), 10.0, (0.0, 10.0, 20.0), 800.0),
+    "cogiro": Workspace((-3.0, -2.0, 0.8), (3.0, 2.0, 2.2), 10.0, (0.0, 25.0, 50.0), 1000.0),
+    "thesis-5": Workspace((-3.0, -2.0, 1.5), (3.0, 2.0, 3.5), 2.5, (0.0, 10.0, 20.0), 2000.0),
+}
+WORKSPACES["thesis-5-pulleys"] = WORKSPACES["thesis-5"]
+
+
+@dataclass(frozen=True)
+class PlanSize:
+    """How much is measured."""
+
+    static_states: int = 15
+    locks: int = 3
+    loads_per_lock: int = 4
+    frequency_states: int = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Commands of every state; the first static states are also those where frequencies are measured.
+
+    statics : one Command a state
+    locks   : for each lock the Commands that differ in payload alone
+    frequency_states : how many of the static states
+    """
+
+    statics: tuple[Command, ...]
+    locks: tuple[tuple[Command, ...], ...]
+    frequency_states: int
+
+
+def drawn_plan(
+    robot: EnteredRobot,
+    rng: np.random.Generator,
+    deviations: Deviations | None = None,
+    size: PlanSize | None = None,
+    one_sided: bool = False,
+) -> Plan:
+    """A plan for one campaign; of the deviations only the controller's own (internal force) matter here."""
+    size = size or PlanSize()
+    internal = np.zeros(2) if deviations is None else deviations["internal_force"]
+    space = WORKSPACES[robot.name]
+    statics = []
+    for number in range(size.static_states):
+        payload = space.payloads[number % len(space.payloads)]
+        statics.append(_command(robot, rng, payload, internal, one_sided))
+    locks = []
+    for _ in range(size.locks):
+        empty = _command(robot, rng, 0.0, internal, one_sided)
+        step = space.payloads[-1] / (size.loads_per_lock - 1)
+        loads = [step * number for number in range(size.loads_per_lock)]
+        locks.append(tuple(_reloaded(empty, load) for load in loads))
+    return Plan(tuple(statics), tuple(locks), size.frequency_states)
+
+
+def _command(
+    robot: EnteredRobot, rng: np.random.Generator, payload: float, internal: np.ndarray, one_sided: bool
+) -> Command:
+    position, rotation, tensions = _reachable(robot, rng, payload)
+    tensions = tensions + null_directions(robot, position, rotation) @ internal
+    sides = rng.choice([-1.0, 1.0], robot.cables)
+    approach = np.ones(robot.cables) if one_sided else sides
+    lengths = commanded_lengths(robot, position, rotation, payload, tensions)
+    return Command(lengths, payload, approach, position, rotation)
+
+
+def _reachable(
+    robot: EnteredRobot, rng: np.random.Generator, payload: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A pose, most of them tilted, that tensions within the bounds hold."""
+    space = WORKSPACES[robot.name]
+    while True:
+        position = rng.uniform(space.low, space.high)
+        angles = rng.uniform(-space.tilt_deg, space.tilt_deg, 3) * (rng.random() < 0.7)
+        rotation = Rotation.from_euler("xyz", angles, degrees=True).as_matrix()
+        tensions = intended_tensions(robot, position, rotation, payload)
+        if tensions is not None and tensions.max() <= space.most_tension:
+            return position, rotation, tensions
+
+
+def _reloaded(command: Command, payload: float) -> Command:
+    return Command(command.lengths, payload, command.approach, command.position, command.rotation)
+
+
+def angles_deg(rotation: np.ndarray) -> np.ndarray:
+    """(rx, ry, rz) [deg] with R = Rz Ry Rx."""
+    rx = math.atan2(rotation[2, 1], rotation[2, 2])
+    ry = math.atan2(-rotation[2, 0], math.hypot(rotation[2, 1], rotation[2, 2]))
+    rz = math.atan2(rotation[1, 0], rotation[0, 0])
+    return np.degrees([rx, ry, rz])

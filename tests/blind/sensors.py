@@ -1,0 +1,143 @@
+"""Sensors and note-taking: readings with cell errors, tracker errors, noise, and rows as they would be filed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from scipy.spatial.transform import Rotation
+
+from tests.blind.deviations import Deviations
+from tests.blind.measuring_plan import Plan, angles_deg
+from tests.blind.observation import Observation, Rest
+from tests.blind.true_robot import Command
+from tests.blind.vibrations import VISIBLE_SHARE
+
+SIGMA = {"tension_N": 2.0, "position_m": 0.0003, "rotation_deg": 0.0115, "length_m": 0.0001}
+CABLE_HZ = 0.003  # relative
+ROBOT_HZ = 0.004  # relative
+PICKED = 0.8  # share of the visible peaks that somebody picks
+POSE = ["x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"]
+COLOUR = 0.7  # correlation of one reading with the next in coloured noise
+OUTLIER = 7.0  # sigma
+
+Tables = dict[str, pd.DataFrame]
+
+
+@dataclass
+class Noise:
+    """Draws noise of unit variance: `white`, `coloured` (a slow wander over the day), or white with an `outlier`."""
+
+    rng: np.random.Generator
+    kind: str = "white"
+    scale: float = 1.0
+
+    def __post_init__(self) -> None:
+        self._last: dict[tuple[str, int], np.ndarray] = {}
+
+    def draw(self, name: str, size: int) -> np.ndarray:
+        """Next (size,) numbers of the sensor `name`."""
+        fresh = self.scale * self.rng.standard_normal(size)
+        if self.kind != "coloured":
+            return fresh
+        last = self._last.get((name, size))
+        mixed = fresh if last is None else COLOUR * last + np.sqrt(1.0 - COLOUR**2) * fresh
+        self._last[name, size] = mixed
+        return np.asarray(mixed)
+
+
+def cell_readings(deviations: Deviations, command: Command, rest: Rest) -> np.ndarray:
+    """What the cells would show (m,) [N] without noise."""
+    drag = deviations["pulley_friction"] * command.approach * rest.exit_angles / (0.5 * np.pi)
+    pulled = rest.tensions * np.exp(drag)
+    pulled = pulled + deviations["cell_crosstalk"] * np.roll(pulled, -1)
+    pulled = pulled + deviations["cell_quadratic"] * (pulled / 300.0) ** 2
+    return np.asarray(pulled * (1.0 + deviations["load_cell_gain"]) + deviations["load_cell_bias"])
+
+
+def pose_readings(deviations: Deviations, rest: Rest) -> np.ndarray:
+    """What the tracker would show (6,) [m, deg] without noise."""
+    shift, turn = deviations["tracker_frame"][:3], Rotation.from_rotvec(deviations["tracker_frame"][3:]).as_matrix()
+    return np.concatenate([turn @ rest.position + shift, angles_deg(turn @ rest.rotation)])
+
+
+def noisy_pose(deviations: Deviations, rest: Rest, noise: Noise) -> np.ndarray:
+    """One pose reading (6,) [m, deg]."""
+    sigma = np.repeat([SIGMA["position_m"], SIGMA["rotation_deg"]], 3)
+    return np.asarray(pose_readings(deviations, rest) + sigma * noise.draw("pose", 6))
+
+
+def filed(plan: Plan, seen: Observation, deviations: Deviations, noise: Noise, with_lengths: bool = True) -> Tables:
+    """Rows of all files, by kind of measurement."""
+    static = static_rows(plan, seen, deviations, noise)
+    tables = {"static_state": static, "loaded_pose": loaded_rows(plan, seen, deviations, noise)}
+    if noise.kind == "outlier":
+        row = int(noise.rng.integers(len(static)))
+        static.loc[row, "tension_N"] += OUTLIER * SIGMA["tension_N"] * noise.rng.choice([-1.0, 1.0])
+    if not with_lengths:
+        del static["length_m"], tables["loaded_pose"]
+    states = static.drop_duplicates("case").set_index("case")
+    tables["cable_frequency"] = cable_rows(seen, static, states, noise)
+    tables["robot_frequency"] = robot_rows(seen, states, noise)
+    return tables
+
+
+def static_rows(plan: Plan, seen: Observation, deviations: Deviations, noise: Noise) -> pd.DataFrame:
+    """A row for every cable at every static state."""
+    rows = []
+    for number, (command, rest) in enumerate(zip(plan.statics, seen.statics, strict=True), start=1):
+        pose, cells = noisy_pose(deviations, rest, noise), cell_readings(deviations, command, rest)
+        tensions = cells + SIGMA["tension_N"] * noise.draw("tension", len(cells))
+        lengths = command.lengths + SIGMA["length_m"] * noise.draw("length", len(cells))
+        for cable in range(len(cells)):
+            row = {"case": f"s{number:02d}", **dict(zip(POSE, pose, strict=True)), "payload_kg": command.payload}
+            row |= {"cable": cable + 1, "tension_N": tensions[cable], "length_m": lengths[cable]}
+            rows.append(row | {"approach": int(command.approach[cable])})
+    return pd.DataFrame(rows)
+
+
+def loaded_rows(plan: Plan, seen: Observation, deviations: Deviations, noise: Noise) -> pd.DataFrame:
+    """A row for every payload at every lock."""
+    rows = []
+    for lock, (commands, rests) in enumerate(zip(plan.locks, seen.locks, strict=True), start=1):
+        lengths = commands[0].lengths + SIGMA["length_m"] * noise.draw("length", len(commands[0].lengths))
+        for number, (command, rest) in enumerate(zip(commands, rests, strict=True), start=1):
+            pose = noisy_pose(deviations, rest, noise)
+            row = {"case": f"l{lock}p{number}", **dict(zip(POSE, pose, strict=True)), "payload_kg": command.payload}
+            rows.append(row | {f"length_{cable}_m": value for cable, value in enumerate(lengths, start=1)})
+    return pd.DataFrame(rows)
+
+
+def cable_rows(seen: Observation, static: pd.DataFrame, states: pd.DataFrame, noise: Noise) -> pd.DataFrame:
+    """A row for every mode of every cable at the states where frequencies were measured."""
+    rows = []
+    tension = static.set_index(["case", "cable"])["tension_N"]
+    for number, cables in enumerate(seen.cable_hz, start=1):
+        case = f"s{number:02d}"
+        for cable, modes in enumerate(cables, start=1):
+            readings = modes * (1.0 + CABLE_HZ * noise.draw("cable frequency", len(modes)))
+            for mode, reading in enumerate(readings, start=1):
+                row = {"case": case, **_state(states, case), "cable": cable, "mode": mode, "plane": "in"}
+                row |= {"frequency_hz": reading, "sigma": CABLE_HZ * reading, "tension_N": tension[case, cable]}
+                rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def robot_rows(seen: Observation, states: pd.DataFrame, noise: Noise) -> pd.DataFrame:
+    """Peaks somebody picked among those that show on the platform, without labels."""
+    rows = []
+    for number, (modes, shares) in enumerate(zip(seen.robot_hz, seen.shares, strict=True), start=1):
+        case = f"s{number:02d}"
+        visible = modes[shares > VISIBLE_SHARE]
+        picked = visible[noise.rng.random(len(visible)) < PICKED]
+        for reading in np.sort(picked * (1.0 + ROBOT_HZ * noise.draw("robot frequency", len(picked)))):
+            row = {"case": case, **_state(states, case), "frequency_hz": reading, "sigma": ROBOT_HZ * reading}
+            rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def _state(states: pd.DataFrame, case: str) -> Mapping[str, float]:
+    """Pose and payload of a case, with the same readings as in the file of the static states."""
+    return {str(key): value for key, value in states.loc[case, [*POSE, "payload_kg"]].items()}

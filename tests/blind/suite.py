@@ -1,0 +1,102 @@
+"""Which cases a set holds, in which order, and from which seeds."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+
+from tests.blind.case_drawing import CaseKind
+from tests.blind.catalogue import EQUIVALENT, HANDLING, LIBRARY, OUTSIDE
+
+FULL = {"null": 40, "single": 80, "pair": 24, "ambiguous": 20, "outside": 20, "handling": 16}
+CI = {"null": 3, "single": 3, "pair": 1, "ambiguous": 2, "outside": 2, "handling": 1}
+MULTIPLES = (0.5, 1.0, 2.0, 4.0)
+CLEAR = 4.0  # multiple of effects whose size is not the question
+SET_SEEDS = {"dev": 20_101, "ci": 20_102}
+USES = Path(__file__).with_name("final_uses.json")
+
+
+def set_seed(name: str, release: str = "") -> int:
+    """Base seed of a set; that of the final set is the release's own, unknown before the release has a name."""
+    if name != "final":
+        return SET_SEEDS[name]
+    if not release:
+        raise ValueError("the final set needs --release NAME: its seeds are that release's own")
+    return int(hashlib.sha256(f"final set of {release}".encode()).hexdigest()[:12], 16)
+
+
+def counts(total: int) -> dict[str, int]:
+    """How many cases of each kind: the full suite scaled, largest remainders rounded up."""
+    whole = sum(FULL.values())
+    shares = {kind: number * total / whole for kind, number in FULL.items()}
+    chosen = {kind: int(share) for kind, share in shares.items()}
+    by_remainder = sorted(shares, key=lambda kind: shares[kind] - chosen[kind], reverse=True)
+    for kind in by_remainder[: total - sum(chosen.values())]:
+        chosen[kind] += 1
+    return chosen
+
+
+def composed(name: str, total: int, base: int) -> list[CaseKind]:
+    """Kinds of all cases in the order in which they are numbered, which tells nothing about them."""
+    rng = np.random.default_rng([base, 0])
+    numbers = CI if name == "ci" else counts(total)
+    makers = {
+        "null": _nulls,
+        "single": _singles,
+        "pair": _pairs,
+        "ambiguous": _ambiguous,
+        "outside": _outside,
+        "handling": _handling,
+    }
+    kinds = [kind for key, maker in makers.items() for kind in maker(numbers[key], rng)]
+    return [kinds[index] for index in rng.permutation(len(kinds))]
+
+
+def _nulls(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    """A quarter with coloured noise or an outlier, a tenth without lengths."""
+    odd = {3: "coloured", 7: "outlier"}
+    return [CaseKind("null", noise=odd.get(n % 8, "white"), lengths=n % 10 != 9) for n in range(count)]
+
+
+def _dealt(names: Sequence[str], count: int, rng: np.random.Generator) -> list[str]:
+    """Names in random order, each used once before any is used again."""
+    rounds = [rng.permutation(list(names)) for _ in range(count // len(names) + 1)]
+    return [str(name) for name in np.concatenate(rounds)[:count]]
+
+
+def _singles(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    multiples = [MULTIPLES[(3 - n) % 4] for n in range(count)]
+    return [CaseKind("single", ((n, m),)) for n, m in zip(_dealt([*LIBRARY], count, rng), multiples, strict=True)]
+
+
+def _pairs(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    """Two different effects, each twice or four times what can be detected."""
+    names = [name for name in LIBRARY if name not in ("internal_force", "pulley_radius")]
+    pairs = [rng.choice(names, 2, replace=False) for _ in range(count)]
+    return [CaseKind("pair", tuple((str(n), float(rng.choice(MULTIPLES[2:]))) for n in pair)) for pair in pairs]
+
+
+def _ambiguous(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    return [CaseKind("ambiguous", ((name, CLEAR),)) for name in _dealt([*EQUIVALENT], count, rng)]
+
+
+def _outside(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    return [CaseKind("outside", ((name, CLEAR),)) for name in _dealt([*OUTSIDE], count, rng)]
+
+
+def _handling(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    return [CaseKind("handling", ((name, CLEAR),)) for name in _dealt(HANDLING, count, rng)]
+
+
+def record_final_use(release: str, uses: Path = USES) -> None:
+    """Write down that the final set of a release is being made; a second time is refused."""
+    known = json.loads(uses.read_text("utf-8")) if uses.exists() else []
+    if any(use["release"] == release for use in known):
+        raise ValueError(f"the final set of release {release!r} was already used; see {uses.name}")
+    known.append({"release": release, "date": datetime.now(UTC).date().isoformat()})
+    uses.write_text(json.dumps(known, indent=1) + "\n", "utf-8")

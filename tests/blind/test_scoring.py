@@ -1,0 +1,158 @@
+"""The scorer on answers written by hand, and the harness end to end with a program that always says the same."""
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.blind.__main__ import main
+from tests.blind.answers import (
+    Answer,
+    right_answer,
+    right_class,
+    right_name,
+    wrong_confident_class,
+    wrong_confident_name,
+)
+from tests.blind.campaign_files import write_case
+from tests.blind.case_drawing import CaseKind, drawn_case
+from tests.blind.intervals import band, expected_calibration_error, interval_flags
+from tests.blind.measuring_plan import PlanSize
+from tests.blind.scoring import Scored, figures
+
+TINY = PlanSize(static_states=1, locks=1, loads_per_lock=2, frequency_states=1)
+FAKE = """
+import json, pathlib, sys
+out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1]); out.mkdir(parents=True)
+answer = {"verdict": {"status": "named", "causes": ["drum_scale"], "class": [], "probability": 0.95}}
+(out / "result.json").write_text(json.dumps(answer))
+"""
+
+
+def said(status: str, causes=(), groups=(), probability=0.95, result=None) -> Answer:
+    return Answer(status, tuple(causes), tuple(map(tuple, groups)), probability, 1.0, result or {})
+
+
+def truth(kind: str, *effects) -> dict:
+    records = [{"cause": name, "multiple": multiple, "change": [1.0]} for name, multiple in effects]
+    return {"kind": kind, "robot": "cogiro", "effects": records}
+
+
+def test_names_and_classes():
+    hidden = ("joint_compliance",)
+    in_class = said("class", groups=[["joint_compliance", "dead_length"]])
+    assert right_class(in_class, hidden)
+    assert not right_name(in_class, hidden)
+    assert right_name(said("named", hidden), hidden)
+    assert not right_class(said("class", groups=[["joint_compliance", *"abc"]]), hidden)
+    assert not right_class(said("named", ["joint_compliance", "drum_scale"]), hidden)
+    assert right_class(said("named", ["b", "a"]), ("a", "b"))
+    assert right_class(said("class", groups=[["a", "b"], ["a"]]), ("a", "b"))
+    assert not right_class(said("class", groups=[["a"], ["a", "c"]]), ("a", "b"))
+
+
+def test_a_wrong_name_counts_only_when_it_is_confident():
+    assert wrong_confident_name(said("named", ["drum_scale"]), ())
+    assert not wrong_confident_name(said("named", ["drum_scale"], probability=0.6), ())
+    assert not wrong_confident_name(said("unknown"), ())
+    assert wrong_confident_name(said("named", ["drum_scale", "temperature"]), ("temperature",))
+    assert wrong_confident_class(said("class", groups=[["drum_scale", "temperature"]]), ("platform_mass",))
+    assert not wrong_confident_class(said("class", groups=[["drum_scale", "temperature"]]), ("temperature",))
+
+
+@pytest.mark.parametrize(
+    ("kind", "status", "right"),
+    [("null", "adequate", True), ("null", "unknown", False), ("outside", "unknown", True), ("outside", "named", False)],
+)
+def test_right_answers_without_a_name(kind, status, right):
+    effects = [("backlash", 4.0)] if kind == "outside" else []
+    assert right_answer(said(status, ["drum_scale"]), truth(kind, *effects)) is right
+
+
+def test_figures_of_a_small_set():
+    cases = [
+        Scored("c1", truth("null"), said("adequate")),
+        Scored("c2", truth("null"), said("named", ["drum_scale"])),
+        Scored(
+            "c3",
+            truth("single", ("center_of_mass", 2.0)),
+            said("named", ["center_of_mass"], result={"gain": {"ratio": 3}}),
+        ),
+        Scored("c4", truth("single", ("drum_scale", 0.5)), said("adequate")),
+        Scored("c5", truth("outside", ("backlash", 4.0)), said("unknown")),
+        Scored("c6", truth("handling", ("unit_error", None)), said("failed", probability=float("nan"))),
+    ]
+    cases[2].truth["effects"][0] |= {"total": [0.001], "shape": "common"}
+    found = figures(cases)
+    assert found["false_alarms"]["value"] == 0.5
+    assert found["detection"]["2x"]["value"] == 1.0
+    assert found["detection"]["0.5x"]["value"] == 0.0
+    assert found["right_name_at_2x"]["successes"] == 1
+    assert found["right_name_at_2x"]["cases"] == 2
+    assert found["wrong_confident_name"]["value"] == pytest.approx(1 / 6)
+    assert found["unknown_caught"]["value"] == 1.0
+    assert found["heldout_ratio_median"] == 3.0
+    assert found["failed_runs"]["successes"] == 1
+
+
+def test_binomial_band_is_the_exact_one():
+    """2 of 40: 0.6 to 16.9 per cent (Clopper and Pearson)."""
+    assert band(2, 40) == pytest.approx((0.0061, 0.1692), abs=2e-4)
+    assert band(0, 10)[0] == 0.0
+    assert band(10, 10)[1] == 1.0
+
+
+def test_intervals_are_compared_as_ratios_and_offsets():
+    effect = {"cause": "axial_stiffness", "shape": "common", "total": [0.0953, 0.0953]}
+    stated = {"axial_stiffness": {"value": 1.09, "sigma": 0.01, "unit": "ratio"}}
+    ((covered, error),) = interval_flags(effect, stated)
+    assert covered
+    assert error == pytest.approx(0.1, abs=0.01)
+    stated["axial_stiffness"]["sigma"] = 0.001
+    assert not interval_flags(effect, stated)[0][0]
+    one = {"cause": "load_cell_bias", "shape": "one", "total": [0.0, 0.0, 5.0]}
+    assert interval_flags(one, {"load_cell_bias_3": {"value": 5.5, "sigma": 0.5, "unit": "N"}})[0] == (
+        True,
+        pytest.approx(0.1),
+    )
+
+
+def test_a_calibrated_teller_has_no_calibration_error():
+    import numpy as np
+
+    right = np.array([1.0] * 9 + [0.0])
+    assert expected_calibration_error(np.full(10, 0.9), right) == pytest.approx(0.0)
+    assert expected_calibration_error(np.full(10, 0.5), right) == pytest.approx(0.4)
+
+
+@pytest.fixture
+def one_case_set(tmp_path) -> Path:
+    out = tmp_path / "set"
+    case = drawn_case(CaseKind("null", size=TINY), (7, 3))
+    write_case(case, "c001", (7, 3), out / "campaigns", tmp_path / "set-sealed")
+    (out / "run.json").write_text(json.dumps({"set": "dev", "budget": "small"}), "utf-8")
+    (tmp_path / "fake.py").write_text(FAKE, "utf-8")
+    return out
+
+
+def test_harness_runs_scores_and_reports(one_case_set, tmp_path, capsys):
+    command = f"{sys.executable} {tmp_path / 'fake.py'}"
+    assert main(["run", "--out", str(one_case_set), "--command", command]) == 0
+    assert main(["score", "--out", str(one_case_set)]) == 0
+    assert json.loads(capsys.readouterr().out)["false_alarms"]["value"] == 1.0
+    page = tmp_path / "page.md"
+    assert main(["report", "--out", str(one_case_set), "--page", str(page)]) == 0
+    text = page.read_text("utf-8")
+    assert "| wrong confident name, over everything | 100 % | 2-100 % | 1 | <= 2 % |" in text
+    assert "@" not in text
+    assert (tmp_path / "page_confusion.svg").exists()
+
+
+def test_a_run_is_resumed_and_not_repeated(one_case_set, tmp_path):
+    command = f"{sys.executable} {tmp_path / 'fake.py'}"
+    main(["run", "--out", str(one_case_set), "--command", command])
+    record = one_case_set / "answers" / "c001" / "run.json"
+    before = record.read_bytes()
+    main(["run", "--out", str(one_case_set), "--command", f"{sys.executable} -c 'raise SystemExit(2)'"])
+    assert record.read_bytes() == before

@@ -1,0 +1,76 @@
+"""Natural frequencies of the real robot: of its cables, and of platform with cables and masts."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import block_array, csc_array, diags_array, lil_array
+
+from fem_reference import RobotEquilibrium, cable_modes
+from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
+from fem_reference.rigid_platform import platform_mass_matrix
+from fem_reference.robot_modes import robot_matrices
+from tests.blind.deviations import Deviations
+from tests.blind.entered_robot import EnteredRobot
+
+CABLE_MODES = 4
+ROBOT_MODES = 48
+VISIBLE_SHARE = 0.3  # of the kinetic energy in the platform: what an accelerometer on it shows as a clear peak
+SHIFT = -0.4  # (rad/s)^2, far below every mode of these robots
+
+
+def in_plane_frequencies(equilibrium: RobotEquilibrium) -> np.ndarray:
+    """Lowest in-plane frequencies (m, 4) [Hz] of the cables, platform held."""
+    found = [cable_modes(cable, 2 * CABLE_MODES + 2) for cable in equilibrium.cables]
+    return np.array([modes.frequencies_hz[modes.in_plane_share > 0.5][:CABLE_MODES] for modes in found])
+
+
+def whole_matrices(
+    robot: EnteredRobot, deviations: Deviations, equilibrium: RobotEquilibrium
+) -> tuple[csc_array, csc_array]:
+    """Stiffness and mass of cables and platform with the hose, and of the masts that are not rigid.
+
+    The mean of lumped and consistent mass is right to fourth order, also where modes of cables and platform are so
+    close that frequencies of two meshes could not be extrapolated.
+    """
+    stiffness, lumped = robot_matrices(equilibrium, "lumped")
+    mass = csc_array(0.5 * (lumped + robot_matrices(equilibrium, "consistent")[1]))
+    hose = np.zeros(stiffness.shape[0])
+    hose[-6:-3] = deviations["hose_stiffness"][0]
+    stiffness = csc_array(stiffness + diags_array(hose))
+    soft = np.flatnonzero(deviations["frame_compliance"])
+    if not len(soft):
+        return stiffness, mass
+    springs = np.diag(np.repeat(1.0 / deviations["frame_compliance"][soft], 3))
+    bars = 0.5 * (equilibrium.element_mass("lumped") + equilibrium.element_mass("consistent"))
+    between, own = _exit_blocks(equilibrium.element_stiffness()[:, 0], robot, soft, mass.shape[0], equilibrium.elements)
+    dragged, carried = _exit_blocks(bars[:, 0], robot, soft, mass.shape[0], equilibrium.elements)
+    return (
+        csc_array(block_array([[stiffness, between.T], [between, csc_array(own + springs)]])),
+        csc_array(block_array([[mass, dragged.T], [dragged, csc_array(carried)]])),
+    )
+
+
+def _exit_blocks(
+    first: np.ndarray, robot: EnteredRobot, soft: np.ndarray, unknowns: int, elements: int
+) -> tuple[csc_array, np.ndarray]:
+    """Coupling of the soft masts with the first free nodes, and their own block, from first elements (m, 6, 6)."""
+    between, own = lil_array((3 * len(soft), unknowns)), np.zeros((3 * len(soft), 3 * len(soft)))
+    for row, mast in enumerate(soft):
+        rows = slice(3 * row, 3 * row + 3)
+        for cable in np.flatnonzero(robot.masts == mast):
+            node = 3 * (elements - 1) * int(cable)
+            own[rows, rows] += first[cable, :3, :3]
+            between[rows, node : node + 3] = first[cable, :3, 3:]
+    return csc_array(between), own
+
+
+def robot_frequencies(
+    robot: EnteredRobot, deviations: Deviations, equilibrium: RobotEquilibrium
+) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest frequencies (k,) [Hz] and the share (k,) of their kinetic energy in the platform."""
+    stiffness, mass = whole_matrices(robot, deviations, equilibrium)
+    values, vectors = lowest_eigenpairs(stiffness, mass, ROBOT_MODES, SHIFT)
+    end = 3 * len(equilibrium.cables) * (equilibrium.elements - 1)
+    moved = vectors[end : end + 6]
+    body = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
+    return frequencies_hz(values), np.einsum("ak,ab,bk->k", moved, body, moved)
