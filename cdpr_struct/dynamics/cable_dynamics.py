@@ -165,7 +165,8 @@ class ClosedFormCables:
 
     def expansion(self, omega: float) -> ModalExpansion:
         half_waves = omega / self.first_frequency.min()
-        return expand_taut_cables(self.cables, int(np.ceil(0.5 * half_waves)) + 6).reduced(omega)
+        full = expand_taut_cables(self.cables, int(np.ceil(0.5 * half_waves)) + 6)
+        return full.ascending().reduced(omega)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

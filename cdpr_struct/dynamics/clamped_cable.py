@@ -9,7 +9,6 @@ import numpy as np
 from cdpr_struct.dynamics.taut_cables import TautCables
 from cdpr_struct.generated.cable_dsm import clamped_frequency_function
 
-
 _ROOT_STEPS = 60
 
 
