@@ -10,8 +10,8 @@ from cdpr_struct.dynamics.taut_cables import TautCables
 def expand_taut_cables(cables: TautCables, pairs: int) -> ModalExpansion:
     """Expansion with `pairs` antisymmetric and as many symmetric in-plane modes, and 2 `pairs` out of plane.
 
-    Modes come plane by plane: out of plane, in plane antisymmetric, symmetric. Local axes are those of the chord. Motion
-    along the chord carries no mass in this model; its shape is linear.
+    Modes come plane by plane: out of plane, in plane antisymmetric, symmetric. Local axes are those of the chord.
+    Motion along the chord carries no mass in this model; its shape is linear.
     """
     symmetric = symmetric_roots(cables.lambda_squared, pairs)
     nodes, weights = np.polynomial.legendre.leggauss(24 + 8 * pairs)
