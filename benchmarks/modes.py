@@ -2,8 +2,8 @@
 
     python -m benchmarks.modes
 
-From a pose to certified modes, statics included, on the 8-cable robot of Table 3.1; the FEM with as many elements as its
-60th frequency needs for a relative error of 1e-4 (measured against the exact model, printed). One thread; the runs
+From a pose to certified modes, statics included, on the 8-cable robot of Table 3.1; the FEM with as many elements as
+its 60th frequency needs for a relative error of 1e-4 (measured against the exact model, printed). One thread; the runs
 alternate, smallest and median of nine.
 """
 
@@ -53,7 +53,8 @@ def main() -> None:
     bench.setup("exact")
     exact = certified_modes(bench.rest(), "exact", COUNT).frequencies.hertz
     mesh = fem.robot_modes(solve_in_fem(bench.rest(), ELEMENTS), COUNT).frequencies_hz
-    print(f"FEM with 8 x {ELEMENTS} elements: largest error of {COUNT} frequencies {np.abs(mesh / exact - 1.0).max():.1e}")
+    error = np.abs(mesh / exact - 1.0).max()
+    print(f"FEM with 8 x {ELEMENTS} elements: largest error of {COUNT} frequencies {error:.1e}")
     tasks = {
         "inverse kinematics alone": bench.rest,
         "dsm": lambda: bench.time_model("dsm"),
@@ -69,7 +70,8 @@ def main() -> None:
     fem_median = float(np.median(seconds["fem"]))
     for name, values in seconds.items():
         median = float(np.median(values))
-        print(f"{name:<26} {1e3 * min(values):8.1f} ms  median {1e3 * median:8.1f} ms  FEM / this {fem_median / median:6.1f}")
+        ratio = fem_median / median
+        print(f"{name:<26} {1e3 * min(values):8.1f} ms  median {1e3 * median:8.1f} ms  FEM / this {ratio:6.1f}")
 
 
 if __name__ == "__main__":

@@ -57,7 +57,7 @@ def _locked(robot: "Robot", text: str) -> "OperatingPoint":
     solution = forward(robot, lengths, *start).require_converged()
     if not bool(solution.stable):
         raise CdprError(
-            f"at these lengths the platform has no stable equilibrium (least stiffness {solution.least_stiffness:.3g} N/m)"
+            f"at these lengths the platform has no stable equilibrium (least {solution.least_stiffness:.3g} N/m)"
         )
     return OperatingPoint(robot, solution.position, solution.rotation, solution.cables)
 
