@@ -12,9 +12,9 @@ from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Labels, Setting, _States
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
-from cdpr_struct.dynamics.mode_shapes import mode_shapes
 from cdpr_struct.dynamics.natural_frequencies import count_below
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.robot.robot import Robot
@@ -201,8 +201,8 @@ def _modes(setting: Setting, point: OperatingPoint, highest: float) -> tuple[np.
     cables = cable_dynamics(point, name, 2.0 * np.pi * highest * _MARGIN)  # type: ignore[arg-type]
     omega = 2.0 * np.pi * highest * _MARGIN
     count = 6 if setting.massless else int(count_below(point, cables, np.array([omega]), way)[0]) + 3  # type: ignore[arg-type]
-    shapes = mode_shapes(point, cables, count, omega, np.array([0.5]), way)  # type: ignore[arg-type]
-    return shapes.hertz, shapes.platform, shapes.platform_energy
+    modes = ritz_modes(point, cables.expansion(omega), count, way)  # type: ignore[arg-type]
+    return modes.omega / (2.0 * np.pi), modes.platform, modes.platform_energy
 
 
 def _labels(setting: Setting) -> Labels:
