@@ -12,6 +12,7 @@ from cdpr_struct.diagnosis.selection import Fit
 
 LARGEST_CLASS = 4
 CONFIRMED = 1.1  # times smaller error on data left out, below which a cause is fitted, not confirmed
+UNCONFIRMED = 0.5  # largest probability of a cause that nothing left out confirms
 _PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
     "NS": "the null space of the structure matrix (internal force)", "LP": "the poses at locked lengths",
@@ -49,11 +50,18 @@ def verdict(found: Diagnosis) -> Verdict:
         _class(found, i) for i in range(len(fit.names) if fit else 0)
     )
     separable = all(len(c) == 1 for c in classes)
-    status = "named" if separable else "class"
+    status = "named" if separable and _confirmed(found) else "class"
     if any(len(c) > LARGEST_CLASS for c in classes):
         text = f"Something is wrong in {place}; these data leave more than {LARGEST_CLASS} causes open."
         return Verdict("class", names, classes, _probability(found), place, _next(found, classes), text)
     return Verdict(status, names, classes, _probability(found), place, _next(found, classes), _sentence(found, classes))
+
+
+def _confirmed(found: Diagnosis) -> bool:
+    """A fitted cause is a claim of transfer: states that were left out must be predicted better with it."""
+    if found.selection.fit is None:
+        return True
+    return found.held is not None and found.held.ratio() >= CONFIRMED
 
 
 def location(found: Diagnosis) -> str:
@@ -92,7 +100,7 @@ def _probability(found: Diagnosis) -> float:
     rivals = [r.gain for row in found.selection.rivals for r in row]
     gains = np.array([fit.gain, 0.0, *rivals])
     weights = np.exp(gains - gains.max())
-    return float(np.round(min(weights[0] / weights.sum(), 0.99), 2))
+    return float(np.round(min(weights[0] / weights.sum(), 0.99 if _confirmed(found) else UNCONFIRMED), 2))
 
 
 def _next(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
