@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 NAME = "audit"
 _THREADS = 2
 _INSTANTS = 301
-_TRAJECTORY = "helix, or a CSV file time_s,x_m,y_m,z_m[,rx_deg,ry_deg,rz_deg]."
+_TRAJECTORY = "helix, line:START:END:SECONDS, or a CSV file time_s,x_m,y_m,z_m[,rx_deg,ry_deg,rz_deg]."
 
 
 def run(

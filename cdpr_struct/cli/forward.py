@@ -36,7 +36,7 @@ def run(
     from cdpr_struct.reports import statics_rest as report
     from cdpr_struct.statics.forward_kinematics import forward
 
-    origin = None if start is None and machine.home is None else read_pose(start, machine)
+    origin = None if start is None and machine.home is None else read_pose(start, machine, "--start")
     first: tuple[Any, Any] = (None, None) if origin is None else (origin.position, origin.rotation)
     solution = forward(machine, length, *first, chosen).require_converged()
     result = report.forward_json(machine, chosen, length, solution)

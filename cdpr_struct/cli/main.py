@@ -2,6 +2,7 @@
 
 import sys
 
+import numpy as np
 import typer
 from typer.exceptions import Abort, TyperException
 
@@ -31,7 +32,6 @@ from cdpr_struct.errors import CdprError, InputError
 
 app = typer.Typer(
     add_completion=False,
-    no_args_is_help=True,
     rich_markup_mode=None,
     help="Deflection and vibration of cable-driven parallel robots, checked against an independent FEM.",
 )
@@ -70,19 +70,28 @@ def run(arguments: list[str] | None) -> int:
         code = int(app(args=arguments, standalone_mode=False) or 0)
         return _fail(code, "interrupted; nothing was written") if code == interruption.CODE else code
     except TyperException as error:
-        return _fail(2, error.format_message().replace("\n", " ") + " See cdpr-struct --help.")
+        return _fail(2, _complaint(error))
     except InputError as error:
         return _fail(2, str(error))
     except CdprError as error:
         return _fail(1, str(error))
     except Interrupted as stop:
         return _fail(interruption.CODE, str(stop))
+    except (ArithmeticError, np.linalg.LinAlgError) as error:
+        return _fail(1, f"cannot be computed ({error}): check masses, lengths, stiffnesses and forces for their size")
     except (Abort, KeyboardInterrupt):
         return _fail(interruption.CODE, "interrupted; nothing was written")
     except Exception as error:
         if type(error).__module__.partition(".")[0] == "fem_reference":
             return _fail(1, f"FEM reference: {error}")
         raise
+
+
+def _complaint(error: TyperException) -> str:
+    """What is wrong with the words of the command line, in one line."""
+    if isinstance(error, typer.BadParameter) and error.param is not None and error.message.startswith("got "):
+        return f"{error.param.opts[0]}: {error.message}"
+    return f"{error.format_message().replace(chr(10), ' ').rstrip('.')}. See cdpr-struct --help."
 
 
 def _fail(code: int, message: str) -> int:

@@ -1,5 +1,6 @@
 """Options that several commands share, and how their text is read."""
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,12 +15,18 @@ if TYPE_CHECKING:
     from cdpr_struct.workspace.grid import Grid
 
 
+LARGEST = 1e12  # of any number that is not infinite; beyond it squares and products leave what can be computed
+
+
 def number(text: str) -> float:
     """A number of an option; the complaint says what was given."""
     try:
-        return float(text)
+        value = float(text)
     except ValueError as error:
         raise typer.BadParameter(f"got {text!r}; give a number") from error
+    if LARGEST < abs(value) < float("inf"):
+        raise typer.BadParameter(f"got {text!r}; give a number of at most {LARGEST:g}")
+    return value
 
 
 def whole_number(text: str) -> int:
@@ -30,10 +37,20 @@ def whole_number(text: str) -> int:
         raise typer.BadParameter(f"got {text!r}; give a whole number") from error
 
 
+def directory(text: str) -> Path:
+    """The directory of --out; the complaint comes before any work is done."""
+    found = next((p for p in (Path(text), *Path(text).absolute().parents) if p.exists()), Path("/"))
+    if not text.strip() or not found.is_dir() or not os.access(found, os.W_OK | os.X_OK):
+        raise typer.BadParameter(f"got {text!r}; give a directory that can be written")
+    return Path(text)
+
+
 RobotName = Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in name or path to a robot file.")]
 Out = Annotated[
     Path | None,
-    typer.Option("--out", metavar="DIR", help="Write result.json, tables, figures and report.html here."),
+    typer.Option(
+        "--out", parser=directory, metavar="DIR", help="Write result.json, tables, figures and report.html here."
+    ),
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print result.json to stdout, nothing else.")]
 PoseText = Annotated[
@@ -68,6 +85,8 @@ def read_numbers(text: str, option: str, counts: tuple[int, ...] | None = None, 
         values = [float(part) for part in text.split(",")]
     except ValueError as error:
         raise InputError(option, "", text, expected) from error
+    if any(LARGEST < abs(v) < float("inf") for v in values):
+        raise InputError(option, "", text, f"{expected}, none above {LARGEST:g} in size")
     if not all(abs(v) < float("inf") for v in values) or (counts is not None and len(values) not in counts):
         raise InputError(option, "", text, expected)
     return values
@@ -84,14 +103,14 @@ def read_robot(name: str, payload: float = 0.0, mass: float | None = None) -> "R
     return load_robot(name).with_load(payload, mass)
 
 
-def read_pose(text: str | None, robot: "Robot") -> "Pose":
+def read_pose(text: str | None, robot: "Robot", option: str = "--pose") -> "Pose":
     """The pose that the option names, or the robot's home pose."""
     from cdpr_struct.robot.pose import Pose
 
     if text is not None:
-        return Pose.from_degrees(read_numbers(text, "--pose", (3, 6), "numbers x,y,z[,rx,ry,rz] in m and deg"))
+        return Pose.from_degrees(read_numbers(text, option, (3, 6), "numbers x,y,z[,rx,ry,rz] in m and deg"))
     if robot.home is None:
-        raise InputError("--pose", "", "nothing", f"robot {robot.name} has no home_pose, so give x,y,z[,rx,ry,rz]")
+        raise InputError(option, "", "nothing", f"robot {robot.name} has no home_pose, so give x,y,z[,rx,ry,rz]")
     return robot.home
 
 
@@ -146,7 +165,7 @@ def _axis(part: str, text: str) -> tuple[float, float, int]:
         count = int(numbers[2]) if len(numbers) == 3 else 1
     except ValueError as error:
         raise InputError("--grid", "", text, _GRID_FORM) from error
-    if len(numbers) not in (1, 3) or not (abs(low) < float("inf") and abs(high) < float("inf")):
+    if len(numbers) not in (1, 3) or not (abs(low) <= LARGEST and abs(high) <= LARGEST):
         raise InputError("--grid", "", text, _GRID_FORM)
     if len(numbers) == 3 and not (high > low and count >= 2):
         raise InputError("--grid", part, part, "a range ascends and has at least 2 values, like -3:3:7")

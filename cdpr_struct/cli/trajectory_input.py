@@ -5,6 +5,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cdpr_struct.cli.options import LARGEST
 from cdpr_struct.errors import InputError
 
 if TYPE_CHECKING:
@@ -17,6 +18,7 @@ OPTION = "--trajectory"
 FORMS = "helix, line:X,Y,Z[,RX,RY,RZ]:X,Y,Z[,RX,RY,RZ]:SECONDS, or a CSV file time_s,x_m,y_m,z_m[,rx_deg,ry_deg,rz_deg]"
 PLACE, TURN = ("time_s", "x_m", "y_m", "z_m"), ("rx_deg", "ry_deg", "rz_deg")
 MOST_INSTANTS = 1_000_000
+SHORTEST = 1e-6  # s, of a line and between two rows
 
 
 def read_trajectory(text: str, instants: int | None) -> "Trajectory":
@@ -49,8 +51,10 @@ def _line(text: str) -> tuple["Pose", "Pose", float]:
         duration = float(seconds)
     except ValueError as error:
         raise InputError(OPTION, "", text, f"give {FORMS}") from error
-    if not 0.0 < duration < math.inf:
-        raise InputError(OPTION, "", text, "the line's duration must be above 0 s")
+    if not SHORTEST <= duration <= LARGEST:
+        raise InputError(OPTION, "", text, f"the line's duration must be above 0 s, and {SHORTEST:g} s at least")
+    if not all(abs(v) <= LARGEST for pose in poses for v in pose.position):
+        raise InputError(OPTION, "", text, f"give coordinates of at most {LARGEST:g} m")
     return poses[0], poses[1], duration
 
 
@@ -61,10 +65,13 @@ def _from_file(path: Path) -> "Trajectory":
 
     table = _table(path)
     pause = np.diff(table[:, 0])
-    if not (pause > 0.0).all():
-        row = int(np.flatnonzero(~(pause > 0.0))[0]) + 1
+    if not (pause >= SHORTEST).all():
+        row = int(np.flatnonzero(~(pause >= SHORTEST))[0]) + 1
         raise InputError(
-            str(path), f"line {row + 2}, time_s", float(table[row, 0]), "times must ascend from row to row"
+            str(path),
+            f"line {row + 2}, time_s",
+            float(table[row, 0]),
+            f"times must ascend from row to row, by {SHORTEST:g} s at least",
         )
     angles = np.radians(table[:, 4:]) if table.shape[1] > 4 else None
     return through_samples(table[:, 0], table[:, 1:4], angles)
@@ -83,6 +90,8 @@ def _table(path: Path) -> "np.ndarray":
     if not rows:
         raise InputError(str(path), "", "an empty file", f"columns {','.join(PLACE)}[,{','.join(TURN)}]")
     names = [name.strip() for name in rows[0][1]]
+    if len(names) == 1:
+        raise InputError(str(path), "header", names[0], f"columns {','.join(PLACE)} with commas between them")
     wanted = (*PLACE, *TURN) if any(name in names for name in TURN) else PLACE
     for name in wanted:
         if name not in names:
@@ -102,6 +111,6 @@ def _number(path: Path, line: int, name: str, row: list[str], index: int) -> flo
         value = float(text)
     except ValueError:
         value = math.nan
-    if not math.isfinite(value):
-        raise InputError(str(path), f"line {line}, {name}", text, "a finite number")
+    if not abs(value) <= LARGEST:
+        raise InputError(str(path), f"line {line}, {name}", text, f"a finite number, at most {LARGEST:g} in size")
     return value

@@ -74,13 +74,17 @@ def run(
 ) -> int:
     """Vibration in time by modal superposition, with spectrogram and certified modes."""
     if (initial_velocity is None) == (trajectory is None):
-        raise InputError("--initial-velocity", "", initial_velocity, "give either --initial-velocity or --trajectory")
+        raise InputError(
+            "--initial-velocity", "", initial_velocity or "nothing", "give either --initial-velocity or --trajectory"
+        )
     cable_model, way, machine = read_model(model), read_assembly(assembly), read_robot(robot, payload, mass)
     law = read_damping(damping, machine, cable_model == "static")
     motion = None if trajectory is None else read_motion(trajectory)
     seconds = _duration(duration, motion)
     if not 0.0 < highest * seconds * 8.0 < _MOST_SAMPLES:
         raise InputError("--highest", "", highest, f"above zero, with at most {_MOST_SAMPLES} samples (8 per period)")
+    if highest * seconds < 1.0:
+        raise InputError("--duration", "", seconds, f"at least one period of --highest, {1.0 / highest:.3g} s")
     if motion is not None and pose is None and lengths is None:
         pose = _last_pose(motion)
     point = rest(machine, pose, lengths, lower_bound)
@@ -137,7 +141,9 @@ def _twist(text: str) -> "np.ndarray":
 def _duration(given: float | None, motion: "Trajectory | None") -> float:
     if given is None and motion is not None:
         return float(motion.time[-1] - motion.time[0])
-    if given is None or not 0.0 < given < float("inf"):
+    if given is None:
+        raise InputError("--duration", "", "nothing", "give the time to predict in s, like 5")
+    if not 0.0 < given < float("inf"):
         raise InputError("--duration", "", given, "give a time in s above zero")
     return given
 

@@ -16,6 +16,7 @@ from cdpr_struct.reports.audit_result import (
 from cdpr_struct.reports.figures import audit_map, limits
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.text import place
 from cdpr_struct.workspace.grid import AXES, Grid
 
 _UNHELD_SHOWN = 100
@@ -36,8 +37,7 @@ def audit_files(
 ) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name. At most one of grid and time is given."""
     plates = _plates(audit, grid, time)
-    x, y, z = audit.position[0]
-    what = f"at ({x:g}, {y:g}, {z:g}) m" if len(audit.held) == 1 else f"{len(audit.held)} poses"
+    what = f"at {place(audit.position[0])}" if len(audit.held) == 1 else f"{len(audit.held)} poses"
     page = Page(
         title=f"{audit.robot.name}: cables against the validity limits of the closed form",
         subtitle=f"{len(audit.robot.cables)} cables, platform {audit.robot.platform.mass:g} kg, {what}",

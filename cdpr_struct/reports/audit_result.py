@@ -12,7 +12,7 @@ from cdpr_struct.crosscheck.validity_limits import (
     SAG_RATIO_LIMIT,
 )
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.text import paragraphs, plain_table
+from cdpr_struct.reports.text import paragraphs, place, plain_table
 from cdpr_struct.robot.pose import angles_from_rotation
 
 
@@ -152,8 +152,7 @@ def cable_rows(audit: PoseAudit, pose: int) -> list[list[str]]:
 
 
 def _cables(audit: PoseAudit) -> str:
-    x, y, z = audit.position[0]
-    return plain_table(f"{audit.robot.name} at ({x:g}, {y:g}, {z:g}) m", CABLE_COLUMNS, cable_rows(audit, 0))
+    return plain_table(f"{audit.robot.name} at {place(audit.position[0])}", CABLE_COLUMNS, cable_rows(audit, 0))
 
 
 COUNT_COLUMNS = [

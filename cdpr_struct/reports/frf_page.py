@@ -11,7 +11,7 @@ from cdpr_struct.measurement.universal_file import universal_file
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import frf
 from cdpr_struct.reports.figures.style import svg
-from cdpr_struct.reports.frf_text import frf_summary, nearest_mode
+from cdpr_struct.reports.frf_text import SILENT, frf_summary, nearest_mode
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 
 
@@ -61,7 +61,7 @@ def _page(sweep: ResponseSweep, result: Mapping[str, Any], plate: Plate) -> Page
         holds=bool(result["count_certified"]),
         facts=[
             (f"{len(result['natural_frequencies_hz'])}", "eigenfrequencies in the band"),
-            *((f"{_highest(r)[0]:.3f} Hz", f"highest peak of {r['respond']}") for r in result["responses"]),
+            *((_highest(r), f"highest peak of {r['respond']}") for r in result["responses"]),
         ],
         plates=[plate],
         tables=[_table(result, response) for response in result["responses"]],
@@ -81,11 +81,10 @@ _NOTES = (
 )
 
 
-def _highest(response: Mapping[str, Any]) -> tuple[float, float]:
+def _highest(response: Mapping[str, Any]) -> str:
     if len(response["peaks_hz"]) == 0:
-        return float("nan"), float("nan")
-    index = int(np.argmax(response["peak_magnitudes"]))
-    return float(response["peaks_hz"][index]), float(response["peak_magnitudes"][index])
+        return "none"
+    return f"{response['peaks_hz'][int(np.argmax(response['peak_magnitudes']))]:.3f} Hz"
 
 
 def _table(result: Mapping[str, Any], response: Mapping[str, Any]) -> HtmlTable:
@@ -94,4 +93,5 @@ def _table(result: Mapping[str, Any], response: Mapping[str, Any]) -> HtmlTable:
         near, kind = nearest_mode(result, float(hertz))
         rows.append([f"{hertz:.4f}", f"{size:.4g}", "-" if near is None else f"{near:.4f}", kind])
     columns = ["peak [Hz]", f"magnitude [{response['unit']}]", "nearest mode [Hz]", "kind"]
-    return HtmlTable(f"Peaks of {response['respond']}", columns, rows)
+    note = f"{response['respond']} {SILENT}." if response["silent"] else ""
+    return HtmlTable(f"Peaks of {response['respond']}", columns, rows, note)

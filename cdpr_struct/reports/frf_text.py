@@ -3,16 +3,16 @@
 from collections.abc import Mapping
 from typing import Any
 
-from cdpr_struct.reports.text import paragraphs, plain_table
+from cdpr_struct.reports.text import paragraphs, place, plain_table
 
 _MOST_ROWS = 30
+SILENT = "does not answer beyond rounding errors"
 
 
 def frf_text(result: Mapping[str, Any]) -> str:
     """Peaks of every response, and how they compare with the eigenfrequencies."""
-    x, y, z = (round(float(v), 4) + 0.0 for v in result["pose"][:3])
     title = (
-        f"{result['robot']} at ({x:g}, {y:g}, {z:g}) m, cables {result['model']}, damping {result['damping']}: "
+        f"{result['robot']} at {place(result['pose'][:3])}, cables {result['model']}, damping {result['damping']}: "
         f"{result['quantity']} under {result['excite']}, {result['frequencies']} frequencies"
     )
     return paragraphs(title, *(_peaks(result, response) for response in result["responses"]), frf_summary(result))
@@ -22,11 +22,15 @@ def frf_summary(result: Mapping[str, Any]) -> str:
     """How many eigenfrequencies lie in the band, and how many of them show as peaks."""
     modes, peaks = len(result["natural_frequencies_hz"]), len(result["peaks_hz"])
     proof = "certified complete by counting" if result["count_certified"] else "not certified"
-    more = "" if result["all_modes_of_the_band"] else ", and more that were not listed"
-    return f"{peaks} peaks in the band; the robot has {modes} eigenfrequencies there ({proof}){more}."
+    peak = "1 peak" if peaks == 1 else f"{peaks} peaks"
+    if not result["all_modes_of_the_band"]:
+        return f"{peak} in the band; the robot has at least {modes} eigenfrequencies there, more than are listed."
+    return f"{peak} in the band; the robot has {modes} eigenfrequencies there ({proof})."
 
 
 def _peaks(result: Mapping[str, Any], response: Mapping[str, Any]) -> str:
+    if response["silent"]:
+        return f"{response['respond']} [{response['unit']}]: {SILENT}."
     rows = []
     for hertz, size in list(zip(response["peaks_hz"], response["peak_magnitudes"], strict=True))[:_MOST_ROWS]:
         near, kind = nearest_mode(result, hertz)

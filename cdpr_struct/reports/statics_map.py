@@ -7,8 +7,6 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.figures import workspace_map
-from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import Page, Plate, render_page
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import AXES, Grid
@@ -39,6 +37,7 @@ def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str,
     } if some else {}  # fmt: skip
     return {
         "robot": robot.name,
+        "cables": len(robot.cables),
         "mass_kg": robot.platform.mass,
         "quantity": name,
         "unit": quantity.unit,
@@ -59,6 +58,8 @@ def map_values(name: str, columns: Columns) -> np.ndarray:
 
 def map_files(robot: Robot, name: str, grid: Grid, columns: Columns, command: Sequence[str]) -> dict[str, str | bytes]:
     """CSV, figure and page of a map of one quantity."""
+    from cdpr_struct.reports.figures import workspace_map
+
     plates = [_map_plate(robot, name, grid, columns)] if workspace_map.drawable(grid) else []
     result = map_json(robot, name, grid, columns)
     page = Page(
@@ -80,7 +81,8 @@ def map_sentence(result: Mapping[str, Any]) -> str:
     """The outcome in words."""
     label = QUANTITIES[result["quantity"]].label
     if result["mean"] is None:
-        return f"None of the {result['poses']} poses can be held."
+        count = "The pose cannot" if result["poses"] == 1 else f"None of the {result['poses']} poses can"
+        return f"{count} be held.{_few_cables(result)}"
     low, high = result["smallest"], result["largest"]
     at = ["(" + ", ".join(f"{v:g}" for v in end["position_m"]) + ") m" for end in (low, high)]
     held = "" if result["held"] == result["poses"] else f" {result['poses'] - result['held']} poses cannot be held."
@@ -88,6 +90,13 @@ def map_sentence(result: Mapping[str, Any]) -> str:
         f"{label[0].upper()}{label[1:]}: {low['value']:.4g} {result['unit']} at {at[0]} to {high['value']:.4g} "
         f"{result['unit']} at {at[1]}, {result['mean']:.4g} {result['unit']} on average.{held}"
     )
+
+
+def _few_cables(result: Mapping[str, Any]) -> str:
+    if result["cables"] >= 6:
+        return ""
+    count = "1 cable" if result["cables"] == 1 else f"{result['cables']} cables"
+    return f" With {count} hardly any given pose is in balance; lock --lengths instead (forward, modes)."
 
 
 def _map_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
@@ -100,10 +109,12 @@ def _map_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 
 def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
+    from cdpr_struct.reports.figures import style, workspace_map
+
     quantity, value = QUANTITIES[name], map_values(name, columns)
     marked = columns.get("more_stable_pose", np.zeros(grid.size, bool))
     layer = workspace_map.Layer(quantity.label, quantity.unit, value, marked, signed=name.startswith("pose-error"))
-    picture = svg("map", workspace_map.map_size(grid), lambda f: workspace_map.draw_map(f, grid, layer))
+    picture = style.svg("map", workspace_map.map_size(grid), lambda f: workspace_map.draw_map(f, grid, layer))
     hatched = " Hatched: poses that cannot be held or are not stable." if np.isnan(value).any() else ""
     which = f"{robot.name}, {robot.platform.mass:g} kg{_comma(grid.fixed_text())}"
     caption = f"{which}: {quantity.meaning} [{quantity.unit}].{hatched}"

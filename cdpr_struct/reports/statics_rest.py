@@ -8,10 +8,8 @@ import numpy as np
 
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.figures import interactive, robot_drawing
-from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
-from cdpr_struct.reports.text import paragraphs, plain_table
+from cdpr_struct.reports.text import paragraphs, plain_table, rounded
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_state import CableStates
@@ -69,7 +67,7 @@ def forward_text(result: Mapping[str, Any]) -> str:
 
 def pose_sentence(result: Mapping[str, Any]) -> str:
     """Where the platform comes to rest."""
-    x, y, z, rx, ry, rz = result["pose"]
+    (x, y, z), (rx, ry, rz) = rounded(result["pose"][:3], 5), rounded(result["pose"][3:], 4)
     state = "The platform rests" if result["stable"] else "NOT STABLE: the platform is balanced, but not held,"
     slack = [str(i) for i, loose in enumerate(result["slack"], start=1) if loose]
     loose = f" Slack cables: {', '.join(slack)}." if slack else ""
@@ -108,7 +106,9 @@ def forward_files(
 def _files(
     point: OperatingPoint, result: Mapping[str, Any], verdict: list[str], holds: bool, command: Sequence[str]
 ) -> dict[str, str | bytes]:
-    picture = svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point))
+    from cdpr_struct.reports.figures import interactive, robot_drawing, style
+
+    picture = style.svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point))
     plate = Plate(
         "robot", "The robot at rest", picture, _caption(point, result["model"]), interactive.robot_plot(point)
     )

@@ -1,7 +1,7 @@
 """Results as text for a terminal."""
 
 import io
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rich.console import Console
@@ -20,6 +20,16 @@ def plain_table(title: str, columns: list[str], rows: list[list[str]]) -> str:
     console.print(table)
     body = console.file.getvalue()  # type: ignore[attr-defined]
     return "\n".join([title, *(line.rstrip() for line in body.splitlines())])
+
+
+def rounded(values: Iterable[float], digits: int) -> list[float]:
+    """Values to so many decimals, without negative zeros."""
+    return [round(float(value), digits) + 0.0 for value in values]
+
+
+def place(position: Iterable[float]) -> str:
+    """A position as (x, y, z) m, to a tenth of a millimetre."""
+    return "(" + ", ".join(f"{v:g}" for v in rounded(position, 4)) + ") m"
 
 
 def paragraphs(*blocks: str) -> str:

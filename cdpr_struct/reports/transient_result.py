@@ -18,6 +18,7 @@ def transient_json(record: VibrationRecord, described: Mapping[str, Any]) -> dic
     """
     vibration, time = record.vibration, record.vibration.time
     angles = np.degrees(angles_from_rotation(record.point.rotation))
+    moving = not is_silent(record)[:3].all()
     return {
         "robot": record.point.robot.name,
         "pose": [*record.point.position, *angles],
@@ -26,7 +27,7 @@ def transient_json(record: VibrationRecord, described: Mapping[str, Any]) -> dic
         "duration_s": float(time[-1]),
         "sample_rate_hz": 1.0 / float(time[1] - time[0]),
         "highest_hz": record.highest_hertz,
-        "dominant_hz": dominant_frequency(time, vibration.acceleration[:, :3]),
+        "dominant_hz": dominant_frequency(time, vibration.acceleration[:, :3]) if moving else float("nan"),
         "energy_share": vibration.energy_share,
         "energy_first_J": float(vibration.energy[0]),
         "energy_last_J": float(vibration.energy[-1]),
@@ -48,5 +49,14 @@ def _port(record: VibrationRecord, column: int) -> dict[str, Any]:
         "on": f"cable {port.cable + 1}" if isinstance(port, CablePort) else "platform",
         f"largest_displacement_{length}": float(np.abs(vibration.displacement[:, column]).max()),
         f"largest_acceleration_{length}_s2": float(np.abs(signal).max()),
-        "dominant_hz": dominant_frequency(vibration.time, signal),
+        "dominant_hz": float("nan") if is_silent(record)[column] else dominant_frequency(vibration.time, signal),
     }
+
+
+def is_silent(record: VibrationRecord) -> np.ndarray:
+    """(n,) of every port: it moves by nothing but rounding, 1e-9 of the largest motion or less than 1e-12 m."""
+    body = record.point.robot.platform
+    gyration = float(np.sqrt(np.trace(body.inertia) / 3.0 / body.mass))
+    arms = np.array([gyration if port.turns else 1.0 for port in record.ports])
+    moved = np.abs(record.vibration.displacement).max(axis=0) * arms
+    return np.asarray(moved <= max(1e-12, 1e-9 * float(moved.max())))

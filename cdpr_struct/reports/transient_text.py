@@ -4,14 +4,13 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from cdpr_struct.reports.text import paragraphs, plain_table
+from cdpr_struct.reports.text import paragraphs, place, plain_table
 
 
 def transient_text(result: Mapping[str, Any]) -> str:
     """Largest motion and dominant frequency of every port, then the summary."""
-    x, y, z = (round(float(v), 4) + 0.0 for v in result["pose"][:3])
     title = (
-        f"{result['robot']} at ({x:g}, {y:g}, {z:g}) m, cables {result['model']}, damping {result['damping']}: "
+        f"{result['robot']} at {place(result['pose'][:3])}, cables {result['model']}, damping {result['damping']}: "
         f"{result['duration_s']:g} s with the modes up to {result['highest_hz']:g} Hz"
     )
     columns = ["", "largest displacement", "largest acceleration", "dominant [Hz]"]
@@ -26,9 +25,8 @@ def port_rows(result: Mapping[str, Any]) -> list[list[str]]:
         unit, factor = ("mrad", 1e3) if turns else ("mm", 1e3)
         length = "rad" if turns else "m"
         moved, rate = port[f"largest_displacement_{length}"], port[f"largest_acceleration_{length}_s2"]
-        rows.append(
-            [port["name"], f"{factor * moved:.4g} {unit}", f"{rate:.4g} {length}/s²", f"{port['dominant_hz']:.4f}"]
-        )
+        sizes = [f"{factor * moved:.4g} {unit}", f"{rate:.4g} {length}/s²", f"{port['dominant_hz']:.4f}"]
+        rows.append([port["name"], *(["0", "0", "-"] if math.isnan(port["dominant_hz"]) else sizes)])
     return rows
 
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from cdpr_struct.crosscheck.verification import Verification
-from cdpr_struct.reports.text import paragraphs, plain_table
+from cdpr_struct.reports.text import paragraphs, place, plain_table
 
 
 def verification_text(v: Verification) -> str:
@@ -55,9 +55,8 @@ def violations_text(v: Verification) -> str:
 
 
 def _headline(v: Verification) -> str:
-    x, y, z = v.point.position
     return (
-        f"{v.point.robot.name} at ({x:g}, {y:g}, {z:g}) m, platform {v.point.robot.platform.mass:g} kg, "
+        f"{v.point.robot.name} at {place(v.point.position)}, platform {v.point.robot.platform.mass:g} kg, "
         f"assembly {v.assembly}; FEM with {', '.join(map(str, v.elements))} elements per cable, extrapolated"
     )
 

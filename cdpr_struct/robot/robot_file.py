@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, PositiveFloat, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.robot.cable import Cable, Pulley
@@ -14,7 +14,10 @@ from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 
-Vector = Annotated[list[FiniteFloat], Field(min_length=3, max_length=3)]
+LARGEST, SMALLEST = 1e12, 1e-12  # of any number; beyond them squares and products leave what can be computed
+Number = Annotated[float, Field(strict=True, ge=-LARGEST, le=LARGEST)]
+Positive = Annotated[float, Field(strict=True, gt=SMALLEST, le=LARGEST)]
+Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
 Matrix = Annotated[list[Vector], Field(min_length=3, max_length=3)]
 
 
@@ -23,19 +26,19 @@ class _Table(BaseModel):
 
 
 class PlatformTable(_Table):
-    mass: PositiveFloat
+    mass: Positive
     center_of_mass: Vector = [0.0, 0.0, 0.0]
     inertia: Matrix
 
 
 class CableTable(_Table):
-    axial_stiffness: PositiveFloat | None = None
-    linear_density: PositiveFloat | None = None
-    damping_ratio: Annotated[float, Field(ge=0.0, lt=1.0)] | None = None
+    axial_stiffness: Positive | None = None
+    linear_density: Positive | None = None
+    damping_ratio: Annotated[float, Field(strict=True, ge=0.0, lt=1.0)] | None = None
 
 
 class PulleyTable(_Table):
-    radius: PositiveFloat
+    radius: Positive
     axis: Vector = [0.0, 0.0, 1.0]
 
 
@@ -46,10 +49,10 @@ class CablesEntry(CableTable):
 
 
 class RobotTable(_Table):
-    name: str
+    name: Annotated[str, Field(min_length=1)]
     description: str = ""
-    gravity: PositiveFloat = 9.81
-    home_pose: Annotated[list[FiniteFloat], Field(min_length=3, max_length=6)] | None = None
+    gravity: Positive = 9.81
+    home_pose: Annotated[list[Number], Field(min_length=3, max_length=6)] | None = None
     platform: PlatformTable
     cable: CableTable = CableTable()
     cables: Annotated[list[CablesEntry], Field(min_length=1)]
@@ -73,7 +76,7 @@ def load_robot(name_or_path: str | Path) -> Robot:
     try:
         table = RobotTable.model_validate(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
-        raise InputError(source, "", str(error), "a TOML file") from error
+        raise InputError(source, "", str(error), "a TOML file, each key and table given once") from error
     except ValidationError as error:
         raise input_error(source, error) from error
     return _build(table, source)
@@ -84,8 +87,25 @@ def input_error(source: str, error: ValidationError) -> InputError:
     first = error.errors()[0]
     field = "".join(f"[{p + 1}]" if isinstance(p, int) else f".{p}" for p in first["loc"]).lstrip(".")
     value = "nothing" if first["type"] == "missing" else first["input"]
-    expected = {"extra_forbidden": "no such key is known here", "missing": "this key is required"}
-    return InputError(source, field, value, expected.get(first["type"], first["msg"].lower()))
+    words = _EXPECTED.get(first["type"])
+    expected = first["msg"].lower() if words is None else words.format(**first.get("ctx", {}))
+    return InputError(source, field, value, expected)
+
+
+_EXPECTED = {
+    "extra_forbidden": "no such key is known here",
+    "missing": "this key is required",
+    "finite_number": "give a finite number",
+    "float_type": "give a number, without quotes",
+    "model_type": "give a table with keys of its own",
+    "list_type": "give a list in square brackets",
+    "too_short": "give at least {min_length} entries, not {actual_length}",
+    "too_long": "give at most {max_length} entries, not {actual_length}",
+    "greater_than": "give a number above {gt:g}",
+    "greater_than_equal": "give a number not below {ge:g}",
+    "less_than": "give a number below {lt:g}",
+    "less_than_equal": "give a number not above {le:g}",
+}
 
 
 def _read(name: str) -> tuple[str, str]:
@@ -93,34 +113,55 @@ def _read(name: str) -> tuple[str, str]:
         return resources.files("cdpr_struct.robot.builtin").joinpath(f"{name}.toml").read_text("utf-8"), name
     try:
         return Path(name).read_text("utf-8"), name
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, ValueError) as error:
         known = ", ".join(builtin_names())
         raise InputError("ROBOT", "", name, f"a robot file that can be read, or one of: {known}") from error
 
 
 def _build(table: RobotTable, source: str) -> Robot:
     cables = tuple(_cable(table.cable, entry, source, i) for i, entry in enumerate(table.cables, start=1))
-    pulleys = tuple(_pulley(entry) for entry in table.cables)
-    body = table.platform
+    pulleys = tuple(_pulley(entry, source, i) for i, entry in enumerate(table.cables, start=1))
+    home = _home(table.home_pose, source)
     try:
-        platform = Platform(body.mass, np.array(body.center_of_mass), np.array(body.inertia))
         return Robot(
             name=table.name,
             description=table.description,
             gravity=table.gravity,
-            home=None if table.home_pose is None else Pose.from_degrees(table.home_pose),
-            platform=platform,
+            home=home,
+            platform=_platform(table.platform, source),
             cables=cables,
             platform_anchors=np.array([e.platform_anchor for e in table.cables]),
             frame_anchors=np.array([e.frame_anchor for e in table.cables]),
             pulleys=pulleys,
         )
+    except InputError:
+        raise
     except ValueError as error:
         raise InputError(source, "robot", table.name, str(error)) from error
 
 
-def _pulley(entry: CablesEntry) -> Pulley | None:
-    return None if entry.pulley is None else Pulley(entry.pulley.radius, np.array(entry.pulley.axis))
+def _home(values: list[float] | None, source: str) -> Pose | None:
+    if values is None:
+        return None
+    if len(values) not in (3, 6):
+        raise InputError(source, "home_pose", values, "give 3 or 6 numbers x,y,z[,rx,ry,rz] in m and deg")
+    return Pose.from_degrees(values)
+
+
+def _platform(body: PlatformTable, source: str) -> Platform:
+    try:
+        return Platform(body.mass, np.array(body.center_of_mass), np.array(body.inertia))
+    except ValueError as error:
+        raise InputError(source, "platform.inertia", body.inertia, str(error)) from error
+
+
+def _pulley(entry: CablesEntry, source: str, number: int) -> Pulley | None:
+    if entry.pulley is None:
+        return None
+    try:
+        return Pulley(entry.pulley.radius, np.array(entry.pulley.axis))
+    except ValueError as error:
+        raise InputError(source, f"cables[{number}].pulley.axis", entry.pulley.axis, str(error)) from error
 
 
 def _cable(default: CableTable, entry: CablesEntry, source: str, number: int) -> Cable:

@@ -17,6 +17,7 @@ from cdpr_struct.reports.figures.style import (
     kind_group,
     quiet,
 )
+from cdpr_struct.reports.frf_result import is_silent
 
 SIZE = (9.6, 6.2)
 _COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, SKY, BLACK)
@@ -30,6 +31,9 @@ def draw_frf(figure: Figure, sweep: ResponseSweep) -> None:
     units = [response_unit(port, found.excite, found.quantity) for port in found.respond]
     for column, (port, unit) in enumerate(zip(found.respond, units, strict=True)):
         colour = _COLOURS[column % len(_COLOURS)]
+        if is_silent(sweep, column):
+            upper.plot([], [], color=colour, linewidth=1.1, label=f"{port.name}: no answer")
+            continue
         values = found.response[:, column]
         size = np.abs(values)
         hertz, thin = _thinned(found.hertz, size)
