@@ -2,7 +2,6 @@
 
 import sys
 
-import numpy as np
 import typer
 from typer.exceptions import Abort, TyperException
 
@@ -77,13 +76,13 @@ def run(arguments: list[str] | None) -> int:
         return _fail(1, str(error))
     except Interrupted as stop:
         return _fail(interruption.CODE, str(stop))
-    except (ArithmeticError, np.linalg.LinAlgError) as error:
-        return _fail(1, f"cannot be computed ({error}): check masses, lengths, stiffnesses and forces for their size")
     except (Abort, KeyboardInterrupt):
         return _fail(interruption.CODE, "interrupted; nothing was written")
     except Exception as error:
         if type(error).__module__.partition(".")[0] == "fem_reference":
             return _fail(1, f"FEM reference: {error}")
+        if isinstance(error, ArithmeticError) or type(error).__name__ == "LinAlgError":
+            return _fail(1, f"cannot be computed ({error}): check masses, lengths, stiffnesses and forces for their size")
         raise
 
 
