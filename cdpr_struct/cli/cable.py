@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from cdpr_struct.cli.options import Json, Out, number, read_numbers
+from cdpr_struct.cli.options import SMALLEST, Json, Out, number, read_numbers
 from cdpr_struct.cli.output import emit, result_json, write_files
 from cdpr_struct.errors import InputError
 
@@ -26,7 +26,7 @@ def run(
     for option, value in (("--length", length), ("--EA", axial_stiffness), ("--rho", density), ("--gravity", gravity)):
         if not 0.0 < value < float("inf"):
             raise InputError(option, "", value, "give a finite number above zero")
-    if force_x == 0.0:
+    if abs(force_x) < SMALLEST:
         raise InputError(
             "--force", "FX", force_x, "give a horizontal force that is not zero (a vertical cable has no plane)"
         )

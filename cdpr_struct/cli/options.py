@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from cdpr_struct.workspace.grid import Grid
 
 
-LARGEST = 1e12  # of any number that is not infinite; beyond it squares and products leave what can be computed
+LARGEST, SMALLEST = 1e12, 1e-12  # of single numbers; beyond them squares and products leave what can be computed
 
 
 def number(text: str) -> float:
@@ -26,6 +26,8 @@ def number(text: str) -> float:
         raise typer.BadParameter(f"got {text!r}; give a number") from error
     if LARGEST < abs(value) < float("inf"):
         raise typer.BadParameter(f"got {text!r}; give a number of at most {LARGEST:g}")
+    if 0.0 < abs(value) < SMALLEST:
+        raise typer.BadParameter(f"got {text!r}; give zero or a number of at least {SMALLEST:g}")
     return value
 
 

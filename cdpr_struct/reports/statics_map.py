@@ -45,6 +45,7 @@ def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str,
         "grid": grid.summary(),
         "poses": grid.size,
         "held": int(columns["held"].sum()),
+        "unstable": int((columns["held"] & ~np.isfinite(value)).sum()),
         "mean": float(np.nanmean(value)) if some else None,
         **ends,
     }
@@ -66,7 +67,7 @@ def map_files(robot: Robot, name: str, grid: Grid, columns: Columns, command: Se
         title=f"{robot.name}: {QUANTITIES[name].label} over the workspace",
         subtitle=f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg" + _comma(grid.fixed_text()),
         verdict=[map_sentence(result)],
-        holds=result["held"] == result["poses"],
+        holds=result["held"] == result["poses"] and not result["unstable"],
         facts=_map_facts(result),
         plates=plates,
         tables=[],
@@ -81,11 +82,12 @@ def map_sentence(result: Mapping[str, Any]) -> str:
     """The outcome in words."""
     label = QUANTITIES[result["quantity"]].label
     if result["mean"] is None:
-        count = "The pose cannot" if result["poses"] == 1 else f"None of the {result['poses']} poses can"
-        return f"{count} be held.{_few_cables(result)}"
+        count = "The pose is not" if result["poses"] == 1 else f"None of the {result['poses']} poses is"
+        return f"{count} held by the cables and stable.{_few_cables(result)}"
     low, high = result["smallest"], result["largest"]
     at = ["(" + ", ".join(f"{v:g}" for v in end["position_m"]) + ") m" for end in (low, high)]
-    held = "" if result["held"] == result["poses"] else f" {result['poses'] - result['held']} poses cannot be held."
+    missing = {"cannot be held": result["poses"] - result["held"], "would not be stable": result["unstable"]}
+    held = "".join(f" {n} pose{'s' if n > 1 else ''} {what}." for what, n in missing.items() if n)
     return (
         f"{label[0].upper()}{label[1:]}: {low['value']:.4g} {result['unit']} at {at[0]} to {high['value']:.4g} "
         f"{result['unit']} at {at[1]}, {result['mean']:.4g} {result['unit']} on average.{held}"
@@ -93,7 +95,7 @@ def map_sentence(result: Mapping[str, Any]) -> str:
 
 
 def _few_cables(result: Mapping[str, Any]) -> str:
-    if result["cables"] >= 6:
+    if result["cables"] >= 6 or result["held"]:
         return ""
     count = "1 cable" if result["cables"] == 1 else f"{result['cables']} cables"
     return f" With {count} hardly any given pose is in balance; lock --lengths instead (forward, modes)."

@@ -8,7 +8,7 @@ from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_static_stiffness
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_state import CableStates
-from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 
 _ORDER = 24
 _MODES = 60
@@ -20,10 +20,11 @@ def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray)
 
     The platform's is that of the mode whose platform motion is most like the platform's first mode on massless cables:
     where cable modes come near, they share its energy. A cable's frequency is that with both ends held. Minimum-norm
-    tensions.
+    tensions. nan where the platform is not held, or balanced but not stable.
     """
     solution = inverse(robot, positions, rotation, allow_unheld=True)
-    good = np.flatnonzero(solution.held)
+    held = np.flatnonzero(solution.held)
+    good = held[_stable(_points(robot, positions, rotation, solution, held))]
     names = [
         "first_Hz",
         "platform_Hz",
@@ -32,12 +33,24 @@ def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray)
     ]
     columns = {name: np.full(len(positions), np.nan) for name in names}
     if good.size:
-        states = CableStates(*(getattr(solution.cables, name)[good] for name in CableStates.__slots__))
-        turns = np.broadcast_to(rotation, (len(good), 3, 3))
-        found = _at_rest(OperatingPoint(robot, positions[good], turns, states))
+        found = _at_rest(_points(robot, positions, rotation, solution, good))
         for name, values in zip(names, found, strict=True):
             columns[name][good] = values
     return {**columns, "held": solution.held}
+
+
+def _points(
+    robot: Robot, positions: np.ndarray, rotation: np.ndarray, solution: InverseSolution, chosen: np.ndarray
+) -> OperatingPoint:
+    states = CableStates(*(getattr(solution.cables, name)[chosen] for name in CableStates.__slots__))
+    return OperatingPoint(robot, positions[chosen], np.broadcast_to(rotation, (len(chosen), 3, 3)), states)
+
+
+def _stable(point: OperatingPoint) -> np.ndarray:
+    """(n,) bool: the platform's static stiffness, whatever the units of rotation, is positive definite."""
+    if not len(point.position):
+        return np.zeros(0, dtype=bool)
+    return np.asarray(np.linalg.eigvalsh(platform_static_stiffness(point))[:, 0] > 0.0)
 
 
 def _at_rest(point: OperatingPoint) -> list[np.ndarray]:

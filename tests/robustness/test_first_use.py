@@ -1,6 +1,8 @@
 """What a newcomer types: wrong words, wrong sizes and unwritable directories get one line, and nothing comes out."""
 
 import json
+import re
+from importlib import resources
 
 import pytest
 
@@ -16,6 +18,8 @@ STOP = ["transient", "six-cable-4mm", "--initial-velocity=0.1,0,0"]
         ([], ["command", "--help"]),
         ([*CABLE[:3], "--length=", *CABLE[5:]], ["--length: got ''; give a number"]),
         ([*CABLE[:3], "--length=1e300", *CABLE[5:]], ["--length", "1e300", "1e+12"]),
+        (["cable", "--force=1e-300,1", *CABLE[3:]], ["--force", "1e-300", "horizontal"]),
+        ([*CABLE[:5], "--EA=1e-300", *CABLE[7:]], ["--EA", "1e-300", "1e-12"]),
         (["cable", "--force=100,1e300", *CABLE[3:]], ["--force", "1e300", "1e+12"]),
         (["inverse", "thesis-3-1", "--payload=1e300"], ["--payload", "1e300"]),
         (["forward", "thesis-3-1", "--lengths=1e300,1,1,1,1,1,1,1"], ["--lengths", "1e+12"]),
@@ -26,7 +30,7 @@ STOP = ["transient", "six-cable-4mm", "--initial-velocity=0.1,0,0"]
         ([*STOP, "--duration=1e-9"], ["--duration", "1e-09", "0.04 s"]),
         (["transient", "six-cable-4mm"], ["--initial-velocity: got 'nothing'"]),
     ],
-    ids=range(12),
+    ids=range(14),
 )
 def test_bad_words(arguments, words, capsys):
     line = complaint(arguments, capsys)
@@ -112,3 +116,24 @@ def test_an_empty_map_of_a_robot_with_few_cables_says_what_to_do(tmp_path, capsy
     path.write_text(ROBOT + ANCHORS)
     assert run(["map", str(path), "--grid=0,0,0.5", "--quantity=sag-max"]) == 1
     assert "--lengths" in capsys.readouterr().out
+
+
+def test_a_map_goes_on_past_poses_that_are_not_stable(tmp_path, capsys):
+    text = resources.files("cdpr_struct.robot.builtin").joinpath("thesis-3-1.toml").read_text("utf-8")
+    path = tmp_path / "robot.toml"
+    path.write_text(re.sub("center_of_mass = .*", "center_of_mass = [0, 0, 10.0]", text))
+    arguments = ["map", str(path), "--grid=-3:3:3,-3:3:3,0.5", "--quantity"]
+    assert run([*arguments, "first-frequency", "--json"]) == 0
+    exact = json.loads(capsys.readouterr().out)
+    assert run([*arguments, "platform-frequency", "--json"]) == 0
+    assert exact["held"] == 9 > exact["unstable"] > 0
+    assert exact["unstable"] == json.loads(capsys.readouterr().out)["unstable"]
+    assert run([*arguments, "first-frequency"]) == 0
+    assert f"{exact['unstable']} poses would not be stable." in capsys.readouterr().out
+
+
+def test_a_cable_that_would_break_is_named(capsys):
+    assert run(["inverse", "thesis-3-1", "--payload=1e5"]) == 0
+    assert "it would break long before" in capsys.readouterr().out
+    assert run(["inverse", "thesis-3-1"]) == 0
+    assert "break" not in capsys.readouterr().out
