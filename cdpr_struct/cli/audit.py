@@ -71,6 +71,8 @@ def run(
     if len(given) > 1:
         last = list(given)[-1]
         raise InputError(last, "", given[last], f"give only one of {', '.join(ways)}")
+    if small:
+        raise InputError("--small", "", small, "it belongs to --limits; leave it out")
     if not 0.0 <= lower_bound < float("inf"):
         raise InputError("--lower-bound", "", lower_bound, "give a force in N, zero or more")
     audit, poses, time = _audit(read_robot(robot, payload, mass), ways, lower_bound)
