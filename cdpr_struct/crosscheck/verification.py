@@ -26,6 +26,7 @@ from cdpr_struct.errors import CdprError
 SCAN_STEPS_HERTZ = (0.05, 0.02, 0.01, 0.005)
 _REPORTED_STEP = 0.01
 _SPARE_MODES = 24
+_ALIKE = 0.1  # of a mode's energy must be a static mode's motion for the one to stand for the other
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,7 +238,7 @@ def _scans(point: OperatingPoint, assembly: Assembly, last: float) -> dict[float
 def _static_partners(
     point: OperatingPoint, assembly: Assembly, platform_shapes: np.ndarray, mass: np.ndarray
 ) -> np.ndarray:
-    """For each FEM mode the frequency of the static mode it stands for; six modes get one, the others nan.
+    """For each FEM mode the frequency of the static mode it stands for; at most six modes get one, the others nan.
 
     platform_shapes carry unit modal mass, so the overlap with a static shape is the share of the FEM mode's energy
     that is this platform motion.
@@ -247,7 +248,7 @@ def _static_partners(
     result = np.full(len(platform_shapes), np.nan)
     rows, columns = linear_sum_assignment(-overlap)
     for i, j in zip(rows, columns, strict=True):
-        if squared[j] > 0.0:
+        if squared[j] > 0.0 and overlap[i, j] > _ALIKE:
             result[i] = np.sqrt(squared[j]) / (2.0 * np.pi)
     return result
 
