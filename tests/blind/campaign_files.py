@@ -7,13 +7,15 @@ import json
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
+
 from tests.blind.case_drawing import Case
 from tests.blind.deviations import TOLERANCES
-from tests.blind.entered_robot import EnteredRobot
-from tests.blind.sensors import CABLE_HZ, ROBOT_HZ, SIGMA, Tables
+from tests.blind.sensors import CABLE_HZ, ROBOT_HZ, SIGMA
 
 MODEL = "exact"
 POSE_SIGMA = ("position_m", "rotation_deg")
+SCALE = 0.02  # kg, 1 sigma of the scale a platform is weighed on
 
 
 def write_case(case: Case, name: str, seed: tuple[int, ...], campaigns: Path, sealed: Path) -> Path:
@@ -25,7 +27,7 @@ def write_case(case: Case, name: str, seed: tuple[int, ...], campaigns: Path, se
         (folder / "robot.toml").write_text(case.robot.text, "utf-8")
     for kind, table in case.tables.items():
         table.to_csv(folder / f"{kind}.csv", index=False, float_format="%.9g", lineterminator="\n")
-    (folder / "campaign.toml").write_text(campaign_text(case.robot, case.tables), "utf-8")
+    (folder / "campaign.toml").write_text(campaign_text(case), "utf-8")
     record = sealed_record(case.truth | {"case": name, "seed": list(seed)})
     (sealed / f"{name}.json").write_text(json.dumps(record, indent=1, sort_keys=True) + "\n", "utf-8")
     manifest = json.dumps({"truth_sha256": fingerprint(record)}) + "\n"
@@ -53,20 +55,28 @@ def opened_truth(name: str, campaigns: Path, sealed: Path) -> dict[str, Any]:
     return dict(record["truth"])
 
 
-def campaign_text(robot: EnteredRobot, tables: Tables) -> str:
+def campaign_text(case: Case) -> str:
     """The campaign file (TOML)."""
-    file = robot.name if robot.pulley_radius is None else "robot.toml"
-    lines = [f'robot = "{file}"', f'model = "{MODEL}"', 'tension_distribution = "minimum_norm"', "", "[tolerances]"]
-    pulleys = robot.pulley_radius is not None
-    lines += [f"{key} = {value}" for key, value in TOLERANCES.items() if pulleys or key != "pulley_radius_m"]
-    for kind, table in tables.items():
-        names = [*POSE_SIGMA]
-        names += [key for key in ("tension_N",) if key in table]
-        names += [key for key in ("length_m",) if key in table or "length_1_m" in table]
-        pairs = [f"{key} = {SIGMA[key]}" for key in names]
-        relative = {"cable_frequency": CABLE_HZ, "robot_frequency": ROBOT_HZ}.get(kind)
-        if relative is not None:
-            pairs.append(f"frequency_hz = {relative * table['frequency_hz'].median():.4g}")
-        lines += ["", "[[measurement]]", f'kind = "{kind}"', f'file = "{kind}.csv"']
-        lines.append(f"sigma = {{ {', '.join(pairs)} }}")
+    pulleys = case.robot.pulley_radius is not None
+    file = "robot.toml" if pulleys else case.robot.name
+    lines = [f'robot = "{file}"', f'model = "{MODEL}"', 'tension_distribution = "minimum_norm"', ""]
+    tolerances = {key: value for key, value in TOLERANCES.items() if pulleys or key != "pulley_radius_m"}
+    if case.weighed is not None:
+        lines += ["[nominal]", f"platform_mass = {case.weighed}", ""]
+        tolerances["platform_mass_kg"] = SCALE
+    lines += ["[tolerances]", *(f"{key} = {value}" for key, value in tolerances.items())]
+    for kind, table in case.tables.items():
+        lines += ["", "[[measurement]]", *measurement_lines(kind, table)]
     return "\n".join(lines) + "\n"
+
+
+def measurement_lines(kind: str, table: pd.DataFrame) -> list[str]:
+    """Kind, file and sigmas of one file."""
+    names = [*POSE_SIGMA]
+    names += [key for key in ("tension_N",) if key in table]
+    names += [key for key in ("length_m",) if key in table or "length_1_m" in table]
+    pairs = [f"{key} = {SIGMA[key]}" for key in names]
+    relative = {"cable_frequency": CABLE_HZ, "robot_frequency": ROBOT_HZ}.get(kind)
+    if relative is not None:
+        pairs.append(f"frequency_hz = {relative * table['frequency_hz'].median():.4g}")
+    return [f'kind = "{kind}"', f'file = "{kind}.csv"', f"sigma = {{ {', '.join(pairs)} }}"]

@@ -53,11 +53,12 @@ class CaseKind:
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """A drawn case: what is handed out (robot, tables) and what is sealed (truth)."""
+    """A drawn case: what is handed out (robot, tables, the platform's mass if weighed) and what is sealed (truth)."""
 
     robot: EnteredRobot
     tables: Tables
     truth: dict[str, Any]
+    weighed: float | None = None
 
 
 class RejectedDrawError(Exception):
@@ -91,11 +92,14 @@ def _attempt(kind: CaseKind, seed: tuple[int, ...], attempt: int) -> Case:
     plan = drawn_plan(robot, route, deviations, kind.size, one_sided)
     seen = observed(robot, deviations, plan)
     tables = filed(plan, seen, deviations, Noise(sensor, kind.noise), lengths)
-    if confused and names[0] in STATICS_ONLY:
+    weighed = None
+    if kind.kind == "ambiguous" and names[0] in STATICS_ONLY:
         del tables["robot_frequency"]
+        weighed = None if confused else round(float(robot.mass + deviations["platform_mass"][0]), 2)
     if kind.kind == "handling":
         effects = [{"cause": names[0], "multiple": None, "variant": spoiled(names[0], tables, hidden)}]
-    return Case(robot, tables, _truth(kind, robot, effects, deviations))
+    truth = _truth(kind, robot, effects, deviations) | ({} if weighed is None else {"weighed_kg": weighed})
+    return Case(robot, tables, truth, weighed)
 
 
 def _hidden(

@@ -82,7 +82,7 @@ OUTSIDE = {
 }
 
 HANDLING = ("swapped_channels", "unit_error", "sign_error", "pose_mismatch")
-STATICS_ONLY = ("platform_mass",)  # equivalent pairs that robot frequencies would separate
+STATICS_ONLY = ("platform_mass",)  # filed without robot frequencies; weighing the platform separates
 ONE_SIDED = ("pulley_friction",)  # equivalent if every cable is always approached from the same side
 
 

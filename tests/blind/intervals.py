@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from scipy.stats import beta
 
+from tests.blind.deviations import NUMBERS_PER_CABLE
+
 NORMAL_95 = 1.959964
 
 
@@ -44,6 +46,7 @@ def log_score(probabilities: np.ndarray, right: np.ndarray) -> float | None:
 
 
 LOGARITHMIC = ("axial_stiffness", "cable_linear_density", "platform_inertia")
+SIGN_FREE = ("tracker_frame", "gravity_tilt")  # whether the frame or the sensor is turned is a matter of words
 RATIO = ("drum_scale", "load_cell_gain")
 
 
@@ -71,14 +74,25 @@ def interval_flags(
     elif len(kept) == len(truth):
         pairs = list(zip(kept, truth, strict=True))
     else:
-        pairs = [(key, float(truth[n - 1])) for key in kept if 0 < (n := _number(key)) <= len(truth)]
-    return [_judged(parameters[key], value) for key, value in pairs]
+        entries = [(key, _entry(key, effect["cause"])) for key in kept]
+        pairs = [(key, float(truth[n])) for key, n in entries if 0 <= n < len(truth)]
+    signs = (1.0, -1.0) if effect["cause"] in SIGN_FREE else (1.0,)
+    judged = [[_judged(parameters[key], sign * value) for key, value in pairs] for sign in signs]
+    return max(judged, key=lambda flags: sum(covered for covered, _ in flags))
 
 
 def _judged(stated: dict[str, Any], truth: float) -> tuple[bool, float]:
     miss = abs(float(stated["value"]) - truth)
     neutral = 1.0 if abs(truth - 1.0) < abs(truth) and "ratio" in str(stated.get("unit", "")) else 0.0
-    return miss <= NORMAL_95 * float(stated["sigma"]), miss / max(abs(truth - neutral), 1e-12)
+    return bool(miss <= NORMAL_95 * float(stated["sigma"])), miss / max(abs(truth - neutral), 1e-12)
+
+
+def _entry(key: str, cause: str) -> int:
+    """Index in the truth of a key such as bias_3 or frame_anchor_x_3; -1 if it names no cable."""
+    number, axis = _number(key), re.search(r"_([xyz])(?:_|$)", key)
+    if NUMBERS_PER_CABLE.get(cause) == 3:
+        return 3 * (number - 1) + "xyz".index(axis.group(1)) if number and axis else -1
+    return number - 1
 
 
 def _number(key: str) -> int:

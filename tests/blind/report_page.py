@@ -25,7 +25,7 @@ ROWS = (
     ("pairs: both right", "pair_both", ">= 80 %"),
     ("pairs: at least one right", "pair_at_least_one", ">= 97 %"),
     ("ambiguous: class reported", "ambiguous_class_reported", ">= 95 %"),
-    ("ambiguous: named once the separating measurement is served", "resolved_by_more_measurements", ">= 90 %"),
+    ("ambiguous: resolved once the separating measurement is served", "resolved_by_more_measurements", ">= 90 %"),
     ("held-out error before/after, median", "heldout_ratio_median", ">= 3"),
     ("held-out error smaller than before", "heldout_better", ">= 95 %"),
     ("calibration error of the probability", "calibration_error", "< 0.05"),

@@ -102,13 +102,10 @@ def figures(cases: list[Scored], served: Sequence[Scored] = ()) -> dict[str, Any
         "right_class_at_2x": share([right_class(c.answer, c.hidden) for c in clear]),
         "right_name_at_2x": share([right_name(c.answer, c.hidden) for c in clear if _separable(c)]),
         "right_class_by_size": _by_size(singles, lambda c: c.multiple, lambda c: right_class(c.answer, c.hidden)),
-        "wrong_confident_name": share([wrong_confident_name(c.answer, c.hidden) for c in cases]),
-        "wrong_confident_class": share([wrong_confident_class(c.answer, c.hidden) for c in cases]),
-        "unknown_caught": share([c.answer.status == "unknown" for c in cases if c.kind == "outside"]),
-        "unknown_inside_library": share([c.answer.status == "unknown" for c in inside]),
+        **_confidence_figures(cases),
         **_pair_figures([c for c in cases if c.kind == "pair"]),
         "ambiguous_class_reported": share([_class_reported(c) for c in cases if c.kind == "ambiguous"]),
-        "resolved_by_more_measurements": share([right_name(c.answer, c.hidden) for c in served]),
+        "resolved_by_more_measurements": share([_resolved(c) for c in served]),
         **_interval_figures([c for c in cases if c.kind in ("single", "pair")]),
         **_gain_figures([c for c in inside if right_answer(c.answer, c.truth)]),
         **_probability_figures(cases),
@@ -118,6 +115,22 @@ def figures(cases: list[Scored], served: Sequence[Scored] = ()) -> dict[str, Any
         "by_cause": _by_cause(cases),
         "cases": len(cases),
     }
+
+
+def _confidence_figures(cases: list[Scored]) -> dict[str, Any]:
+    """Wrong with confidence; unknown where it should and where it should not be said."""
+    inside, outside = ([c for c in cases if c.kind in kinds] for kinds in (IN_LIBRARY, ("outside",)))
+    return {
+        "wrong_confident_name": share([wrong_confident_name(c.answer, c.hidden) for c in cases]),
+        "wrong_confident_class": share([wrong_confident_class(c.answer, c.hidden) for c in cases]),
+        "unknown_caught": share([c.answer.status == "unknown" for c in outside]),
+        "unknown_inside_library": share([c.answer.status == "unknown" for c in inside]),
+    }
+
+
+def _resolved(case: Scored) -> bool:
+    """The name alone; or nothing left, once the weighed mass was entered."""
+    return right_name(case.answer, case.hidden) or ("weighed_kg" in case.truth and case.answer.status == "adequate")
 
 
 def _separable(case: Scored) -> bool:
@@ -190,7 +203,8 @@ def _gain_figures(cases: list[Scored]) -> dict[str, Any]:
 
 
 def _probability_figures(cases: list[Scored]) -> dict[str, Any]:
-    stated = [c for c in cases if not math.isnan(c.answer.probability)]
+    """Of answers that name something: that nothing was found is no claim about small effects."""
+    stated = [c for c in cases if said_class(c.answer) and not math.isnan(c.answer.probability)]
     chances = np.array([c.answer.probability for c in stated])
     right = np.array([right_answer(c.answer, c.truth) for c in stated], dtype=float)
     return {
