@@ -131,6 +131,9 @@ def unholdable(problem: HoldingProblem, held: np.ndarray, residual: np.ndarray) 
     short, excess = one.low[0] - tension, tension - one.high[0]
     cable = int(np.maximum(short, excess).argmax())
     amount = float(max(short[cable], excess[cable]))
+    if amount <= 0.0 and tension.size < len(left):
+        hint = "Give cable lengths to find where the platform hangs."
+        return UnholdablePoseError(f"{who}: {tension.size} cables cannot balance the platform there. {hint}")
     if amount <= 0.0:
         return UnholdablePoseError(f"{who}: the cables' own weight uses up the bounds. Widen them, or move the pose.")
     bound = one.low[0, cable] if short[cable] >= excess[cable] else one.high[0, cable]
