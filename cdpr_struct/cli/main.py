@@ -82,7 +82,7 @@ def run(arguments: list[str] | None) -> int:
         if type(error).__module__.partition(".")[0] == "fem_reference":
             return _fail(1, f"FEM reference: {error}")
         if isinstance(error, ArithmeticError) or type(error).__name__ == "LinAlgError":
-            return _fail(1, f"cannot be computed ({error}): check masses, lengths, stiffnesses and forces for their size")
+            return _fail(1, f"cannot be computed ({error}): check the size of masses, lengths and forces")
         raise
 
 
