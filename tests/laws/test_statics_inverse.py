@@ -55,6 +55,18 @@ def test_tensions_balance_the_weight(place, model, radius):
 @given(place=PLACES, radius=st.sampled_from([0.0, 0.1]))
 def test_no_tensions_of_smaller_norm_hold_the_pose(place, radius):
     """Optimality without the solver's own equations: along the null space of the wrench the norm has no slope."""
+    assert _slopes(place, radius)[0] < 1e-5
+
+
+def test_tensions_of_straight_cables_are_another_optimum():
+    """Twin, at one pose off the symmetry planes (on them the two optima come together): their norm has a slope."""
+    optimal, straight = _slopes((1.0, -0.7, 0.8), 0.0)
+    assert optimal < 1e-5
+    assert straight > 1e-4
+
+
+def _slopes(place, radius) -> tuple[float, float]:
+    """Slope of the norm along the null space at the minimum-norm tensions of sagging and of straight cables [-]."""
     robot = with_pulleys(ROBOT, radius) if radius else ROBOT
     solution = inverse(robot, place, np.eye(3))
     arrays, model = RobotArrays.of(robot), cable_model("sagging")
@@ -70,10 +82,9 @@ def test_no_tensions_of_smaller_norm_hold_the_pose(place, radius):
         null = np.linalg.svd(rates[:, :6].T)[2][6:]
         return float(np.abs(null @ rates[:, 6]).max() / np.abs(rates[:, 6]).max())
 
-    assert slope_in_null_space(solution.lengths) < 1e-5
-    straight = inverse(robot, place, np.eye(3), model="ideal")  # twin: the optimum of straight cables is another one
+    straight = inverse(robot, place, np.eye(3), model="ideal")
     other = model.hold(arrays, arms.points, straight.tensions).states.total_length
-    assert slope_in_null_space(other) > 1e-4
+    return slope_in_null_space(solution.lengths), slope_in_null_space(other)
 
 
 @pytest.mark.parametrize(("low", "high"), [(0.0, np.inf), (120.0, np.inf), (0.0, 220.0), (100.0, 225.0)])
