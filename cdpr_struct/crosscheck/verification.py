@@ -170,18 +170,22 @@ def verify(
         spurious={step: len(scans[step].minima_hertz) - int(np.isfinite(m).sum()) for step, m in matched.items()},
         consistent_hertz=sweep.consistent_hertz,
         stiffness=stiffness_convergence(point, sweep.meshes, exact.hertz[:modes], assembly),
-        geometric_effect=_geometric_effect(point, modes),
+        geometric_effect=_geometric_effect(point, exact.hertz[:modes], assembly),
         limits=check_limits(point),
     )
 
 
-def _geometric_effect(point: OperatingPoint, modes: int) -> float:
-    """Largest relative change of an exact frequency if the geometric term is left out; nan where that is unstable."""
+def _geometric_effect(point: OperatingPoint, hertz: np.ndarray, assembly: Assembly) -> float:
+    """Largest relative change of the exact frequencies if the geometric term is left out; nan where that is unstable.
+
+    hertz : (k,) those of `assembly`; the other assembly's are computed
+    """
     try:
-        without = certified_modes(point, "exact", modes, "thesis").frequencies.hertz
+        other = certified_modes(point, "exact", len(hertz), "thesis" if assembly == "consistent" else "consistent")
     except CdprError:
         return float("nan")
-    return float(np.abs(without / certified_modes(point, "exact", modes).frequencies.hertz - 1.0).max())
+    ratio = other.frequencies.hertz / hertz if assembly == "consistent" else hertz / other.frequencies.hertz
+    return float(np.abs(ratio - 1.0).max())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
