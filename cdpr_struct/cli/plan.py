@@ -20,8 +20,8 @@ def run(
     from cdpr_struct.measurement.campaign_file import load_campaign
     from cdpr_struct.reports.diagnosis_plan import plan_json, plan_text
 
-    ground, _, _, not_testable = prepare(load_campaign(campaign), BUDGETS["small"])
-    result = plan_json(ground, not_testable)
+    prepared = prepare(load_campaign(campaign), BUDGETS["small"])
+    result = plan_json(prepared.ground, prepared.not_testable)
     emit(result, json, lambda: print(plan_text(result)))
     if out is not None:
         write_files(out, {"result.json": result_json(result)})

@@ -7,15 +7,24 @@
 | conditioned_state.py   | wrench balance and length compatibility at the measured state                      |
 | locked_pose.py         | the pose at locked lengths, beside the measured one                                |
 | cable_pitch.py         | natural frequencies of single cables at the measured state                         |
-| robot_pitch.py         | natural frequencies of the robot at the measured state, and who pairs with whom    |
+| robot_pitch.py         | natural frequencies of the robot at the measured state, followed mode by mode      |
+| mode_pairing.py        | which mode of the model is which measured peak?                                    |
+| robot_rows.py          | measured robot frequencies beside the exact model's modes                          |
+| commanded.py           | what the simulation commands where no encoder was read                             |
 | residuals.py           | all residuals of a campaign for a batch of worlds and readings                     |
 | null_model.py          | tolerances and sensor noise as standard normal numbers, and their covariance       |
 | causes/                | the library: what may be wrong, with parameters, priors and one function each      |
 | evidence.py            | how much better than the null does a cause predict the residuals?                  |
-| selection.py           | one cause, several causes, a class of causes, unknown, or nothing                  |
+| refit.py               | sizes of a set of causes through the nonlinear residuals, and the evidence there   |
+| selection.py           | one cause, several causes, or nothing: forward selection with exchange             |
+| remainder.py           | is what is left over still structured? laws outside the library                    |
+| setting.py             | from a campaign to the fixed part of its residuals                                 |
+| handling_screen.py     | which handling error, if any, explains the residuals?                              |
 | heldout.py             | does the cause predict states and kinds of data that it was not fitted to?         |
 | simulation_error.py    | what the user sees: simulated minus measured, in his units                         |
 | verdict.py             | the sentence and the result                                                        |
+| diagnose.py            | all of the above in order                                                          |
+| extended_robot.py      | the robot object that a world means                                                |
 | extended_model.py      | the robot with its causes, for every other command                                 |
 | plan.py                | before measuring: what can be detected, what be confused, what to measure next     |
 """

@@ -1,6 +1,9 @@
 """Natural frequencies of single cables with both ends held, at the measured state, in any world."""
 
+from functools import cache
+
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
@@ -11,6 +14,8 @@ from cdpr_struct.measurement.campaign import CableFrequencies
 from cdpr_struct.statics.cable_state import CableStates
 
 _BAND = 2.0  # times the highest measured frequency: up to there the exact modes are computed
+_LAMBDA2 = (1e-8, 1e8)
+_NODES = 8000  # keeps the spline's error below 1e-9 of a root
 
 
 def cable_log_frequencies(world: World, cables: CableStates, rows: CableFrequencies) -> np.ndarray:
@@ -45,12 +50,19 @@ def half_waves(lambda2: np.ndarray, rows: CableFrequencies) -> np.ndarray:
     if not rows.mode.size:
         return np.zeros(lambda2.shape)
     count = int(rows.mode.max())
-    symmetric = symmetric_roots(lambda2, (count + 1) // 2 + 1)
+    symmetric = _symmetric_roots((count + 1) // 2 + 1)(np.log(np.clip(lambda2, *_LAMBDA2)))
     antisymmetric = 2.0 * np.pi * np.arange(1, (count + 1) // 2 + 2)
     both = np.sort(np.concatenate([symmetric, np.broadcast_to(antisymmetric, symmetric.shape)], axis=-1), axis=-1)
     rank = np.broadcast_to(rows.mode - 1, lambda2.shape)[..., None]
     in_plane = np.take_along_axis(both, rank, axis=-1)[..., 0]
     return np.where(rows.in_plane, in_plane, np.pi * rows.mode)
+
+
+@cache
+def _symmetric_roots(count: int) -> CubicSpline:
+    """The first symmetric roots (count) as functions of ln lambda^2: the same curves for every cable."""
+    nodes = np.linspace(np.log(_LAMBDA2[0]), np.log(_LAMBDA2[1]), _NODES)
+    return CubicSpline(nodes, symmetric_roots(np.exp(nodes), count))
 
 
 def exact_log_frequencies(points: dict[int, OperatingPoint], rows: CableFrequencies) -> np.ndarray:

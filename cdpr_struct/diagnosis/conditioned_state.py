@@ -18,6 +18,7 @@ from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 
 LEAST_TENSION = 1.0  # [N] a reading below this is taken as this: a slack cable has no direction
 _EXIT_ITERATIONS = 8
+_SAME_DIRECTION = 1e-8  # of the exit: below it lengths change by less than a tenth of a micrometre
 _MAST = 0.2  # frame anchors nearer than this share of the frame's width sit on one mast
 
 
@@ -129,7 +130,11 @@ def hold(
     for _ in range(_EXIT_ITERATIONS):
         leaving = pulley_exit(direction, axis, radius)
         cables = _between(offset - leaving.point, tension, stiff, weight, radius * leaving.wrap_angle)
-        direction = cables.force_at_frame / cables.tension_at_frame[..., None]
+        turned = cables.force_at_frame / cables.tension_at_frame[..., None]
+        settled = np.abs(turned - direction).max() < _SAME_DIRECTION
+        direction = turned
+        if settled:
+            break
     return cables
 
 

@@ -8,36 +8,41 @@ from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.causes.handling import Correction
 from cdpr_struct.diagnosis.causes.registry import causes_for
-from cdpr_struct.diagnosis.evidence import Candidate, candidates, choices, largest_gains
+from cdpr_struct.diagnosis.evidence import Candidate, candidates, choices, largest_gains, screen
 from cdpr_struct.diagnosis.handling_screen import best_correction
-from cdpr_struct.diagnosis.heldout import Held, left_out, transfer
-from cdpr_struct.diagnosis.null_model import NullModel, null_model, null_with_draws
+from cdpr_struct.diagnosis.heldout import Held, groups_of, left_out, predicted, transfer, weakest
+from cdpr_struct.diagnosis.null_model import NullModel, null_model, null_with_bending
 from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.refit import Fit, Ground
+from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
-from cdpr_struct.diagnosis.selection import Fit, Ground, Selection, select
-from cdpr_struct.diagnosis.setting import anchored, make_setting
+from cdpr_struct.diagnosis.selection import Selection, select
+from cdpr_struct.diagnosis.setting import make_setting
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
 
-FIRST_THRESHOLD = 5.0  # nats that the first cause must bring
-NEXT_THRESHOLD = 5.0
-SAME_CLASS = 3.0  # nats within which causes are not told apart
-SIGNIFICANT = 0.01
+LEAST = 2.0  # nats that a cause must bring to be looked at, once something is significant
+FURTHER = 4.0  # nats that each further cause must bring
+NAMED = 5.0  # nats that a named cause must bring
+SIGNIFICANT = 0.04
 ADEQUATE = 1e-3
-AMBIGUOUS = 8.0  # [%] doubt of a frequency whose partner is not clear
+_TAIL_SHARE = 0.75  # of the false alarms that may come from the largest evidence; the rest from chi^2
+_OUTSIDE = -2.0  # ln prior of a law outside the library, beside that of a cause
+_NULL_DRAWS = 1000
 SEED = 20240229
 
 
 @dataclass(frozen=True, slots=True)
 class Budget:
-    """Random draws of the null, and how many causes are refitted at each step."""
+    """Random draws of the null, how many causes are refitted at each step, and at most taken."""
 
     draws: int
     refits: int
+    causes: int = 2
 
 
-BUDGETS = {"small": Budget(24, 3), "full": Budget(200, 6)}
+BUDGETS = {"small": Budget(24, 3), "full": Budget(200, 6, 3)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,9 +51,12 @@ class Diagnosis:
 
     ground, fine : what hypotheses were judged on, and the null as entered with all frequencies counted
     corrections  : handling errors and shortcuts found, in the order of their discovery, with their log evidence
-    selection    : physical causes on top of them;  p_value of the null, p_adequate of what was chosen
+    selection    : physical causes on top of them;  p_value of the null as entered, p_value_left after corrections,
+                   p_adequate of what was chosen
+    weakest      : (causes,) nats that each keeps with the group left out that it needs most
     held, fudge  : held-out residuals of the choice and of a generic fit (common EA and load cell gain)
-    null_gains   : (draws,) largest evidence of any cause when nothing is wrong
+    null_gains   : (draws,) largest evidence of any cause or channel when nothing is wrong
+    outside      : laws outside the library: their best evidence alone, and on top of the chosen causes
     """
 
     campaign: Campaign
@@ -59,12 +67,31 @@ class Diagnosis:
     corrections: list[tuple[Correction, float]]
     selection: Selection
     p_value: float
+    p_value_left: float
     p_adequate: float
+    weakest: np.ndarray
     held: Held | None
     fudge: Held | None
     transfer: dict[str, float]
     null_gains: np.ndarray
+    outside: "Outside"
     not_testable: dict[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Outside:
+    """Evidence of laws outside the library.
+
+    words, alone : the best channel by itself, and its log evidence against the null
+    left_words, left : the best channel on top of the chosen causes, and what it adds
+    limit : what channels add to noise in one case of forty
+    """
+
+    words: str
+    alone: float
+    left_words: str
+    left: float
+    limit: float
 
 
 def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str], None] = lambda _: None) -> Diagnosis:
@@ -76,57 +103,79 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
     """
     plan = BUDGETS[budget]
     progress("simulating what was measured")
-    ground, fine, gains, not_testable = prepare(campaign, plan)
-    entered, entered_setting = fine, ground.setting
-    p_value = _significance(ground, gains)
+    prepared = prepare(campaign, plan)
+    entered, entered_setting = prepared.fine, prepared.ground.setting
+    p_value = prepared.p_value
     found: list[tuple[Correction, float]] = []
     progress("checking units, signs and channels")
     if p_value < SIGNIFICANT:
         for _ in range(2):
-            better = best_correction(campaign, fine.level)
+            better = best_correction(campaign, prepared.fine.level)
             if better is None:
                 break
             found.append(better)
             campaign = better[0].campaign
-            ground, fine, gains, not_testable = prepare(campaign, plan)
-            if _significance(ground, gains) >= SIGNIFICANT:
+            prepared = prepare(campaign, plan)
+            if prepared.p_value >= SIGNIFICANT:
                 break
     progress("fitting causes")
-    threshold = max(FIRST_THRESHOLD, float(np.quantile(gains, 0.975)))
-    quiet = (p_value if not found else _significance(ground, gains)) >= SIGNIFICANT
-    selection = Selection(None, [], []) if quiet else select(ground, threshold, NEXT_THRESHOLD)
+    ground = prepared.ground
+    quiet = prepared.p_value >= SIGNIFICANT
+    selection = Selection(None, [], []) if quiet else select(ground, LEAST, FURTHER, plan.causes)
     progress("predicting what was left out")
     fit = selection.fit
     held = fudge = None
     carried: dict[str, float] = {}
+    lasting = np.zeros(0)
     if fit is not None:
-        held, fudge, carried = _held_out(ground, fine, fit)
-    adequate = _remainder(ground, fit) if fit else _chi2(ground.null)
+        groups = groups_of(ground.setting)
+        lasting = weakest(fit, groups)
+        held, carried = left_out(fit, prepared.fine.r, groups), transfer(fit, prepared.fine.r)
+        fudge = _fudge(prepared, groups)
+    adequate = adequacy(fit.adequacy(), len(fit.white)) if fit else _chi2(ground.null)
     return Diagnosis(
-        campaign, entered, entered_setting, ground, fine, found, selection, p_value, adequate, held, fudge, carried,
-        gains, not_testable,
+        campaign, entered, entered_setting, ground, prepared.fine, found, selection, p_value, prepared.p_value,
+        adequate, lasting, held, fudge, carried, prepared.gains, _outside(prepared, fit), prepared.not_testable,
     )  # fmt: skip
 
 
-def prepare(campaign: Campaign, plan: Budget) -> tuple[Ground, NullModel, np.ndarray, dict[str, str]]:
-    """Ground for hypotheses, null with all frequencies counted, largest gains of null draws, untestable causes."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Prepared:
+    """Ground for hypotheses, null paired as if the entered world were right, channels, largest gains of null draws."""
+
+    ground: Ground
+    fine: NullModel
+    channels: list[Candidate]
+    gains: np.ndarray
+    p_value: float
+    not_testable: dict[str, str]
+
+
+def prepare(campaign: Campaign, plan: Budget) -> Prepared:
+    """Everything before the first hypothesis."""
     if not len(campaign.states.names):
         kinds = ", ".join(campaign.kinds())
         raise InputError(campaign.source, "measurement", kinds, "also static states, loaded poses or frequencies")
-    setting = make_setting(campaign)
+    setting, near = make_setting(campaign)
     world, readings = World.of(campaign.robot, len(campaign.states.names)), Readings.of(setting.campaign.states)
-    null, extra, drawn = null_with_draws(setting, world, readings, plan.draws, SEED)
+    null, extra = null_with_bending(setting, world, readings, plan.draws, SEED)
     causes, not_testable = causes_for(setting)
     library = candidates(setting, world, readings, null, causes)
-    gains = largest_gains(library, null.white(drawn.T))
-    fine = null
-    if setting.robot_rows.omega.size:
-        fine = null_model(anchored(setting, world), world, readings, extra)
+    outside = channels(setting, world, readings, null)
+    fine = null if near is setting else null_model(near, world, readings, extra)
     for candidate in library:
         if strength(candidate) < 2.0:
             not_testable[candidate.name] = "at its typical size it hides in noise and tolerances"
     ground = Ground(setting, world, readings, null, library, plan.refits, fine.level, extra)
-    return ground, fine, gains, not_testable
+    draws = np.random.default_rng(SEED).standard_normal((len(null.r), _NULL_DRAWS))
+    gains = _most(library, outside, draws)
+    return Prepared(ground, fine, outside, gains, _significance(ground, outside, gains), not_testable)
+
+
+def _most(library: list[Candidate], outside: list[Candidate], draws: np.ndarray) -> np.ndarray:
+    """(k,) largest evidence of any cause or channel for residuals (n, k)."""
+    gains = largest_gains(library, draws)
+    return np.maximum(gains, largest_gains(outside, draws) + _OUTSIDE) if outside else gains
 
 
 def strength(candidate: Candidate) -> float:
@@ -148,50 +197,37 @@ def _chi2(null: NullModel) -> float:
     return adequacy(float(z @ z), len(z))
 
 
-def _remainder(ground: Ground, fit: Fit) -> float:
-    """p-value of what a fit leaves; frequencies whose partner was ambiguous as entered may be left out of it."""
-    whole = adequacy(float(fit.white @ fit.white + fit.theta @ fit.theta), len(fit.white))
-    clear = np.ones(len(fit.white), dtype=bool)
-    clear[ground.setting.labels.block == "RF"] = ground.setting.robot_doubt < AMBIGUOUS
-    null = fit.ground.null
-    lower = np.linalg.cholesky(null.covariance[np.ix_(clear, clear)])
-    z = np.linalg.solve(lower, (null.lower @ fit.white)[clear])
-    return max(whole, adequacy(float(z @ z + fit.theta @ fit.theta), len(z)))
+def _significance(ground: Ground, outside: list[Candidate], gains: np.ndarray) -> float:
+    """p-value of the null: the largest evidence of any law beside that of draws from the null, and its chi^2."""
+    best = float(_most(ground.candidates, outside, ground.z[:, None])[0])
+    tail = (1.0 + float((gains >= best).sum())) / (len(gains) + 1.0)
+    if best > float(gains.max()):
+        tail = min(tail, len(ground.candidates) * float(np.exp(-best)))
+    return min(1.0, tail / _TAIL_SHARE, _chi2(ground.null) / (1.0 - _TAIL_SHARE))
 
 
-def _significance(ground: Ground, gains: np.ndarray) -> float:
-    """p-value of the null: its chi^2, and the largest evidence of any cause beside that of draws from the null."""
-    overall = _chi2(ground.null)
-    best = float(largest_gains(ground.candidates, ground.z[:, None])[0])
-    beaten = int((gains >= best).sum())
-    count = len(gains)
-    tail = (1.0 + beaten) / (count + 1.0)
-    if beaten == 0 and best > FIRST_THRESHOLD:
-        tail = min(tail, len(ground.candidates) * np.exp(-best))
-    return float(min(1.0, 2.0 * min(overall, tail)))
+def _outside(prepared: Prepared, fit: Fit | None) -> Outside:
+    """Evidence of laws outside the library, alone and on top of the chosen causes."""
+    ground = prepared.ground
+    if not prepared.channels:
+        return Outside("", -np.inf, "", -np.inf, np.inf)
+    alone = screen(prepared.channels, ground.z)[0]
+    draws = np.random.default_rng(SEED + 1).standard_normal((len(ground.z), _NULL_DRAWS))
+    limit = float(np.quantile(largest_gains(prepared.channels, draws), 0.975))
+    left = alone
+    if fit is not None:
+        there = channels(fit.ground.setting, fit.world, ground.readings, fit.ground.null)
+        left = screen(there, fit.white + fit.signature @ fit.theta, fit.signature)[0]
+    return Outside(alone.candidate.cause.title, alone.gain + _OUTSIDE, left.candidate.cause.title, left.gain, limit)
 
 
-def _held_out(ground: Ground, fine: NullModel, fit: Fit) -> tuple[Held, Held, dict[str, float]]:
-    """Held-out residuals of the fit and of the generic fudge, and transfer between kinds."""
-    null, labels = fit.ground.null, ground.setting.labels
-    signature = null.lower @ fit.signature
-    zero = null.lower @ fit.white + signature @ fit.theta
-    groups = _groups(ground.setting)
-    held = left_out(labels, fine.r, zero, signature, null.covariance, groups)
-    columns = []
+def _fudge(prepared: Prepared, groups: np.ndarray) -> Held:
+    """Held-out residuals of a generic fit: common EA and load cell gains."""
+    ground, fine, columns = prepared.ground, prepared.fine, []
     for candidate in ground.candidates:
         if candidate.name in ("axial_stiffness", "load_cell_gain"):
             alike = next(c for c in choices(candidate) if c.pattern.label == "all alike" and c.scale == 1.0)
             columns.append(-ground.null.lower @ alike.signature)
+    labels = ground.setting.labels
     generic = np.hstack(columns) if columns else np.zeros((len(labels), 1))
-    fudge = left_out(labels, fine.r, fine.r, generic, fine.covariance, groups)
-    return held, fudge, transfer(labels, fine.r, zero, signature, null.covariance)
-
-
-def _groups(setting: Setting) -> np.ndarray:
-    """(n,) states, those of one lock together; with a single one, the kinds of data."""
-    state, lock = setting.labels.state, setting.campaign.states.lock
-    groups = np.where(lock[state] >= 0, 1_000_000 + lock[state], state)
-    if len(np.unique(groups)) < 2:
-        return np.unique(setting.labels.block.astype(str), return_inverse=True)[1]
-    return groups
+    return predicted(labels, fine.r, fine.r, generic, fine.covariance, groups)

@@ -5,6 +5,7 @@ Bayes factor against the null is (b' M^-1 b - ln|M|) / 2 with M = 1 + G'G, b = G
 magnitude only, so the prior's scale is marginalised over three values; so is the pattern of occurrence.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,65 +62,97 @@ def candidates(
     return found
 
 
+def choice(candidate: Candidate, pattern: Pattern, scale: float) -> Choice:
+    """One pattern of a cause at one scale."""
+    signature = scale * (candidate.signature @ pattern.basis) * pattern.prior
+    return Choice(candidate, pattern, scale, signature, float(np.log(pattern.weight / len(SCALES))))
+
+
 def choices(candidate: Candidate) -> list[Choice]:
     """Every pattern at every scale."""
-    found = []
-    for pattern in candidate.patterns:
-        signature = (candidate.signature @ pattern.basis) * pattern.prior
-        for scale in SCALES:
-            weight = np.log(pattern.weight / len(SCALES))
-            found.append(Choice(candidate, pattern, scale, scale * signature, weight))
-    return found
+    return [choice(candidate, pattern, scale) for pattern in candidate.patterns for scale in SCALES]
 
 
 def log_bayes_factor(signature: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Of G (n, d) against the null, for whitened residuals z (n,) or (n, k)."""
-    matrix = np.eye(signature.shape[1]) + signature.T @ signature
-    b = signature.T @ z
-    _, log_det = np.linalg.slogdet(matrix)
-    result: np.ndarray = 0.5 * ((b * np.linalg.solve(matrix, b)).sum(axis=0) - log_det)
+    return scaled_log_bayes_factors(signature.T @ signature, signature.T @ z, (1.0,))[0]
+
+
+def scaled_log_bayes_factors(gram: np.ndarray, b: np.ndarray, scales: Sequence[float]) -> np.ndarray:
+    """ln B (s, ...) of signatures s G for several scales s, from G'G (d, d) and G'z (d, ...)."""
+    values, vectors = np.linalg.eigh(gram)
+    values = np.maximum(values, 0.0).reshape((-1, *(1,) * (b.ndim - 1)))
+    square = (vectors.T @ b) ** 2
+    logs = [0.5 * (s**2 * square / (1.0 + s**2 * values) - np.log1p(s**2 * values)).sum(axis=0) for s in scales]
+    return np.array(logs)
+
+
+def _bounded(gram: np.ndarray, b: np.ndarray, scales: Sequence[float]) -> np.ndarray:
+    """Correction of ln B (s, ...) for one size that cannot be negative: the posterior's part above zero, doubled."""
+    s = np.array(scales).reshape((-1, *(1,) * (b.ndim - 1)))
+    result: np.ndarray = log_ndtr(s * b[0] / np.sqrt(1.0 + s**2 * gram[0, 0])) + np.log(2.0)
     return result
 
 
-def bounded(choice: Choice, z: np.ndarray) -> np.ndarray:
-    """Correction of ln B for a single size that cannot be negative: the part of the posterior above zero, doubled."""
-    if choice.signature.shape[1] != 1 or not choice.pattern.parameters[0].positive:
-        return np.zeros(z.shape[1:])
-    column = choice.signature[:, 0]
-    precision = 1.0 + column @ column
-    result: np.ndarray = log_ndtr(column @ z / np.sqrt(precision)) + np.log(2.0)
-    return result
+def gains_of(candidate: Candidate, z: np.ndarray, signature: np.ndarray | None = None) -> np.ndarray:
+    """ln B + ln weight (patterns, scales, ...) of a cause for residuals z (n,) or (n, k)."""
+    own = candidate.signature if signature is None else signature
+    gram, b = own.T @ own, own.T @ z
+    rows = []
+    for pattern in candidate.patterns:
+        basis = pattern.basis * pattern.prior
+        small, part = basis.T @ gram @ basis, basis.T @ b
+        logs = scaled_log_bayes_factors(small, part, SCALES) + np.log(pattern.weight / len(SCALES))
+        if len(small) == 1 and pattern.parameters[0].positive:
+            logs = logs + _bounded(small, part, SCALES)
+        rows.append(logs)
+    return np.array(rows)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Screened:
-    """Log evidence gain of a cause (over patterns and scales) on top of others, and its best pattern and scale."""
+    """Log evidence gain of a cause (over patterns and scales) on top of others, and its best pattern and scale.
+
+    spread : by how much the gain exceeds that of the best pattern and scale alone
+    """
 
     candidate: Candidate
     gain: float
     best: Choice
+    spread: float
 
 
 def screen(found: list[Candidate], z: np.ndarray, others: np.ndarray | None = None) -> list[Screened]:
-    """Gain of each cause together with `others` (n, d) signatures against the null, best first."""
+    """Gain of each cause on top of `others`, (n, d) signatures already taken, best first."""
+    free = Freed(others) if others is not None else None
+    left = z if free is None else free.of(z)
     rows = []
     for candidate in found:
-        options = choices(candidate)
-        logs = [
-            float(log_bayes_factor(c.signature if others is None else np.hstack([others, c.signature]), z))
-            + c.log_weight
-            + (float(bounded(c, z)) if others is None else 0.0)
-            for c in options
-        ]
-        rows.append(Screened(candidate, float(logsumexp(logs)), options[int(np.argmax(logs))]))
+        signature = candidate.signature if free is None else free.of(candidate.signature)
+        logs = gains_of(candidate, left, signature)
+        i, j = np.unravel_index(int(logs.argmax()), logs.shape)
+        whole = float(logsumexp(logs))
+        best = choice(candidate, candidate.patterns[i], SCALES[j])
+        rows.append(Screened(candidate, whole, best, whole - float(logs[i, j])))
     return sorted(rows, key=lambda row: -row.gain)
+
+
+class Freed:
+    """Whitening (1 + O O')^-1/2 by causes of unknown size with signatures O (n, d), on top of the null's."""
+
+    def __init__(self, others: np.ndarray) -> None:
+        self._left, values, _ = np.linalg.svd(others, full_matrices=False)
+        self._shrink = 1.0 - 1.0 / np.sqrt(1.0 + values**2)
+
+    def of(self, value: np.ndarray) -> np.ndarray:
+        """The whitened value (n,) or (n, k)."""
+        part = self._left.T @ value
+        result: np.ndarray = value - self._left @ (part.T * self._shrink).T
+        return result
 
 
 def largest_gains(found: list[Candidate], draws: np.ndarray) -> np.ndarray:
     """(k,) largest gain of any cause for each of k whitened residual vectors (n, k)."""
-    best = np.full(draws.shape[1], -np.inf)
-    for candidate in found:
-        options = choices(candidate)
-        logs = np.array([log_bayes_factor(c.signature, draws) + c.log_weight + bounded(c, draws) for c in options])
-        best = np.maximum(best, logsumexp(logs, axis=0))
-    return best
+    rows = [logsumexp(gains_of(candidate, draws), axis=(0, 1)) for candidate in found]
+    result: np.ndarray = np.max(rows, axis=0)
+    return result

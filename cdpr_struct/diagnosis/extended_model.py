@@ -11,7 +11,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.extended_robot import robot_of
-from cdpr_struct.diagnosis.selection import world_with
+from cdpr_struct.diagnosis.refit import world_with
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.robot.robot import Robot
 

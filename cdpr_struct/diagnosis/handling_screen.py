@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.diagnosis.causes.handling import Correction, corrections, shortcuts
-from cdpr_struct.diagnosis.null_model import null_model
+from cdpr_struct.diagnosis.null_model import NullModel, null_model
 from cdpr_struct.diagnosis.readings import Readings
-from cdpr_struct.diagnosis.residuals import residuals
-from cdpr_struct.diagnosis.setting import anchored, make_setting
+from cdpr_struct.diagnosis.residuals import Setting, residuals
+from cdpr_struct.diagnosis.setting import make_setting
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.measurement.campaign import CableFrequencies, Campaign, RobotFrequencies, States
@@ -34,35 +34,44 @@ def best_correction(campaign: Campaign, level: float) -> tuple[Correction, float
 def level_of(campaign: Campaign) -> float | None:
     """Minus the log evidence of the null for a campaign, or None where it cannot be computed."""
     try:
-        setting = make_setting(campaign)
+        _, setting = make_setting(campaign)
         world = World.of(campaign.robot, len(campaign.states.names))
-        if setting.robot_rows.omega.size:
-            setting = anchored(setting, world)
         return null_model(setting, world, Readings.of(setting.campaign.states)).level
     except (CdprError, InputError, np.linalg.LinAlgError, ValueError):
         return None
 
 
 def _worthwhile(campaign: Campaign) -> list[Correction]:
-    """The few corrections that reduce the static residuals most; those of payload and frequencies always."""
+    """The few corrections that reduce the static residuals most, and those of frequencies that look angular."""
     options = corrections(campaign)
     states = campaign.states
+    always = [c for c in options if _rad_per_second(campaign) and c.campaign.states is states]
+    shown = [c for c in options if c.campaign.states is not states]
     held = np.flatnonzero(states.has_tension)
-    always = [c for c in options if c.campaign.states.payload is not states.payload]
-    always += [c for c in options if _rad_per_second(campaign) and c.campaign.states is states]
-    shown = [c for c in options if c.campaign.states is not states and c.campaign.states.payload is states.payload]
     if not held.size or not shown:
-        return always
+        return always + [c for c in shown if c.campaign.states.payload is not states.payload]
     part = replace(campaign, states=_some(states, held), **_NO_FREQUENCIES)
-    setting = make_setting(part)
-    world = World.of(campaign.robot, held.size)
-    null = null_model(setting, world, Readings.of(part.states))
-    wrong = [Readings.of(_some(c.campaign.states, held)) for c in shown]
-    stacked = Readings(*(np.stack([getattr(w, name) for w in wrong]) for name in Readings.__slots__))
-    z = null.white(residuals(setting, world, stacked).T)
-    drop = float(null.white(null.r) @ null.white(null.r)) - (z**2).sum(axis=0)
+    setting, _ = make_setting(part)
+    world, readings = World.of(campaign.robot, held.size), Readings.of(part.states)
+    null = null_model(setting, world, readings)
+    drop = float(null.white(null.r) @ null.white(null.r)) - _chi2_of(setting, world, null, shown, held)
     order = np.argsort(-np.where(np.isfinite(drop), drop, -np.inf))[:_KEEP]
     return always + [shown[i] for i in order if drop[i] > _WORTH]
+
+
+def _chi2_of(
+    setting: Setting, world: World, null: NullModel, options: list[Correction], held: np.ndarray
+) -> np.ndarray:
+    """(c,) chi^2 of the static states in each corrected campaign, by the covariance of the one as recorded."""
+    chi2 = np.zeros(len(options))
+    loads = np.array([c.campaign.states.payload[held] for c in options])
+    wrong = [Readings.of(_some(c.campaign.states, held)) for c in options]
+    for load in np.unique(loads, axis=0):
+        own = np.flatnonzero((loads == load).all(axis=1))
+        stacked = Readings(*(np.stack([getattr(wrong[i], name) for i in own]) for name in Readings.__slots__))
+        loaded = replace(setting, known=replace(setting.known, payload=load))
+        chi2[own] = (null.white(residuals(loaded, world, stacked).T) ** 2).sum(axis=0)
+    return chi2
 
 
 _NO_FREQUENCIES: dict[str, Any] = {

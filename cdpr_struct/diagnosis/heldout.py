@@ -4,7 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.diagnosis.residuals import UNITS, Labels
+from cdpr_struct.diagnosis.evidence import log_bayes_factor
+from cdpr_struct.diagnosis.refit import Fit
+from cdpr_struct.diagnosis.residuals import UNITS, Labels, Setting
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -16,11 +18,22 @@ class Held:
     after: np.ndarray
     sigma: np.ndarray
 
+    @property
+    def concerned(self) -> np.ndarray:
+        """(n,) where the cause, fitted to other data, predicts a change beyond one sigma (at least a tenth of all)."""
+        change = np.abs(self.before - self.after) / self.sigma
+        return change > min(1.0, float(np.quantile(change, 0.9)))
+
+    def rms(self, rows: np.ndarray | None = None) -> tuple[float, float]:
+        """Root mean squares before and after, in sigmas."""
+        pick = slice(None) if rows is None else rows
+        before, after = (float(np.sqrt(np.mean((r[pick] / self.sigma[pick]) ** 2))) for r in (self.before, self.after))
+        return before, after
+
     def ratio(self, rows: np.ndarray | None = None) -> float:
         """How many times smaller the error became, errors counted in their sigmas."""
-        pick = slice(None) if rows is None else rows
-        size = [float(np.sqrt(np.mean((r[pick] / self.sigma[pick]) ** 2))) for r in (self.before, self.after)]
-        return size[0] / max(size[1], 1e-12)
+        before, after = self.rms(rows)
+        return before / max(after, 1e-12)
 
     def by_kind(self) -> dict[str, dict[str, float | str]]:
         """Root mean squares before and after of each block, in its unit."""
@@ -39,32 +52,61 @@ _NAMES = {
 }  # fmt: skip
 
 
-def left_out(
-    labels: Labels,
-    nominal: np.ndarray,
-    zero: np.ndarray,
-    signature: np.ndarray,
-    covariance: np.ndarray,
-    groups: np.ndarray,
-) -> Held:
-    """Each group predicted from the fit to all the others.
+def groups_of(setting: Setting) -> np.ndarray:
+    """(n,) groups that are left out together: a state, or all states of one lock; with a single one, a kind of data."""
+    state, lock = setting.labels.state, setting.campaign.states.lock
+    groups = np.where(lock[state] >= 0, 1_000_000 + lock[state], state)
+    if len(np.unique(groups)) < 2:
+        return np.unique(setting.labels.block.astype(str), return_inverse=True)[1]
+    return groups
+
+
+def weakest(fit: Fit, groups: np.ndarray) -> np.ndarray:
+    """Per cause of a fit, the log evidence that it adds to the others, with the group left out that it needs most.
+
+    Linear about the fit. A cause that lives on one group of states alone explains that group, not the robot.
+    """
+    null = fit.ground.null
+    zero, signature = null.lower @ (fit.white + fit.signature @ fit.theta), null.lower @ fit.signature
+    owner = np.repeat(np.arange(len(fit.choices)), [c.signature.shape[1] for c in fit.choices])
+    least = np.full(len(fit.choices), np.inf)
+    for group in np.unique(groups):
+        rows = groups != group
+        lower = np.linalg.cholesky(null.covariance[np.ix_(rows, rows)])
+        z, columns = np.linalg.solve(lower, zero[rows]), np.linalg.solve(lower, signature[rows])
+        whole = float(log_bayes_factor(columns, z))
+        for i in range(len(least)):
+            least[i] = min(least[i], whole - float(log_bayes_factor(columns[:, owner != i], z)))
+    return least
+
+
+def left_out(fit: Fit, nominal: np.ndarray, groups: np.ndarray) -> Held:
+    """Each group predicted from the fit to all the others, linear about the fit.
 
     Parameters
     ----------
-    nominal : (n,) residuals of the model as entered
-    zero, signature : residuals (n,) at theta = 0 and d(model)/d(theta) (n, d), linear about the fit;
-        theta in prior sigmas
-    covariance : (n, n) under the null;  groups : (n,) labels of the groups
+    nominal : (n,) residuals of the model as entered;  groups : (n,) labels of the groups
     """
+    null = fit.ground.null
+    signature = null.lower @ fit.signature
+    zero = null.lower @ fit.white + signature @ fit.theta
+    return predicted(fit.ground.setting.labels, nominal, zero, signature, null.covariance, groups)
+
+
+def predicted(
+    labels: Labels, nominal: np.ndarray, zero: np.ndarray, signature: np.ndarray, covariance: np.ndarray,
+    groups: np.ndarray,
+) -> Held:  # fmt: skip
+    """Held-out residuals of a linear model: zero (n,) at theta = 0, d(model)/d(theta) (n, d), theta in prior sigmas."""
     after = np.zeros(len(zero))
     for group in np.unique(groups):
         out = groups == group
-        fitted = fit_to(zero[~out], signature[~out], covariance[np.ix_(~out, ~out)])
+        fitted = _fit_to(zero[~out], signature[~out], covariance[np.ix_(~out, ~out)])
         after[out] = zero[out] - signature[out] @ fitted
     return Held(labels, nominal, after, np.sqrt(np.diagonal(covariance)))
 
 
-def fit_to(zero: np.ndarray, signature: np.ndarray, covariance: np.ndarray) -> np.ndarray:
+def _fit_to(zero: np.ndarray, signature: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """theta (d,) that fits the given rows best, prior included."""
     lower = np.linalg.cholesky(covariance)
     white, columns = np.linalg.solve(lower, zero), np.linalg.solve(lower, signature)
@@ -72,12 +114,10 @@ def fit_to(zero: np.ndarray, signature: np.ndarray, covariance: np.ndarray) -> n
     return result
 
 
-def transfer(
-    labels: Labels, nominal: np.ndarray, zero: np.ndarray, signature: np.ndarray, covariance: np.ndarray
-) -> dict[str, float]:
+def transfer(fit: Fit, nominal: np.ndarray) -> dict[str, float]:
     """Per kind of data, how many times smaller its error is when fitted to the other kinds only."""
-    kinds = labels.kind
+    kinds = fit.ground.setting.labels.kind
     if len(set(kinds.tolist())) < 2:
         return {}
-    held = left_out(labels, nominal, zero, signature, covariance, kinds)
+    held = left_out(fit, nominal, kinds)
     return {str(kind): held.ratio(kinds == kind) for kind in dict.fromkeys(kinds.tolist())}

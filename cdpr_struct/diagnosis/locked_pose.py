@@ -1,10 +1,11 @@
 """The pose that the platform takes at locked lengths in a given world, beside the measured one."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from cdpr_struct.diagnosis.conditioned_state import (
     Circumstances,
-    Conditioned,
     load_wrench,
     moved_anchors,
     paid_out,
@@ -13,6 +14,15 @@ from cdpr_struct.diagnosis.conditioned_state import (
 )  # fmt: skip
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.statics.cable_models import cable_model
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.equilibrium import (
+    PlatformArms,
+    cable_wrench,
+    rotation_from_vector,
+    tangent_stiffness,
+    weight_wrench,
+)
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
@@ -61,16 +71,77 @@ def _own_weight(world: World, rotation: np.ndarray) -> np.ndarray:
     return np.concatenate(np.broadcast_arrays(force, np.cross(center, force)), axis=-1)
 
 
-def missed_pose(world: World, readings: Readings, found: ForwardSolution) -> np.ndarray:
+@dataclass(frozen=True, slots=True, eq=False)
+class Reference:
+    """Equilibria of one world at the states (S): pose, flexibility (S, 6, 6) of the platform there, and cables."""
+
+    position: np.ndarray
+    rotation: np.ndarray
+    flexibility: np.ndarray
+    cables: CableStates
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Nearby:
+    """Poses to first order about a reference, with the cables there."""
+
+    position: np.ndarray
+    rotation: np.ndarray
+    cables: CableStates
+
+    @property
+    def tensions(self) -> np.ndarray:
+        """(..., m) at the platform [N]."""
+        return self.cables.tension_at_platform
+
+
+def reference(world: World, readings: Readings, known: Circumstances) -> Reference:
+    """Equilibria of a world without batch axes."""
+    found, stiff = locked_pose(world, readings, known)
+    arrays = robot_arrays(world, stiff, moved_anchors(world, found.cables, known), known)
+    arms = PlatformArms.at(arrays, found.position, found.rotation)
+    tangent = tangent_stiffness(arrays, found.cables, arms)
+    return Reference(found.position, found.rotation, np.linalg.inv(tangent), found.cables)
+
+
+def nearby_pose(world: World, readings: Readings, known: Circumstances, about: Reference) -> Nearby:
+    """Equilibria (..., S) of worlds near that of a reference: one step of Newton's method from there."""
+    position, rotation = true_pose(world, readings)
+    length = paid_out(world, readings, known)
+    load = load_wrench(world, position, rotation, known) - _own_weight(world, rotation)
+    tension = about.cables.tension_at_platform
+    stiff = series_stiffness(world, length, np.maximum(tension, 1.0), known)
+    anchors = world.frame_anchors
+    if np.any(world.frame_compliance):
+        anchors = moved_anchors(world, about.cables, known)
+    arrays = robot_arrays(world, stiff, anchors, known)
+    model = cable_model("sagging" if known.sagging else "spring")
+    shape = np.broadcast_shapes(
+        position.shape[:-1], length.shape[:-1], stiff.shape[:-1], load.shape[:-1], arrays.batch_shape
+    )
+    length = np.broadcast_to(length, (*shape, length.shape[-1]))
+    flat = arrays.flattened(shape)
+    start = tuple(np.broadcast_to(v, (*shape, *v.shape[1:])) for v in (about.position, about.rotation))
+
+    def cables_at(place: np.ndarray, turn: np.ndarray) -> tuple[CableStates, PlatformArms]:
+        arms = PlatformArms.at(flat, place.reshape((-1, 3)), turn.reshape((-1, 3, 3)))
+        return model.states(flat, arms.points, length.reshape((-1, length.shape[-1]))), arms
+
+    states, arms = cables_at(*start)
+    wrench = (cable_wrench(states, arms) + weight_wrench(flat, arms)).reshape((*shape, 6)) + load
+    step = (about.flexibility @ wrench[..., None])[..., 0]
+    place, turn = start[0] + step[..., :3], rotation_from_vector(step[..., 3:]) @ start[1]
+    states, _ = cables_at(place, turn)
+    whole = CableStates(
+        *(getattr(states, n).reshape((*shape, *getattr(states, n).shape[1:])) for n in states.__slots__)
+    )
+    return Nearby(place, turn, whole)
+
+
+def missed_pose(world: World, readings: Readings, found: ForwardSolution | Nearby) -> np.ndarray:
     """(..., S, 6) measured minus computed pose: shift [m] and turn as rotation vector, world axes [rad]."""
     position, rotation = true_pose(world, readings)
     turn = rotation @ np.swapaxes(found.rotation, -1, -2)
     skew = 0.5 * (turn - np.swapaxes(turn, -1, -2))
     vector = np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]], axis=-1)
     return np.concatenate([position - found.position, vector], axis=-1)
-
-
-def state_from_lock(world: World, found: ForwardSolution) -> Conditioned:
-    """The equilibrium at locked lengths as a state for the dynamics."""
-    arms = world.platform_anchors @ np.swapaxes(found.rotation, -1, -2)
-    return Conditioned(found.position, found.rotation, arms, found.tensions, found.cables)

@@ -13,8 +13,9 @@ from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, residuals
 from cdpr_struct.diagnosis.world import World
 
-_STEP = 0.1  # of a sigma
-FLOOR = {"EQ": 0.05, "CO": 0.02, "NS": 0.02, "LP": 0.02, "CF": 0.03, "RF": 0.05}  # what the model itself may miss
+STEP = 0.1  # of a sigma
+_WILD = 5.0  # times the median miss
+FLOOR = {"EQ": 0.05, "CO": 0.02, "NS": 0.1, "LP": 0.02, "CF": 0.03, "RF": 0.05}  # what the model itself may miss
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -112,8 +113,8 @@ def null_model(setting: Setting, world: World, readings: Readings, extra: np.nda
     base = residuals(setting, world, readings, small=True)
     noise = _reading_columns(setting, world, readings, base)
     t = tolerance_count(setting)
-    moved = residuals(setting, tolerated(setting, world, _STEP * np.eye(t)), readings, small=True)
-    tolerance = (moved - base).T / _STEP
+    moved = residuals(setting, tolerated(setting, world, STEP * np.eye(t)), readings, small=True)
+    tolerance = (moved - base).T / STEP
     more = np.zeros((len(base), 0)) if extra is None else np.diag(extra)
     columns = np.concatenate([noise, tolerance, _own_noise(setting), more], axis=1)
     return NullModel(r, columns, np.linalg.cholesky(columns @ columns.T))
@@ -123,14 +124,8 @@ def _reading_columns(setting: Setting, world: World, readings: Readings, base: n
     """(n, k): the same reading of every state is moved at once, and its effect given to each state's own column."""
     states, m = setting.campaign.states, setting.campaign.robot.platform_anchors.shape[0]
     s, locks = len(states.names), int(states.lock.max()) + 1
-    steps = np.zeros((6 + 2 * m, reading_count(setting)))
-    for j in range(6):
-        steps[j, j : 6 * s : 6] = _STEP
-    for i in range(m):
-        steps[6 + i, 6 * s + i : (6 + m) * s : m] = _STEP
-        steps[6 + m + i, (6 + m) * s + i :: m] = _STEP
-    moved = residuals(setting, world, misread(setting, readings, steps), small=True)
-    effect = (moved - base).T / _STEP
+    moved = residuals(setting, world, misread(setting, readings, reading_steps(setting)), small=True)
+    effect = (moved - base).T / STEP
     columns = np.zeros((len(base), reading_count(setting)))
     row, state = np.arange(len(base)), setting.labels.state
     for j in range(6):
@@ -141,6 +136,19 @@ def _reading_columns(setting: Setting, world: World, readings: Readings, base: n
         if locks:
             columns[row[locked], (6 + m) * s + m * states.lock[state[locked]] + i] = effect[locked, 6 + m + i]
     return columns
+
+
+def reading_steps(setting: Setting) -> np.ndarray:
+    """(6 + 2 m, k) noise that moves one reading of a kind in all states at once, by `STEP` sigmas."""
+    states, m = setting.campaign.states, setting.campaign.robot.platform_anchors.shape[0]
+    s = len(states.names)
+    steps = np.zeros((6 + 2 * m, reading_count(setting)))
+    for j in range(6):
+        steps[j, j : 6 * s : 6] = STEP
+    for i in range(m):
+        steps[6 + i, 6 * s + i : (6 + m) * s : m] = STEP
+        steps[6 + m + i, (6 + m) * s + i :: m] = STEP
+    return steps
 
 
 def _own_noise(setting: Setting) -> np.ndarray:
@@ -163,27 +171,35 @@ def _own_noise(setting: Setting) -> np.ndarray:
     return np.concatenate([own, floor], axis=1)
 
 
-def null_with_draws(
+def null_with_bending(
     setting: Setting, world: World, readings: Readings, count: int, seed: int
-) -> tuple[NullModel, np.ndarray, np.ndarray]:
-    """The null with what its linearisation misses added as noise; that noise (n,); draws (count, n) from the null.
+) -> tuple[NullModel, np.ndarray]:
+    """The null with what its linearisation misses over `count` draws added as noise; that noise (n,).
 
-    Frequencies that veer past each other bend within their own uncertainty: such rows get the weight they deserve.
+    Where a draw takes a mode past its neighbour, it says nothing of small changes: each residual's misses are clipped
+    at a multiple of their median.
     """
     null = null_model(setting, world, readings)
     generator = np.random.default_rng(seed)
     noise, tolerance = reading_count(setting), tolerance_count(setting)
     u = generator.standard_normal((count, noise + tolerance))
-    worlds, noisy = tolerated(setting, world, u[:, noise:]), misread(setting, readings, u[:, :noise])
-    moved = residuals(setting, worlds, noisy) - residuals(setting, world, readings)
+    moved = drawn_residuals(setting, world, readings, u)
     missed = np.abs(moved - u @ null.columns[:, : noise + tolerance].T)
-    extra = np.maximum(np.sqrt((missed**2).mean(axis=0)), missed.max(axis=0) / 2.5)
+    extra = np.sqrt((np.minimum(missed, _WILD * np.median(missed, axis=0)) ** 2).mean(axis=0))
     columns = np.concatenate([null.columns, np.diag(extra)], axis=1)
-    own = _own_noise(setting)
-    drawn = moved + generator.standard_normal((count, own.shape[1])) @ own.T
-    return NullModel(null.r, columns, np.linalg.cholesky(columns @ columns.T)), extra, drawn
+    return NullModel(null.r, columns, np.linalg.cholesky(columns @ columns.T)), extra
+
+
+def drawn_residuals(setting: Setting, world: World, readings: Readings, u: np.ndarray) -> np.ndarray:
+    """(k, n) changes of the residuals by readings and tolerances off by u (k, N), through the nonlinear computation."""
+    noise = reading_count(setting)
+    worlds, noisy = tolerated(setting, world, u[:, noise:]), misread(setting, readings, u[:, :noise])
+    return residuals(setting, worlds, noisy) - residuals(setting, world, readings)
 
 
 def drawn_campaigns(setting: Setting, world: World, readings: Readings, count: int, seed: int) -> np.ndarray:
-    """(count, n) residuals of the null about those at hand, drawn through the whole nonlinear computation."""
-    return null_with_draws(setting, world, readings, count, seed)[2]
+    """(count, n) residuals of the null about those at hand, noise of frequencies and the model's floor included."""
+    generator = np.random.default_rng(seed)
+    u = generator.standard_normal((count, reading_count(setting) + tolerance_count(setting)))
+    own = _own_noise(setting)
+    return drawn_residuals(setting, world, readings, u) + generator.standard_normal((count, own.shape[1])) @ own.T

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.stats import chi2, ncx2
 
 from cdpr_struct.diagnosis.evidence import Candidate, Choice, choices
-from cdpr_struct.diagnosis.selection import Ground
+from cdpr_struct.diagnosis.refit import Ground
 
 ALPHA, POWER = 1e-3, 0.8
 SAME = 3.0  # nats: expected evidence below which two causes are one class

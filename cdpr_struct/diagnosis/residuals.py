@@ -16,12 +16,14 @@ import numpy as np
 
 from cdpr_struct.diagnosis import robot_pitch
 from cdpr_struct.diagnosis.cable_pitch import cable_log_frequencies
+from cdpr_struct.diagnosis.commanded import Commanded
 from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned, condition, incompatible, unbalanced
-from cdpr_struct.diagnosis.locked_pose import locked_pose, missed_pose
+from cdpr_struct.diagnosis.locked_pose import Nearby, Reference, locked_pose, missed_pose, nearby_pose
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.measurement.campaign import CableFrequencies, Campaign
 from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.forward_kinematics import ForwardSolution
 
 BLOCKS = ("EQ", "CO", "NS", "LP", "CF", "RF")
 UNITS = {"EQ": "N", "CO": "mm", "NS": "mm", "LP": "mm", "CF": "%", "RF": "%"}
@@ -54,11 +56,11 @@ class Setting:
 
     held : states whose tensions were read;  locked : states known by their lengths only (indices)
     with_length : among `held`, whether lengths were read too
-    null_space : (held, m, q) of the structure matrix at the states as recorded
-    commanded : (held, m) lengths that the simulation commands there [m]
+    sent : what the simulation commands at `held` states without lengths
     radius : of the platform [m]
     cable_rows, robot_rows : measured frequencies, and the gaps ln(exact / closed form) at the world as entered
     robot_doubt : extra noise of each robot frequency [%]
+    locked_at : equilibria of the `locked` states in the world that this setting is about
     """
 
     campaign: Campaign
@@ -66,8 +68,7 @@ class Setting:
     held: np.ndarray
     locked: np.ndarray
     with_length: np.ndarray
-    null_space: np.ndarray
-    commanded: np.ndarray
+    sent: Commanded
     radius: float
     labels: Labels
     cable_rows: CableFrequencies
@@ -80,17 +81,18 @@ class Setting:
     entered_rate: np.ndarray
     massless: bool = False
     geometric: bool = True
+    locked_at: Reference | None = None
 
 
 def residuals(setting: Setting, world: World, readings: Readings, small: bool = False) -> np.ndarray:
     """(..., n) residuals in the units of the table above.
 
     world : batch axes (B,) or none;  readings : (B, S, ...) or (S, ...)
-    small : robot frequencies to first order in the change of world and readings, for Jacobians
+    small : locked poses and robot frequencies to first order in the change of world and readings, for Jacobians
     """
     batch = _batch(world, readings)
     wide = world.per_state()
-    states = _States(setting, wide, readings)
+    states = States(setting, wide, readings, small)
     blocks = _static_blocks(setting, wide, states, readings) if setting.held.size else []
     if setting.locked.size:
         blocks.append(1e3 * _scaled(states.missed, setting.radius))
@@ -114,18 +116,26 @@ def _batch(world: World, readings: Readings) -> tuple[int, ...]:
     return (max(sizes),) if sizes else ()
 
 
-class _States:
+class States:
     """Conditioned states of those with tensions, locked ones of the others, and both together."""
 
-    def __init__(self, setting: Setting, world: World, readings: Readings) -> None:
+    def __init__(self, setting: Setting, world: World, readings: Readings, small: bool = False) -> None:
         parts = []
         if setting.held.size:
-            self.held = condition(_sub(world, setting.held), _some(readings, setting.held), _at(setting, setting.held))
+            self.held = condition(
+                world_of_states(world, setting.held),
+                readings_of_states(readings, setting.held),
+                at_states(setting, setting.held),
+            )
             parts.append((setting.held, self.held))
         if setting.locked.size:
-            part, known = _some(readings, setting.locked), _at(setting, setting.locked)
-            own = _sub(world, setting.locked)
-            found, _ = locked_pose(own, part, known)
+            part, known = readings_of_states(readings, setting.locked), at_states(setting, setting.locked)
+            own = world_of_states(world, setting.locked)
+            found: ForwardSolution | Nearby
+            if small and setting.locked_at is not None:
+                found = nearby_pose(own, part, known, setting.locked_at)
+            else:
+                found, _ = locked_pose(own, part, known)
             self.missed = missed_pose(own, part, found)
             arms = world.platform_anchors @ np.swapaxes(found.rotation, -1, -2)
             parts.append(
@@ -134,21 +144,22 @@ class _States:
         self.all = _merged(parts)
 
 
-def _sub(world: World, index: np.ndarray) -> World:
+def world_of_states(world: World, index: np.ndarray) -> World:
     """World per state whose pose offsets are those of the chosen states."""
     offset = world.pose_offset
     per = offset.reshape((*offset.shape[:-1], -1, 6))[..., index, :]
     return replace(world, pose_offset=per.reshape((*offset.shape[:-1], -1)))
 
 
-def _some(readings: Readings, index: np.ndarray) -> Readings:
+def readings_of_states(readings: Readings, index: np.ndarray) -> Readings:
     return Readings(
         np.take(readings.position, index, axis=-2), np.take(readings.rotation, index, axis=-3),
         np.take(readings.tension, index, axis=-2), np.take(readings.length, index, axis=-2),
     )  # fmt: skip
 
 
-def _at(setting: Setting, index: np.ndarray) -> Circumstances:
+def at_states(setting: Setting, index: np.ndarray) -> Circumstances:
+    """What is known of some states."""
     known = setting.known
     return replace(known, payload=known.payload[index], approach=known.approach[index], hours=known.hours[index])
 
@@ -178,23 +189,39 @@ def _scaled(twist: np.ndarray, radius: float) -> np.ndarray:
     return np.concatenate([twist[..., :3], twist[..., 3:] * radius], axis=-1)
 
 
-def _static_blocks(setting: Setting, world: World, states: _States, readings: Readings) -> list[np.ndarray]:
-    part, known = _some(readings, setting.held), _at(setting, setting.held)
+def _static_blocks(setting: Setting, world: World, states: States, readings: Readings) -> list[np.ndarray]:
+    part, known = readings_of_states(readings, setting.held), at_states(setting, setting.held)
     wrench = unbalanced(world, states.held, known)
     blocks = [np.concatenate([wrench[..., :3], wrench[..., 3:] / setting.radius], axis=-1)]
     if setting.with_length.any():
         gap = incompatible(world, states.held, part, known)
         blocks.append(1e3 * np.take(gap, np.flatnonzero(setting.with_length), axis=-2))
-    free = np.flatnonzero(~setting.with_length)
-    if free.size and setting.null_space.shape[-1]:
-        sent = setting.commanded * world.length_scale + world.length_offset
-        gap = np.take(sent - states.held.cables.total_length, free, axis=-2)
-        seen = np.einsum("smq,...sm->...sq", setting.null_space[free], gap)
-        q = seen.shape[-1]
-        own = world.internal.reshape((*world.internal.shape[:-1], -1, q))[..., setting.held[free], :]
-        own = own[..., 0, :, :] if own.ndim > 2 else own
-        blocks.append(1e3 * (seen + own))
+    if not setting.with_length.all() and setting.sent.null_space.any():
+        blocks.append(1e3 * _internal(setting, world, states, part, known))
     return blocks
+
+
+def _internal(setting: Setting, world: World, states: States, readings: Readings, known: Circumstances) -> np.ndarray:
+    """(..., free, q) commanded lengths less those that the tensions mean, along the null space [m].
+
+    The pose that was commanded is not the one measured: it is as far from it as this world's robot, sent to the
+    measured pose by the simulation, would miss it.
+    """
+    free = np.flatnonzero(~setting.with_length)
+    sent = setting.sent
+    gap = np.take(sent.lengths * world.length_scale + world.length_offset - states.held.cables.total_length, free, -2)
+    seen = np.einsum("smq,...sm->...sq", sent.null_space[free], gap)
+    where = setting.held[free]
+    aimed = replace(readings_of_states(readings, free), length=sent.lengths[free])
+    own = world_of_states(world, where)
+    found, _ = locked_pose(own, aimed, at_states(setting, where))
+    seen = seen + np.einsum("sqj,...sj->...sq", sent.slope[free], missed_pose(own, aimed, found))
+    q = seen.shape[-1]
+    apart = world.internal.reshape((*world.internal.shape[:-1], -1, q))[..., where, :]
+    apart = apart[..., 0, :, :] if apart.ndim > 2 else apart
+    common = np.einsum("sij,...sj->...si", sent.rate[free], world.internal_force[..., None, :]
+                       if world.internal_force.ndim == 1 else world.internal_force)  # fmt: skip
+    return seen + apart + common
 
 
 def _robot_block(setting: Setting, world: World, state: Conditioned, small: bool) -> np.ndarray:

@@ -16,6 +16,7 @@ from cdpr_struct.statics.cable_state import CableStates, cable_stiffness
 
 _STEP = 1e-5
 _ITERATIONS = 5
+_SETTLED = 1e-7  # of omega^2
 _LARGEST_MOVE = 0.02  # of ln omega, beyond the first-order estimate
 
 
@@ -169,35 +170,17 @@ def follow(dynamics: Dynamics, rows: Rows, start: np.ndarray | None = None) -> n
     square, shape = first.copy(), np.broadcast_to(rows.shape, (*batch, 6))
     scale = np.sqrt(np.abs(np.diagonal(dynamics.mass, axis1=-2, axis2=-1)))
     for _ in range(_ITERATIONS):
-        values, vectors = np.linalg.eigh(dynamics.matrix(square) / scale[..., :, None] / scale[..., None, :])
+        here = dynamics.matrix(square)
+        values, vectors = np.linalg.eigh(here / scale[..., :, None] / scale[..., None, :])
         overlap = np.abs(np.einsum("...i,...ij->...j", shape * scale, vectors))
         choice = overlap.argmax(axis=-1)[..., None]
         shape = np.take_along_axis(vectors, choice[..., None], axis=-1)[..., 0] / scale
         value = np.take_along_axis(values, choice, axis=-1)[..., 0]
-        slope = np.einsum("...i,...ij,...j->...", shape, rate(dynamics, square), shape)
-        square = square + np.clip(-value / slope, -0.1 * square, 0.1 * square)
+        beyond = dynamics.matrix((1.0 + _STEP) * square)
+        slope = np.einsum("...i,...ij,...j->...", shape, beyond - here, shape) / (_STEP * square)
+        step = np.clip(-value / slope, -0.1 * square, 0.1 * square)
+        square = square + step
+        if (np.abs(step) < _SETTLED * square).all():
+            break
     moved, expected = np.abs(np.log(square / first)), np.abs(np.log(first / rows.omega**2))
     return np.sqrt(np.where(moved > _LARGEST_MOVE + 0.25 * expected, first, square))
-
-
-def pair_modes(measured: np.ndarray, model: np.ndarray, platform_energy: np.ndarray) -> np.ndarray:
-    """Index of the model's mode for each measured frequency, both ascending [Hz]; no two lines cross.
-
-    Modes in which the platform moves are preferred; the list of measured frequencies may be incomplete.
-    """
-    far = (np.log(measured)[:, None] - np.log(model)[None]) / 0.1
-    cost = np.minimum(far**2, 25.0) + 6.0 * (1.0 - platform_energy)[None]
-    r, k = cost.shape
-    if r > k:
-        raise ValueError(f"{r} measured frequencies, but the model has {k} in that band")
-    best = np.full((r + 1, k + 1), np.inf)
-    best[0] = 0.0
-    for i in range(1, r + 1):
-        for j in range(i, k + 1):
-            best[i, j] = min(best[i, j - 1], best[i - 1, j - 1] + cost[i - 1, j - 1])
-    chosen, j = np.zeros(r, dtype=int), k
-    for i in range(r, 0, -1):
-        while best[i, j - 1] == best[i, j] and j > i:
-            j -= 1
-        chosen[i - 1], j = j - 1, j - 1
-    return chosen

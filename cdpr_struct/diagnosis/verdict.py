@@ -1,18 +1,23 @@
 """The sentence and the result: named, class, unknown or adequate."""
 
 from dataclasses import dataclass
+from itertools import permutations
 from typing import Any
 
 import numpy as np
 
-from cdpr_struct.diagnosis.diagnose import ADEQUATE, SAME_CLASS, SIGNIFICANT, Diagnosis
+from cdpr_struct.diagnosis.diagnose import ADEQUATE, NAMED, SIGNIFICANT, Diagnosis
 from cdpr_struct.diagnosis.evidence import Choice
+from cdpr_struct.diagnosis.refit import Fit
 from cdpr_struct.diagnosis.residuals import KIND_OF_BLOCK, UNITS
-from cdpr_struct.diagnosis.selection import Fit
 
 LARGEST_CLASS = 4
-CONFIRMED = 1.1  # times smaller error on data left out, below which a cause is fitted, not confirmed
-UNCONFIRMED = 0.5  # largest probability of a cause that nothing left out confirms
+CREDIBLE = 0.95  # probability that a class holds together
+CONFIRMED = 1.0  # nats that a cause keeps whichever group of states is left out, or it is not named
+UNCONFIRMED = 0.5  # largest probability of a cause that hangs on one group of states
+_LEFT = 3.0  # nats that a law outside the library must add to them
+_PRIOR_OUTSIDE = -2.0  # ln prior of a law outside the library beside that of a cause
+_BEYOND = 3.0  # nats by which a law outside the library must beat the chosen causes
 _PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
     "NS": "the null space of the structure matrix (internal force)", "LP": "the poses at locked lengths",
@@ -41,10 +46,9 @@ def verdict(found: Diagnosis) -> Verdict:
         return Verdict("adequate", (), (), 0.99, "", "", text)
     fit, corrected = found.selection.fit, [c for c, _ in found.corrections]
     place = location(found)
-    if found.p_adequate < ADEQUATE or (fit is None and not corrected):
-        tail = f" The best candidate, {fit.names[0].replace('_', ' ')}, leaves a structured remainder." if fit else ""
-        text = f"Something is wrong in {place}, and no cause in the library explains it.{tail}"
-        return Verdict("unknown", (), (), _probability(found), place, "repeat the worst state; see location", text)
+    if is_unknown(found):
+        return Verdict("unknown", (), (), _probability(found), place, "repeat the worst state; see location",
+                       _unknown_sentence(found, place))  # fmt: skip
     names = tuple(c.cause for c in corrected) + (fit.names if fit else ())
     classes = tuple((c.cause,) for c in corrected) + tuple(
         _class(found, i) for i in range(len(fit.names) if fit else 0)
@@ -57,11 +61,31 @@ def verdict(found: Diagnosis) -> Verdict:
     return Verdict(status, names, classes, _probability(found), place, _next(found, classes), _sentence(found, classes))
 
 
+def is_unknown(found: Diagnosis) -> bool:
+    """Significant, and no cause in the library explains it."""
+    fit = found.selection.fit
+    if fit is None:
+        return not found.corrections or found.p_value_left < SIGNIFICANT
+    outside = found.outside
+    structured = outside.left > max(outside.limit, _LEFT)
+    return found.p_adequate < ADEQUATE or structured or outside.alone > fit.gain + _BEYOND
+
+
+def _unknown_sentence(found: Diagnosis, place: str) -> str:
+    fit, outside = found.selection.fit, found.outside
+    text = f"Something is wrong in {place}, and no cause in the library explains it."
+    if fit:
+        text += f" The best candidate, {' with '.join(fit.names).replace('_', ' ')}, leaves a structured remainder."
+    words = outside.left_words if fit else outside.words
+    return text + (f" It looks like {words}." if max(outside.left, outside.alone) > _BEYOND else "")
+
+
 def _confirmed(found: Diagnosis) -> bool:
-    """A fitted cause is a claim of transfer: states that were left out must be predicted better with it."""
-    if found.selection.fit is None:
+    """A fitted cause is a claim of transfer: it must not hang on one group of states."""
+    fit = found.selection.fit
+    if fit is None:
         return True
-    return found.held is not None and found.held.ratio() >= CONFIRMED
+    return fit.gain >= NAMED and bool((found.weakest >= CONFIRMED).all())
 
 
 def location(found: Diagnosis) -> str:
@@ -84,23 +108,43 @@ def location(found: Diagnosis) -> str:
 
 
 def _class(found: Diagnosis, i: int) -> tuple[str, ...]:
-    """The i-th chosen cause with all that are within `SAME_CLASS` nats of it."""
+    """The i-th chosen cause with the likeliest others in its place, until they hold `CREDIBLE` together."""
     fit = found.selection.fit
     assert fit is not None
-    rivals = found.selection.rivals[i] if i < len(found.selection.rivals) else []
-    near = [r.names[-1] for r in rivals if r.gain > fit.gain - SAME_CLASS]
-    return (fit.names[i], *dict.fromkeys(n for n in near if n not in fit.names))
+    rivals: dict[str, float] = {}
+    for rival in found.selection.rivals[i]:
+        if rival.names[-1] not in fit.names:
+            rivals.setdefault(rival.names[-1], rival.gain)
+    weights = np.exp(np.array([fit.gain, *rivals.values()]) - fit.gain)
+    held = np.cumsum(weights / weights.sum())
+    return (fit.names[i], *(name for name, before in zip(rivals, held[:-1], strict=True) if before < CREDIBLE))
 
 
 def _probability(found: Diagnosis) -> float:
-    """Of the chosen causes among all combinations that were fitted, null included."""
-    fit = found.selection.fit
+    """Of the answer: the chosen causes (with their class) among all that was fitted, null and outside included."""
+    fit, outside = found.selection.fit, found.outside
     if fit is None:
-        return 0.99 if found.corrections else 0.0
-    rivals = [r.gain for row in found.selection.rivals for r in row]
-    gains = np.array([fit.gain, 0.0, *rivals])
-    weights = np.exp(gains - gains.max())
-    return float(np.round(min(weights[0] / weights.sum(), 0.99 if _confirmed(found) else UNCONFIRMED), 2))
+        return 0.99 if found.corrections and not is_unknown(found) else 0.5
+    gains = {fit.names: fit.gain}
+    for row in found.selection.rivals:
+        for rival in row:
+            gains.setdefault(rival.names, rival.gain)
+    beyond = float(np.logaddexp(outside.alone, fit.gain + outside.left + _PRIOR_OUTSIDE))
+    classes = [_class(found, i) for i in range(len(fit.names))]
+    answer = [gain for names, gain in gains.items() if _within(names, classes)]
+    logs = np.array([0.0, beyond, *gains.values()])
+    said = beyond if is_unknown(found) else float(np.logaddexp.reduce(answer))
+    share = float(np.exp(said - np.logaddexp.reduce(logs)))
+    if is_unknown(found) and found.p_adequate < ADEQUATE:
+        share = max(share, 0.9)
+    return float(np.round(min(share, 0.99 if is_unknown(found) or _confirmed(found) else UNCONFIRMED), 2))
+
+
+def _within(names: tuple[str, ...], classes: list[tuple[str, ...]]) -> bool:
+    """Whether every class has one of the names, and no name is left over."""
+    return len(names) == len(classes) and any(
+        all(name in group for name, group in zip(order, classes, strict=True)) for order in permutations(names)
+    )
 
 
 def _next(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
@@ -125,10 +169,11 @@ def _sentence(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
         text += f" These data do not tell {' from '.join(n.replace('_', ' ') for n in names)}."
     if fit is not None:
         text += f" This explains {100.0 * fit.explained(found.ground.z):.0f} % of the significant error"
-        if found.held is not None and found.held.ratio() < CONFIRMED:
-            text += ", but no state that was left out confirms it"
+        if found.held is not None and not _confirmed(found):
+            text += ", but it hangs on one state: nothing that was left out confirms it"
         elif found.held is not None:
-            text += f"; states that were not fitted are predicted {found.held.ratio():.1f} times better"
+            ratio = found.held.ratio(found.held.concerned)
+            text += f"; what it concerns is predicted {ratio:.1f} times better in states that were not fitted"
         text += "."
     return text
 

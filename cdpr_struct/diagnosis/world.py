@@ -11,7 +11,8 @@ _CORE = {
     "pulley_axis": 2, "mass": 0, "center_of_mass": 1, "inertia": 2, "gravity": 0, "length_offset": 1,
     "length_scale": 1, "series_compliance": 1, "frame_compliance": 0, "joint_mass": 1, "cell_gain": 1,
     "cell_bias": 1, "friction": 1, "force": 1, "hose": 0, "tracker": 1, "tilt": 1, "bending_stiffness": 1,
-    "added_mass": 1, "nonlinearity": 0, "creep": 0, "slip": 1, "internal": 1, "pose_offset": 1,
+    "added_mass": 1, "nonlinearity": 0, "creep": 0, "slip": 1, "internal": 1, "internal_force": 1,
+    "pose_offset": 1,
 }  # fmt: skip
 
 
@@ -33,6 +34,7 @@ class World:
     nonlinearity (...) : k in E = E0 (1 + k (T / T0 - 1)), T0 the campaign's mean tension
     creep (...) : strain per T / EA and decade of time after 1 min;  slip (..., m) : of the winch [m/h]
     internal (..., q) : commanded lengths along the null space, states without encoder [m]
+    internal_force (..., q) : along the null space, the same in all those states [N a cable]
     pose_offset (..., S * 6) : of each state's pose reading [m, rad]
     """
 
@@ -64,6 +66,7 @@ class World:
     creep: np.ndarray
     slip: np.ndarray
     internal: np.ndarray
+    internal_force: np.ndarray
     pose_offset: np.ndarray
 
     @classmethod
@@ -82,7 +85,8 @@ class World:
             length_offset=zeros, length_scale=np.ones(m), series_compliance=zeros, frame_compliance=none,
             joint_mass=zeros, cell_gain=np.ones(m), cell_bias=zeros, friction=zeros, force=np.zeros(3), hose=none,
             tracker=np.zeros(6), tilt=np.zeros(2), bending_stiffness=zeros, added_mass=zeros, nonlinearity=none,
-            creep=none, slip=zeros, internal=np.zeros(states * max(m - 6, 0)), pose_offset=np.zeros(states * 6),
+            creep=none, slip=zeros, internal=np.zeros(states * max(m - 6, 0)),
+            internal_force=np.zeros(max(m - 6, 0)), pose_offset=np.zeros(states * 6),
         )  # fmt: skip
 
     @property

@@ -149,6 +149,7 @@ class Campaign:
     series: tuple[Series, ...] = ()
     assembly: str = "consistent"
     tension_distribution: str = "minimum_norm"
+    lower_bound: float = 0.0
 
     def kinds(self) -> list[str]:
         """Kinds of data that the campaign holds, in the fixed order."""

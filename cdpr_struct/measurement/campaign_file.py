@@ -69,6 +69,7 @@ class CampaignTable(_Table):
     robot: str
     model: Literal["static", "dsm", "exact", "spring"] = "dsm"
     tension_distribution: Literal["minimum_norm"] = "minimum_norm"
+    lower_bound_N: NonNegativeFloat = 0.0
     nominal: NominalTable = NominalTable()
     tolerances: TolerancesTable = TolerancesTable()
     measurement: Annotated[list[MeasurementTable], Field(min_length=1)]
@@ -108,6 +109,7 @@ def load_campaign(path: str | Path) -> Campaign:
         series=tuple(gathering.series),
         assembly=table.nominal.assembly,
         tension_distribution=table.tension_distribution,
+        lower_bound=table.lower_bound_N,
     )
 
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from cdpr_struct.diagnosis.plan import SAME, confusable, minimum_detectable
-from cdpr_struct.diagnosis.selection import Ground
+from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.reports.text import paragraphs, plain_table
 
 

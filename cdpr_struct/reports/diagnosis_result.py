@@ -42,9 +42,10 @@ def _gain(found: Diagnosis) -> dict[str, Any]:
     if found.held is None:
         return {"heldout_rms_before": None, "heldout_rms_after": None, "ratio": None, "per_kind": {}, "transfer": {}}
     held = found.held
-    before, after = ((r / held.sigma) for r in (held.before, held.after))
+    before, after = held.rms(held.concerned)
     return {
-        "heldout_rms_before": float((before**2).mean() ** 0.5), "heldout_rms_after": float((after**2).mean() ** 0.5),
-        "unit": "standard deviations under the null", "ratio": held.ratio(), "per_kind": held.by_kind(),
+        "heldout_rms_before": before, "heldout_rms_after": after, "ratio": held.ratio(held.concerned),
+        "unit": "standard deviations under the null, of the readings that the causes change by more than one",
+        "ratio_of_all": held.ratio(), "per_kind": held.by_kind(),
         "generic_fudge_ratio": None if found.fudge is None else found.fudge.ratio(), "transfer": found.transfer,
     }  # fmt: skip

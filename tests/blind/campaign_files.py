@@ -10,6 +10,7 @@ from typing import Any
 import pandas as pd
 
 from tests.blind.case_drawing import Case
+from tests.blind.controller import lower_bound
 from tests.blind.deviations import TOLERANCES
 from tests.blind.sensors import CABLE_HZ, ROBOT_HZ, SIGMA
 
@@ -59,7 +60,8 @@ def campaign_text(case: Case) -> str:
     """The campaign file (TOML)."""
     pulleys = case.robot.pulley_radius is not None
     file = "robot.toml" if pulleys else case.robot.name
-    lines = [f'robot = "{file}"', f'model = "{MODEL}"', 'tension_distribution = "minimum_norm"', ""]
+    lines = [f'robot = "{file}"', f'model = "{MODEL}"', 'tension_distribution = "minimum_norm"']
+    lines += [f"lower_bound_N = {lower_bound(case.robot)}", ""]
     tolerances = {key: value for key, value in TOLERANCES.items() if pulleys or key != "pulley_radius_m"}
     if case.weighed is not None:
         lines += ["[nominal]", f"platform_mass = {case.weighed}", ""]

@@ -54,7 +54,7 @@ def with_cable_frequencies(campaign: Campaign, states: tuple[int, ...]) -> Campa
 
 def measured_in(campaign: Campaign, world: World) -> Campaign:
     """The campaign whose cable frequencies are those of a world, everything else unchanged."""
-    setting = make_setting(campaign)
+    setting, _ = make_setting(campaign)
     r = residuals(setting, world, Readings.of(campaign.states))[setting.labels.block == "CF"]
     rows = campaign.cable_frequencies
     hertz = rows.hertz * np.exp(-r / 100.0)
@@ -65,7 +65,7 @@ def hidden(world_of) -> Campaign:
     """Readings of a world in which `world_of(world)` is true: pose kept, tensions rebalanced, lengths compatible."""
     campaign = clean_campaign()
     truth = world_of(World.of(campaign.robot, len(campaign.states.names)))
-    setting = make_setting(campaign)
+    setting, _ = make_setting(campaign)
     tension, known, wide = campaign.states.tension.copy(), setting.known, truth.per_state()
     for _ in range(4):
         readings = replace(Readings.of(campaign.states), tension=tension)

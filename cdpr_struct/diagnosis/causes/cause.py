@@ -72,6 +72,7 @@ class Cause:
                 each differently;  otherwise the parameters belong to the robot as a whole
     apply     : world with basic parameters theta0 (..., d0) put in
     seen_in   : blocks of residuals it shows in
+    shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
     needs     : why these data cannot show it, or ""
     sentence  : for a person, with {value} and {unit} of the first parameter
     """
@@ -88,6 +89,7 @@ class Cause:
     separated_by: str = ""
     extension: str = ""
     count: Callable[[Setting], int] | None = field(default=None)
+    shapes: tuple[tuple[str, slice, float], ...] = ()
 
     def basic(self, setting: Setting) -> tuple[Parameter, ...]:
         """Basic parameters of the cause for this campaign."""
@@ -110,6 +112,8 @@ class Cause:
         """Patterns of occurrence: all cables alike, each differently, one alone; or the only one."""
         basic = self.basic(setting)
         every = np.eye(len(basic))
+        if self.shapes:
+            return [Pattern(label, every[:, own], basic[own], weight) for label, own, weight in self.shapes]
         if self.count is not None:
             size = len(self.parameters)
             return [

@@ -52,7 +52,7 @@ def _lengths(setting: Setting) -> str:
 
 
 def _lengths_or_null(setting: Setting) -> str:
-    return "" if not _lengths(setting) or setting.null_space.size else _lengths(setting)
+    return "" if not _lengths(setting) or setting.sent.null_space.any() else _lengths(setting)
 
 
 def _states(setting: Setting) -> int:

@@ -30,7 +30,8 @@ def _force(world: World, theta: np.ndarray) -> World:
 
 
 def _hose(world: World, theta: np.ndarray) -> World:
-    return world.plus(hose=theta[..., 0])
+    """Stiffness about the campaign's mean position, and the force there: nobody knows where a hose is at rest."""
+    return world.plus(hose=theta[..., 0], force=theta[..., 1:])
 
 
 CAUSES = (
@@ -88,7 +89,10 @@ CAUSES = (
     Cause(
         "hose_stiffness",
         "a hose or energy chain holds the platform",
-        (Parameter("hose_stiffness", "N/m", 20.0, positive=True),),
+        (
+            Parameter("hose_stiffness", "N/m", 20.0, positive=True),
+            *(Parameter(f"hose_force_{a}", "N", 10.0) for a in _XYZ),
+        ),
         _hose,
         seen_in=("EQ", "LP", "RF"),
         sentence="a hose holds the platform with {value} N/m",

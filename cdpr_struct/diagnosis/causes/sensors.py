@@ -23,10 +23,6 @@ def _slip(world: World, theta: np.ndarray) -> World:
     return world.plus(slip=theta)
 
 
-def _internal(world: World, theta: np.ndarray) -> World:
-    return world.plus(internal=theta)
-
-
 def _cells(setting: Setting) -> str:
     return "" if setting.held.size else "needs tensions"
 
@@ -40,7 +36,7 @@ def _times(setting: Setting) -> str:
 
 
 def _null_space(setting: Setting) -> str:
-    free = (~setting.with_length).any() and setting.null_space.shape[-1] > 0
+    free = (~setting.with_length).any() and setting.sent.null_space.any()
     return "" if free else "needs tensions of a redundant robot at states without encoder lengths"
 
 
@@ -96,17 +92,19 @@ CAUSES = (
 
 
 def internal_force(setting: Setting) -> Cause:
-    """The measured tensions sit elsewhere in the null space: free numbers of each state without encoder."""
-    q = setting.null_space.shape[-1]
+    """The measured tensions sit elsewhere in the null space: by one force everywhere, or by lengths of each state."""
+    q = setting.sent.null_space.shape[-1]
     states = len(setting.campaign.states.names)
-    named = tuple(Parameter(f"null_space_{j + 1}_{i + 1}", "m", 6e-3) for i in range(states) for j in range(q))
+    named = tuple(Parameter(f"internal_force_{j + 1}", "N", 15.0) for j in range(q))
+    named += tuple(Parameter(f"null_space_{j + 1}_{i + 1}", "m", 6e-3) for i in range(states) for j in range(q))
     return Cause(
         "internal_force",
         "internal force other than commanded",
         named,
-        _internal,
+        lambda world, theta: world.plus(internal_force=theta[..., :q], internal=theta[..., q:]),
         seen_in=("NS",),
         needs=_null_space,
-        sentence="the cables pull against each other differently from the simulation, by {rms} m of cable length",
+        sentence="the cables pull against each other differently from the simulation, by {rms} {unit} in the mean",
         separated_by="reading the encoders; measuring the anchors",
+        shapes=(("the same everywhere", slice(0, q), 0.5), ("each state its own", slice(q, None), 0.5)),
     )

@@ -1,0 +1,151 @@
+"""Refits: all sizes of a set of causes together through the nonlinear residuals, and the evidence there.
+
+Residuals bend with large effects, so causes near the best are refitted by Gauss and Newton through the whole
+computation; the evidence is then Laplace's at the refitted size.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cdpr_struct.diagnosis.evidence import Candidate, Choice
+from cdpr_struct.diagnosis.null_model import NullModel, null_model
+from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.residuals import Setting, residuals
+from cdpr_struct.diagnosis.setting import anchored
+from cdpr_struct.diagnosis.world import World
+
+_ITERATIONS = 4
+_STEP = 0.02  # of the prior's sigma
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ground:
+    """What hypotheses are judged on: fixed part, world and readings as entered, null and whitened residuals.
+
+    level : minus the log evidence of the null as entered, so that gains compare;  extra : (n,) noise of bending
+    """
+
+    setting: Setting
+    world: World
+    readings: Readings
+    null: NullModel
+    candidates: list[Candidate]
+    budget: int
+    level: float
+    extra: np.ndarray
+
+    @property
+    def z(self) -> np.ndarray:
+        """(n,) whitened residuals as entered."""
+        return self.null.white(self.null.r)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fit:
+    """Causes with their refitted sizes.
+
+    choices : pattern and scale of each;  theta (d,) stacked, in prior sigmas;  covariance (d, d)
+    gain    : log evidence against the null;  ground : where it was judged
+    white (n,) whitened residuals left;  signature (n, d) at the fit;  spread : gain by its other patterns
+    """
+
+    choices: tuple[Choice, ...]
+    theta: np.ndarray
+    covariance: np.ndarray
+    gain: float
+    white: np.ndarray
+    signature: np.ndarray
+    ground: "Ground"
+    spread: float = 0.0
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(c.candidate.name for c in self.choices)
+
+    @property
+    def world(self) -> World:
+        """The world with the causes."""
+        return world_with(self.ground.world, self.choices, self.theta)
+
+    def parts(self) -> list[np.ndarray]:
+        """theta of each cause."""
+        return np.split(self.theta, np.cumsum([c.signature.shape[1] for c in self.choices])[:-1])
+
+    def explained(self, z: np.ndarray) -> float:
+        """Share of the whitened sum of squares beyond noise that the causes take away, 0 to 1."""
+        excess = float(z @ z) - len(z)
+        left = float(self.white @ self.white) - len(z)
+        return float(np.clip(1.0 - left / excess, 0.0, 1.0)) if excess > 0.0 else 0.0
+
+    def adequacy(self) -> float:
+        """chi^2 of what is left, sizes marginalised."""
+        return float(self.white @ self.white + self.theta @ self.theta)
+
+
+def world_with(world: World, picked: tuple[Choice, ...], theta: np.ndarray) -> World:
+    """World with causes of sizes theta (..., d), in prior sigmas."""
+    start = 0
+    for choice in picked:
+        d = choice.signature.shape[1]
+        basic = (theta[..., start : start + d] * choice.prior) @ choice.pattern.basis.T
+        world = choice.candidate.cause.apply(world, basic)
+        start += d
+    return world
+
+
+def refit(ground: Ground, picked: tuple[Choice, ...], start: np.ndarray | None = None) -> Fit:
+    """Gauss-Newton on all sizes together through the nonlinear residuals, steps halved while they do not help.
+
+    The residuals are r(theta) = r0 - J theta, so the signature, d(model)/d(theta), has the sign of -J. With a start
+    the search begins there, and the evidence is against zero residuals of the same ground.
+    """
+    theta = np.zeros(sum(c.signature.shape[1] for c in picked)) if start is None else start
+    if start is None:
+        white, signature = ground.z, -np.hstack([c.signature for c in picked])
+    else:
+        white = ground.null.white(_residuals(ground, picked, theta))
+        signature = _signature(ground, picked, theta)
+    cost = float(white @ white + theta @ theta)
+    lowest = np.concatenate([c.pattern.lowest for c in picked])
+    for _ in range(_ITERATIONS):
+        matrix = np.eye(len(theta)) + signature.T @ signature
+        target = np.linalg.solve(matrix, signature.T @ (white + signature @ theta))
+        trials = theta + np.array([1.0, 0.5, 0.2])[:, None] * (np.maximum(target, lowest) - theta)
+        whites = ground.null.white(_residuals(ground, picked, trials).T).T
+        costs = (whites**2).sum(axis=1) + (trials**2).sum(axis=1)
+        costs = np.where(np.isfinite(costs), costs, np.inf)
+        best = int(costs.argmin())
+        if costs[best] > cost - 1e-3:
+            break
+        done = costs[best] > cost - 0.1
+        theta, white, cost = trials[best], whites[best], float(costs[best])
+        signature = _signature(ground, picked, theta)
+        if done:
+            break
+    matrix = np.eye(len(theta)) + signature.T @ signature
+    level = ground.null.level if start is None else ground.level
+    gain = level - 0.5 * (cost + np.linalg.slogdet(matrix)[1]) - ground.null.log_volume
+    gain += sum(c.log_weight for c in picked)
+    return Fit(picked, theta, np.linalg.inv(matrix), float(gain), white, signature, ground)
+
+
+def settled(ground: Ground, fit: Fit) -> Fit:
+    """The fit again, with frequencies paired in its own world and the null linearised there."""
+    world = world_with(ground.world, fit.choices, fit.theta)
+    setting = anchored(ground.setting, world)
+    null = null_model(setting, world, ground.readings, extra=ground.extra)
+    there = replace(ground, setting=setting, null=null)
+    again = refit(there, fit.choices, fit.theta)
+    return replace(again, gain=again.gain + fit.spread, spread=fit.spread)
+
+
+def _residuals(ground: Ground, picked: tuple[Choice, ...], theta: np.ndarray) -> np.ndarray:
+    return residuals(ground.setting, world_with(ground.world, picked, theta), ground.readings)
+
+
+def _signature(ground: Ground, picked: tuple[Choice, ...], theta: np.ndarray) -> np.ndarray:
+    """(n, d) by differences, frequencies to first order."""
+    trials = theta + _STEP * np.concatenate([np.zeros((1, len(theta))), np.eye(len(theta))])
+    moved = residuals(ground.setting, world_with(ground.world, picked, trials), ground.readings, small=True)
+    return -ground.null.white((moved[1:] - moved[0]).T) / _STEP

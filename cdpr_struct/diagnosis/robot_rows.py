@@ -1,0 +1,146 @@
+"""Measured robot frequencies beside the model's modes: which mode each peak is, and the model's exact frequency of it.
+
+The residuals follow modes by the closed form; here the exact model says where they are in a given world.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cdpr_struct.diagnosis import robot_pitch
+from cdpr_struct.diagnosis.mode_pairing import Modes, Pairing, paired
+from cdpr_struct.diagnosis.null_model import STEP, misread, reading_steps, tolerance_count, tolerated
+from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.residuals import Setting, States, at_states
+from cdpr_struct.diagnosis.world import World
+from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
+from cdpr_struct.dynamics.natural_frequencies import count_below
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.ritz_modes import ritz_modes
+from cdpr_struct.errors import InputError
+
+_LEAST_SHARE = 0.08  # of the kinetic energy in the platform: a mode with less is not seen there
+_MARGIN = 1.35
+_MOST_GAP = 0.05  # of ln f between the closed form and the exact model; beyond it they are different modes
+_CABLES_SHARE = 0.004  # of ln f: what the closed form may miss of a mode that is all cables
+_ELSEWHERE = (0.05, 0.02)  # of ln f: in a world that may be wrong all modes may be off together, and each on its own
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Followed:
+    """Modes as the closed form has them: rows, ln(exact / closed form), D and its rate there."""
+
+    rows: robot_pitch.Rows
+    gap: np.ndarray
+    matrix: np.ndarray
+    rate: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ModelModes:
+    """All modes of a world at the states where peaks were measured, and (k, k) the covariance of their ln f."""
+
+    modes: Modes
+    followed: _Followed
+    covariance: np.ndarray
+
+
+def model_modes(setting: Setting, world: World, points: dict[int, OperatingPoint]) -> ModelModes:
+    """The modes of a world by the exact model.
+
+    Raises
+    ------
+    InputError : more peaks than modes in which the platform moves.
+    """
+    modes = _modes_at(setting, points)
+    followed = _followed(setting, world, modes)
+    return ModelModes(modes, followed, _covariance(setting, world, followed))
+
+
+def with_robot_rows(setting: Setting, model: ModelModes, wary: bool) -> Setting:
+    """The setting with every peak given to a mode.
+
+    wary : the modes' world may be far from the truth
+    """
+    peaks, modes, followed = setting.campaign.robot_frequencies, model.modes, model.followed
+    own = np.diag((_CABLES_SHARE * (1.0 - modes.energy)) ** 2)
+    covariance = model.covariance + own
+    if wary:
+        covariance = covariance + _ELSEWHERE[0] ** 2 + _ELSEWHERE[1] ** 2 * np.eye(len(covariance))
+    pairing: Pairing = paired(peaks.state, peaks.hertz, peaks.sigma / peaks.hertz, modes, covariance)
+    pick = pairing.chosen
+    rows = robot_pitch.Rows(peaks.state, followed.rows.omega[pick], followed.rows.shape[pick])
+    return replace(
+        setting, robot_rows=rows, robot_gap=followed.gap[pick], robot_log=np.log(2.0 * np.pi * peaks.hertz),
+        robot_doubt=100.0 * np.sqrt(pairing.doubt**2 + np.diagonal(own)[pick]),
+        entered=followed.matrix[pick], entered_rate=followed.rate[pick],
+    )  # fmt: skip
+
+
+def _modes_at(setting: Setting, points: dict[int, OperatingPoint]) -> Modes:
+    """All modes in which the platform moves, somewhat beyond the highest peak of each state."""
+    peaks, parts = setting.campaign.robot_frequencies, []
+    for i in np.unique(peaks.state):
+        own = peaks.hertz[peaks.state == i]
+        modes = _modes(setting, points[int(i)], int(i), float(own.max()))
+        if len(modes.hertz) < own.size:
+            raise InputError(
+                setting.campaign.source, f"robot frequencies of case {setting.campaign.states.names[i]}",
+                own.tolist(), f"at most {len(modes.hertz)} in this band, where the platform moves",
+            )  # fmt: skip
+        parts.append(modes)
+    return Modes(*(np.concatenate([getattr(p, name) for p in parts]) for name in Modes.__slots__))
+
+
+def _modes(setting: Setting, point: OperatingPoint, state: int, highest: float) -> Modes:
+    name = "static" if setting.massless else "exact" if setting.known.sagging else "dsm"
+    way = "consistent" if setting.geometric else "thesis"
+    omega = 2.0 * np.pi * highest * _MARGIN
+    cables = cable_dynamics(point, name, omega)  # type: ignore[arg-type]
+    count = 6 if setting.massless else int(count_below(point, cables, np.array([omega]), way)[0]) + 3  # type: ignore[arg-type]
+    found = ritz_modes(point, cables.expansion(omega), count, way)  # type: ignore[arg-type]
+    modes = Modes(np.full(len(found.omega), state), found.omega / (2.0 * np.pi), found.platform, found.platform_energy)
+    return modes.some(np.flatnonzero(modes.energy >= (0.0 if setting.massless else _LEAST_SHARE)))
+
+
+def _followed(setting: Setting, world: World, modes: Modes) -> _Followed:
+    """The modes in the closed form: its own frequency, shape and slope, and how far it is from the exact one."""
+    rigid = replace(world, frame_compliance=0.0 * world.frame_compliance, hose=0.0 * world.hose)
+    exact = 2.0 * np.pi * modes.hertz
+    rows = robot_pitch.Rows(modes.state, exact, modes.shape)
+    readings = Readings.of(setting.campaign.states)
+    gap = np.log(exact / robot_pitch.follow(_dynamics(setting, rigid, readings, modes.state), rows))
+    gap = np.where(np.abs(gap) < _MOST_GAP, gap, 0.0)
+    dynamics = _dynamics(setting, world, readings, modes.state)
+    omega = robot_pitch.follow(dynamics, rows, exact * np.exp(-gap))
+    matrix = dynamics.matrix(omega**2)
+    scale = np.sqrt(np.abs(np.diagonal(dynamics.mass, axis1=-2, axis2=-1)))
+    _, vectors = np.linalg.eigh(matrix / scale[:, :, None] / scale[:, None, :])
+    best = np.abs(np.einsum("ri,rij->rj", modes.shape * scale, vectors)).argmax(axis=-1)
+    shape = np.take_along_axis(vectors, best[:, None, None], axis=-1)[..., 0] / scale
+    rows = robot_pitch.Rows(modes.state, omega, shape)
+    return _Followed(rows, gap, matrix, robot_pitch.rate(dynamics, omega**2))
+
+
+def _dynamics(setting: Setting, world: World, readings: Readings, state: np.ndarray) -> robot_pitch.Dynamics:
+    """D(omega) of rows at their states, the other states left out."""
+    some = np.unique(state)
+    part = replace(setting, held=np.intersect1d(setting.held, some), locked=np.intersect1d(setting.locked, some))
+    wide = world.per_state()
+    conditioned, local = States(part, wide, readings).all, np.searchsorted(some, state)
+    return robot_pitch.Dynamics.at(
+        wide, conditioned, at_states(setting, some), local, setting.massless, setting.geometric
+    )
+
+
+def _covariance(setting: Setting, world: World, followed: _Followed) -> np.ndarray:
+    """(k, k) of the modes' ln f by tolerances and by the noise of their states' readings."""
+    readings, rows = Readings.of(setting.campaign.states), followed.rows
+    off = tolerated(setting, world, STEP * np.eye(tolerance_count(setting)))
+    moved = _dynamics(setting, off, readings, rows.state)
+    common = robot_pitch.first_order(moved, rows, followed.matrix, followed.rate) / STEP
+    noisy = _dynamics(setting, world, misread(setting, readings, reading_steps(setting)), rows.state)
+    own = robot_pitch.first_order(noisy, rows, followed.matrix, followed.rate) / STEP
+    together = rows.state[:, None] == rows.state[None]
+    result: np.ndarray = common.T @ common + together * (own.T @ own)
+    return result
