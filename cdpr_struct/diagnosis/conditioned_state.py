@@ -26,12 +26,13 @@ _MAST = 0.2  # frame anchors nearer than this share of the frame's width sit on 
 class Circumstances:
     """What is known of each state without error.
 
-    payload (S,), approach (S, m), hours (S,), center (3,) mean position; masts (m, m) 1 where cables share a mast;
-    mean_tension [N]; sagging : whether cables have weight in this simulation
+    payload (S,), approach, wrap (S, m), hours (S,), center (3,) mean position; masts (m, m) 1 where cables share a mast;
+    wrap : of the cable over its pulley in right angles;  mean_tension [N]; sagging : whether cables have weight in this simulation
     """
 
     payload: np.ndarray
     approach: np.ndarray
+    wrap: np.ndarray
     hours: np.ndarray
     center: np.ndarray
     masts: np.ndarray
@@ -61,6 +62,14 @@ def masts_of(frame_anchors: np.ndarray) -> np.ndarray:
     return (distance <= _MAST * max(float(distance.max()), 1e-9)).astype(float)
 
 
+def wrap_of(frame_anchors: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """(S, m) by how many right angles a cable that comes up from a winch below turns at its exit towards points."""
+    away = points - frame_anchors
+    upward = away[..., 2] / np.linalg.norm(away, axis=-1)
+    result: np.ndarray = np.arccos(upward) / (0.5 * np.pi)
+    return result
+
+
 def true_pose(world: World, readings: Readings) -> tuple[np.ndarray, np.ndarray]:
     """Position and rotation that the tracker's readings mean; `world` per state."""
     states = readings.position.shape[-2]
@@ -77,7 +86,7 @@ def true_pose(world: World, readings: Readings) -> tuple[np.ndarray, np.ndarray]
 def true_tension(world: World, readings: Readings, known: Circumstances) -> np.ndarray:
     """(..., S, m) tensions at the platform that the load cells' readings mean; `world` per state."""
     read = (readings.tension - world.cell_bias) / world.cell_gain
-    return np.maximum(read / (1.0 + world.friction * known.approach), LEAST_TENSION)
+    return np.maximum(read * np.exp(-world.friction * known.approach * known.wrap), LEAST_TENSION)
 
 
 def paid_out(world: World, readings: Readings, known: Circumstances) -> np.ndarray:

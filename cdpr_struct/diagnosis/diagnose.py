@@ -22,7 +22,6 @@ from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
 
-LEAST = 2.0  # nats that a cause must bring to be looked at, once something is significant
 FURTHER = 4.0  # nats that each further cause must bring
 NAMED = 5.0  # nats that a named cause must bring
 SIGNIFICANT = 0.04
@@ -121,7 +120,9 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
     progress("fitting causes")
     ground = prepared.ground
     quiet = prepared.p_value >= SIGNIFICANT
-    selection = Selection(None, [], []) if quiet else select(ground, LEAST, FURTHER, plan.causes)
+    selection = Selection(None, [], []) if quiet else select(ground, FURTHER, plan.causes)
+    if found and selection.first and selection.first[0].gain < FURTHER:
+        selection = Selection(None, selection.first, [])
     progress("predicting what was left out")
     fit = selection.fit
     held = fudge = None

@@ -88,9 +88,12 @@ def scaled_log_bayes_factors(gram: np.ndarray, b: np.ndarray, scales: Sequence[f
 
 
 def _bounded(gram: np.ndarray, b: np.ndarray, scales: Sequence[float]) -> np.ndarray:
-    """Correction of ln B (s, ...) for one size that cannot be negative: the posterior's part above zero, doubled."""
+    """Correction of ln B (s, ...) for one size that cannot be negative: the posterior's part above zero, doubled.
+
+    A residual that a cause of size theta leaves is theta times its signature, so what explains z has the sign of -b.
+    """
     s = np.array(scales).reshape((-1, *(1,) * (b.ndim - 1)))
-    result: np.ndarray = log_ndtr(s * b[0] / np.sqrt(1.0 + s**2 * gram[0, 0])) + np.log(2.0)
+    result: np.ndarray = log_ndtr(-s * b[0] / np.sqrt(1.0 + s**2 * gram[0, 0])) + np.log(2.0)
     return result
 
 

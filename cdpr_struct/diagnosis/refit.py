@@ -15,7 +15,7 @@ from cdpr_struct.diagnosis.residuals import Setting, residuals
 from cdpr_struct.diagnosis.setting import anchored
 from cdpr_struct.diagnosis.world import World
 
-_ITERATIONS = 4
+_ITERATIONS = 8
 _STEP = 0.02  # of the prior's sigma
 
 
@@ -133,7 +133,10 @@ def refit(ground: Ground, picked: tuple[Choice, ...], start: np.ndarray | None =
 def settled(ground: Ground, fit: Fit) -> Fit:
     """The fit again, with frequencies paired in its own world and the null linearised there."""
     world = world_with(ground.world, fit.choices, fit.theta)
-    setting = anchored(ground.setting, world)
+    try:
+        setting = anchored(ground.setting, world)
+    except ValueError:  # a body or a cable that cannot exist
+        return replace(fit, gain=-np.inf)
     null = null_model(setting, world, ground.readings, extra=ground.extra)
     there = replace(ground, setting=setting, null=null)
     again = refit(there, fit.choices, fit.theta)

@@ -178,7 +178,7 @@ def follow(dynamics: Dynamics, rows: Rows, start: np.ndarray | None = None) -> n
         value = np.take_along_axis(values, choice, axis=-1)[..., 0]
         beyond = dynamics.matrix((1.0 + _STEP) * square)
         slope = np.einsum("...i,...ij,...j->...", shape, beyond - here, shape) / (_STEP * square)
-        step = np.clip(-value / slope, -0.1 * square, 0.1 * square)
+        step = np.clip(-value / np.where(slope == 0.0, -1e-300, slope), -0.1 * square, 0.1 * square)
         square = square + step
         if (np.abs(step) < _SETTLED * square).all():
             break

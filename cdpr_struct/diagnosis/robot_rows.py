@@ -20,7 +20,7 @@ from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.errors import InputError
 
 _LEAST_SHARE = 0.08  # of the kinetic energy in the platform: a mode with less is not seen there
-_MARGIN = 1.35
+_MARGINS = (1.35, 2.5, 6.0)  # times the highest peak: how far modes are looked for, until there are enough
 _MOST_GAP = 0.05  # of ln f between the closed form and the exact model; beyond it they are different modes
 _CABLES_SHARE = 0.004  # of ln f: what the closed form may miss of a mode that is all cables
 _ELSEWHERE = (0.05, 0.02)  # of ln f: in a world that may be wrong all modes may be off together, and each on its own
@@ -50,7 +50,7 @@ def model_modes(setting: Setting, world: World, points: dict[int, OperatingPoint
 
     Raises
     ------
-    InputError : more peaks than modes in which the platform moves.
+    InputError : far fewer modes than peaks.
     """
     modes = _modes_at(setting, points)
     followed = _followed(setting, world, modes)
@@ -82,11 +82,12 @@ def _modes_at(setting: Setting, points: dict[int, OperatingPoint]) -> Modes:
     peaks, parts = setting.campaign.robot_frequencies, []
     for i in np.unique(peaks.state):
         own = peaks.hertz[peaks.state == i]
-        modes = _modes(setting, points[int(i)], int(i), float(own.max()))
-        if len(modes.hertz) < own.size:
+        wider = (_modes(setting, points[int(i)], int(i), margin * float(own.max())) for margin in _MARGINS)
+        modes = next((found for found in wider if len(found.hertz) >= min(own.size, 6)), None)
+        if modes is None:
             raise InputError(
                 setting.campaign.source, f"robot frequencies of case {setting.campaign.states.names[i]}",
-                own.tolist(), f"at most {len(modes.hertz)} in this band, where the platform moves",
+                own.tolist(), f"frequencies below {_MARGINS[-1]:g} times which the model's platform has as many modes",
             )  # fmt: skip
         parts.append(modes)
     return Modes(*(np.concatenate([getattr(p, name) for p in parts]) for name in Modes.__slots__))
@@ -95,7 +96,7 @@ def _modes_at(setting: Setting, points: dict[int, OperatingPoint]) -> Modes:
 def _modes(setting: Setting, point: OperatingPoint, state: int, highest: float) -> Modes:
     name = "static" if setting.massless else "exact" if setting.known.sagging else "dsm"
     way = "consistent" if setting.geometric else "thesis"
-    omega = 2.0 * np.pi * highest * _MARGIN
+    omega = 2.0 * np.pi * highest
     cables = cable_dynamics(point, name, omega)  # type: ignore[arg-type]
     count = 6 if setting.massless else int(count_below(point, cables, np.array([omega]), way)[0]) + 3  # type: ignore[arg-type]
     found = ritz_modes(point, cables.expansion(omega), count, way)  # type: ignore[arg-type]

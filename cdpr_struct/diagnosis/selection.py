@@ -8,8 +8,12 @@ from scipy.stats import chi2
 from cdpr_struct.diagnosis.evidence import Choice, Screened, choices, screen
 from cdpr_struct.diagnosis.heldout import groups_of, weakest
 from cdpr_struct.diagnosis.refit import Fit, Ground, refit, settled
+from cdpr_struct.diagnosis.residuals import residuals
 
 NEAR = 12.0  # nats from the best at screening: refitted
+_ADEQUATE = 1e-3
+_LARGE = 150.0  # chi^2 beyond its mean from which small steps do not tell enough
+_LARGE_STEPS = np.array([-2.5, -1.0, 1.0, 2.5])  # prior sigmas
 _SETTLED = 4.0  # nats from the best refit: frequencies are paired again in its own world
 _HOPELESS = 1.0  # nats at screening below which a further cause is not refitted
 _HOLDS = 0.0  # nats that a further cause keeps whichever group of states is left out
@@ -53,20 +57,55 @@ def _ranked(ground: Ground, accepted: tuple[Choice, ...]) -> list[Fit]:
     near = [row for row in rows if row.gain > rows[0].gain - NEAR]
     # What looks far off at first sight may come near when refitted: the best few always get their chance.
     chosen = {row.candidate.name: row for row in [*rows[: ground.budget], *near[: 2 * ground.budget]]}
+    if not accepted and float(ground.z @ ground.z) > len(ground.z) + _LARGE:
+        chosen |= {row.candidate.name: row for row in _by_large_steps(ground, rows)[: ground.budget]}
     fits = []
     for row in chosen.values():
         for choice in _worth_trying(row):
             fit = refit(ground, (*accepted, choice))
             fits.append(replace(fit, gain=fit.gain + row.spread, spread=row.spread))
-    best = max(fit.gain for fit in fits)
-    ground_is_fine = ground.level == ground.null.level
-    if not ground_is_fine:
-        fits.sort(key=lambda fit: -fit.gain)
-        fits = [settled(ground, f) if i < 2 or f.gain > best - _SETTLED else f for i, f in enumerate(fits)]
+    if ground.level != ground.null.level:
+        fits = _settled(ground, sorted(fits, key=lambda fit: -fit.gain))
     alone: dict[tuple[str, ...], Fit] = {}
     for fit in sorted(fits, key=lambda fit: -fit.gain):
         alone.setdefault(fit.names, fit)
     return list(alone.values())
+
+
+def _settled(ground: Ground, fits: list[Fit]) -> list[Fit]:
+    """The fits, those settled that may be the best: all if none of the near ones explains the data."""
+    near = max(2, sum(fit.gain > fits[0].gain - _SETTLED for fit in fits))
+    first = [settled(ground, fit) for fit in fits[:near]]
+    if any(_explains(fit) for fit in first):
+        return first + fits[near:]
+    return first + [settled(ground, fit) for fit in fits[near:]]
+
+
+def _explains(fit: Fit) -> bool:
+    return float(chi2.sf(fit.adequacy(), len(fit.white))) > _ADEQUATE
+
+
+def _by_large_steps(ground: Ground, rows: list[Screened]) -> list[Screened]:
+    """Causes by what large steps of all cables alike would bring, which screening by small ones may not see.
+
+    Robot frequencies are left out if that is better: they may be paired wrongly as entered.
+    """
+    clear = ground.setting.labels.block != "RF"
+    gains = []
+    for row in rows:
+        best = -np.inf
+        for pattern in row.candidate.patterns:
+            if pattern.basis.shape[1] == 1:
+                theta = _LARGE_STEPS[:, None] * pattern.prior
+                world = row.candidate.cause.apply(ground.world, theta @ pattern.basis.T)
+                white = ground.null.white(residuals(ground.setting, world, ground.readings, small=True).T)
+                for part in (np.ones_like(clear), clear):
+                    drop = (ground.z[part] ** 2).sum() - (white[part] ** 2).sum(axis=0) - _LARGE_STEPS**2
+                    best = max(best, float(np.nan_to_num(drop, nan=-np.inf).max()))
+            if pattern.label in ("all alike", ""):
+                break
+        gains.append(best)
+    return [rows[i] for i in np.argsort(-np.array(gains)) if gains[i] > 0.0]
 
 
 def _worth_trying(row: Screened) -> list[Choice]:
@@ -75,12 +114,10 @@ def _worth_trying(row: Screened) -> list[Choice]:
     return [row.best, *(c for c in alike if row.best.pattern.label != "all alike")]
 
 
-def select(ground: Ground, least: float, further: float, most: int) -> Selection:
-    """At most so many causes: the first raises the log evidence by `least`, each next by `further` and everywhere."""
+def select(ground: Ground, further: float, most: int) -> Selection:
+    """The best cause, and at most so many in all that each raise the log evidence by `further`, in all parts of the data."""
     search = Search(ground)
     first = search.rank()
-    if first[0].gain < least:
-        return Selection(None, first, [])
     best = first[0]
     while len(best.choices) < most and not _is_noise(best):
         more = [fit for fit in search.rank(best.choices) if fit.gain > best.gain + further and _holds(fit)]

@@ -7,7 +7,7 @@ import numpy as np
 from cdpr_struct.diagnosis import robot_pitch
 from cdpr_struct.diagnosis.cable_pitch import cable_log_frequencies, exact_log_frequencies
 from cdpr_struct.diagnosis.commanded import commanded
-from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned, masts_of
+from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned, masts_of, wrap_of
 from cdpr_struct.diagnosis.extended_robot import robot_of
 from cdpr_struct.diagnosis.locked_pose import reference
 from cdpr_struct.diagnosis.readings import Readings
@@ -62,11 +62,14 @@ def circumstances(campaign: Campaign) -> Circumstances:
     """What is known of each state without error."""
     states = campaign.states
     tension = states.tension[np.isfinite(states.tension)]
+    turn = Readings.of(states).rotation
+    points = states.position[:, None, :] + campaign.robot.platform_anchors @ np.swapaxes(turn, -1, -2)
     weight = campaign.robot.platform.mass * campaign.robot.gravity
     mean = float(tension.mean()) if tension.size else weight / len(campaign.robot.cables)
     hours = (states.time - np.nanmin(states.time)) / 3600.0 if np.isfinite(states.time).any() else 0.0 * states.time
     return Circumstances(
         payload=states.payload,
+        wrap=wrap_of(campaign.robot.frame_anchors, points),
         approach=np.where(np.isfinite(states.approach), states.approach, 0.0),
         hours=np.where(np.isfinite(hours), hours, 0.0),
         center=states.position.mean(axis=0),

@@ -65,7 +65,7 @@ def is_unknown(found: Diagnosis) -> bool:
     """Significant, and no cause in the library explains it."""
     fit = found.selection.fit
     if fit is None:
-        return not found.corrections or found.p_value_left < SIGNIFICANT
+        return not found.corrections or found.p_value_left < ADEQUATE
     outside = found.outside
     structured = outside.left > max(outside.limit, _LEFT)
     return found.p_adequate < ADEQUATE or structured or outside.alone > fit.gain + _BEYOND

@@ -27,7 +27,7 @@ class World:
     frame_compliance (...) : of a mast, the same in all directions [m/N]
     joint_mass (..., m) : at the platform anchors [kg]
     cell_gain, cell_bias (..., m) : reading = gain * tension + bias
-    friction (..., m) : reading = tension * (1 + friction * sign of the last motion)
+    friction (..., m) : reading = tension * exp(friction * sign of the last motion * right angles at the exit)
     force (..., 3) : on the platform origin, world;  hose (...) : stiffness to the campaign's mean position [N/m]
     tracker (..., 6) : true pose = shifted and turned reading [m, rad];  tilt (..., 2) : of gravity [rad]
     bending_stiffness (..., m) [N m^2];  added_mass (..., m) : at mid-cable [kg]

@@ -137,6 +137,11 @@ CAUSES = (
         seen_in=("CO", "LP"),
         sentence="the tracker's frame is shifted or turned, by {rms}",
         separated_by="common points measured on the frame",
+        shapes=(
+            ("shifted", slice(0, 3), 0.25),
+            ("turned", slice(3, 6), 0.25),
+            ("shifted and turned", slice(None), 0.5),
+        ),
     ),
     Cause(
         "gravity_tilt",

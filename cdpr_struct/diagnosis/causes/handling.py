@@ -122,6 +122,13 @@ def _swaps(campaign: Campaign) -> Iterator[Correction]:
 
 def _exchanged_poses(campaign: Campaign) -> Iterator[Correction]:
     states: States = campaign.states
+    rows = np.flatnonzero(states.static)
+    for step in (1, -1) if rows.size > 2 else ():
+        order = np.arange(len(states.names))
+        order[rows] = np.roll(rows, step)
+        new = _with(campaign, position=states.position[order], angles=states.angles[order])
+        says = f"the poses of the static states are shifted by {'one' if step > 0 else 'minus one'} row"
+        yield Correction("pose_mismatch", says, new, parameters={"rows": step})
     pairs = list(combinations(range(len(states.names)), 2))
     for i, j in pairs[:PAIRS_OF_STATES]:
         order = np.arange(len(states.names))

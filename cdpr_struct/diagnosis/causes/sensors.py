@@ -72,7 +72,7 @@ CAUSES = (
         _friction,
         True,
         seen_in=("EQ", "CO", "CF"),
-        sentence="pulley friction takes {value} of the tension",
+        sentence="pulley friction takes {value} of the tension a right angle",
         needs=_approach,
         separated_by="approaching each pose from both sides",
         extension="friction",

@@ -51,7 +51,7 @@ CAUSES = (
     Cause(
         "joint_compliance",
         "joints, load cells or winches in line with the cables give way",
-        (Parameter("compliance", "m/N", 1.5e-6, positive=True),),
+        (Parameter("compliance", "m/N", 4e-6, positive=True),),
         _joint,
         True,
         seen_in=("CO", "LP", "RF"),
