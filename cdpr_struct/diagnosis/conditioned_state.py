@@ -156,6 +156,7 @@ def _between(
         stiff,
         weight,
         held.status,
+        np.zeros_like(held.length),
     )
     return replace(cables, wrapped_length=wrap / (1.0 + cables.tension_at_frame / stiff))
 
