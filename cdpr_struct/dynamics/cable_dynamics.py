@@ -10,7 +10,7 @@ from typing import Literal, Protocol, get_args
 
 import numpy as np
 
-from cdpr_struct.dynamics.catenary_expansion import FrameEnds, expand_catenaries
+from cdpr_struct.dynamics.catenary_expansion import CableExtras, FrameEnds, expand_catenaries
 from cdpr_struct.dynamics.clamped_cable import clamped_count
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
@@ -63,7 +63,12 @@ def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
     shape = cables.length.shape
     stiffness = end_stiffness(RobotArrays.of(point.robot), cables).reshape(-1, 3, 3)
     density = np.broadcast_to(point.robot.linear_density, shape).reshape(-1)
-    return expand_catenaries(_flattened(cables), density, order, stiffness, _frame_ends(point)).reshaped(shape)
+    more = point.robot.extensions
+    extras = CableExtras(
+        *(np.broadcast_to(value, shape).reshape(-1) for value in (more.bending_stiffness, more.added_mass))
+    )
+    flat = _flattened(cables)
+    return expand_catenaries(flat, density, order, stiffness, _frame_ends(point), extras).reshaped(shape)
 
 
 def _flattened(cables: CableStates) -> CableStates:
@@ -91,26 +96,36 @@ def _first_frequency(point: OperatingPoint) -> np.ndarray:
 
 
 def _frame_ends(point: OperatingPoint) -> FrameEnds | None:
-    """What pulleys add: stretch of the wrapped cable along the exit tangent, and the swivel across the wheel's plane.
-
-    A cable that leaves the wheel at the angle phi from the axis pulls the swivelling wheel back with
-    T sin(phi) / (R (1 - cos(phi))). In the wheel's plane, rolling on or off the wheel is of second order: the exit is
-    a fixed point.
-    """
+    """How far frame ends give way along the cable: what is elastic in line, and the stretch of cable on a pulley."""
     arrays = RobotArrays.of(point.robot)
-    if not arrays.has_pulleys:
+    if not arrays.has_yielding_frame_ends:
         return None
     cables = point.cables
     tension = cables.tension_at_frame
     tangent = cables.force_at_frame / tension[..., None]
+    stiff = cables.axial_stiffness
+    give = np.maximum(cables.wrapped_length, _SHORT * cables.length) / stiff
+    along = 1.0 / (give + arrays.series_compliance / (1.0 + tension / stiff))
+    directions, springs = [tangent], [along]
+    if arrays.has_pulleys:
+        across, swivel = _swivel(arrays, cables, tangent)
+        directions.append(across)
+        springs.append(swivel)
+    q = len(springs)
+    return FrameEnds(np.stack(directions, axis=-1).reshape(-1, 3, q), np.stack(springs, axis=-1).reshape(-1, q))
+
+
+def _swivel(arrays: RobotArrays, cables: CableStates, tangent: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Direction (..., m, 3) across the wheel's plane and the stiffness (..., m) of the swivelling wheel there [N/m].
+
+    A cable that leaves the wheel at the angle phi from the axis pulls it back with T sin(phi) / (R (1 - cos(phi))). In
+    the wheel's plane, rolling on or off the wheel is of second order: the exit is a fixed point.
+    """
     cos = np.einsum("...mi,...mi->...m", tangent, arrays.pulley_axis)
     across = np.cross(arrays.pulley_axis, tangent)
     sin = np.linalg.norm(across, axis=-1)
-    axial = arrays.axial_stiffness / np.maximum(cables.wrapped_length, _SHORT * cables.length)
     arm = np.maximum(arrays.pulley_radius * (1.0 - cos), _SHORT * cables.length)
-    directions = np.stack([tangent, across / sin[..., None]], axis=-1)
-    springs = np.stack([axial, tension * sin / arm], axis=-1)
-    return FrameEnds(directions.reshape(-1, 3, 2), springs.reshape(-1, 2))
+    return across / sin[..., None], cables.tension_at_frame * sin / arm
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -16,6 +16,7 @@ from numpy.polynomial import legendre
 
 from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
+from cdpr_struct.dynamics.stiff_cable import slenderness
 from cdpr_struct.statics.cable_state import CableStates
 
 
@@ -29,6 +30,14 @@ class FrameEnds:
 
     directions: np.ndarray
     stiffness: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CableExtras:
+    """Bending stiffness EI (m,) [N m^2] of taut cables clamped at both ends, and masses (m,) at mid-cable [kg]."""
+
+    bending_stiffness: np.ndarray
+    added_mass: np.ndarray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,6 +62,7 @@ def expand_catenaries(
     order: int,
     end_stiffness: np.ndarray,
     frame_ends: FrameEnds | None = None,
+    extras: CableExtras | None = None,
 ) -> ModalExpansion:
     """Expansion of m cables (m,) with all the modes that the polynomials span, 3 (order - 1) for fixed frame ends.
 
@@ -63,6 +73,7 @@ def expand_catenaries(
     ----------
     end_stiffness : (m, 3, 3) static stiffness of the platform ends, world [N/m]
     frame_ends : None where all are fixed points
+    extras : None where cables neither resist bending nor carry masses
     """
     frame = _frame(cables)
     to_local = np.swapaxes(frame, -1, -2)
@@ -73,12 +84,24 @@ def expand_catenaries(
     density = _stiffness_density(cables, arc)
     scale = weights / rate
     mass = _products(values, linear_density[:, None] * rate * weights)
+    bending = None
+    if extras is not None and extras.added_mass.any():
+        middle, _ = _basis(coordinate.xi(np.array([0.5]))[:, 0], order)
+        mass = mass + extras.added_mass[:, None, None] * middle.T[:, :, None] * middle.T[:, None, :]
+    if extras is not None and extras.bending_stiffness.any():
+        ends = 2.0 * slenderness(extras.bending_stiffness, cables.tension, cables.chord)
+        density = _stiffness_density(cables, arc, (1.0 + ends + ends**2) ** 2)
+        bending = _curvatures(nodes, order), extras.bending_stiffness[:, None] * weights / rate**3
+        across = _across(cables, arc)
     directions = None if frame_ends is None else to_local @ frame_ends.directions
     springs = None if frame_ends is None else frame_ends.stiffness
     planes = []
     for components in ((0, 2), (1,)) if frame_ends is None else ((0, 1, 2),):
         own = density[..., components, :][..., components]
         stiffness = np.moveaxis(_products(slopes, np.moveaxis(own * scale[..., None, None], 1, -1)), (1, 2), (2, 4))
+        if bending is not None:
+            plane = across[..., components, :][..., components] * bending[1][..., None, None]
+            stiffness = stiffness + np.moveaxis(_products(bending[0], np.moveaxis(plane, 1, -1)), (1, 2), (2, 4))
         freedoms = _freedoms(order, len(components), directions)
         planes.append(_condense(components, stiffness, mass, freedoms, springs))
     found = ModalExpansion(
@@ -112,15 +135,39 @@ def _products(functions: np.ndarray, weights: np.ndarray) -> np.ndarray:
     return (functions * weights[..., None, :]) @ functions.T
 
 
-def _stiffness_density(cables: CableStates, arc: np.ndarray) -> np.ndarray:
-    """D (m, q, 3, 3) at unstrained arc lengths (m, q) from the frame [m], local axes (heading, across, up) [N]."""
+def _curvatures(xi: np.ndarray, order: int) -> np.ndarray:
+    """Second derivatives (order + 1, q) of the functions of `_basis`."""
+    k = np.arange(2, order + 1)
+    series = np.zeros((order + 1, order + 1))
+    series[k - 1, k - 2] = np.sqrt((2 * k - 1) / 2.0)
+    return legendre.legval(xi, legendre.legder(series))
+
+
+def _across(cables: CableStates, arc: np.ndarray) -> np.ndarray:
+    """1 - t t^T (m, q, 3, 3), local axes."""
+    tangent, _ = _tangent(cables, arc)
+    return np.asarray(np.eye(3) - tangent[..., :, None] * tangent[..., None, :])
+
+
+def _tangent(cables: CableStates, arc: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Tangent (m, q, 3) and tension (m, q) [N] at unstrained arc lengths from the frame."""
     hanging = cables.weight[:, None] * (cables.length[:, None] - arc)
     vertical = cables.force_z[:, None] - hanging
     horizontal = np.broadcast_to(cables.force_x[:, None], vertical.shape)
     tension = np.hypot(horizontal, vertical)
-    tangent = np.stack([horizontal, np.zeros_like(vertical), vertical], axis=-1) / tension[..., None]
+    return np.stack([horizontal, np.zeros_like(vertical), vertical], axis=-1) / tension[..., None], tension
+
+
+def _stiffness_density(cables: CableStates, arc: np.ndarray, tightened: np.ndarray | None = None) -> np.ndarray:
+    """D (m, q, 3, 3) at unstrained arc lengths (m, q) from the frame [m], local axes (heading, across, up) [N].
+
+    tightened : (m,) factor on the tension across the cable, None for 1
+    """
+    tangent, tension = _tangent(cables, arc)
     along = np.broadcast_to(cables.axial_stiffness, cables.length.shape)[:, None]
     across = tension / (1.0 + tension / along)
+    if tightened is not None:
+        across = across * tightened[:, None]
     outer = tangent[..., :, None] * tangent[..., None, :]
     return along[..., None, None] * outer + across[..., None, None] * (np.eye(3) - outer)
 
