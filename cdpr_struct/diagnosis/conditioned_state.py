@@ -19,7 +19,6 @@ from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 LEAST_TENSION = 1.0  # [N] a reading below this is taken as this: a slack cable has no direction
 _EXIT_ITERATIONS = 8
 _SAME_DIRECTION = 1e-8  # of the exit: below it lengths change by less than a tenth of a micrometre
-_MAST = 0.2  # frame anchors nearer than this share of the frame's width sit on one mast
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,13 +51,6 @@ class Conditioned:
     arms: np.ndarray
     tension: np.ndarray
     cables: CableStates
-
-
-def masts_of(frame_anchors: np.ndarray) -> np.ndarray:
-    """(m, m) 1 where two cables share a mast, their frame anchors being close to each other in plan."""
-    plan = frame_anchors[:, :2]
-    distance = np.linalg.norm(plan[:, None] - plan[None], axis=-1)
-    return (distance <= _MAST * max(float(distance.max()), 1e-9)).astype(float)
 
 
 def true_pose(world: World, readings: Readings) -> tuple[np.ndarray, np.ndarray]:

@@ -7,7 +7,7 @@ import numpy as np
 from cdpr_struct.diagnosis import robot_pitch
 from cdpr_struct.diagnosis.cable_pitch import cable_log_frequencies, exact_log_frequencies
 from cdpr_struct.diagnosis.commanded import commanded
-from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned, masts_of
+from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned
 from cdpr_struct.diagnosis.extended_robot import robot_of
 from cdpr_struct.diagnosis.locked_pose import reference
 from cdpr_struct.diagnosis.readings import Readings
@@ -17,6 +17,7 @@ from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.inverse_kinematics import inverse
@@ -64,12 +65,15 @@ def circumstances(campaign: Campaign) -> Circumstances:
     tension = states.tension[np.isfinite(states.tension)]
     weight = campaign.robot.platform.mass * campaign.robot.gravity
     mean = float(tension.mean()) if tension.size else weight / len(campaign.robot.cables)
+    more = campaign.robot.extensions
+    if more.nonlinearity:
+        mean = more.reference_tension
     hours = (states.time - np.nanmin(states.time)) / 3600.0 if np.isfinite(states.time).any() else 0.0 * states.time
     return Circumstances(
         payload=states.payload,
         approach=np.where(np.isfinite(states.approach), states.approach, 0.0),
         hours=np.where(np.isfinite(hours), hours, 0.0),
-        center=states.position.mean(axis=0),
+        center=more.hose_center if more.hose else states.position.mean(axis=0),
         masts=masts_of(campaign.robot.frame_anchors),
         mean_tension=mean,
         sagging=campaign.model != "spring",
@@ -97,6 +101,7 @@ def _with_tensions(campaign: Campaign) -> Campaign:
 def _cable_gap(setting: Setting, world: World) -> np.ndarray:
     """ln(exact / closed form) of each measured cable frequency."""
     rows = setting.cable_rows
+    world = replace(world, bending_stiffness=0.0 * world.bending_stiffness, added_mass=0.0 * world.added_mass)
     closed = cable_log_frequencies(world.per_state(), _conditioned(setting, world).cables, rows)
     exact = exact_log_frequencies(_points(setting, world, rows.state), rows)
     return np.where(np.isfinite(exact), exact - closed, 0.0)
