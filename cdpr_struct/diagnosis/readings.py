@@ -6,6 +6,7 @@ import numpy as np
 
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.measurement.campaign import States
+from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.equilibrium import rotation_from_vector
 
 
@@ -32,3 +33,9 @@ class Readings:
             self.tension + tension,
             self.length + length,
         )
+
+
+def cell_reading(robot: Robot, tension: np.ndarray, approach: np.ndarray) -> np.ndarray:
+    """(..., m) what the robot's load cells say at tensions (..., m) [N]; approach (..., m) last motion, nan unknown."""
+    more, last = robot.extensions, np.where(np.isfinite(approach), approach, 0.0)
+    return np.asarray(tension * (1.0 + more.friction * last) * more.cell_gain + more.cell_bias)

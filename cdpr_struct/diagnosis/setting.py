@@ -10,7 +10,7 @@ from cdpr_struct.diagnosis.commanded import commanded
 from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned
 from cdpr_struct.diagnosis.extended_robot import robot_of
 from cdpr_struct.diagnosis.locked_pose import reference
-from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.readings import Readings, cell_reading
 from cdpr_struct.diagnosis.residuals import Labels, Setting, States, at_states, readings_of_states, world_of_states
 from cdpr_struct.diagnosis.robot_rows import model_modes, with_robot_rows
 from cdpr_struct.diagnosis.world import World
@@ -91,7 +91,8 @@ def _with_tensions(campaign: Campaign) -> Campaign:
         turn = Readings.of(states).rotation[i]
         robot = campaign.robot.with_load(float(states.payload[i]))
         model = "spring" if campaign.model == "spring" else "sagging"
-        computed = inverse(robot, states.position[i], turn, model).tensions
+        held = inverse(robot, states.position[i], turn, model)
+        computed = cell_reading(robot, held.tensions, states.approach[i])
         known = np.isfinite(tension[i])
         tension[i] = np.where(known, tension[i], computed)
         sigma[i] = np.where(known, sigma[i], 0.1 * computed.mean())

@@ -6,7 +6,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.null_model import NullModel
-from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.readings import Readings, cell_reading
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.statics.inverse_kinematics import inverse
 
@@ -21,7 +21,7 @@ def tension_errors(setting: Setting) -> np.ndarray:
     for i in np.flatnonzero(campaign.states.has_tension & campaign.states.static):
         robot = campaign.robot.with_load(float(campaign.states.payload[i]))
         held = inverse(robot, readings.position[i], readings.rotation[i], model, allow_unheld=True)
-        errors[i] = campaign.states.tension[i] - held.tensions
+        errors[i] = campaign.states.tension[i] - cell_reading(robot, held.tensions, campaign.states.approach[i])
     return errors
 
 
