@@ -23,6 +23,7 @@ from cdpr_struct.statics.robot_arrays import RobotArrays
 
 CableModel = Literal["static", "dsm", "exact"]
 CABLE_MODELS: tuple[CableModel, ...] = get_args(CableModel)
+_MAST_MODES = 4.0  # pairs of modes a half wave below the frequency, in the series of moving masts
 _SHORT = 1e-9  # of a cable's length: what is shorter gives way no more than a fixed point
 
 
@@ -35,6 +36,9 @@ class CableDynamics(Protocol):
 
     def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
         """(..., m, 3, 3) world [N/m]; omega_squared broadcasts against (..., m), complex where damped."""
+
+    def mast_stiffness(self, omega_squared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """What the cables' inertia adds if their masts move too, as in `ModalExpansion.mast_stiffness`."""
 
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
         """(..., m) natural frequencies of each clamped cable below omega [rad/s]; omega broadcasts against it."""
@@ -143,6 +147,10 @@ class StaticCables:
         static = self._ends
         return np.broadcast_to(static, (*np.shape(omega_squared)[:-1], *static.shape))
 
+    def mast_stiffness(self, omega_squared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        none = np.zeros((*np.shape(omega_squared)[:-1], *self._ends.shape))
+        return none, none
+
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
         return np.zeros((*np.shape(omega)[:-1], len(self.point.robot.cables)), dtype=int)
 
@@ -154,8 +162,8 @@ class StaticCables:
             return straight, np.zeros((m, 0, len(stations), 3))
 
         world = np.broadcast_to(np.eye(3), (m, 3, 3))
-        nothing = np.zeros((m, 3, 3)), np.zeros((m, 0)), np.zeros((m, 0, 3))
-        return ModalExpansion(world, self._ends, *nothing, shapes)
+        none, modes = np.zeros((m, 3, 3)), np.zeros((m, 0, 3))
+        return ModalExpansion(world, self._ends, none, np.zeros((m, 0)), modes, none, none, modes, shapes)
 
     @property
     def _ends(self) -> np.ndarray:
@@ -174,6 +182,12 @@ class ClosedFormCables:
 
     def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
         return closed_form_stiffness(self.cables, omega_squared)
+
+    def mast_stiffness(self, omega_squared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """From the modal series, which converges with the fourth power of the number of modes."""
+        highest = float(np.sqrt(np.abs(omega_squared).max()))
+        half_waves = _MAST_MODES * (1.0 + highest / self.first_frequency.min())
+        return expand_taut_cables(self.cables, int(np.ceil(half_waves))).mast_stiffness(omega_squared)
 
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
         return clamped_count(self.cables, omega)
@@ -196,6 +210,9 @@ class CatenaryCables:
 
     def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
         return self.full.stiffness(omega_squared)
+
+    def mast_stiffness(self, omega_squared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return self.full.mast_stiffness(omega_squared)
 
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
         return (self.full.omega_squared < np.asarray(omega)[..., None] ** 2).sum(axis=-1)

@@ -44,7 +44,8 @@ class CableExtras:
 class _Plane:
     """Motion components that are coupled with each other: i functions, c components, p modes.
 
-    omega_squared (m, p); modes (m, i, c, p); static (m, i, c, c); end_mass (m, c, c); coupling (m, p, c).
+    omega_squared (m, p); modes (m, i, c, p); static (m, i, c, c); end_mass (m, c, c); coupling (m, p, c);
+    rigid_mass, rigid_end (m, c, c) and rigid_modes (m, p, c) of the cable moved as a whole.
     The functions are those of `_basis` without the moving end's.
     """
 
@@ -54,6 +55,9 @@ class _Plane:
     static: np.ndarray
     end_mass: np.ndarray
     coupling: np.ndarray
+    rigid_mass: np.ndarray
+    rigid_end: np.ndarray
+    rigid_modes: np.ndarray
 
 
 def expand_catenaries(
@@ -107,9 +111,12 @@ def expand_catenaries(
     found = ModalExpansion(
         frame=frame,
         static_stiffness=to_local @ end_stiffness @ frame,
-        end_mass=_end_mass(planes),
+        end_mass=_end_mass([(plane.components, plane.end_mass) for plane in planes]),
         omega_squared=np.concatenate([plane.omega_squared for plane in planes], axis=1),
-        coupling=_coupling(planes),
+        coupling=_coupling([(plane.components, plane.coupling) for plane in planes]),
+        rigid_mass=_end_mass([(plane.components, plane.rigid_mass) for plane in planes]),
+        rigid_end=_end_mass([(plane.components, plane.rigid_end) for plane in planes]),
+        rigid_modes=_coupling([(plane.components, plane.rigid_modes) for plane in planes]),
         shapes=lambda stations: _shapes(planes, coordinate.xi(stations), order),
     )
     return found.ascending()
@@ -196,7 +203,10 @@ def _condense(
     (m, count, _), size = mass.shape, len(components)
     turned = np.swapaxes(freedoms, 1, 2)
     stiffness = turned @ stiffness.reshape(m, count * size, count * size) @ freedoms
-    mass = turned @ np.kron(mass, np.eye(size)) @ freedoms
+    full = np.kron(mass, np.eye(size))
+    mass = turned @ full @ freedoms
+    whole = np.kron(np.r_[np.zeros(count - 2), 1.0, 1.0][:, None], np.eye(size))  # both ramps sum up to one
+    shared = turned @ full @ whole
     inner, end = slice(None, -size), slice(-size, None)
     if springs is not None:
         held = np.arange(stiffness.shape[-1] - size - springs.shape[1], stiffness.shape[-1] - size)
@@ -213,6 +223,9 @@ def _condense(
         (functions @ static).reshape(m, count - 1, size, size),
         end_mass,
         np.swapaxes(modes, 1, 2) @ carried,
+        whole.T @ full @ whole,
+        shared[:, end] + np.swapaxes(static, 1, 2) @ shared[:, inner],
+        np.swapaxes(modes, 1, 2) @ shared[:, inner],
     )
 
 
@@ -229,18 +242,20 @@ def _slow_modes_first(stiffness: np.ndarray, mass: np.ndarray) -> tuple[np.ndarr
     return 1.0 / periods, np.swapaxes(inverse, 1, 2) @ vectors / np.sqrt(periods)[:, None, :]
 
 
-def _end_mass(planes: list[_Plane]) -> np.ndarray:
-    total = np.zeros((len(planes[0].end_mass), 3, 3))
-    for plane in planes:
-        total[np.ix_(range(len(total)), plane.components, plane.components)] = plane.end_mass
+def _end_mass(parts: list[tuple[tuple[int, ...], np.ndarray]]) -> np.ndarray:
+    """(m, 3, 3) from the blocks (m, c, c) of some components each."""
+    total = np.zeros((len(parts[0][1]), 3, 3))
+    for components, part in parts:
+        total[np.ix_(range(len(total)), components, components)] = part
     return total
 
 
-def _coupling(planes: list[_Plane]) -> np.ndarray:
+def _coupling(parts: list[tuple[tuple[int, ...], np.ndarray]]) -> np.ndarray:
+    """(m, p, 3) from those (m, p, c) of the modes in some components each."""
     blocks = []
-    for plane in planes:
-        block = np.zeros((*plane.omega_squared.shape, 3))
-        block[..., plane.components] = plane.coupling
+    for components, part in parts:
+        block = np.zeros((*part.shape[:2], 3))
+        block[..., components] = part
         blocks.append(block)
     return np.concatenate(blocks, axis=1)
 

@@ -59,7 +59,8 @@ def count_below(
     robot = point.robot
     if robot.extensions.frame_compliance:
         compliance = np.asarray(robot.extensions.frame_compliance)
-        negative = negative + negative_junctions(cables.stiffness(omega**2), masts_of(robot.frame_anchors), compliance)
+        ends, masts = cables.stiffness(omega**2), masts_of(robot.frame_anchors)
+        negative = negative + negative_junctions(ends, masts, compliance, cables.mast_stiffness(omega**2))
     return negative + cables.clamped_count(omega).sum(axis=-1)
 
 

@@ -19,6 +19,7 @@ class RitzModes:
     omega         : (..., k) ascending [rad/s], upper bounds of the model's
     platform      : (..., k, 6) motion of the platform origin and rotation, world axes
     end           : (..., k, m, 3) motion of the cables' platform ends against their masts, local axes of `expansion`
+    mast          : (..., k, m, 3) motion of the cables' masts, local axes; zero where masts stand still
     modal         : (..., k, m, p) coordinates of the clamped cables' modes
     platform_mass : (..., 6, 6) world axes;  to_cable : (..., m, 3, 6) platform motion to `end`
     """
@@ -26,6 +27,7 @@ class RitzModes:
     omega: np.ndarray
     platform: np.ndarray
     end: np.ndarray
+    mast: np.ndarray
     modal: np.ndarray
     platform_mass: np.ndarray
     to_cable: np.ndarray
@@ -39,7 +41,7 @@ class RitzModes:
     @property
     def cable_energy(self) -> np.ndarray:
         """(..., k, m) shares of the kinetic energy [-]."""
-        return self.expansion.kinetic_energy(self.end, self.modal)
+        return self.expansion.kinetic_energy(self.end, self.modal, self.mast)
 
     def kinds(self) -> list[str]:
         """At one pose, per mode "platform", "cable i", "cables" or "mixed", by where the kinetic energy sits."""
@@ -47,7 +49,7 @@ class RitzModes:
 
     def cable_motion(self, stations: np.ndarray) -> np.ndarray:
         """(..., k, m, s, 3) motion at fractions (s,) of each cable from the frame, world axes."""
-        return self.expansion.motion(stations, self.end, self.modal)
+        return self.expansion.motion(stations, self.end, self.modal, self.mast)
 
 
 def ritz_modes(
@@ -62,12 +64,12 @@ def ritz_modes(
     ------
     CdprError : the platform's stiffness at rest is not positive, so the equilibrium is unstable.
     """
-    ends = _with_masts(point)
-    to_cable = np.swapaxes(expansion.frame, -1, -2) @ ends
+    ends, masts = _with_masts(point)
+    to_cable, to_mast = (np.swapaxes(expansion.frame, -1, -2) @ motion for motion in (ends, masts))
     platform_mass = platform_mass_matrix(point.robot, point.rotation)
     turn, stretch = _unit_stiffness(point, expansion, ends, assembly)
     n = ends.shape[-1]
-    mass = _mass(expansion, to_cable, platform_mass)
+    mass = _mass(expansion, to_cable, to_mast, platform_mass)
     mass[..., :n, :] = np.swapaxes(turn, -1, -2) @ mass[..., :n, :]
     mass[..., :, :n] = mass[..., :, :n] @ turn
     mass[..., n:, :] *= stretch[..., :, None]
@@ -78,18 +80,19 @@ def ritz_modes(
     moved = np.swapaxes(turn @ vectors[..., :n, :], -1, -2)
     modal = np.swapaxes(stretch[..., None] * vectors[..., n:, :], -1, -2)
     modal = modal.reshape((*omega.shape, *expansion.omega_squared.shape[-2:]))
-    end = np.einsum("...mai,...ki->...kma", to_cable, moved)
-    return RitzModes(omega, moved[..., :6], end, modal, platform_mass, to_cable[..., :6], expansion)
+    end, mast = (np.einsum("...mai,...ki->...kma", motion, moved) for motion in (to_cable, to_mast))
+    return RitzModes(omega, moved[..., :6], end, mast, modal, platform_mass, to_cable[..., :6], expansion)
 
 
-def _with_masts(point: OperatingPoint) -> np.ndarray:
-    """Motion (..., m, 3, n) of the cable ends against their masts, per motion of the platform (6) and the masts."""
+def _with_masts(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
+    """Motion of the cable ends against their masts, and of these, per motion of platform (6) and masts (..., m, 3, n)."""
     ends = attachment(point)
     if not point.robot.extensions.frame_compliance:
-        return ends
+        return ends, np.zeros_like(ends)
     carried = carriers(masts_of(point.robot.frame_anchors))
-    own = -np.einsum("mq,ab->maqb", carried, np.eye(3)).reshape(len(carried), 3, -1)
-    return np.concatenate([ends, np.broadcast_to(own, (*ends.shape[:-1], own.shape[-1]))], axis=-1)
+    own = np.einsum("mq,ab->maqb", carried, np.eye(3)).reshape(len(carried), 3, -1)
+    own = np.broadcast_to(own, (*ends.shape[:-1], own.shape[-1]))
+    return np.concatenate([ends, -own], axis=-1), np.concatenate([np.zeros_like(ends), own], axis=-1)
 
 
 def _unit_stiffness(
@@ -111,14 +114,22 @@ def _unit_stiffness(
     return np.swapaxes(np.linalg.inv(lower), -1, -2), 1.0 / np.sqrt(squared.reshape((*squared.shape[:-2], -1)))
 
 
-def _mass(expansion: ModalExpansion, to_cable: np.ndarray, platform_mass: np.ndarray) -> np.ndarray:
+def _mass(
+    expansion: ModalExpansion, to_cable: np.ndarray, to_mast: np.ndarray, platform_mass: np.ndarray
+) -> np.ndarray:
     batch, modal_count = expansion.omega_squared.shape[:-2], np.prod(expansion.omega_squared.shape[-2:], dtype=int)
     n = to_cable.shape[-1]
     mass = np.zeros((*batch, n + modal_count, n + modal_count))
     mass[..., np.arange(n, n + modal_count), np.arange(n, n + modal_count)] = 1.0
     mass[..., :n, :n] = np.einsum("...mai,...mab,...mbj->...ij", to_cable, expansion.end_mass, to_cable, optimize=True)
     mass[..., :6, :6] += platform_mass
-    mass[..., n:, :n] = (expansion.coupling @ to_cable).reshape((*batch, modal_count, n))
+    modal = expansion.coupling @ to_cable
+    if n > 6:
+        with_ends = np.swapaxes(to_cable, -1, -2) @ expansion.rigid_end @ to_mast
+        own = np.swapaxes(to_mast, -1, -2) @ expansion.rigid_mass @ to_mast
+        mass[..., :n, :n] += (with_ends + np.swapaxes(with_ends, -1, -2) + own).sum(axis=-3)
+        modal = modal + expansion.rigid_modes @ to_mast
+    mass[..., n:, :n] = modal.reshape((*batch, modal_count, n))
     mass[..., :n, n:] = np.swapaxes(mass[..., n:, :n], -1, -2)
     return mass
 

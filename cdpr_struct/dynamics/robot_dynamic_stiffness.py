@@ -11,7 +11,7 @@ from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.equilibrium import weight_force
-from cdpr_struct.statics.masts import behind_masts
+from cdpr_struct.statics.masts import Inertia, behind_masts
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 Assembly = Literal["consistent", "thesis"]
@@ -30,7 +30,12 @@ def platform_mass_matrix(robot: Robot, rotation: np.ndarray) -> np.ndarray:
     )
 
 
-def assemble(point: OperatingPoint, cable_stiffness: np.ndarray, assembly: Assembly = "consistent") -> np.ndarray:
+def assemble(
+    point: OperatingPoint,
+    cable_stiffness: np.ndarray,
+    assembly: Assembly = "consistent",
+    mast_inertia: Inertia | None = None,
+) -> np.ndarray:
     """Platform stiffness from the stiffness of each cable's end.
 
     Parameters
@@ -38,13 +43,15 @@ def assemble(point: OperatingPoint, cable_stiffness: np.ndarray, assembly: Assem
     cable_stiffness : (..., m, 3, 3) [N/m], world axes
     assembly : "thesis" is eq. (3.8); "consistent" adds what it leaves out, the work of the static cable forces and
         of the weight on the second-order motion of the rotating lever arms. Masts and a hose belong to both
+    mast_inertia : of the cables, if they vibrate and masts give way
 
     Returns
     -------
     (..., 6, 6), world axes, rotations about the platform origin [N/m, N, N m].
     """
     compliance = np.asarray(point.robot.extensions.frame_compliance)
-    stiffness = behind_masts(cable_stiffness, attachment(point), masts_of(point.robot.frame_anchors), compliance)
+    masts = masts_of(point.robot.frame_anchors)
+    stiffness = behind_masts(cable_stiffness, attachment(point), masts, compliance, mast_inertia)
     stiffness[..., :3, :3] += point.robot.extensions.hose * np.eye(3)
     if assembly == "thesis":
         return stiffness
@@ -77,7 +84,8 @@ def platform_dynamic_stiffness(
 
     omega_squared : broadcasts against (..., m) [rad^2/s^2]; complex for damped cables, see `damped`
     """
-    return assemble(point, cables.stiffness(omega_squared), assembly)
+    inertia = cables.mast_stiffness(omega_squared) if point.robot.extensions.frame_compliance else None
+    return assemble(point, cables.stiffness(omega_squared), assembly, inertia)
 
 
 def _arms(point: OperatingPoint) -> np.ndarray:

@@ -217,4 +217,7 @@ def _cable_part(
     first = cables.first_frequency
     inertia, elasticity = law.inertia(omega[:, None], first), law.elasticity(omega[:, None], first)
     stiffness = elasticity[..., None, None] * cables.stiffness(inertia / elasticity)
-    return assemble(point, stiffness, assembly)
+    if not point.robot.extensions.frame_compliance:
+        return assemble(point, stiffness, assembly)
+    ends, own = (elasticity[..., None, None] * part for part in cables.mast_stiffness(inertia / elasticity))
+    return assemble(point, stiffness, assembly, (ends, own))

@@ -4,7 +4,7 @@ With U the motion of the cable ends per mast and c its compliance, cables of sti
 
     K - K U (1 / c + U^T K U)^-1 U^T K
 
-behind masts. Cable mass is taken as carried by the cable: what pulls at the platform end pulls at the mast.
+behind masts. In vibration the cables' inertia adds to both blocks that the masts take part in.
 """
 
 from collections.abc import Callable
@@ -74,8 +74,16 @@ def _newton_step(arrays: RobotArrays, states: CableStates, together: np.ndarray,
     return np.linalg.solve(matrix, miss.reshape((*miss.shape[:-2], 3 * m, 1))).reshape(miss.shape)
 
 
+Inertia = tuple[np.ndarray, np.ndarray]
+"""Of cables whose masts move, two (..., m, 3, 3) [N/m]: rows ends against masts, and masts; columns masts."""
+
+
 def behind_masts(
-    stiffness: np.ndarray, cable_ends: np.ndarray, masts: np.ndarray, compliance: np.ndarray
+    stiffness: np.ndarray,
+    cable_ends: np.ndarray,
+    masts: np.ndarray,
+    compliance: np.ndarray,
+    inertia: Inertia | None = None,
 ) -> np.ndarray:
     """(..., n, n) stiffness of a body on cables behind masts.
 
@@ -84,35 +92,43 @@ def behind_masts(
     stiffness : (..., m, 3, 3) of the cables' platform ends with held frame ends, world [N/m]
     cable_ends : (..., m, 3, n) their motion per motion of the body
     masts, compliance : (m, m) and (...) [m/N] of `RobotArrays`
+    inertia : in vibration; None at rest
     """
     own = np.einsum("...mai,...mab,...mbj->...ij", cable_ends, stiffness, cable_ends, optimize=True)
     if not compliance.any():
         return own
-    on_mast, junction = _mast_blocks(stiffness, cable_ends, masts, compliance)
+    on_mast, junction = _mast_blocks(stiffness, cable_ends, masts, compliance, inertia)
     return own - np.swapaxes(on_mast, -1, -2) @ np.linalg.solve(junction, on_mast)
 
 
-def negative_junctions(stiffness: np.ndarray, masts: np.ndarray, compliance: np.ndarray) -> np.ndarray:
+def negative_junctions(
+    stiffness: np.ndarray, masts: np.ndarray, compliance: np.ndarray, inertia: Inertia
+) -> np.ndarray:
     """(...) negative eigenvalues of the masts' own stiffness with the cables' dynamic one (..., m, 3, 3) on it.
 
     The clamped frequencies of cables and masts together are those of the clamped cables plus this many.
     """
-    if not compliance.any():
-        return np.zeros(stiffness.shape[:-3], dtype=int)
     nothing = np.zeros((stiffness.shape[-3], 3, 0))
-    _, junction = _mast_blocks(stiffness, nothing, masts, compliance)
+    _, junction = _mast_blocks(stiffness, nothing, masts, compliance, inertia)
     return np.asarray((np.linalg.eigvalsh(junction) < 0.0).sum(axis=-1))
 
 
 def _mast_blocks(
-    stiffness: np.ndarray, cable_ends: np.ndarray, masts: np.ndarray, compliance: np.ndarray
+    stiffness: np.ndarray,
+    cable_ends: np.ndarray,
+    masts: np.ndarray,
+    compliance: np.ndarray,
+    inertia: Inertia | None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """U^T K A (..., 3 n, k) and 1 / c + U^T K U (..., 3 n, 3 n)."""
     carried = carriers(masts)
     count = carried.shape[1]
-    pull = stiffness @ cable_ends
-    on_mast = np.einsum("mq,...mak->...qak", carried, pull)
-    own = np.einsum("mq,...mab->...qab", carried, stiffness)
+    across, own_stiffness = stiffness, stiffness
+    if inertia is not None:
+        back = np.swapaxes(inertia[0], -1, -2)
+        across, own_stiffness = stiffness - back, stiffness - inertia[0] - back + inertia[1]
+    on_mast = np.einsum("mq,...mak->...qak", carried, across @ cable_ends)
+    own = np.einsum("mq,...mab->...qab", carried, own_stiffness)
     junction = np.zeros((*own.shape[:-3], count, 3, count, 3), dtype=own.dtype)
     for q in range(count):
         junction[..., q, :, q, :] = own[..., q, :, :] + np.eye(3) / compliance[..., None, None]
