@@ -67,8 +67,12 @@ def platform_state(
     wrench = np.concatenate([forces.sum(axis=0), np.cross(levers, forces).sum(axis=0)])
     away = position - around.tether_point
     wrench[:3] -= around.tether_stiffness * away
-    motion, rates = point_motion(arms), np.linalg.inv(chains.flexibility)
-    tangent, _ = softened(around, rates, rates, -rates, motion)
+    motion = point_motion(arms)
+    if around.bending:
+        rates = np.linalg.inv(chains.flexibility)
+        tangent, _ = softened(around, rates, rates, -rates, motion)
+    else:
+        tangent = np.einsum("mka,mkb->ab", motion, np.linalg.solve(chains.flexibility, motion))
     tangent[:3, :3] += around.tether_stiffness * np.eye(3)
     tangent += rotating_arm_stiffness(levers, forces)
     cable_energy = -chains.energy - (half_weight * (bent.starts + ends)).sum(axis=1)

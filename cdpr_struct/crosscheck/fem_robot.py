@@ -8,7 +8,6 @@ from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.masts import carriers
 
-
 NOT_IN_FEM = ("bending_stiffness", "added_mass")
 """Extensions that the referee does not have: its bars neither bend nor carry masses."""
 

@@ -1,8 +1,8 @@
 """Every natural frequency of the robot, with a count that proves that none is missing.
 
 Wittrick and Williams: the number of natural frequencies below omega is the number of those of the clamped cables
-plus the number of negative eigenvalues of the platform's dynamic stiffness, and of the masts' if they give way. Bisection on this count isolates each
-frequency, whatever its multiplicity; a scan for determinant minima cannot.
+plus the number of negative eigenvalues of the platform's dynamic stiffness, and of the masts' if they give way.
+Bisection on this count isolates each frequency, whatever its multiplicity; a scan for determinant minima cannot.
 """
 
 from dataclasses import dataclass

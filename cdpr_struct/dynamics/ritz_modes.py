@@ -85,7 +85,7 @@ def ritz_modes(
 
 
 def _with_masts(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
-    """Motion of the cable ends against their masts, and of these, per motion of platform (6) and masts (..., m, 3, n)."""
+    """Motion (..., m, 3, n) of the cable ends against their masts, and of these, per motion of platform and masts."""
     ends = attachment(point)
     if not point.robot.extensions.frame_compliance:
         return ends, np.zeros_like(ends)

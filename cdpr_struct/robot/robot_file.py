@@ -199,7 +199,9 @@ def _with_joints(platform: Platform, table: RobotTable, source: str) -> Platform
     each = np.broadcast_to(np.asarray(masses, dtype=float), (count,))
     if (each < 0.0).any():
         raise InputError(source, "extensions.joint_mass", masses, expected)
-    return platform.with_masses_at(each, np.array([e.platform_anchor for e in table.cables])) if each.any() else platform
+    return (
+        platform.with_masses_at(each, np.array([e.platform_anchor for e in table.cables])) if each.any() else platform
+    )
 
 
 def _pulley(entry: CablesEntry, source: str, number: int) -> Pulley | None:

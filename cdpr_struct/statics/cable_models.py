@@ -83,8 +83,8 @@ class SpringModel:
 
 
 class IdealModel(SpringModel):
-    """Straight, weightless, inextensible, on rigid masts with nothing elastic in line. At given lengths the forces are those of a spring `IDEAL_STIFFENING` times
-    stiffer: its stretch is below a micrometre for the cables of this field."""
+    """Straight, weightless, inextensible, on rigid masts with nothing elastic in line. At given lengths the forces
+    are those of a spring `IDEAL_STIFFENING` times stiffer: its stretch is below a micrometre for such cables."""
 
     name = "ideal"
 
@@ -163,9 +163,7 @@ def _hanging(arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> Cab
     return _catenary_over_pulley(arrays, offset, length)
 
 
-def _held_hanging(
-    arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray
-) -> tuple[CableStates, np.ndarray]:
+def _held_hanging(arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> tuple[CableStates, np.ndarray]:
     """State, and rate of the length with the chord tension."""
     offset = points - arrays.frame_anchors
     if not arrays.has_pulleys:

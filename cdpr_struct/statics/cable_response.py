@@ -29,7 +29,7 @@ class CableResponse:
 
 
 def end_stiffness(arrays: RobotArrays, states: CableStates) -> np.ndarray:
-    """(..., m, 3, 3) stiffness of each cable at its platform end, its pulley and what is in line included, world [N/m]."""
+    """(..., m, 3, 3) stiffness of each cable at its platform end, pulley and what is in line included, world [N/m]."""
     return cable_response(arrays, states).stiffness if arrays.has_yielding_frame_ends else cable_stiffness(states)
 
 

@@ -73,8 +73,8 @@ def tangent_stiffness(arrays: RobotArrays, states: CableStates, arms: PlatformAr
     -------
     (..., 6, 6) world axes, rows force [N] and moment [N m] about the platform origin, columns displacement [m] and
     rotation [rad]. Eq. (3.8) with the pulley-aware cable stiffness, plus the geometric terms that (3.8) leaves out:
-    cable force and weight on their rotating lever arms; masts and a hose too. It is the second derivative of the potential energy along
-    constant twists; `moment_skew` turns it into the derivative of the wrench.
+    cable force and weight on their rotating lever arms; masts and a hose too. It is the second derivative of the
+    potential energy along constant twists; `moment_skew` turns it into the derivative of the wrench.
     """
     map_ = attachment(*np.moveaxis(arms.arms, -1, 0))
     stiff = end_stiffness(arrays, states)

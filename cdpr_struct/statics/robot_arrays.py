@@ -8,12 +8,6 @@ from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import Robot
 
 
-def _neutral(*value: float) -> np.ndarray:
-    """Field that is `value` unless given; a single entry stands for all cables."""
-    made: np.ndarray = field(default_factory=lambda: np.array(value) if value else np.zeros(()))
-    return made
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotArrays:
     """Robot with m cables; leading axes (...) of any field are batch axes, for parameter studies and Monte Carlo.
@@ -43,16 +37,16 @@ class RobotArrays:
     mass: np.ndarray
     center_of_mass: np.ndarray
     gravity: np.ndarray
-    series_compliance: np.ndarray = _neutral(0.0)
-    length_offset: np.ndarray = _neutral(0.0)
-    length_scale: np.ndarray = _neutral(1.0)
-    frame_compliance: np.ndarray = _neutral()
+    series_compliance: np.ndarray = field(default_factory=lambda: np.zeros(1))
+    length_offset: np.ndarray = field(default_factory=lambda: np.zeros(1))
+    length_scale: np.ndarray = field(default_factory=lambda: np.ones(1))
+    frame_compliance: np.ndarray = field(default_factory=lambda: np.zeros(()))
     masts: np.ndarray = field(default_factory=lambda: np.eye(1))
-    hose: np.ndarray = _neutral()
-    hose_center: np.ndarray = _neutral(0.0, 0.0, 0.0)
-    force: np.ndarray = _neutral(0.0, 0.0, 0.0)
-    tilt: np.ndarray = _neutral(0.0, 0.0)
-    nonlinearity: np.ndarray = _neutral()
+    hose: np.ndarray = field(default_factory=lambda: np.zeros(()))
+    hose_center: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    force: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    tilt: np.ndarray = field(default_factory=lambda: np.zeros(2))
+    nonlinearity: np.ndarray = field(default_factory=lambda: np.zeros(()))
     reference_tension: np.ndarray = field(default_factory=lambda: np.ones(()))
 
     @classmethod

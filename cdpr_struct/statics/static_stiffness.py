@@ -9,7 +9,7 @@ from cdpr_struct.generated.platform import attachment
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
-from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, moment_skew, tangent_stiffness, load_wrench
+from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, moment_skew, tangent_stiffness
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 
