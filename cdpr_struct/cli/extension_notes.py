@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from cdpr_struct.robot.robot import Robot
 
-_READINGS = "it describes readings, which only diagnose and plan compare"
-_VIBRATION = "it concerns vibration only"
+_READINGS = "this describes readings, which only diagnose and plan compare"
+_VIBRATION = "this concerns vibration only"
 _NO_BENDING = "this cable model has none; --model exact does"
 _AT_REST = ("inverse", "forward", "pose-error")
 _CABLES_ONLY = ("bending_stiffness", "added_mass")
@@ -25,7 +25,9 @@ def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, mod
     idle = {name: reason for name in active if (reason := _why_idle(name, command, model))}
     acting = [name for name in active if name not in idle]
     sentences = [f"Extensions of the robot file that act: {', '.join(acting) or 'none'}."]
-    sentences += [f"{name} does not act here: {reason}." for name, reason in idle.items()]
+    for reason in dict.fromkeys(idle.values()):
+        names = [name for name in idle if idle[name] == reason]
+        sentences.append(f"No effect here: {', '.join(names)}; {reason}.")
     sentences += [text for name, text in _particulars(command, model).items() if name in acting]
     said = {"acting": acting, "idle": idle, "sentences": sentences}
     return {**result, "extensions": said}
@@ -59,7 +61,7 @@ def _why_idle(name: str, command: str, model: str) -> str:
     if command in _AT_REST:
         return _VIBRATION
     if command == "audit":
-        return "the printed limits do not know it"
+        return "the printed limits know nothing of it"
     if command == "verify":
         return "the bars of the referee have none, so it is left out on both sides"
     if model == "fem":
