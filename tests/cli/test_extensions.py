@@ -37,7 +37,8 @@ def test_every_command_says_what_becomes_of_each_extension(command, tmp_path, ca
     assert run([*words, "--json", "--out", str(tmp_path / "out")]) in (0, 1)
     said = json.loads(capsys.readouterr().out)["extensions"]
     assert set(said["acting"]) | set(said["idle"]) == set(GIVEN)
-    assert "series_compliance" in said["acting"] and "cell_gain" in said["idle"]
+    assert "series_compliance" in said["acting"]
+    assert "cell_gain" in said["idle"]
     assert json.loads((tmp_path / "out" / "result.json").read_text())["extensions"] == said
     page = tmp_path / "out" / "report.html"
     assert not page.exists() or "only diagnose and plan compare" in page.read_text()
@@ -88,7 +89,9 @@ def test_unusable_extensions_are_refused_in_one_sentence(line, complaint, tmp_pa
     path.write_text(text.replace("causes = []", line))
     assert run(["inverse", str(path)]) == 2
     said = capsys.readouterr().err
-    assert "extensions." in said and complaint in said and len(said.strip().splitlines()) == 1
+    assert "extensions." in said
+    assert complaint in said
+    assert len(said.strip().splitlines()) == 1
 
 
 def test_joints_become_part_of_the_platform(tmp_path):

@@ -25,7 +25,7 @@ CASES = {
     "in line": {"series_compliance": 5e-5},
     "masts": {"frame_compliance": 5e-5},
     "both": {"series_compliance": 2e-5, "frame_compliance": 2e-5},
-    "hose, tilt, force": {"hose": 500.0, "hose_center": [0.0, 0.0, 1.0], "tilt": [0.02, 0.01], "force": [9.0, 5.0, 3.0]},
+    "hose, tilt, force": {"hose": 500.0, "hose_center": [0.0, 0.0, 1.0], "tilt": [0.02, 0.01], "force": [9.0, 5.0, 3]},
     "modulus": {"nonlinearity": 0.3, "reference_tension": 100.0},
 }
 # m; the cable that an element in line lets out hangs in the span here and is a spring without weight there:
@@ -39,7 +39,7 @@ def at_rest(given: dict) -> OperatingPoint:
     """A robot at a pose off its planes of symmetry; compliances as large as the cables' own."""
     robot = load_robot("thesis-3-1")
     robot = replace(robot, extensions=Extensions.of(8, given))
-    place = robot.home.position + [0.5, -0.4, 0.2]
+    place = robot.home.position + np.array([0.5, -0.4, 0.2])
     return OperatingPoint(robot, place, np.eye(3), inverse(robot, place, np.eye(3)).cables)
 
 

@@ -55,9 +55,7 @@ def test_extended_robot_leaves_the_same_residuals_as_the_world_it_stands_for(tmp
     setting, readings = make_setting(campaign), Readings.of(campaign.states)
     world = everything(World.of(campaign.robot, len(campaign.states.names)))
     known = setting.known
-    robot = replace(
-        robot_of(campaign.robot, world), extensions=extensions_of(world, known.center, known.mean_tension)
-    )
+    robot = replace(robot_of(campaign.robot, world), extensions=extensions_of(world, known.center, known.mean_tension))
     file = tmp_path / "robot.toml"
     file.write_text(robot_toml(robot, "again"))
     second = replace(campaign, robot=load_robot(file))

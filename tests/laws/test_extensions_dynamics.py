@@ -21,7 +21,7 @@ from cdpr_struct.statics.inverse_kinematics import inverse
 def at_rest(given: dict) -> OperatingPoint:
     robot = load_robot("thesis-3-1")
     robot = replace(robot, extensions=Extensions.of(8, given))
-    place = robot.home.position + [0.5, -0.4, 0.2]
+    place = robot.home.position + np.array([0.5, -0.4, 0.2])
     return OperatingPoint(robot, place, np.eye(3), inverse(robot, place, np.eye(3)).cables)
 
 

@@ -45,7 +45,7 @@ def test_lengths_that_inverse_gives_lead_forward_to_the_pose(name, given, model)
     robot = extended(name, given)
     place = robot.home.position + SHIFT
     held = inverse(robot, place, np.eye(3), model)
-    found = forward(robot, held.lengths, place + [0.02, 0.01, -0.02], np.eye(3), model)
+    found = forward(robot, held.lengths, place + np.array([0.02, 0.01, -0.02]), np.eye(3), model)
     assert found.stable
     np.testing.assert_allclose(found.position, place, atol=1e-10)  # measured: below 2e-12
     np.testing.assert_allclose(found.tensions, held.tensions, rtol=1e-8)
@@ -122,9 +122,10 @@ def test_values_are_checked_at_birth():
         Extensions.of(8, {"series_compliance": -1e-6})
     with pytest.raises(ValueError, match="length_scale must be > 0"):
         Extensions.of(8, {"length_scale": 0.0})
-    with pytest.raises(ValueError, match="no extension is called 'mast'; known: .*frame_compliance"):
+    with pytest.raises(ValueError, match=r"no extension is called 'mast'; known: .*frame_compliance"):
         Extensions.of(8, {"mast": 1.0})
     with pytest.raises(ValueError, match=r"tracker must have shape \(6,\)"):
         Extensions.of(8, {"tracker": [0.0, 0.0]})
-    assert Extensions.of(3).active == () and set(Extensions.of(3, {"slip": 1.0}).entered) == {"slip"}
+    assert Extensions.of(3).active == ()
+    assert set(Extensions.of(3, {"slip": 1.0}).entered) == {"slip"}
     assert set(KEYS) >= {"hose", "hose_center"}
