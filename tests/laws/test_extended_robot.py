@@ -52,14 +52,14 @@ def everything(world: World) -> World:
 
 def test_extended_robot_leaves_the_same_residuals_as_the_world_it_stands_for(tmp_path):
     campaign = clean_campaign()
-    setting, readings = make_setting(campaign), Readings.of(campaign.states)
+    setting, readings = make_setting(campaign)[0], Readings.of(campaign.states)
     world = everything(World.of(campaign.robot, len(campaign.states.names)))
     known = setting.known
     robot = replace(robot_of(campaign.robot, world), extensions=extensions_of(world, known.center, known.mean_tension))
     file = tmp_path / "robot.toml"
     file.write_text(robot_toml(robot, "again"))
     second = replace(campaign, robot=load_robot(file))
-    again, there = make_setting(second), World.of(second.robot, len(campaign.states.names))
+    again, there = make_setting(second)[0], World.of(second.robot, len(campaign.states.names))
     static = np.isin(setting.labels.block, ["EQ", "CO"])
     expected = residuals(setting, world, readings)[static]
     np.testing.assert_allclose(residuals(again, there, readings)[static], expected, rtol=1e-9, atol=1e-9)
@@ -73,7 +73,7 @@ def test_statics_of_the_extended_robot_are_those_of_the_diagnosis(tmp_path):
     what the strain and the weight of the cable change, 1e-5 m; a twin without the extensions is off by millimetres.
     """
     campaign = clean_campaign(count=2)
-    setting = make_setting(campaign)
+    setting = make_setting(campaign)[0]
     world = everything(World.of(campaign.robot, 2))
     bare = replace(world, nonlinearity=0.0 * world.nonlinearity, creep=0.0 * world.creep, slip=0.0 * world.slip)
     quiet = replace(bare, tracker=0.0 * bare.tracker)
