@@ -28,6 +28,7 @@ from fem_reference.robot import PointForce, RobotData, RobotEquilibrium
 from fem_reference.robot_dynamics import count_below, platform_dynamic_stiffness
 from fem_reference.robot_modes import RobotModes, robot_modes
 from fem_reference.robot_statics import solve_robot
+from fem_reference.surroundings import SurroundingsData
 from fem_reference.time_integration import integrate
 
 __all__ = [
@@ -49,6 +50,7 @@ __all__ = [
     "RobotModes",
     "RobotNotConvergedError",
     "StepNotConvergedError",
+    "SurroundingsData",
     "TimeHistory",
     "UndefinedSwivelError",
     "UnstableEquilibriumError",

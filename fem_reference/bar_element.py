@@ -14,14 +14,18 @@ import numpy as np
 MassModel = Literal["lumped", "consistent"]
 
 
-def bar_tensions(nodes: np.ndarray, element_length: float, axial_stiffness: float) -> np.ndarray:
-    """Tension vectors (n, 3) [N] of the bars between nodes (n + 1, 3) [m], each towards the next node."""
+def bar_tensions(nodes: np.ndarray, element_length: float, axial_stiffness: float | np.ndarray) -> np.ndarray:
+    """Tension vectors (n, 3) [N] of the bars between nodes (n + 1, 3) [m], each towards the next node.
+
+    axial_stiffness : EA [N], one or (n,)
+    """
     steps = np.diff(nodes, axis=0)
     lengths = np.linalg.norm(steps, axis=-1, keepdims=True)
-    return axial_stiffness * (lengths / element_length - 1.0) * steps / lengths
+    stiffness = np.asarray(axial_stiffness)[..., None]
+    return np.asarray(stiffness * (lengths / element_length - 1.0) * steps / lengths)
 
 
-def internal_forces(nodes: np.ndarray, element_length: float, axial_stiffness: float) -> np.ndarray:
+def internal_forces(nodes: np.ndarray, element_length: float, axial_stiffness: float | np.ndarray) -> np.ndarray:
     """Forces (n + 1, 3) [N] that must act on the nodes to hold the stretched bars in place (no weight)."""
     tensions = bar_tensions(nodes, element_length, axial_stiffness)
     forces = np.zeros_like(nodes)

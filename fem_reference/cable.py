@@ -17,16 +17,26 @@ class CableData:
     unstrained_length : L [m]
     axial_stiffness   : EA [N]
     linear_density    : mu [kg/m], per unstrained length
+    first_bar_give    : further compliance of the first bar, the one at the start [m/N]; with many bars a spring there
     """
 
     unstrained_length: float
     axial_stiffness: float
     linear_density: float
+    first_bar_give: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("unstrained_length", "axial_stiffness", "linear_density"):
             if not 0.0 < getattr(self, name) < np.inf:
                 raise ValueError(f"CableData.{name} must be positive and finite, got {getattr(self, name)!r}")
+        if not 0.0 <= self.first_bar_give < np.inf:
+            raise ValueError(f"CableData.first_bar_give must be zero or more, got {self.first_bar_give!r}")
+
+    def bar_stiffness(self, elements: int) -> np.ndarray:
+        """EA (n,) [N] of each of n bars."""
+        stiffness = np.full(elements, self.axial_stiffness)
+        stiffness[0] /= 1.0 + self.first_bar_give * self.axial_stiffness * elements / self.unstrained_length
+        return stiffness
 
     @property
     def mass(self) -> float:
@@ -100,7 +110,10 @@ class CableEquilibrium:
         """
         tensions, stiffness = self.tensions, self.cable.axial_stiffness
         matrices = bar_stiffness(
-            self.tension_vectors / tensions[:, None], tensions, np.array(self.element_length), np.array(stiffness)
+            self.tension_vectors / tensions[:, None],
+            tensions,
+            np.array(self.element_length),
+            self.cable.bar_stiffness(self.elements),
         )
         if self.wrap is not None:
             matrices[0] = 0.0

@@ -30,6 +30,7 @@ EPS = float(np.finfo(float).eps)
 class CableBatch:
     """m cables of n bars each, as arrays: lengths, EA (m,), weight of one bar (m, 3) [N].
 
+    bar_stiffness : EA (m, n) [N] of every bar
     handed_on : (m, 3) [N], a further force on the first free node, from a pulley
     """
 
@@ -38,6 +39,7 @@ class CableBatch:
     gravity: np.ndarray
     element_length: np.ndarray
     axial_stiffness: np.ndarray
+    bar_stiffness: np.ndarray
     element_weight: np.ndarray
     handed_on: np.ndarray
 
@@ -53,6 +55,7 @@ class CableBatch:
             acceleration,
             length,
             np.array([cable.axial_stiffness for cable in cables]),
+            np.array([cable.bar_stiffness(elements) for cable in cables]),
             (density * length)[:, None] * acceleration,
             np.zeros((len(length), 3)),
         )
@@ -93,7 +96,7 @@ class ChainState:
 
 def chain_state(batch: CableBatch, chord: np.ndarray, mid_force: np.ndarray) -> ChainState:
     """Evaluate the chains with mid forces (m, 3) [N] against their chords (m, 3) [m]."""
-    length, stiffness = batch.element_length[:, None], batch.axial_stiffness[:, None]
+    length, stiffness = batch.element_length[:, None], batch.bar_stiffness
     vectors = batch.tension_vectors(mid_force)
     tension = np.maximum(np.linalg.norm(vectors, axis=-1), batch.slack_tension[:, None])
     directions = vectors / tension[..., None]
@@ -197,10 +200,10 @@ def _equilibrium(
 ) -> CableEquilibrium:
     cable, vectors, handed = batch.cables[index], state.tension_vectors[index], batch.handed_on[index]
     length, weight = float(batch.element_length[index]), batch.element_weight[index]
-    tensions = np.linalg.norm(vectors, axis=-1)
-    steps = vectors * (length * (1.0 / tensions + 1.0 / cable.axial_stiffness))[:, None]
+    tensions, bars = np.linalg.norm(vectors, axis=-1), batch.bar_stiffness[index]
+    steps = vectors * (length * (1.0 / tensions + 1.0 / bars))[:, None]
     nodes = np.vstack([start, start + np.cumsum(steps, axis=0)])
-    left_over = internal_forces(nodes, length, cable.axial_stiffness)[1:-1] - weight
+    left_over = internal_forces(nodes, length, bars)[1:-1] - weight
     left_over[0] -= handed
     weakest = int(np.argmin(np.linalg.norm(np.diff(nodes, axis=0), axis=-1)))
     stretch = float(np.linalg.norm(nodes[weakest + 1] - nodes[weakest])) / length - 1.0

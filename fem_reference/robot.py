@@ -11,6 +11,7 @@ from fem_reference.bar_element import MassModel
 from fem_reference.cable import CableData, CableEquilibrium
 from fem_reference.pulley import PulleyData
 from fem_reference.rigid_platform import PlatformData, point_motion, rotating_arm_stiffness
+from fem_reference.surroundings import SurroundingsData
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +25,7 @@ class RobotData:
     platform         : PlatformData
     gravity          : (3,) [m/s^2], world, z up
     pulleys          : m PulleyData or None, or empty for none at all
+    surroundings     : SurroundingsData, what the robot stands and leans on
     """
 
     frame_anchors: np.ndarray
@@ -32,6 +34,7 @@ class RobotData:
     platform: PlatformData
     gravity: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -9.81]))
     pulleys: tuple[PulleyData | None, ...] = ()
+    surroundings: SurroundingsData = field(default_factory=SurroundingsData)
 
     def __post_init__(self) -> None:
         cables = tuple(self.cables)
@@ -45,6 +48,9 @@ class RobotData:
         if len(pulleys) not in (0, len(cables)):
             raise ValueError(f"RobotData.pulleys must be empty or hold {len(cables)} entries, got {len(pulleys)}")
         object.__setattr__(self, "pulleys", pulleys)
+        bent = bool(self.surroundings.bending)
+        if any(pulleys) and (bent or any(cable.first_bar_give for cable in cables)):
+            raise ValueError("RobotData: pulleys go neither with masts that bend nor with CableData.first_bar_give")
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +79,8 @@ class DeadLoads:
     @classmethod
     def on(cls, robot: RobotData, external_force: PointForce | None) -> DeadLoads:
         """Weight of the platform at its centre of mass, and the external force if there is one."""
-        forces = [robot.platform.mass * robot.gravity]
+        own = robot.surroundings.platform_gravity
+        forces = [robot.platform.mass * (robot.gravity if own is None else own)]
         points = [robot.platform.center_of_mass]
         if external_force is not None:
             if not isinstance(external_force, PointForce):
@@ -118,7 +125,7 @@ class RobotEquilibrium:
         return point_motion(self.arms)
 
     def geometric_stiffness(self) -> np.ndarray:
-        """Stiffness (6, 6) of the turning lever arms of cable forces, weight and external force.
+        """Stiffness (6, 6) of the turning lever arms of cable forces, weight and external force, and of a tether.
 
         Symmetric part only: the rest is half the unbalanced moment, which vanishes at rest, and no
         conservative support could supply it to a platform that is held.
@@ -127,6 +134,7 @@ class RobotEquilibrium:
         arms = np.vstack([self.arms, loads.points @ self.rotation.T])
         pulls = np.array([-cable.end_force for cable in self.cables])
         stiffness = rotating_arm_stiffness(arms, np.vstack([pulls, loads.forces]))
+        stiffness[:3, :3] += self.robot.surroundings.tether_stiffness * np.eye(3)
         return 0.5 * (stiffness + stiffness.T)
 
     def element_stiffness(self) -> np.ndarray:

@@ -6,10 +6,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fem_reference.bar_element import MassModel
+from fem_reference.bent_masts import softened
 from fem_reference.cable_damping import damping_rates
 from fem_reference.rigid_platform import platform_mass_matrix
 from fem_reference.robot import RobotEquilibrium
-from fem_reference.substructure import condensed_and_counted, dynamic_ends
+from fem_reference.substructure import Pieces, condensed_and_counted, condensed_both_ends, dynamic_ends
 
 
 def platform_dynamic_stiffness(
@@ -36,14 +37,31 @@ def platform_dynamic_stiffness(
     """
     omega = np.asarray(omegas)
     squares = (omega * omega * 1.0).reshape(-1)
-    ends = _cable_ends(equilibrium, omega.reshape(-1), mass, damping_rates(equilibrium, damping_ratio, mass))
+    rates = damping_rates(equilibrium, damping_ratio, mass)
     motion = equilibrium.end_motion()
-    matrix = np.einsum("mka,wmkl,mlb->wab", motion, ends, motion, optimize=True)
+    if equilibrium.robot.surroundings.bending:
+        matrix = np.array([_on_masts(equilibrium, w, mass, rates) for w in omega.reshape(-1)])
+    else:
+        ends = _cable_ends(equilibrium, omega.reshape(-1), mass, rates)
+        matrix = np.einsum("mka,wmkl,mlb->wab", motion, ends, motion, optimize=True)
     platform = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
     matrix = matrix - squares[:, None, None] * platform
     if geometric_terms:
         matrix = matrix + equilibrium.geometric_stiffness()
     return (0.5 * (matrix + np.swapaxes(matrix, -1, -2))).reshape(*omega.shape, 6, 6)
+
+
+def _on_masts(equilibrium: RobotEquilibrium, omega: complex, mass: MassModel, rates: np.ndarray) -> np.ndarray:
+    """Stiffness (6, 6) at the platform of the cables on their masts at one omega [rad/s]."""
+    squares = omega * omega - 1.0j * rates * omega if rates.any() else np.full(len(rates), omega * omega)
+    matrices = equilibrium.element_stiffness() - squares[:, None, None, None] * equilibrium.element_mass(mass)
+    pieces, _ = condensed_both_ends(matrices)
+    return _softened(equilibrium, pieces)[0]
+
+
+def _softened(equilibrium: RobotEquilibrium, pieces: Pieces) -> tuple[np.ndarray, np.ndarray]:
+    first, between, last = (block[..., 0, :, :] for block in (pieces.first, pieces.between, pieces.last))
+    return softened(equilibrium.robot.surroundings, last, first, between, equilibrium.end_motion())
 
 
 def _cable_ends(equilibrium: RobotEquilibrium, omegas: np.ndarray, mass: MassModel, rates: np.ndarray) -> np.ndarray:
@@ -61,15 +79,21 @@ def _cable_ends(equilibrium: RobotEquilibrium, omegas: np.ndarray, mass: MassMod
 def count_below(equilibrium: RobotEquilibrium, omega: float, mass: MassModel = "lumped") -> int:
     """Number of eigenfrequencies of the robot below omega [rad/s].
 
-    Sylvester's law of inertia on K - omega^2 M: negative pivots of every cable, eliminated to its end, plus
-    the negative eigenvalues of the remaining 6 x 6 matrix. No eigenvalue is computed, so none is missed.
+    Sylvester's law of inertia on K - omega^2 M: negative pivots of every cable, eliminated to its end, and of the
+    masts, eliminated next, plus the negative eigenvalues of the remaining 6 x 6 matrix. No eigenvalue is computed,
+    so none is missed.
     """
     matrices = equilibrium.element_stiffness() - omega**2 * equilibrium.element_mass(mass)
-    ends, in_cables = condensed_and_counted(matrices)
-    motion = equilibrium.end_motion()
     platform = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
-    remaining = np.einsum("mka,mkl,mlb->ab", motion, ends, motion, optimize=True)
+    if equilibrium.robot.surroundings.bending:
+        pieces, in_cables = condensed_both_ends(matrices)
+        remaining, masts = _softened(equilibrium, pieces)
+        in_masts = int((np.linalg.eigvalsh(0.5 * (masts + masts.T)) < 0.0).sum())
+    else:
+        ends, in_cables = condensed_and_counted(matrices)
+        motion, in_masts = equilibrium.end_motion(), 0
+        remaining = np.einsum("mka,mkl,mlb->ab", motion, ends, motion, optimize=True)
     remaining = remaining + equilibrium.geometric_stiffness() - omega**2 * platform
     size = np.sqrt(np.diag(platform))
     remaining = 0.5 * (remaining + remaining.T) / np.outer(size, size)
-    return int(in_cables.sum()) + int((np.linalg.eigvalsh(remaining) < 0.0).sum())
+    return int(in_cables.sum()) + in_masts + int((np.linalg.eigvalsh(remaining) < 0.0).sum())

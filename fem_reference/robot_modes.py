@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
-from scipy.sparse import block_diag, csc_array, eye_array, hstack, vstack
+from scipy.sparse import block_diag, csc_array, eye_array, hstack, lil_array, vstack
 
 from fem_reference.bar_element import MassModel
 from fem_reference.cable_modes import string_eigenvalue
@@ -42,7 +42,8 @@ class RobotModes:
 def node_motion(equilibrium: RobotEquilibrium) -> csc_array:
     """Motion of all nodes 1 ... n of all cables per unknown: sparse (3 m n, 3 m (n - 1) + 6).
 
-    The unknowns are the interior nodes, cable by cable, and at the end the six of the platform.
+    The unknowns are the interior nodes, cable by cable, and at the end the six of the platform. Masts are not among
+    them: they move only the start nodes, which are left out.
     """
     interior, ends = 3 * (equilibrium.elements - 1), equilibrium.end_motion()
     own = vstack([eye_array(interior), csc_array((3, interior))])
@@ -51,7 +52,10 @@ def node_motion(equilibrium: RobotEquilibrium) -> csc_array:
 
 
 def robot_matrices(equilibrium: RobotEquilibrium, mass: MassModel = "lumped") -> tuple[csc_array, csc_array]:
-    """Tangent stiffness and mass of the whole robot in the unknowns of `node_motion`, sparse."""
+    """Tangent stiffness and mass of the whole robot in the unknowns of `node_motion`, sparse.
+
+    Masts that bend add three unknowns each, between the cables' and the platform's.
+    """
     motion, robot = node_motion(equilibrium), equilibrium.robot
     elements = (equilibrium.element_stiffness(), equilibrium.element_mass(mass))
     on_platform = (
@@ -63,7 +67,33 @@ def robot_matrices(equilibrium: RobotEquilibrium, mass: MassModel = "lumped") ->
         csc_array(motion.T @ chain_matrix(matrices) @ motion + block_diag([csc_array((cables, cables)), added]))
         for matrices, added in zip(elements, on_platform, strict=True)
     )
-    return stiffness, inertia
+    if not robot.surroundings.bending:
+        return stiffness, inertia
+    spring = 1.0 / robot.surroundings.mast_compliance
+    return (
+        _with_masts(equilibrium, stiffness, elements[0], spring),
+        _with_masts(equilibrium, inertia, elements[1], 0.0),
+    )
+
+
+def _with_masts(
+    equilibrium: RobotEquilibrium, matrix: csc_array, element_matrices: np.ndarray, spring: float
+) -> csc_array:
+    """The matrix with the unknowns of the masts before the platform's: first bars of their cables, and a spring."""
+    masts, interior = equilibrium.robot.surroundings.bending, 3 * (equilibrium.elements - 1)
+    cables, count = matrix.shape[0] - 6, 3 * len(masts)
+    full = lil_array((matrix.shape[0] + count, matrix.shape[0] + count))
+    keep = np.r_[0:cables, cables + count : full.shape[0]]
+    coo = matrix.tocoo()
+    full[keep[coo.row], keep[coo.col]] = coo.data
+    for number, mast in enumerate(masts):
+        own = slice(cables + 3 * number, cables + 3 * number + 3)
+        full[own, own] = element_matrices[list(mast), 0, :3, :3].sum(axis=0) + spring * np.eye(3)
+        for cable in mast:
+            node = slice(cable * interior, cable * interior + 3)
+            full[own, node] = element_matrices[cable, 0, :3, 3:]
+            full[node, own] = element_matrices[cable, 0, 3:, :3]
+    return csc_array(full)
 
 
 def robot_modes(equilibrium: RobotEquilibrium, count: int, mass: MassModel = "lumped") -> RobotModes:
@@ -86,7 +116,7 @@ def robot_modes(equilibrium: RobotEquilibrium, count: int, mass: MassModel = "lu
             break
     else:
         raise MissedModesError(found, counted, omega / (2.0 * np.pi))
-    vectors = vectors[:, :count]
+    vectors = np.delete(vectors[:, :count], _mast_unknowns(equilibrium), axis=0)
     cables, interior = len(equilibrium.cables), equilibrium.elements - 1
     platform_energy, cable_energy = _energy_shares(equilibrium, vectors, mass)
     return RobotModes(
@@ -96,6 +126,11 @@ def robot_modes(equilibrium: RobotEquilibrium, count: int, mass: MassModel = "lu
         platform_energy,
         cable_energy,
     )
+
+
+def _mast_unknowns(equilibrium: RobotEquilibrium) -> np.ndarray:
+    first = 3 * len(equilibrium.cables) * (equilibrium.elements - 1)
+    return first + np.arange(3 * len(equilibrium.robot.surroundings.bending))
 
 
 def _shift(equilibrium: RobotEquilibrium) -> float:
@@ -116,7 +151,8 @@ def _counted_in_gap(
     A gap too narrow to count in is reported as found = -1. With every unknown solved nothing can be missed.
     """
     roots = np.sqrt(np.maximum(values, 0.0))
-    if len(roots) == 3 * len(equilibrium.cables) * (equilibrium.elements - 1) + 6:
+    unknowns = 3 * len(equilibrium.cables) * (equilibrium.elements - 1) + 6
+    if len(roots) == unknowns + len(_mast_unknowns(equilibrium)):
         return len(roots), len(roots), float(roots[-1])
     gaps = np.diff(roots[count - 1 :])
     last = count - 1 + int(np.argmax(gaps))

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fem_reference.arrays import fixed_array
+from fem_reference.bent_masts import bend, softened
 from fem_reference.cable import CableEquilibrium
-from fem_reference.cable_statics import EPS, CableBatch, ChainState, equilibria, solve_chains
+from fem_reference.cable_statics import EPS, CableBatch, ChainState, equilibria
 from fem_reference.errors import PulleysNotSettledError, RobotNotConvergedError
 from fem_reference.pulley_statics import guessed_wraps, handed_on, movement, rewrapped, unwound, wraps_towards
 from fem_reference.rigid_platform import point_motion, rotating_arm_stiffness, turned
@@ -32,6 +33,7 @@ class PlatformState:
     wrench  : (6,) [N, N m] of all forces on the platform
     tangent : (6, 6) minus the derivative of the wrench by (displacement, rotation)
     energy  : [J] total potential energy
+    starts  : (m, 3) [m], where the cables start: the frame anchors, or where masts have moved them
     """
 
     position: np.ndarray
@@ -41,6 +43,7 @@ class PlatformState:
     wrench: np.ndarray
     tangent: np.ndarray
     energy: float
+    starts: np.ndarray
 
 
 def platform_state(
@@ -55,18 +58,27 @@ def platform_state(
     arms = robot.platform_anchors @ rotation.T
     load_arms = loads.points @ rotation.T
     ends = position + arms
-    chains, iterations = solve_chains(batch, robot.frame_anchors, ends, first)
+    around = robot.surroundings
+    bent = bend(batch, robot.frame_anchors, ends, around, first)
+    chains = bent.chains
     half_weight = 0.5 * batch.elements * batch.element_weight
     pulls = half_weight - chains.mid_force
     forces, levers = np.vstack([pulls, loads.forces]), np.vstack([arms, load_arms])
     wrench = np.concatenate([forces.sum(axis=0), np.cross(levers, forces).sum(axis=0)])
+    away = position - around.tether_point
+    wrench[:3] -= around.tether_stiffness * away
     motion = point_motion(arms)
-    tangent = np.einsum("mka,mkb->ab", motion, np.linalg.solve(chains.flexibility, motion))
+    if around.bending:
+        rates = np.linalg.inv(chains.flexibility)
+        tangent, _ = softened(around, rates, rates, -rates, motion)
+    else:
+        tangent = np.einsum("mka,mkb->ab", motion, np.linalg.solve(chains.flexibility, motion))
+    tangent[:3, :3] += around.tether_stiffness * np.eye(3)
     tangent += rotating_arm_stiffness(levers, forces)
-    cable_energy = -chains.energy - (half_weight * (robot.frame_anchors + ends)).sum(axis=1)
-    load_energy = (loads.forces * (position + load_arms)).sum()
-    energy = float(cable_energy.sum() - load_energy)
-    return PlatformState(position, rotation, chains, iterations, wrench, tangent, energy)
+    cable_energy = -chains.energy - (half_weight * (bent.starts + ends)).sum(axis=1)
+    load_energy = (loads.forces * (position + load_arms)).sum() - 0.5 * around.tether_stiffness * (away @ away)
+    energy = float(cable_energy.sum() - load_energy) + bent.energy
+    return PlatformState(position, rotation, chains, bent.iterations, wrench, tangent, energy, bent.starts)
 
 
 def _step(state: PlatformState, reach: float) -> np.ndarray:
@@ -180,7 +192,7 @@ def _settled(
         handed = handed_on(wraps, batch.element_length * (1.0 + tensions / batch.axial_stiffness))
         moved, floor = movement(before, wraps)
         if moved <= floor:
-            cables = equilibria(batch, bare.frame_anchors, state.chains, state.chain_iterations)
+            cables = equilibria(batch, state.starts, state.chains, state.chain_iterations)
             return state, rewrapped(cables, before), iterations
     raise PulleysNotSettledError(moved, MAX_ITERATIONS)
 

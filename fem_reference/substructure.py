@@ -70,6 +70,21 @@ def condensed_ends(element_matrices: np.ndarray) -> np.ndarray:
     return 0.5 * (last + np.swapaxes(last, -1, -2))
 
 
+def condensed_both_ends(element_matrices: np.ndarray) -> tuple[Pieces, np.ndarray]:
+    """Chains of elements (..., n, 6, 6), both end nodes free, as one piece; and the negative pivots (...) of each.
+
+    Real or complex; the pivots of complex chains are not counted (zero).
+    """
+    pieces = Pieces.of(element_matrices)
+    negative = np.zeros(element_matrices.shape[:-3], dtype=int)
+    while len(pieces) > 1:
+        pieces, pivots = _merged(pieces)
+        if not np.iscomplexobj(pivots):
+            pivots = 0.5 * (pivots + np.swapaxes(pivots, -1, -2))
+            negative += (np.linalg.eigvalsh(pivots) < 0.0).sum(axis=(-1, -2))
+    return pieces, negative
+
+
 def condensed_and_counted(element_matrices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """As `condensed_ends` for real matrices; also the number (...) of negative pivots of each chain."""
     pieces = Pieces.of(element_matrices)

@@ -48,6 +48,9 @@ def integrate(
     StepNotConvergedError : a step of the large motion found no balance.
     ValueError : unfit arguments; large motion with pulleys or with consistent mass.
     """
+    robot = equilibrium.robot
+    if not robot.surroundings.still or any(cable.first_bar_give for cable in robot.cables):
+        raise ValueError("motion in time knows neither SurroundingsData nor CableData.first_bar_give")
     problem = motion_problem(
         equilibrium, duration, time_step, initial_velocity, damping_ratio, external_wrench, record, mass
     )

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cdpr_struct.cli.command_words import command_words
+from cdpr_struct.cli.extension_notes import noted, with_extensions
 from cdpr_struct.cli.operating_point import rest
 from cdpr_struct.cli.options import (
     GridText,
@@ -75,9 +76,10 @@ def run(
         raise InputError("--small", "", small, "it belongs to --limits; leave it out")
     if not 0.0 <= lower_bound < float("inf"):
         raise InputError("--lower-bound", "", lower_bound, "give a force in N, zero or more")
-    audit, poses, time = _audit(read_robot(robot, payload, mass), ways, lower_bound)
+    machine = read_robot(robot, payload, mass)
+    audit, poses, time = _audit(machine, ways, lower_bound)
     command = command_words(NAME, robot, payload, mass, **ways, **{"--lower-bound": lower_bound or None})
-    return _report(audit, poses, time, shlex.join(command), out, json)
+    return _report(audit, machine, (poses, time), shlex.join(command), out, json)
 
 
 def _audit(
@@ -105,16 +107,22 @@ def _at_poses(machine: "Robot", position: "np.ndarray", rotation: "np.ndarray", 
 
 
 def _report(
-    audit: "PoseAudit", grid: "Grid | None", time: "np.ndarray | None", command: str, out: Path | None, json: bool
+    audit: "PoseAudit",
+    machine: "Robot",
+    order: "tuple[Grid | None, np.ndarray | None]",
+    command: str,
+    out: Path | None,
+    json: bool,
 ) -> int:
     from cdpr_struct.reports.audit_result import audit_json, audit_text
 
-    result = audit_json(audit, time)
+    grid, time = order
+    result = with_extensions(audit_json(audit, time), machine, NAME)
     emit(result, json, lambda: print(audit_text(audit)))
     if out is not None:
         from cdpr_struct.reports.audit_page import audit_files
 
-        write_files(out, {"result.json": result_json(result), **audit_files(audit, command, grid, time)})
+        write_files(out, noted(result, {"result.json": result_json(result), **audit_files(audit, command, grid, time)}))
     return 0 if result["valid"] else 1
 
 

@@ -4,6 +4,7 @@ from typing import Annotated
 
 import typer
 
+from cdpr_struct.cli.extension_notes import noted, with_extensions
 from cdpr_struct.cli.options import Json, Out
 from cdpr_struct.cli.output import emit, result_json, write_files
 from cdpr_struct.cli.progress import steps
@@ -29,10 +30,10 @@ def run(
     measured = load_campaign(campaign)
     with steps(4) as progress:
         found = diagnose(measured, budget, progress)
-    result = diagnosis_json(found)
+    result = with_extensions(diagnosis_json(found), measured.robot, NAME)
     emit(result, json, lambda: print(diagnosis_text(result)))
     if out is not None:
         from cdpr_struct.reports.diagnosis_page import diagnosis_files
 
-        write_files(out, {"result.json": result_json(result), **diagnosis_files(found, result)})
+        write_files(out, noted(result, {"result.json": result_json(result), **diagnosis_files(found, result)}))
     return 0

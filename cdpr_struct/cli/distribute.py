@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from cdpr_struct.cli.extension_notes import noted, with_extensions
 from cdpr_struct.cli.options import (
     Json,
     Mass,
@@ -86,12 +87,12 @@ def run(
         for rule in rules:
             progress(f"{rule} bound")
             found.append(distribute_along(machine, path, rule, b, upper_bound, longest, price, model))
-    result = distribution_json(found[0], found[1:])
+    result = with_extensions(distribution_json(found[0], found[1:]), machine, NAME, model)
     emit(result, json, lambda: print(distribution_text(found)))
     if out is not None:
         from cdpr_struct.reports.distribution_page import distribution_files
 
-        write_files(out, {"result.json": result_json(result), **distribution_files(found)})
+        write_files(out, noted(result, {"result.json": result_json(result), **distribution_files(found)}))
     return 0
 
 

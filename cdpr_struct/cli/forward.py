@@ -5,6 +5,7 @@ from typing import Annotated, Any
 import typer
 
 from cdpr_struct.cli.command_words import command_words
+from cdpr_struct.cli.extension_notes import noted, with_extensions
 from cdpr_struct.cli.inverse import read_model
 from cdpr_struct.cli.options import Json, Lengths, Mass, Out, Payload, RobotName, read_numbers, read_robot
 from cdpr_struct.cli.output import emit, result_json, write_files
@@ -39,12 +40,15 @@ def run(
     origin = None if start is None and machine.home is None else read_pose(start, machine, "--start")
     first: tuple[Any, Any] = (None, None) if origin is None else (origin.position, origin.rotation)
     solution = forward(machine, length, *first, chosen).require_converged()
-    result = report.forward_json(machine, chosen, length, solution)
+    result = with_extensions(report.forward_json(machine, chosen, length, solution), machine, NAME, chosen)
     if out is not None:
         options = {"--lengths": lengths, "--model": model, "--start": start}
         command = command_words(NAME, robot, payload, mass, **options)
         write_files(
-            out, {"result.json": result_json(result), **report.forward_files(machine, solution, result, command)}
+            out,
+            noted(
+                result, {"result.json": result_json(result), **report.forward_files(machine, solution, result, command)}
+            ),
         )
     emit(result, json, lambda: print(report.forward_text(result)))
     return 0 if result["stable"] else 1

@@ -8,6 +8,7 @@ from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_va
 from cdpr_struct.cli.command_words import command_words
 from cdpr_struct.cli.damping_option import DampingText, read_damping
 from cdpr_struct.cli.degrees_of_freedom import FrameName, PointText, read_ports
+from cdpr_struct.cli.extension_notes import noted, with_extensions
 from cdpr_struct.cli.operating_point import rest
 from cdpr_struct.cli.options import (
     AssemblyName,
@@ -84,11 +85,12 @@ def run(
     words = command_words("frf", robot, payload, mass, **options)
     described = {"damping": damping, "frame": frame, "at_m": at or "0,0,0", "assembly": way, "band_hz": band}
     result = frf_json(sweep, {**described, "command": words + ["--force"] * force})
+    result = with_extensions(result, machine, "frf", cable_model)
     emit(result, json, lambda: print(frf_text(result)))
     if out is not None:
         from cdpr_struct.reports.frf_page import frf_files
 
-        write_files(out, {"result.json": result_json(result), **frf_files(sweep, result)})
+        write_files(out, noted(result, {"result.json": result_json(result), **frf_files(sweep, result)}))
     return 0
 
 

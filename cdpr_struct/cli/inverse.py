@@ -5,6 +5,7 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.command_words import command_words
+from cdpr_struct.cli.extension_notes import noted, with_extensions
 from cdpr_struct.cli.options import (
     Json,
     LowerBound,
@@ -56,7 +57,7 @@ def run(
     from cdpr_struct.statics.inverse_kinematics import inverse
 
     solution = inverse(machine, where.position, where.rotation, chosen, extra, lower_bound, upper_bound)
-    result = report.inverse_json(machine, chosen, where, solution)
+    result = with_extensions(report.inverse_json(machine, chosen, where, solution), machine, NAME, chosen)
     if out is not None:
         bounds = {
             "--lower-bound": lower_bound or None,
@@ -65,7 +66,11 @@ def run(
         options = {"--pose": pose, "--model": model, "--wrench": wrench, **bounds}
         command = command_words(NAME, robot, payload, mass, **options)
         write_files(
-            out, {"result.json": result_json(result), **report.inverse_files(machine, where, solution, result, command)}
+            out,
+            noted(
+                result,
+                {"result.json": result_json(result), **report.inverse_files(machine, where, solution, result, command)},
+            ),
         )
     emit(result, json, lambda: print(report.inverse_text(result)))
     return 0

@@ -6,6 +6,7 @@ import typer
 
 from cdpr_struct.cli.command_words import command_words
 from cdpr_struct.cli.executors import Scheduler, Workers, check_workers
+from cdpr_struct.cli.extension_notes import noted, with_extensions
 from cdpr_struct.cli.options import GridText, Json, Mass, Out, Payload, RobotName, read_grid, read_robot, whole_number
 from cdpr_struct.cli.output import emit, result_json, write_files
 from cdpr_struct.cli.sweeping import clear_checkpoint, run_sweep
@@ -44,10 +45,18 @@ def run(
     sweep = Sweep(quantity, machine, poses, chunk)
     columns, resumed = run_sweep(sweep, workers, scheduler, out)
     result = report.map_json(machine, quantity, poses, columns) | {"resumed_chunks": resumed}
+    result = with_extensions(result, machine, _kin(quantity))
     if out is not None:
         command = command_words(NAME, robot, payload, mass, **{"--grid": grid, "--quantity": quantity})
         files = report.map_files(machine, quantity, poses, columns, command)
-        write_files(out, {"result.json": result_json(result), **files})
+        write_files(out, noted(result, {"result.json": result_json(result), **files}))
         clear_checkpoint(sweep, out)
     emit(result, json, lambda: print(report.map_sentence(result)))
     return 0 if result["held"] > result["unstable"] else 1
+
+
+def _kin(quantity: str) -> str:
+    """The command that knows the extensions which this quantity knows."""
+    if quantity.startswith("pose-error"):
+        return "pose-error"
+    return NAME if quantity.startswith("first-") else "inverse"

@@ -4,6 +4,7 @@ from typing import Annotated
 
 import typer
 
+from cdpr_struct.cli.extension_notes import noted, with_extensions
 from cdpr_struct.cli.operating_point import pose_in_degrees, rest
 from cdpr_struct.cli.options import (
     AssemblyName,
@@ -48,6 +49,7 @@ def run(
     way = read_assembly(assembly)
     machine = read_robot(robot, payload, mass)
     from cdpr_struct.crosscheck.robot_modes import MODELS, require_validity, robot_modes
+    from cdpr_struct.statics.robot_arrays import RobotArrays
 
     name = next((m for m in MODELS if m == model), None)
     if name is None:
@@ -66,8 +68,9 @@ def run(
         "kinds": found.kinds(),
         "platform_energy": found.platform_energy,
         "tensions_N": point.cables.tension_at_platform,
-        "lengths_m": point.cables.total_length,
+        "lengths_m": RobotArrays.of(machine).reading(point.cables.total_length),
     }
+    result = with_extensions(result, machine, NAME, name)
 
     def text() -> None:
         from cdpr_struct.reports.modes_text import modes_text
@@ -78,5 +81,5 @@ def run(
     if out is not None:
         from cdpr_struct.reports.modes_text import modes_csv
 
-        write_files(out, {"result.json": result_json(result), "modes.csv": modes_csv(result)})
+        write_files(out, noted(result, {"result.json": result_json(result), "modes.csv": modes_csv(result)}))
     return 0

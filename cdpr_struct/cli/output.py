@@ -25,11 +25,13 @@ def plain(value: Any) -> Any:
 
 
 def emit(result: Mapping[str, Any], as_json: bool, text: Callable[[], None]) -> None:
-    """Print the result: as JSON and nothing else, or by calling `text`."""
+    """Print the result: as JSON and nothing else, or by calling `text`; then what is to be said about extensions."""
     if as_json:
         print(json.dumps(plain(result), indent=2))
-    else:
-        text()
+        return
+    text()
+    if "extensions" in result:
+        print("\n" + "\n".join(result["extensions"]["sentences"]))
 
 
 def write_files(directory: Path, files: Mapping[str, str | bytes]) -> None:

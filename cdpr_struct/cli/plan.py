@@ -4,6 +4,7 @@ from typing import Annotated
 
 import typer
 
+from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.options import Json, Out
 from cdpr_struct.cli.output import emit, result_json, write_files
 
@@ -20,8 +21,9 @@ def run(
     from cdpr_struct.measurement.campaign_file import load_campaign
     from cdpr_struct.reports.diagnosis_plan import plan_json, plan_text
 
-    prepared = prepare(load_campaign(campaign), BUDGETS["small"])
-    result = plan_json(prepared.ground, prepared.not_testable)
+    planned = load_campaign(campaign)
+    prepared = prepare(planned, BUDGETS["small"])
+    result = with_extensions(plan_json(prepared.ground, prepared.not_testable), planned.robot, NAME)
     emit(result, json, lambda: print(plan_text(result)))
     if out is not None:
         write_files(out, {"result.json": result_json(result)})

@@ -1,11 +1,12 @@
 """`cdpr-struct pose-error`: how far the platform misses its pose when sag and stretch are not accounted for."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from cdpr_struct.cli.command_words import command_words
 from cdpr_struct.cli.executors import Scheduler, Workers, check_workers
+from cdpr_struct.cli.extension_notes import noted, with_extensions
 from cdpr_struct.cli.options import (
     GridText,
     Json,
@@ -60,19 +61,24 @@ def run(
     from cdpr_struct.workspace.sweep import Sweep
 
     sweep = None if poses is None else Sweep("pose-error", machine, poses)
-    errors, result = None, {"robot": machine.name, "mass_kg": machine.platform.mass}
+    errors: PoseErrorMap | None = None
+    result: dict[str, Any] = {"robot": machine.name, "mass_kg": machine.platform.mass}
     if sweep is not None:
         columns, _ = run_sweep(sweep, workers, scheduler, out)
         errors = PoseErrorMap(machine.name, machine.platform.mass, sweep.grid, columns).require_some()
         result |= report.pose_error_json(errors)
     if load is not None:
         result["sufficient_load"] = report.sufficient_load_json(*load)
+    result = with_extensions(result, machine, NAME)
     if out is not None:
         command = command_words(
             NAME, robot, payload, mass, **{"--grid": grid, "--sufficient-load": sufficient_load, "--pose": pose}
         )
         write_files(
-            out, {"result.json": result_json(result), **report.pose_error_files(machine, errors, load, command)}
+            out,
+            noted(
+                result, {"result.json": result_json(result), **report.pose_error_files(machine, errors, load, command)}
+            ),
         )
         if sweep is not None:
             clear_checkpoint(sweep, out)

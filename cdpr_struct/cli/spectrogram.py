@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_valid
+from cdpr_struct.cli.extension_notes import noted, with_extensions
 from cdpr_struct.cli.operating_point import rest
 from cdpr_struct.cli.options import Json, Lengths, LowerBound, Mass, Out, Payload, PoseText, number, read_robot
 from cdpr_struct.cli.output import emit, result_json, write_files
@@ -48,8 +49,9 @@ def run(
     from cdpr_struct.reports.transient_measured import measured_files, measured_json, measured_text
 
     result = measured_json(time, acceleration, point, cable_model, highest)
+    result = with_extensions(result, machine, NAME, cable_model)
     emit(result, json, lambda: print(measured_text(result)))
     if out is not None:
         files = measured_files(time, acceleration, result, window)
-        write_files(out, {"result.json": result_json(result), **files})
+        write_files(out, noted(result, {"result.json": result_json(result), **files}))
     return 0

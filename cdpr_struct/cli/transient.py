@@ -9,6 +9,7 @@ from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_va
 from cdpr_struct.cli.command_words import command_words
 from cdpr_struct.cli.damping_option import DampingText, read_damping
 from cdpr_struct.cli.degrees_of_freedom import FrameName, PointText, read_ports
+from cdpr_struct.cli.extension_notes import noted, with_extensions
 from cdpr_struct.cli.operating_point import rest
 from cdpr_struct.cli.options import (
     AssemblyName,
@@ -110,11 +111,12 @@ def run(
     words = command_words("transient", robot, payload, mass, **options)
     described = {"damping": damping, "frame": frame, "at_m": at or "0,0,0", "assembly": way}
     result = transient_json(record, {**described, "command": words + ["--force"] * force})
+    result = with_extensions(result, machine, NAME, cable_model)
     emit(result, json, lambda: print(transient_text(result)))
     if out is not None:
         from cdpr_struct.reports.transient_page import transient_files
 
-        write_files(out, {"result.json": result_json(result), **transient_files(record, result, window)})
+        write_files(out, noted(result, {"result.json": result_json(result), **transient_files(record, result, window)}))
     return 0
 
 

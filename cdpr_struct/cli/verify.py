@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from cdpr_struct.cli.extension_notes import noted, with_extensions
 from cdpr_struct.cli.operating_point import pose_in_degrees, rest
 from cdpr_struct.cli.options import (
     AssemblyName,
@@ -55,19 +56,20 @@ def run(
         raise InputError("--tolerance", "", tolerance, "give a ratio between 0 and 1, like 0.01")
     machine = read_robot(robot, payload, mass)
     way = read_assembly(assembly)
+    from cdpr_struct.crosscheck.fem_robot import NOT_IN_FEM
     from cdpr_struct.crosscheck.verification import Criteria, verify
     from cdpr_struct.reports.verification_result import verification_json
     from cdpr_struct.reports.verification_text import verification_text
 
     with steps(len(counts) + 2) as progress:
-        point = rest(machine, pose, lengths, lower_bound)
+        point = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths, lower_bound)
         trial = verify(point, counts, modes, way, Criteria(relative_error=tolerance), progress)
-    result = verification_json(trial, pose_in_degrees(point))
+    result = with_extensions(verification_json(trial, pose_in_degrees(point)), machine, NAME)
     emit(result, json, lambda: print(verification_text(trial)))
     if out is not None:
         from cdpr_struct.reports.verification_page import verification_files
 
-        write_files(out, {"result.json": result_json(result), **verification_files(trial)})
+        write_files(out, noted(result, {"result.json": result_json(result), **verification_files(trial)}))
     return 1 if trial.objections() else 0
 
 

@@ -4,27 +4,51 @@ import numpy as np
 
 import fem_reference as fem
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.masts import carriers
+
+NOT_IN_FEM = ("bending_stiffness", "added_mass")
+"""Extensions that the referee does not have: its bars neither bend nor carry masses."""
 
 
-def to_fem(robot: Robot, lengths: np.ndarray) -> fem.RobotData:
-    """The referee's description of the robot with unstrained cable lengths (m,) [m]."""
+def to_fem(robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None = None) -> fem.RobotData:
+    """The referee's description of the robot with unstrained cable lengths paid out (m,) [m].
+
+    axial_stiffness : (m,) EA [N] at the tension at hand, None for that of the robot
+    """
+    more = robot.extensions
+    stiffness = robot.axial_stiffness if axial_stiffness is None else axial_stiffness
     cables = tuple(
-        fem.CableData(float(length), cable.axial_stiffness, cable.linear_density)
-        for length, cable in zip(lengths, robot.cables, strict=True)
+        fem.CableData(float(length), float(ea), cable.linear_density, float(give))
+        for length, ea, cable, give in zip(lengths, stiffness, robot.cables, more.series_compliance, strict=True)
     )
     body = robot.platform
     platform = fem.PlatformData(body.mass, np.array(body.center_of_mass), np.array(body.inertia))
     gravity = np.array([0.0, 0.0, -robot.gravity])
     pulleys = tuple(None if p is None else fem.PulleyData(p.radius, np.array(p.axis)) for p in robot.pulleys)
     anchors = np.array(robot.frame_anchors), np.array(robot.platform_anchors)
-    return fem.RobotData(*anchors, cables, platform, gravity, pulleys)
+    return fem.RobotData(*anchors, cables, platform, gravity, pulleys, _surroundings(robot))
+
+
+def _surroundings(robot: Robot) -> fem.SurroundingsData:
+    more, tilted = robot.extensions, np.append(robot.extensions.tilt, -1.0) * robot.gravity
+    masts = tuple(tuple(np.flatnonzero(column).tolist()) for column in carriers(masts_of(robot.frame_anchors)).T)
+    return fem.SurroundingsData(
+        masts, more.frame_compliance, more.hose, np.array(more.hose_center), tilted if more.tilt.any() else None
+    )
+
+
+def push_of(robot: Robot) -> fem.PointForce | None:
+    """The constant force on the robot's platform."""
+    force = robot.extensions.force
+    return fem.PointForce(np.array(force)) if force.any() else None
 
 
 def solve_in_fem(point: OperatingPoint, elements: int) -> fem.RobotEquilibrium:
     """Equilibrium that the referee finds at the same unstrained lengths, started from the point's pose."""
-    data = to_fem(point.robot, point.cables.total_length)
-    return fem.solve_robot(data, point.position, point.rotation, elements)
+    data = to_fem(point.robot, point.cables.total_length, point.cables.axial_stiffness)
+    return fem.solve_robot(data, point.position, point.rotation, elements, external_force=push_of(point.robot))
 
 
 def fem_shapes(modes: fem.RobotModes, stations: int) -> np.ndarray:

@@ -9,6 +9,7 @@ from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.clamped_cable import symmetric_roots
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.stiff_cable import bending_factor, load_factor, slenderness
 from cdpr_struct.generated import cable_dsm
 from cdpr_struct.measurement.campaign import CableFrequencies
 from cdpr_struct.statics.cable_state import CableStates
@@ -38,10 +39,8 @@ def cable_log_frequencies(world: World, cables: CableStates, rows: CableFrequenc
     lambda2 = cable_dsm.lambda_squared(chord, tension, stiff, effective, across)
     number = half_waves(lambda2, rows)
     log = np.log(number * np.sqrt(tension / density) / chord / (2.0 * np.pi))
-    slender = np.sqrt(np.maximum(pick(world.bending_stiffness), 0.0) / tension) / chord
-    stiffer = 1.0 + 2.0 * slender + (4.0 + 0.5 * (rows.mode * np.pi) ** 2) * slender**2
-    middle = np.sin(0.5 * rows.mode * np.pi) ** 2
-    load = np.maximum(1.0 + 2.0 * pick(world.added_mass) * middle / (density * chord), 0.1)
+    stiffer = bending_factor(slenderness(pick(world.bending_stiffness), tension, chord), rows.mode)
+    load = load_factor(pick(world.added_mass), density * chord, rows.mode)
     return log + np.log(stiffer) - 0.5 * np.log(load)
 
 

@@ -1,6 +1,6 @@
 """What the simulation commands where no encoder was read: lengths, and the null space in which tensions may differ."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -32,7 +32,8 @@ class Commanded:
 
 
 def commanded(campaign: Campaign, held: np.ndarray) -> Commanded:
-    """Commands at the held states of a campaign."""
+    """Commands at the held states of a campaign, of a controller that knows nothing of the robot's extensions."""
+    campaign = replace(campaign, robot=campaign.robot.without_extensions())
     states, robot = campaign.states, campaign.robot
     m = len(robot.cables)
     q = max(m - 6, 0)

@@ -19,15 +19,15 @@ from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 LEAST_TENSION = 1.0  # [N] a reading below this is taken as this: a slack cable has no direction
 _EXIT_ITERATIONS = 8
 _SAME_DIRECTION = 1e-8  # of the exit: below it lengths change by less than a tenth of a micrometre
-_MAST = 0.2  # frame anchors nearer than this share of the frame's width sit on one mast
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Circumstances:
     """What is known of each state without error.
 
-    payload (S,), approach, wrap (S, m), hours (S,), center (3,) mean position; masts (m, m) 1 where cables share a mast;
-    wrap : of the cable over its pulley in right angles;  mean_tension [N]; sagging : whether cables have weight in this simulation
+    payload (S,), approach (S, m), hours (S,), center (3,) mean position; masts (m, m) 1 where cables share a mast;
+    wrap (S, m) : right angles that a cable turns at its exit;  mean_tension [N]
+    sagging : whether cables have weight in this simulation
     """
 
     payload: np.ndarray
@@ -53,21 +53,6 @@ class Conditioned:
     arms: np.ndarray
     tension: np.ndarray
     cables: CableStates
-
-
-def masts_of(frame_anchors: np.ndarray) -> np.ndarray:
-    """(m, m) 1 where two cables share a mast, their frame anchors being close to each other in plan."""
-    plan = frame_anchors[:, :2]
-    distance = np.linalg.norm(plan[:, None] - plan[None], axis=-1)
-    return (distance <= _MAST * max(float(distance.max()), 1e-9)).astype(float)
-
-
-def wrap_of(frame_anchors: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """(S, m) by how many right angles a cable that comes up from a winch below turns at its exit towards points."""
-    away = points - frame_anchors
-    upward = away[..., 2] / np.linalg.norm(away, axis=-1)
-    result: np.ndarray = np.arccos(upward) / (0.5 * np.pi)
-    return result
 
 
 def true_pose(world: World, readings: Readings) -> tuple[np.ndarray, np.ndarray]:
@@ -165,6 +150,7 @@ def _between(
         stiff,
         weight,
         held.status,
+        np.zeros_like(held.length),
     )
     return replace(cables, wrapped_length=wrap / (1.0 + cables.tension_at_frame / stiff))
 

@@ -1,38 +1,15 @@
-"""The robot with its causes as a robot file: plain values where these can say it, the rest in [extensions].
-
-What acts in every command: anchors, EA, density, mass, centre, inertia, pulleys. A compliance in line with a cable is
-put into EA at the campaign's mean length, EA / (1 + c EA / L), and listed. What belongs to sensors or to the world
-around (gains, zeros, tracker, forces, masts) is listed only: no command applies it yet.
-"""
+"""The robot with its causes as a robot file: plain values where these can say it, the rest in [extensions]."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import Diagnosis
-from cdpr_struct.diagnosis.extended_robot import robot_of
+from cdpr_struct.diagnosis.extended_robot import extensions_of, robot_of
 from cdpr_struct.diagnosis.refit import world_with
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.robot.robot import Robot
-
-LISTED = (
-    "length_offset",
-    "length_scale",
-    "series_compliance",
-    "frame_compliance",
-    "cell_gain",
-    "cell_bias",
-    "friction",
-    "force",
-    "hose",
-    "tracker",
-    "tilt",
-    "bending_stiffness",
-    "added_mass",
-    "nonlinearity",
-    "creep",
-    "slip",
-)
 
 
 def extended_world(found: Diagnosis) -> World:
@@ -41,27 +18,21 @@ def extended_world(found: Diagnosis) -> World:
     return found.ground.world if fit is None else world_with(found.ground.world, fit.choices, fit.theta)
 
 
+def extended_robot(found: Diagnosis) -> Robot:
+    """The robot of the campaign with the chosen causes."""
+    world, known, robot = extended_world(found), found.ground.setting.known, found.campaign.robot
+    more = extensions_of(world, known.center, known.mean_tension)
+    causes = [*robot.extensions.causes, *(c.cause for c, _ in found.corrections)]
+    causes += found.selection.fit.names if found.selection.fit else []
+    return replace(robot_of(robot, world), extensions=replace(more, causes=tuple(dict.fromkeys(causes))))
+
+
 def extended_robot_toml(found: Diagnosis) -> str:
     """Text of extended_robot.toml."""
-    world, robot = extended_world(found), found.campaign.robot
-    entered = found.ground.world
-    plain = robot_of(robot, world)
-    if np.any(world.series_compliance):
-        spread = robot.frame_anchors - found.ground.setting.known.center
-        length = np.linalg.norm(spread, axis=1)
-        stiff = world.axial_stiffness / (1.0 + world.series_compliance * world.axial_stiffness / length)
-        plain = robot_of(robot, world.times(axial_stiffness=stiff / world.axial_stiffness))
-    listed = {}
-    for name in LISTED:
-        value = getattr(world, name)
-        if not np.allclose(value, getattr(entered, name), rtol=0.0, atol=1e-15):
-            listed[name] = value.tolist()
-    causes = [c.cause for c, _ in found.corrections]
-    causes += list(found.selection.fit.names) if found.selection.fit else []
-    return robot_toml(plain, f"{robot.name}-extended", causes, listed)
+    return robot_toml(extended_robot(found), f"{found.campaign.robot.name}-extended")
 
 
-def robot_toml(robot: Robot, name: str, causes: Sequence[str], listed: dict[str, object]) -> str:
+def robot_toml(robot: Robot, name: str) -> str:
     """A robot file."""
     body = robot.platform
     lines = [
@@ -75,9 +46,9 @@ def robot_toml(robot: Robot, name: str, causes: Sequence[str], listed: dict[str,
         f"inertia = {body.inertia.tolist()}",
         "",
         "[extensions]",
-        f"causes = {_words(causes)}",
+        f"causes = {_words(robot.extensions.causes)}",
     ]
-    lines += [f"{key} = {value}" for key, value in listed.items()]
+    lines += [f"{key} = {value}" for key, value in robot.extensions.entered.items()]
     for i, cable in enumerate(robot.cables):
         lines += [
             "",

@@ -1,17 +1,21 @@
-"""The robot object that a world means, as far as plain parameters can say it."""
+"""The robot object that a world means."""
 
 from dataclasses import replace
 
 import numpy as np
 
-from cdpr_struct.diagnosis.world import World
+from cdpr_struct.diagnosis.world import EXTENSIONS, World
 from cdpr_struct.robot.cable import Cable, Pulley
+from cdpr_struct.robot.extensions import KEYS, Extensions
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.robot import Robot
 
 
 def robot_of(robot: Robot, world: World) -> Robot:
-    """The robot with the world's anchors, masses, stiffness and density; joints become part of the platform."""
+    """The robot with the world's anchors, masses, stiffness and density, and no extensions.
+
+    Joints become part of the platform. The diagnosis puts the extensions into cable states and stiffness itself.
+    """
     cables = tuple(
         Cable(float(ea), float(rho), cable.damping_ratio)
         for ea, rho, cable in zip(world.axial_stiffness, world.linear_density, robot.cables, strict=True)
@@ -21,19 +25,22 @@ def robot_of(robot: Robot, world: World) -> Robot:
         for radius, axis in zip(world.pulley_radius, world.pulley_axis, strict=True)
     )
     return replace(
-        robot, cables=cables, pulleys=pulleys, platform=platform_of(world), frame_anchors=world.frame_anchors,
-        platform_anchors=world.platform_anchors,
+        robot.without_extensions(), cables=cables, pulleys=pulleys, platform=platform_of(world),
+        frame_anchors=world.frame_anchors, platform_anchors=world.platform_anchors,
     )  # fmt: skip
+
+
+def extensions_of(world: World, hose_center: np.ndarray, reference_tension: float) -> Extensions:
+    """What plain values of a robot cannot say.
+
+    hose_center (3,) [m] and reference_tension [N] : what the world's hose and nonlinearity refer to
+    """
+    given = {name: np.maximum(getattr(world, name), KEYS[name].least) for name in EXTENSIONS}
+    return Extensions.of(world.cables, {**given, "hose_center": hose_center, "reference_tension": reference_tension})
 
 
 def platform_of(world: World) -> Platform:
     """Platform and joints as one rigid body."""
     joints = np.maximum(world.joint_mass, -0.2 * float(world.mass) / world.cables)
-    masses = np.concatenate([[float(world.mass)], joints])
-    points = np.vstack([world.center_of_mass, world.platform_anchors])
-    total = masses.sum()
-    center = masses @ points / total
-    inertia = np.array(world.inertia)
-    for mass, point in zip(masses, points - center, strict=True):
-        inertia = inertia + mass * (point @ point * np.eye(3) - np.outer(point, point))
-    return Platform(float(total), center, 0.5 * (inertia + inertia.T))
+    body = Platform(float(world.mass), world.center_of_mass, 0.5 * (world.inertia + world.inertia.T))
+    return body.with_masses_at(joints, world.platform_anchors)

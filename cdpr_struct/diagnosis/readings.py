@@ -6,6 +6,7 @@ import numpy as np
 
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.measurement.campaign import States
+from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.equilibrium import rotation_from_vector
 
 
@@ -32,3 +33,19 @@ class Readings:
             self.tension + tension,
             self.length + length,
         )
+
+
+def exit_turns(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+    """(..., m) right angles by which a cable that comes up from a winch below turns at its exit, straight to the pose."""
+    away = position[..., None, :] + robot.platform_anchors @ np.swapaxes(rotation, -1, -2) - robot.frame_anchors
+    upward = away[..., 2] / np.linalg.norm(away, axis=-1)
+    return np.asarray(np.arccos(upward) / (0.5 * np.pi))
+
+
+def cell_reading(robot: Robot, tension: np.ndarray, approach: np.ndarray, turns: np.ndarray) -> np.ndarray:
+    """(..., m) what the robot's load cells say at tensions (..., m) [N].
+
+    approach : (..., m) direction of the last motion, nan unknown;  turns : (..., m) right angles at the exits
+    """
+    more, last = robot.extensions, np.where(np.isfinite(approach), approach, 0.0)
+    return np.asarray(tension * np.exp(more.friction * last * turns) * more.cell_gain + more.cell_bias)

@@ -115,7 +115,7 @@ def _worth_trying(row: Screened) -> list[Choice]:
 
 
 def select(ground: Ground, further: float, most: int) -> Selection:
-    """The best cause, and at most so many in all that each raise the log evidence by `further`, in all parts of the data."""
+    """The best cause, and more (`most` in all) that each raise the log evidence by `further`, in all parts of data."""
     search = Search(ground)
     first = search.rank()
     best = first[0]

@@ -7,16 +7,17 @@ import numpy as np
 from cdpr_struct.diagnosis import robot_pitch
 from cdpr_struct.diagnosis.cable_pitch import cable_log_frequencies, exact_log_frequencies
 from cdpr_struct.diagnosis.commanded import commanded
-from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned, masts_of, wrap_of
+from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned
 from cdpr_struct.diagnosis.extended_robot import robot_of
 from cdpr_struct.diagnosis.locked_pose import reference
-from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.readings import Readings, cell_reading, exit_turns
 from cdpr_struct.diagnosis.residuals import Labels, Setting, States, at_states, readings_of_states, world_of_states
 from cdpr_struct.diagnosis.robot_rows import model_modes, with_robot_rows
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.inverse_kinematics import inverse
@@ -62,17 +63,18 @@ def circumstances(campaign: Campaign) -> Circumstances:
     """What is known of each state without error."""
     states = campaign.states
     tension = states.tension[np.isfinite(states.tension)]
-    turn = Readings.of(states).rotation
-    points = states.position[:, None, :] + campaign.robot.platform_anchors @ np.swapaxes(turn, -1, -2)
     weight = campaign.robot.platform.mass * campaign.robot.gravity
     mean = float(tension.mean()) if tension.size else weight / len(campaign.robot.cables)
+    more = campaign.robot.extensions
+    if more.nonlinearity:
+        mean = more.reference_tension
     hours = (states.time - np.nanmin(states.time)) / 3600.0 if np.isfinite(states.time).any() else 0.0 * states.time
     return Circumstances(
         payload=states.payload,
-        wrap=wrap_of(campaign.robot.frame_anchors, points),
+        wrap=exit_turns(campaign.robot, states.position, Readings.of(states).rotation),
         approach=np.where(np.isfinite(states.approach), states.approach, 0.0),
         hours=np.where(np.isfinite(hours), hours, 0.0),
-        center=states.position.mean(axis=0),
+        center=more.hose_center if more.hose else states.position.mean(axis=0),
         masts=masts_of(campaign.robot.frame_anchors),
         mean_tension=mean,
         sagging=campaign.model != "spring",
@@ -90,7 +92,9 @@ def _with_tensions(campaign: Campaign) -> Campaign:
         turn = Readings.of(states).rotation[i]
         robot = campaign.robot.with_load(float(states.payload[i]))
         model = "spring" if campaign.model == "spring" else "sagging"
-        computed = inverse(robot, states.position[i], turn, model).tensions
+        held = inverse(robot, states.position[i], turn, model)
+        turns = exit_turns(robot, states.position[i], turn)
+        computed = cell_reading(robot, held.tensions, states.approach[i], turns)
         known = np.isfinite(tension[i])
         tension[i] = np.where(known, tension[i], computed)
         sigma[i] = np.where(known, sigma[i], 0.1 * computed.mean())
@@ -100,6 +104,7 @@ def _with_tensions(campaign: Campaign) -> Campaign:
 def _cable_gap(setting: Setting, world: World) -> np.ndarray:
     """ln(exact / closed form) of each measured cable frequency."""
     rows = setting.cable_rows
+    world = replace(world, bending_stiffness=0.0 * world.bending_stiffness, added_mass=0.0 * world.added_mass)
     closed = cable_log_frequencies(world.per_state(), _conditioned(setting, world).cables, rows)
     exact = exact_log_frequencies(_points(setting, world, rows.state), rows)
     return np.where(np.isfinite(exact), exact - closed, 0.0)

@@ -6,7 +6,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.null_model import NullModel
-from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.readings import Readings, cell_reading, exit_turns
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.statics.inverse_kinematics import inverse
 
@@ -20,8 +20,17 @@ def tension_errors(setting: Setting) -> np.ndarray:
     model = "spring" if campaign.model == "spring" else "sagging"
     for i in np.flatnonzero(campaign.states.has_tension & campaign.states.static):
         robot = campaign.robot.with_load(float(campaign.states.payload[i]))
-        held = inverse(robot, readings.position[i], readings.rotation[i], model, allow_unheld=True)
-        errors[i] = campaign.states.tension[i] - held.tensions
+        held = inverse(
+            robot,
+            readings.position[i],
+            readings.rotation[i],
+            model,
+            lower_bound=campaign.lower_bound,
+            allow_unheld=True,
+        )
+        turns = exit_turns(robot, readings.position[i], readings.rotation[i])
+        said = cell_reading(robot, held.tensions, campaign.states.approach[i], turns)
+        errors[i] = campaign.states.tension[i] - said
     return errors
 
 

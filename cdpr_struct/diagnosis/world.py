@@ -4,6 +4,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from cdpr_struct.robot.extensions import KEYS
 from cdpr_struct.robot.robot import Robot
 
 _CORE = {
@@ -14,6 +15,9 @@ _CORE = {
     "added_mass": 1, "nonlinearity": 0, "creep": 0, "slip": 1, "internal": 1, "internal_force": 1,
     "pose_offset": 1,
 }  # fmt: skip
+
+EXTENSIONS = tuple(name for name in KEYS if name in _CORE)
+"""Fields that a robot file holds as extensions."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,10 +75,9 @@ class World:
 
     @classmethod
     def of(cls, robot: Robot, states: int = 0) -> "World":
-        """The robot as entered, with perfect sensors."""
-        m = len(robot.cables)
+        """The robot as entered, with the extensions of its file; without any, sensors are perfect."""
+        m, more = len(robot.cables), robot.extensions
         up = np.array([0.0, 0.0, 1.0])
-        zeros, none = np.zeros(m), np.zeros(())
         return cls(
             platform_anchors=robot.platform_anchors, frame_anchors=robot.frame_anchors,
             axial_stiffness=robot.axial_stiffness, linear_density=robot.linear_density,
@@ -82,11 +85,9 @@ class World:
             pulley_axis=np.array([up if p is None else p.axis for p in robot.pulleys]),
             mass=np.asarray(robot.platform.mass), center_of_mass=robot.platform.center_of_mass,
             inertia=robot.platform.inertia, gravity=np.asarray(robot.gravity),
-            length_offset=zeros, length_scale=np.ones(m), series_compliance=zeros, frame_compliance=none,
-            joint_mass=zeros, cell_gain=np.ones(m), cell_bias=zeros, friction=zeros, force=np.zeros(3), hose=none,
-            tracker=np.zeros(6), tilt=np.zeros(2), bending_stiffness=zeros, added_mass=zeros, nonlinearity=none,
-            creep=none, slip=zeros, internal=np.zeros(states * max(m - 6, 0)),
-            internal_force=np.zeros(max(m - 6, 0)), pose_offset=np.zeros(states * 6),
+            joint_mass=np.zeros(m), **{name: np.asarray(getattr(more, name)) for name in EXTENSIONS},
+            internal=np.zeros(states * max(m - 6, 0)), internal_force=np.zeros(max(m - 6, 0)),
+            pose_offset=np.zeros(states * 6),
         )  # fmt: skip
 
     @property

@@ -10,7 +10,7 @@ from typing import Literal, Protocol, get_args
 
 import numpy as np
 
-from cdpr_struct.dynamics.catenary_expansion import FrameEnds, expand_catenaries
+from cdpr_struct.dynamics.catenary_expansion import CableExtras, FrameEnds, expand_catenaries
 from cdpr_struct.dynamics.clamped_cable import clamped_count
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
@@ -23,6 +23,7 @@ from cdpr_struct.statics.robot_arrays import RobotArrays
 
 CableModel = Literal["static", "dsm", "exact"]
 CABLE_MODELS: tuple[CableModel, ...] = get_args(CableModel)
+_MAST_MODES = 4.0  # pairs of modes a half wave below the frequency, in the series of moving masts
 _SHORT = 1e-9  # of a cable's length: what is shorter gives way no more than a fixed point
 
 
@@ -35,6 +36,9 @@ class CableDynamics(Protocol):
 
     def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
         """(..., m, 3, 3) world [N/m]; omega_squared broadcasts against (..., m), complex where damped."""
+
+    def mast_stiffness(self, omega_squared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """What the cables' inertia adds if their masts move too, as in `ModalExpansion.mast_stiffness`."""
 
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
         """(..., m) natural frequencies of each clamped cable below omega [rad/s]; omega broadcasts against it."""
@@ -63,7 +67,12 @@ def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
     shape = cables.length.shape
     stiffness = end_stiffness(RobotArrays.of(point.robot), cables).reshape(-1, 3, 3)
     density = np.broadcast_to(point.robot.linear_density, shape).reshape(-1)
-    return expand_catenaries(_flattened(cables), density, order, stiffness, _frame_ends(point)).reshaped(shape)
+    more = point.robot.extensions
+    extras = CableExtras(
+        *(np.broadcast_to(value, shape).reshape(-1) for value in (more.bending_stiffness, more.added_mass))
+    )
+    flat = _flattened(cables)
+    return expand_catenaries(flat, density, order, stiffness, _frame_ends(point), extras).reshaped(shape)
 
 
 def _flattened(cables: CableStates) -> CableStates:
@@ -91,26 +100,36 @@ def _first_frequency(point: OperatingPoint) -> np.ndarray:
 
 
 def _frame_ends(point: OperatingPoint) -> FrameEnds | None:
-    """What pulleys add: stretch of the wrapped cable along the exit tangent, and the swivel across the wheel's plane.
-
-    A cable that leaves the wheel at the angle phi from the axis pulls the swivelling wheel back with
-    T sin(phi) / (R (1 - cos(phi))). In the wheel's plane, rolling on or off the wheel is of second order: the exit is
-    a fixed point.
-    """
+    """How far frame ends give way along the cable: what is elastic in line, and the stretch of cable on a pulley."""
     arrays = RobotArrays.of(point.robot)
-    if not arrays.has_pulleys:
+    if not arrays.has_yielding_frame_ends:
         return None
     cables = point.cables
     tension = cables.tension_at_frame
     tangent = cables.force_at_frame / tension[..., None]
+    stiff = cables.axial_stiffness
+    give = np.maximum(cables.wrapped_length, _SHORT * cables.length) / stiff
+    along = 1.0 / (give + arrays.series_compliance / (1.0 + tension / stiff))
+    directions, springs = [tangent], [along]
+    if arrays.has_pulleys:
+        across, swivel = _swivel(arrays, cables, tangent)
+        directions.append(across)
+        springs.append(swivel)
+    q = len(springs)
+    return FrameEnds(np.stack(directions, axis=-1).reshape(-1, 3, q), np.stack(springs, axis=-1).reshape(-1, q))
+
+
+def _swivel(arrays: RobotArrays, cables: CableStates, tangent: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Direction (..., m, 3) across the wheel's plane and the stiffness (..., m) of the swivelling wheel there [N/m].
+
+    A cable that leaves the wheel at the angle phi from the axis pulls it back with T sin(phi) / (R (1 - cos(phi))). In
+    the wheel's plane, rolling on or off the wheel is of second order: the exit is a fixed point.
+    """
     cos = np.einsum("...mi,...mi->...m", tangent, arrays.pulley_axis)
     across = np.cross(arrays.pulley_axis, tangent)
     sin = np.linalg.norm(across, axis=-1)
-    axial = arrays.axial_stiffness / np.maximum(cables.wrapped_length, _SHORT * cables.length)
     arm = np.maximum(arrays.pulley_radius * (1.0 - cos), _SHORT * cables.length)
-    directions = np.stack([tangent, across / sin[..., None]], axis=-1)
-    springs = np.stack([axial, tension * sin / arm], axis=-1)
-    return FrameEnds(directions.reshape(-1, 3, 2), springs.reshape(-1, 2))
+    return across / sin[..., None], cables.tension_at_frame * sin / arm
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -128,6 +147,10 @@ class StaticCables:
         static = self._ends
         return np.broadcast_to(static, (*np.shape(omega_squared)[:-1], *static.shape))
 
+    def mast_stiffness(self, omega_squared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        none = np.zeros((*np.shape(omega_squared)[:-1], *self._ends.shape))
+        return none, none
+
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
         return np.zeros((*np.shape(omega)[:-1], len(self.point.robot.cables)), dtype=int)
 
@@ -139,8 +162,8 @@ class StaticCables:
             return straight, np.zeros((m, 0, len(stations), 3))
 
         world = np.broadcast_to(np.eye(3), (m, 3, 3))
-        nothing = np.zeros((m, 3, 3)), np.zeros((m, 0)), np.zeros((m, 0, 3))
-        return ModalExpansion(world, self._ends, *nothing, shapes)
+        none, modes = np.zeros((m, 3, 3)), np.zeros((m, 0, 3))
+        return ModalExpansion(world, self._ends, none, np.zeros((m, 0)), modes, none, none, modes, shapes)
 
     @property
     def _ends(self) -> np.ndarray:
@@ -159,6 +182,12 @@ class ClosedFormCables:
 
     def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
         return closed_form_stiffness(self.cables, omega_squared)
+
+    def mast_stiffness(self, omega_squared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """From the modal series, which converges with the fourth power of the number of modes."""
+        highest = float(np.sqrt(np.abs(omega_squared).max()))
+        half_waves = _MAST_MODES * (1.0 + highest / self.first_frequency.min())
+        return expand_taut_cables(self.cables, int(np.ceil(half_waves))).mast_stiffness(omega_squared)
 
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
         return clamped_count(self.cables, omega)
@@ -181,6 +210,9 @@ class CatenaryCables:
 
     def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
         return self.full.stiffness(omega_squared)
+
+    def mast_stiffness(self, omega_squared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return self.full.mast_stiffness(omega_squared)
 
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
         return (self.full.omega_squared < np.asarray(omega)[..., None] ** 2).sum(axis=-1)

@@ -16,6 +16,7 @@ from numpy.polynomial import legendre
 
 from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
+from cdpr_struct.dynamics.stiff_cable import slenderness
 from cdpr_struct.statics.cable_state import CableStates
 
 
@@ -32,10 +33,19 @@ class FrameEnds:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class CableExtras:
+    """Bending stiffness EI (m,) [N m^2] of taut cables clamped at both ends, and masses (m,) at mid-cable [kg]."""
+
+    bending_stiffness: np.ndarray
+    added_mass: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class _Plane:
     """Motion components that are coupled with each other: i functions, c components, p modes.
 
-    omega_squared (m, p); modes (m, i, c, p); static (m, i, c, c); end_mass (m, c, c); coupling (m, p, c).
+    omega_squared (m, p); modes (m, i, c, p); static (m, i, c, c); end_mass (m, c, c); coupling (m, p, c);
+    rigid_mass, rigid_end (m, c, c) and rigid_modes (m, p, c) of the cable moved as a whole.
     The functions are those of `_basis` without the moving end's.
     """
 
@@ -45,6 +55,9 @@ class _Plane:
     static: np.ndarray
     end_mass: np.ndarray
     coupling: np.ndarray
+    rigid_mass: np.ndarray
+    rigid_end: np.ndarray
+    rigid_modes: np.ndarray
 
 
 def expand_catenaries(
@@ -53,6 +66,7 @@ def expand_catenaries(
     order: int,
     end_stiffness: np.ndarray,
     frame_ends: FrameEnds | None = None,
+    extras: CableExtras | None = None,
 ) -> ModalExpansion:
     """Expansion of m cables (m,) with all the modes that the polynomials span, 3 (order - 1) for fixed frame ends.
 
@@ -63,6 +77,7 @@ def expand_catenaries(
     ----------
     end_stiffness : (m, 3, 3) static stiffness of the platform ends, world [N/m]
     frame_ends : None where all are fixed points
+    extras : None where cables neither resist bending nor carry masses
     """
     frame = _frame(cables)
     to_local = np.swapaxes(frame, -1, -2)
@@ -73,20 +88,35 @@ def expand_catenaries(
     density = _stiffness_density(cables, arc)
     scale = weights / rate
     mass = _products(values, linear_density[:, None] * rate * weights)
+    bending = None
+    if extras is not None and extras.added_mass.any():
+        middle, _ = _basis(coordinate.xi(np.array([0.5]))[:, 0], order)
+        mass = mass + extras.added_mass[:, None, None] * middle.T[:, :, None] * middle.T[:, None, :]
+    if extras is not None and extras.bending_stiffness.any():
+        ends = 2.0 * slenderness(extras.bending_stiffness, cables.tension, cables.chord)
+        density = _stiffness_density(cables, arc, (1.0 + ends + ends**2) ** 2)
+        bending = _curvatures(nodes, order), extras.bending_stiffness[:, None] * weights / rate**3
+        across = _across(cables, arc)
     directions = None if frame_ends is None else to_local @ frame_ends.directions
     springs = None if frame_ends is None else frame_ends.stiffness
     planes = []
     for components in ((0, 2), (1,)) if frame_ends is None else ((0, 1, 2),):
         own = density[..., components, :][..., components]
         stiffness = np.moveaxis(_products(slopes, np.moveaxis(own * scale[..., None, None], 1, -1)), (1, 2), (2, 4))
+        if bending is not None:
+            plane = across[..., components, :][..., components] * bending[1][..., None, None]
+            stiffness = stiffness + np.moveaxis(_products(bending[0], np.moveaxis(plane, 1, -1)), (1, 2), (2, 4))
         freedoms = _freedoms(order, len(components), directions)
         planes.append(_condense(components, stiffness, mass, freedoms, springs))
     found = ModalExpansion(
         frame=frame,
         static_stiffness=to_local @ end_stiffness @ frame,
-        end_mass=_end_mass(planes),
+        end_mass=_end_mass([(plane.components, plane.end_mass) for plane in planes]),
         omega_squared=np.concatenate([plane.omega_squared for plane in planes], axis=1),
-        coupling=_coupling(planes),
+        coupling=_coupling([(plane.components, plane.coupling) for plane in planes]),
+        rigid_mass=_end_mass([(plane.components, plane.rigid_mass) for plane in planes]),
+        rigid_end=_end_mass([(plane.components, plane.rigid_end) for plane in planes]),
+        rigid_modes=_coupling([(plane.components, plane.rigid_modes) for plane in planes]),
         shapes=lambda stations: _shapes(planes, coordinate.xi(stations), order),
     )
     return found.ascending()
@@ -112,15 +142,39 @@ def _products(functions: np.ndarray, weights: np.ndarray) -> np.ndarray:
     return (functions * weights[..., None, :]) @ functions.T
 
 
-def _stiffness_density(cables: CableStates, arc: np.ndarray) -> np.ndarray:
-    """D (m, q, 3, 3) at unstrained arc lengths (m, q) from the frame [m], local axes (heading, across, up) [N]."""
+def _curvatures(xi: np.ndarray, order: int) -> np.ndarray:
+    """Second derivatives (order + 1, q) of the functions of `_basis`."""
+    k = np.arange(2, order + 1)
+    series = np.zeros((order + 1, order + 1))
+    series[k - 1, k - 2] = np.sqrt((2 * k - 1) / 2.0)
+    return legendre.legval(xi, legendre.legder(series))
+
+
+def _across(cables: CableStates, arc: np.ndarray) -> np.ndarray:
+    """1 - t t^T (m, q, 3, 3), local axes."""
+    tangent, _ = _tangent(cables, arc)
+    return np.asarray(np.eye(3) - tangent[..., :, None] * tangent[..., None, :])
+
+
+def _tangent(cables: CableStates, arc: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Tangent (m, q, 3) and tension (m, q) [N] at unstrained arc lengths from the frame."""
     hanging = cables.weight[:, None] * (cables.length[:, None] - arc)
     vertical = cables.force_z[:, None] - hanging
     horizontal = np.broadcast_to(cables.force_x[:, None], vertical.shape)
     tension = np.hypot(horizontal, vertical)
-    tangent = np.stack([horizontal, np.zeros_like(vertical), vertical], axis=-1) / tension[..., None]
+    return np.stack([horizontal, np.zeros_like(vertical), vertical], axis=-1) / tension[..., None], tension
+
+
+def _stiffness_density(cables: CableStates, arc: np.ndarray, tightened: np.ndarray | None = None) -> np.ndarray:
+    """D (m, q, 3, 3) at unstrained arc lengths (m, q) from the frame [m], local axes (heading, across, up) [N].
+
+    tightened : (m,) factor on the tension across the cable, None for 1
+    """
+    tangent, tension = _tangent(cables, arc)
     along = np.broadcast_to(cables.axial_stiffness, cables.length.shape)[:, None]
     across = tension / (1.0 + tension / along)
+    if tightened is not None:
+        across = across * tightened[:, None]
     outer = tangent[..., :, None] * tangent[..., None, :]
     return along[..., None, None] * outer + across[..., None, None] * (np.eye(3) - outer)
 
@@ -149,7 +203,10 @@ def _condense(
     (m, count, _), size = mass.shape, len(components)
     turned = np.swapaxes(freedoms, 1, 2)
     stiffness = turned @ stiffness.reshape(m, count * size, count * size) @ freedoms
-    mass = turned @ np.kron(mass, np.eye(size)) @ freedoms
+    full = np.kron(mass, np.eye(size))
+    mass = turned @ full @ freedoms
+    whole = np.kron(np.r_[np.zeros(count - 2), 1.0, 1.0][:, None], np.eye(size))  # both ramps sum up to one
+    shared = turned @ full @ whole
     inner, end = slice(None, -size), slice(-size, None)
     if springs is not None:
         held = np.arange(stiffness.shape[-1] - size - springs.shape[1], stiffness.shape[-1] - size)
@@ -166,6 +223,9 @@ def _condense(
         (functions @ static).reshape(m, count - 1, size, size),
         end_mass,
         np.swapaxes(modes, 1, 2) @ carried,
+        whole.T @ full @ whole,
+        shared[:, end] + np.swapaxes(static, 1, 2) @ shared[:, inner],
+        np.swapaxes(modes, 1, 2) @ shared[:, inner],
     )
 
 
@@ -182,18 +242,20 @@ def _slow_modes_first(stiffness: np.ndarray, mass: np.ndarray) -> tuple[np.ndarr
     return 1.0 / periods, np.swapaxes(inverse, 1, 2) @ vectors / np.sqrt(periods)[:, None, :]
 
 
-def _end_mass(planes: list[_Plane]) -> np.ndarray:
-    total = np.zeros((len(planes[0].end_mass), 3, 3))
-    for plane in planes:
-        total[np.ix_(range(len(total)), plane.components, plane.components)] = plane.end_mass
+def _end_mass(parts: list[tuple[tuple[int, ...], np.ndarray]]) -> np.ndarray:
+    """(m, 3, 3) from the blocks (m, c, c) of some components each."""
+    total = np.zeros((len(parts[0][1]), 3, 3))
+    for components, part in parts:
+        total[np.ix_(range(len(total)), components, components)] = part
     return total
 
 
-def _coupling(planes: list[_Plane]) -> np.ndarray:
+def _coupling(parts: list[tuple[tuple[int, ...], np.ndarray]]) -> np.ndarray:
+    """(m, p, 3) from those (m, p, c) of the modes in some components each."""
     blocks = []
-    for plane in planes:
-        block = np.zeros((*plane.omega_squared.shape, 3))
-        block[..., plane.components] = plane.coupling
+    for components, part in parts:
+        block = np.zeros((*part.shape[:2], 3))
+        block[..., components] = part
         blocks.append(block)
     return np.concatenate(blocks, axis=1)
 

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import legendre
 
+from cdpr_struct.dynamics.stiff_cable import bending_factor, load_factor, slenderness
+from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 
@@ -21,23 +23,34 @@ _MET = 1e-10
 SAFE = 1.0 + 1e-9  # the bound is met with this margin, so that rounding does not undercut it
 
 
-def fundamental_frequency(cables: CableStates, linear_density: np.ndarray) -> np.ndarray:
+def fundamental_frequency(
+    cables: CableStates, linear_density: np.ndarray, extensions: Extensions | None = None
+) -> np.ndarray:
     """Lowest natural frequency of cables with both ends held.
 
     Parameters
     ----------
     cables : CableStates (..., m), all pulling
     linear_density : (m,) or (..., m) mu [kg/m]
+    extensions : of the robot; bending stiffness and masses at mid-cable act, as on a taut string
 
     Returns
     -------
     (..., m) [rad/s], out of plane or in plane, whichever is lower.
     """
-    return _frequencies(cables, linear_density, True)
+    return _frequencies(cables, linear_density, True) * _extra_factor(cables, linear_density, extensions)
+
+
+def _extra_factor(cables: CableStates, density: np.ndarray, extensions: Extensions | None) -> np.ndarray | float:
+    if extensions is None or not {"bending_stiffness", "added_mass"} & set(extensions.active):
+        return 1.0
+    slender = slenderness(extensions.bending_stiffness, cables.tension, cables.chord)
+    load = load_factor(extensions.added_mass, density * cables.length, 1)
+    return np.asarray(bending_factor(slender, 1) / np.sqrt(load))
 
 
 def chord_tension_at_frequency(
-    problem: HoldingProblem, linear_density: np.ndarray, b: float
+    problem: HoldingProblem, linear_density: np.ndarray, b: float, extensions: Extensions | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Chord tension (k, m) [N] at which the lowest frequency of each cable is b [rad/s], and its platform tension [N].
 
@@ -47,16 +60,24 @@ def chord_tension_at_frequency(
     chord = np.linalg.norm(problem.arms.points - problem.arrays.frame_anchors, axis=-1)
     tau = np.maximum(linear_density * (b * chord / np.pi) ** 2, 2.0 * least)
     for in_plane in (False, True):  # the cheap plane first, then what little the other changes
-        tau = _meet(problem, linear_density, b * SAFE, np.maximum(tau, 2.0 * least), in_plane)
+        tau = _meet(problem, linear_density, b * SAFE, np.maximum(tau, 2.0 * least), in_plane, extensions)
     return tau, problem.model.hold(problem.arrays, problem.arms.points, tau).states.tension_at_platform
 
 
-def _meet(problem: HoldingProblem, density: np.ndarray, b: float, tau: np.ndarray, in_plane: bool) -> np.ndarray:
+def _meet(
+    problem: HoldingProblem,
+    density: np.ndarray,
+    b: float,
+    tau: np.ndarray,
+    in_plane: bool,
+    extensions: Extensions | None,
+) -> np.ndarray:
     shape, least = tau.shape, problem.model.least_chord_tension(problem.arrays, problem.arms.points)
     old, old_ratio = np.zeros(shape), np.ones(shape)
     for _ in range(MAX_ITERATIONS):
         states = problem.model.hold(problem.arrays, problem.arms.points, tau).states
-        ratio = 2.0 * np.log(_frequencies(states, density, in_plane) / b)
+        frequency = _frequencies(states, density, in_plane) * _extra_factor(states, density, extensions)
+        ratio = 2.0 * np.log(frequency / b)
         if (np.abs(ratio) <= _MET).all() or ((ratio >= 0.0) & (tau <= least)).all():
             break
         moved = np.log(tau) - old

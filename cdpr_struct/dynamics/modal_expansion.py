@@ -5,7 +5,7 @@ frequency, so mode shapes are found there too.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -21,6 +21,9 @@ class ModalExpansion:
     end_mass         : (..., m, 3, 3) mass of the static shapes [kg]
     omega_squared    : (..., m, p) of the clamped cable [rad^2/s^2]
     coupling         : (..., m, p, 3) mass coupling of modes and end [kg^(1/2)]
+    rigid_mass       : (..., m, 3, 3) of the cable moved as a whole with its mast [kg]
+    rigid_end        : (..., m, 3, 3) mass coupling of static shapes (rows) and that motion [kg]
+    rigid_modes      : (..., m, p, 3) mass coupling of modes and that motion [kg^(1/2)]
     shapes           : stations (s,) in (0, 1), fractions of the cable from the frame -> static shapes (..., m, s, 3, 3)
                        [motion component, end component] and modes (..., m, p, s, 3) [kg^(-1/2)]
     """
@@ -30,6 +33,9 @@ class ModalExpansion:
     end_mass: np.ndarray
     omega_squared: np.ndarray
     coupling: np.ndarray
+    rigid_mass: np.ndarray
+    rigid_end: np.ndarray
+    rigid_modes: np.ndarray
     shapes: Shapes
 
     def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
@@ -40,13 +46,28 @@ class ModalExpansion:
         omega_squared : broadcasts against (..., m) [rad^2/s^2], may be complex. Exactly at a clamped frequency the
         stiffness is that just below it.
         """
+        return self._dynamic(omega_squared, self.static_stiffness, self.end_mass, (self.coupling, self.coupling))
+
+    def mast_stiffness(self, omega_squared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """What the cables' inertia adds if their masts move too: two (..., m, 3, 3), world axes [N/m].
+
+        Rows: moving ends against their masts (first) and masts (second); columns: masts.
+        """
+        nothing = np.zeros_like(self.static_stiffness)
+        ends = self._dynamic(omega_squared, nothing, self.rigid_end, (self.coupling, self.rigid_modes))
+        own = self._dynamic(omega_squared, nothing, self.rigid_mass, (self.rigid_modes, self.rigid_modes))
+        return ends, own
+
+    def _dynamic(
+        self, omega_squared: np.ndarray, static: np.ndarray, mass: np.ndarray, modal: tuple[np.ndarray, np.ndarray]
+    ) -> np.ndarray:
         squared = np.asarray(omega_squared)[..., None]
         gap = self.omega_squared - squared
         gain = squared**2 / np.where(gap == 0.0, np.finfo(float).eps * self.omega_squared, gap)
-        outer = (self.coupling[..., :, None] * self.coupling[..., None, :]).reshape((*self.omega_squared.shape, 9))
-        modal = (gain[..., None, :] @ outer)[..., 0, :]
-        local = self.static_stiffness - squared[..., None] * self.end_mass - modal.reshape((*modal.shape[:-1], 3, 3))
-        return self.frame @ local @ np.swapaxes(self.frame, -1, -2)
+        outer = (modal[0][..., :, None] * modal[1][..., None, :]).reshape((*self.omega_squared.shape, 9))
+        sums = (gain[..., None, :] @ outer)[..., 0, :]
+        local = static - squared[..., None] * mass - sums.reshape((*sums.shape[:-1], 3, 3))
+        return np.asarray(self.frame @ local @ np.swapaxes(self.frame, -1, -2))
 
     def ascending(self) -> "ModalExpansion":
         """The same expansion with each cable's modes in the order of frequency, which `reduced` needs."""
@@ -60,6 +81,7 @@ class ModalExpansion:
             self,
             omega_squared=np.take_along_axis(self.omega_squared, rank, axis=-1),
             coupling=np.take_along_axis(self.coupling, rank[..., None], axis=-2),
+            rigid_modes=np.take_along_axis(self.rigid_modes, rank[..., None], axis=-2),
             shapes=shapes,
         )
 
@@ -86,6 +108,9 @@ class ModalExpansion:
             self,
             omega_squared=np.concatenate([slow, squared], axis=-1),
             coupling=np.concatenate([self.coupling[..., :keep, :], tail @ self.coupling[..., keep:, :]], axis=-2),
+            rigid_modes=np.concatenate(
+                [self.rigid_modes[..., :keep, :], tail @ self.rigid_modes[..., keep:, :]], axis=-2
+            ),
             shapes=shapes,
         )
 
@@ -99,26 +124,30 @@ class ModalExpansion:
             static, modes = self.shapes(stations)
             return unfold(static), unfold(modes)
 
-        fields = ("frame", "static_stiffness", "end_mass", "omega_squared", "coupling")
-        return ModalExpansion(**{name: unfold(getattr(self, name)) for name in fields}, shapes=shapes)
+        arrays = [f.name for f in fields(self) if f.name != "shapes"]
+        return ModalExpansion(**{name: unfold(getattr(self, name)) for name in arrays}, shapes=shapes)
 
-    def motion(self, stations: np.ndarray, end: np.ndarray, modal: np.ndarray) -> np.ndarray:
+    def motion(self, stations: np.ndarray, end: np.ndarray, modal: np.ndarray, mast: np.ndarray) -> np.ndarray:
         """Motion along the cables, (..., k, m, s, 3), world axes.
 
         Parameters
         ----------
-        end : (..., k, m, 3) displacement of the moving end, local axes
+        end : (..., k, m, 3) displacement of the moving end against the mast, local axes
         modal : (..., k, m, p) modal coordinates
+        mast : (..., k, m, 3) displacement of the mast, local axes
         """
         static, modes = self.shapes(stations)
         local = np.einsum("...mscb,...kmb->...kmsc", static, end, optimize=True)
-        local += np.einsum("...mpsc,...kmp->...kmsc", modes, modal, optimize=True)
+        local += np.einsum("...mpsc,...kmp->...kmsc", modes, modal, optimize=True) + mast[..., None, :]
         return np.einsum("...mac,...kmsc->...kmsa", self.frame, local, optimize=True)
 
-    def kinetic_energy(self, end: np.ndarray, modal: np.ndarray) -> np.ndarray:
+    def kinetic_energy(self, end: np.ndarray, modal: np.ndarray, mast: np.ndarray) -> np.ndarray:
         """(..., k, m) twice the kinetic energy at unit frequency: displacement^T mass displacement of each cable."""
         own = np.einsum("...kma,...mab,...kmb->...km", end, self.end_mass, end, optimize=True)
         cross = np.einsum("...kmp,...mpa,...kma->...km", modal, self.coupling, end, optimize=True)
+        own += np.einsum("...kma,...mab,...kmb->...km", mast, self.rigid_mass, mast, optimize=True)
+        cross += np.einsum("...kma,...mab,...kmb->...km", end, self.rigid_end, mast, optimize=True)
+        cross += np.einsum("...kmp,...mpa,...kma->...km", modal, self.rigid_modes, mast, optimize=True)
         return own + (modal**2).sum(-1) + 2.0 * cross
 
 

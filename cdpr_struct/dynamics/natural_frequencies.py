@@ -1,8 +1,8 @@
 """Every natural frequency of the robot, with a count that proves that none is missing.
 
 Wittrick and Williams: the number of natural frequencies below omega is the number of those of the clamped cables
-plus the number of negative eigenvalues of the platform's dynamic stiffness. Bisection on this count isolates each
-frequency, whatever its multiplicity; a scan for determinant minima cannot.
+plus the number of negative eigenvalues of the platform's dynamic stiffness, and of the masts' if they give way.
+Bisection on this count isolates each frequency, whatever its multiplicity; a scan for determinant minima cannot.
 """
 
 from dataclasses import dataclass
@@ -18,6 +18,8 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     platform_static_stiffness,
 )
 from cdpr_struct.errors import CdprError
+from cdpr_struct.robot.extensions import masts_of
+from cdpr_struct.statics.masts import negative_junctions
 
 _HALVINGS = 52
 _HOPELESS_OMEGA = 1e6
@@ -54,6 +56,11 @@ def count_below(
     stiffness = platform_dynamic_stiffness(point, cables, omega**2, assembly)
     dynamic = stiffness - (omega**2)[..., None] * platform_mass_matrix(point.robot, point.rotation)
     negative = (np.linalg.eigvalsh(dynamic) < 0.0).sum(axis=-1)
+    robot = point.robot
+    if robot.extensions.frame_compliance:
+        compliance = np.asarray(robot.extensions.frame_compliance)
+        ends, masts = cables.stiffness(omega**2), masts_of(robot.frame_anchors)
+        negative = negative + negative_junctions(ends, masts, compliance, cables.mast_stiffness(omega**2))
     return negative + cables.clamped_count(omega).sum(axis=-1)
 
 

@@ -8,6 +8,8 @@ from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, assemble, attachment, platform_mass_matrix
 from cdpr_struct.errors import CdprError
+from cdpr_struct.robot.extensions import masts_of
+from cdpr_struct.statics.masts import carriers
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -16,7 +18,8 @@ class RitzModes:
 
     omega         : (..., k) ascending [rad/s], upper bounds of the model's
     platform      : (..., k, 6) motion of the platform origin and rotation, world axes
-    end           : (..., k, m, 3) motion of the cables' platform ends, local axes of `expansion`
+    end           : (..., k, m, 3) motion of the cables' platform ends against their masts, local axes of `expansion`
+    mast          : (..., k, m, 3) motion of the cables' masts, local axes; zero where masts stand still
     modal         : (..., k, m, p) coordinates of the clamped cables' modes
     platform_mass : (..., 6, 6) world axes;  to_cable : (..., m, 3, 6) platform motion to `end`
     """
@@ -24,6 +27,7 @@ class RitzModes:
     omega: np.ndarray
     platform: np.ndarray
     end: np.ndarray
+    mast: np.ndarray
     modal: np.ndarray
     platform_mass: np.ndarray
     to_cable: np.ndarray
@@ -37,7 +41,7 @@ class RitzModes:
     @property
     def cable_energy(self) -> np.ndarray:
         """(..., k, m) shares of the kinetic energy [-]."""
-        return self.expansion.kinetic_energy(self.end, self.modal)
+        return self.expansion.kinetic_energy(self.end, self.modal, self.mast)
 
     def kinds(self) -> list[str]:
         """At one pose, per mode "platform", "cable i", "cables" or "mixed", by where the kinetic energy sits."""
@@ -45,7 +49,7 @@ class RitzModes:
 
     def cable_motion(self, stations: np.ndarray) -> np.ndarray:
         """(..., k, m, s, 3) motion at fractions (s,) of each cable from the frame, world axes."""
-        return self.expansion.motion(stations, self.end, self.modal)
+        return self.expansion.motion(stations, self.end, self.modal, self.mast)
 
 
 def ritz_modes(
@@ -60,45 +64,73 @@ def ritz_modes(
     ------
     CdprError : the platform's stiffness at rest is not positive, so the equilibrium is unstable.
     """
-    to_cable = np.swapaxes(expansion.frame, -1, -2) @ attachment(point)
+    ends, masts = _with_masts(point)
+    to_cable, to_mast = (np.swapaxes(expansion.frame, -1, -2) @ motion for motion in (ends, masts))
     platform_mass = platform_mass_matrix(point.robot, point.rotation)
-    turn, stretch = _unit_stiffness(point, expansion, assembly)
-    mass = _mass(expansion, to_cable, platform_mass)
-    mass[..., :6, :] = np.swapaxes(turn, -1, -2) @ mass[..., :6, :]
-    mass[..., :, :6] = mass[..., :, :6] @ turn
-    mass[..., 6:, :] *= stretch[..., :, None]
-    mass[..., :, 6:] *= stretch[..., None, :]
+    turn, stretch = _unit_stiffness(point, expansion, ends, assembly)
+    n = ends.shape[-1]
+    mass = _mass(expansion, to_cable, to_mast, platform_mass)
+    mass[..., :n, :] = np.swapaxes(turn, -1, -2) @ mass[..., :n, :]
+    mass[..., :, :n] = mass[..., :, :n] @ turn
+    mass[..., n:, :] *= stretch[..., :, None]
+    mass[..., :, n:] *= stretch[..., None, :]
     periods, vectors = np.linalg.eigh(mass)
     omega = 1.0 / np.sqrt(periods[..., : -count - 1 : -1])
     vectors = vectors[..., : -count - 1 : -1] * omega[..., None, :]
-    platform = np.swapaxes(turn @ vectors[..., :6, :], -1, -2)
-    modal = np.swapaxes(stretch[..., None] * vectors[..., 6:, :], -1, -2)
+    moved = np.swapaxes(turn @ vectors[..., :n, :], -1, -2)
+    modal = np.swapaxes(stretch[..., None] * vectors[..., n:, :], -1, -2)
     modal = modal.reshape((*omega.shape, *expansion.omega_squared.shape[-2:]))
-    end = np.einsum("...mai,...ki->...kma", to_cable, platform)
-    return RitzModes(omega, platform, end, modal, platform_mass, to_cable, expansion)
+    end, mast = (np.einsum("...mai,...ki->...kma", motion, moved) for motion in (to_cable, to_mast))
+    return RitzModes(omega, moved[..., :6], end, mast, modal, platform_mass, to_cable[..., :6], expansion)
+
+
+def _with_masts(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
+    """Motion (..., m, 3, n) of the cable ends against their masts, and of these, per motion of platform and masts."""
+    ends = attachment(point)
+    if not point.robot.extensions.frame_compliance:
+        return ends, np.zeros_like(ends)
+    carried = carriers(masts_of(point.robot.frame_anchors))
+    own = np.einsum("mq,ab->maqb", carried, np.eye(3)).reshape(len(carried), 3, -1)
+    own = np.broadcast_to(own, (*ends.shape[:-1], own.shape[-1]))
+    return np.concatenate([ends, -own], axis=-1), np.concatenate([np.zeros_like(ends), own], axis=-1)
 
 
 def _unit_stiffness(
-    point: OperatingPoint, expansion: ModalExpansion, assembly: Assembly
+    point: OperatingPoint, expansion: ModalExpansion, ends: np.ndarray, assembly: Assembly
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates of unit stiffness: platform motion (..., 6, 6) and modal coordinates (..., m p)."""
-    ends = expansion.frame @ expansion.static_stiffness @ np.swapaxes(expansion.frame, -1, -2)
+    """Coordinates of unit stiffness: motion of platform and masts (..., n, n) and modal coordinates (..., m p)."""
+    cables = expansion.frame @ expansion.static_stiffness @ np.swapaxes(expansion.frame, -1, -2)
+    n = ends.shape[-1]
+    stiffness = assemble(point, np.zeros_like(cables) if n > 6 else cables, assembly)
+    if n > 6:
+        body, stiffness = stiffness, np.einsum("...mai,...mab,...mbj->...ij", ends, cables, ends, optimize=True)
+        stiffness[..., :6, :6] += body
+        stiffness[..., range(6, n), range(6, n)] += 1.0 / point.robot.extensions.frame_compliance
     try:
-        lower = np.linalg.cholesky(assemble(point, ends, assembly))
+        lower = np.linalg.cholesky(stiffness)
     except np.linalg.LinAlgError as error:
         raise CdprError("the equilibrium is unstable: the platform's stiffness has a negative eigenvalue") from error
     squared = expansion.omega_squared
     return np.swapaxes(np.linalg.inv(lower), -1, -2), 1.0 / np.sqrt(squared.reshape((*squared.shape[:-2], -1)))
 
 
-def _mass(expansion: ModalExpansion, to_cable: np.ndarray, platform_mass: np.ndarray) -> np.ndarray:
+def _mass(
+    expansion: ModalExpansion, to_cable: np.ndarray, to_mast: np.ndarray, platform_mass: np.ndarray
+) -> np.ndarray:
     batch, modal_count = expansion.omega_squared.shape[:-2], np.prod(expansion.omega_squared.shape[-2:], dtype=int)
-    mass = np.zeros((*batch, 6 + modal_count, 6 + modal_count))
-    mass[..., np.arange(6, 6 + modal_count), np.arange(6, 6 + modal_count)] = 1.0
-    carried = np.einsum("...mai,...mab,...mbj->...ij", to_cable, expansion.end_mass, to_cable, optimize=True)
-    mass[..., :6, :6] = platform_mass + carried
-    mass[..., 6:, :6] = (expansion.coupling @ to_cable).reshape((*batch, modal_count, 6))
-    mass[..., :6, 6:] = np.swapaxes(mass[..., 6:, :6], -1, -2)
+    n = to_cable.shape[-1]
+    mass = np.zeros((*batch, n + modal_count, n + modal_count))
+    mass[..., np.arange(n, n + modal_count), np.arange(n, n + modal_count)] = 1.0
+    mass[..., :n, :n] = np.einsum("...mai,...mab,...mbj->...ij", to_cable, expansion.end_mass, to_cable, optimize=True)
+    mass[..., :6, :6] += platform_mass
+    modal = expansion.coupling @ to_cable
+    if n > 6:
+        with_ends = np.swapaxes(to_cable, -1, -2) @ expansion.rigid_end @ to_mast
+        own = np.swapaxes(to_mast, -1, -2) @ expansion.rigid_mass @ to_mast
+        mass[..., :n, :n] += (with_ends + np.swapaxes(with_ends, -1, -2) + own).sum(axis=-3)
+        modal = modal + expansion.rigid_modes @ to_mast
+    mass[..., n:, :n] = modal.reshape((*batch, modal_count, n))
+    mass[..., :n, n:] = np.swapaxes(mass[..., n:, :n], -1, -2)
     return mass
 
 

@@ -7,8 +7,11 @@ import numpy as np
 from cdpr_struct.dynamics.cable_dynamics import CableDynamics
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.generated import platform as generated
+from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_response import end_stiffness
+from cdpr_struct.statics.equilibrium import weight_force
+from cdpr_struct.statics.masts import Inertia, behind_masts
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 Assembly = Literal["consistent", "thesis"]
@@ -27,21 +30,29 @@ def platform_mass_matrix(robot: Robot, rotation: np.ndarray) -> np.ndarray:
     )
 
 
-def assemble(point: OperatingPoint, cable_stiffness: np.ndarray, assembly: Assembly = "consistent") -> np.ndarray:
+def assemble(
+    point: OperatingPoint,
+    cable_stiffness: np.ndarray,
+    assembly: Assembly = "consistent",
+    mast_inertia: Inertia | None = None,
+) -> np.ndarray:
     """Platform stiffness from the stiffness of each cable's end.
 
     Parameters
     ----------
     cable_stiffness : (..., m, 3, 3) [N/m], world axes
     assembly : "thesis" is eq. (3.8); "consistent" adds what it leaves out, the work of the static cable forces and
-        of the weight on the second-order motion of the rotating lever arms
+        of the weight on the second-order motion of the rotating lever arms. Masts and a hose belong to both
+    mast_inertia : of the cables, if they vibrate and masts give way
 
     Returns
     -------
     (..., 6, 6), world axes, rotations about the platform origin [N/m, N, N m].
     """
-    matrices = attachment(point)
-    stiffness = np.einsum("...mai,...mab,...mbj->...ij", matrices, cable_stiffness, matrices, optimize=True)
+    compliance = np.asarray(point.robot.extensions.frame_compliance)
+    masts = masts_of(point.robot.frame_anchors)
+    stiffness = behind_masts(cable_stiffness, attachment(point), masts, compliance, mast_inertia)
+    stiffness[..., :3, :3] += point.robot.extensions.hose * np.eye(3)
     if assembly == "thesis":
         return stiffness
     stiffness[..., 3:, 3:] += geometric_stiffness(point)
@@ -57,8 +68,8 @@ def geometric_stiffness(point: OperatingPoint) -> np.ndarray:
     )
     body = point.robot.platform
     center = np.einsum("...ij,j->...i", point.rotation, body.center_of_mass)
-    weight = -body.mass * point.robot.gravity
-    return cables + generated.geometric_stiffness(0.0, 0.0, weight, *(center[..., i] for i in range(3)))
+    weight = weight_force(RobotArrays.of(point.robot))
+    return cables + generated.geometric_stiffness(*weight, *(center[..., i] for i in range(3)))
 
 
 def platform_static_stiffness(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
@@ -73,7 +84,8 @@ def platform_dynamic_stiffness(
 
     omega_squared : broadcasts against (..., m) [rad^2/s^2]; complex for damped cables, see `damped`
     """
-    return assemble(point, cables.stiffness(omega_squared), assembly)
+    inertia = cables.mast_stiffness(omega_squared) if point.robot.extensions.frame_compliance else None
+    return assemble(point, cables.stiffness(omega_squared), assembly, inertia)
 
 
 def _arms(point: OperatingPoint) -> np.ndarray:

@@ -29,7 +29,11 @@ def expand_taut_cables(cables: TautCables, pairs: int) -> ModalExpansion:
         return static, scale[..., None, None] * _clamped_shapes(symmetric, stations)
 
     omega_squared = _omega_squared(cables, symmetric)
-    return ModalExpansion(cables.frame, _static_stiffness(cables), end_mass, omega_squared, coupling, shapes)
+    across = np.diag([0.0, 1.0, 1.0])
+    rigid_end = mass[:, None, None] * np.einsum("msca,s->mac", static, weights) @ across
+    rigid_modes = (mass[:, None] * scale)[..., None] * np.einsum("mpsc,s->mpc", raw, weights)
+    rigid = mass[:, None, None] * across, rigid_end, rigid_modes
+    return ModalExpansion(cables.frame, _static_stiffness(cables), end_mass, omega_squared, coupling, *rigid, shapes)
 
 
 def _static_shapes(cables: TautCables, xi: np.ndarray) -> np.ndarray:

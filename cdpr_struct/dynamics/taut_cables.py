@@ -38,6 +38,9 @@ class TautCables:
 def taut_cables(point: OperatingPoint) -> TautCables:
     """Parameters (2.36)-(2.38) of the cables' closed-form dynamic stiffness.
 
+    Along the chord this model has no inertia, so the change of tension is the same all along the cable and an element
+    in line adds its compliance to that of the cable, L_e / EA.
+
     Raises
     ------
     CdprError : a cable carries no tension along its chord, so it has no small-sag stiffness.
@@ -50,7 +53,7 @@ def taut_cables(point: OperatingPoint) -> TautCables:
     weight = robot.weight_per_length * np.cos(cables.inclination)
     epsilon = cable_dsm.epsilon(cables.chord, cables.tension, weight)
     effective = cable_dsm.effective_length_integral(cables.chord, epsilon)
-    ea = np.broadcast_to(robot.axial_stiffness, epsilon.shape)
+    ea = cables.axial_stiffness / (1.0 + robot.extensions.series_compliance * cables.axial_stiffness / effective)
     return TautCables(
         chord=cables.chord,
         tension=cables.tension,

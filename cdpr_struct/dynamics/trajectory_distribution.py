@@ -105,7 +105,7 @@ def distribute_along(
     problem = bounded_problem(holding, lower_bound, upper_bound, longest, price)
     time = trajectory.time
     distribution = solve_distribution(problem, lambda i: f"at t = {time[i]:.4g} s")
-    frequency = fundamental_frequency(distribution.cables, robot.linear_density)
+    frequency = fundamental_frequency(distribution.cables, robot.linear_density, robot.extensions)
     work = winch_work(time, distribution.cables)
     return TrajectoryDistribution(
         robot, trajectory, rule, b, price, holding.model.name, demand, distribution, frequency, work
@@ -128,7 +128,7 @@ def _fixed(robot: Robot, holding: HoldingProblem, b: float) -> tuple[Floor, np.n
 
 
 def _frequency(robot: Robot, holding: HoldingProblem, b: float) -> tuple[Floor, np.ndarray]:
-    floor = chord_tension_at_frequency(holding, robot.linear_density, b)
+    floor = chord_tension_at_frequency(holding, robot.linear_density, b, robot.extensions)
     return floor, floor[1]
 
 

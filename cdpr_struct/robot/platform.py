@@ -38,6 +38,15 @@ class Platform:
         c = self.center_of_mass
         return Platform(mass, center, self.inertia + reduced * (c @ c * np.eye(3) - np.outer(c, c)))
 
+    def with_masses_at(self, masses: np.ndarray, points: np.ndarray) -> "Platform":
+        """Platform with further point masses (k,) [kg] fixed at points (k, 3) [m] of its frame."""
+        every, places = np.append(self.mass, masses), np.vstack([self.center_of_mass, points])
+        center = every @ places / every.sum()
+        inertia = np.array(self.inertia)
+        for mass, arm in zip(every, places - center, strict=True):
+            inertia = inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        return Platform(float(every.sum()), center, 0.5 * (inertia + inertia.T))
+
     def with_mass(self, mass: float) -> "Platform":
         """Platform of another mass [kg], with the same centre of mass and inertia."""
         return replace(self, mass=mass)

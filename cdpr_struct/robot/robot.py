@@ -6,6 +6,7 @@ import numpy as np
 
 from cdpr_struct.robot.arrays import frozen_array, require_positive
 from cdpr_struct.robot.cable import Cable, Pulley
+from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
 
@@ -19,6 +20,7 @@ class Robot:
     pulleys          : per cable a `Pulley` or None
     gravity          : g [m/s^2], along world -z
     home             : pose that commands use when none is given, or None
+    extensions       : compliance in line, masts, loads, encoders and sensors; neutral if not given
     """
 
     name: str
@@ -30,6 +32,7 @@ class Robot:
     gravity: float = 9.81
     description: str = ""
     home: Pose | None = None
+    extensions: Extensions = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
         require_positive(self, "gravity")
@@ -42,6 +45,11 @@ class Robot:
             object.__setattr__(self, "pulleys", (None,) * m)
         if len(self.pulleys) != m:
             raise ValueError(f"Robot.pulleys must have one entry per cable ({m}), got {len(self.pulleys)}")
+        if self.extensions is None or not self.extensions.active:
+            causes = () if self.extensions is None else self.extensions.causes
+            object.__setattr__(self, "extensions", Extensions.of(m, causes=causes))
+        if len(self.extensions.slip) != m:
+            raise ValueError(f"Robot.extensions must be for {m} cables, got {len(self.extensions.slip)}")
 
     @property
     def axial_stiffness(self) -> np.ndarray:
@@ -67,6 +75,10 @@ class Robot:
         """Robot whose platform has another `mass` [kg] and/or a point load `payload` [kg] at its origin."""
         platform = self.platform if mass is None else self.platform.with_mass(mass)
         return replace(self, platform=platform.with_point_load(payload))
+
+    def without_extensions(self, *names: str) -> "Robot":
+        """Robot whose named extensions are neutral, or all of them if none is named."""
+        return replace(self, extensions=self.extensions.without(*names) if names else Extensions.of(len(self.cables)))
 
 
 def anchors_in_world(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

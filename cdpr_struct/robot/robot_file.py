@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.robot.cable import Cable, Pulley
+from cdpr_struct.robot.extensions import KEYS, Extensions
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
@@ -128,11 +129,12 @@ def _build(table: RobotTable, source: str) -> Robot:
             description=table.description,
             gravity=table.gravity,
             home=home,
-            platform=_platform(table.platform, source),
+            platform=_with_joints(_platform(table.platform, source), table, source),
             cables=cables,
             platform_anchors=np.array([e.platform_anchor for e in table.cables]),
             frame_anchors=np.array([e.frame_anchor for e in table.cables]),
             pulleys=pulleys,
+            extensions=_extensions(table, source),
         )
     except InputError:
         raise
@@ -153,6 +155,53 @@ def _platform(body: PlatformTable, source: str) -> Platform:
         return Platform(body.mass, np.array(body.center_of_mass), np.array(body.inertia))
     except ValueError as error:
         raise InputError(source, "platform.inertia", body.inertia, str(error)) from error
+
+
+def _extensions(table: RobotTable, source: str) -> Extensions:
+    """Extensions of a robot file; every complaint names the key."""
+    given = {name: value for name, value in table.extensions.items() if name not in ("causes", "joint_mass")}
+    causes = table.extensions.get("causes", [])
+    if not isinstance(causes, list) or not all(isinstance(c, str) for c in causes):
+        raise InputError(source, "extensions.causes", causes, "give a list of names in quotes")
+    for name, value in given.items():
+        if name not in KEYS:
+            known = ", ".join(["causes", "joint_mass", *KEYS])
+            raise InputError(source, f"extensions.{name}", value, f"no such key is known here; known: {known}")
+        _check_extension(name, value, len(table.cables), source)
+    return Extensions.of(len(table.cables), given, tuple(causes))
+
+
+def _check_extension(name: str, value: Any, cables: int, source: str) -> None:
+    key = KEYS[name]
+    count = key.entries(cables)
+    single = "one number" if not count else f"{count} numbers in square brackets, or one for all"
+    expected = f"give {single} in {key.unit}"
+    _require_numbers(f"extensions.{name}", value, count, expected, source)
+    try:
+        Extensions.of(cables, {name: value})
+    except ValueError as error:
+        raise InputError(source, f"extensions.{name}", value, str(error)) from error
+
+
+def _require_numbers(field: str, value: Any, count: int, expected: str, source: str) -> None:
+    values = value if isinstance(value, list) else [value]
+    numbers = all(isinstance(v, int | float) and not isinstance(v, bool) and abs(v) <= LARGEST for v in values)
+    if not numbers or (isinstance(value, list) and (not count or len(value) != count)):
+        raise InputError(source, field, value, expected)
+
+
+def _with_joints(platform: Platform, table: RobotTable, source: str) -> Platform:
+    """Joints at the platform anchors become part of the platform."""
+    masses = table.extensions.get("joint_mass", 0.0)
+    count = len(table.cables)
+    expected = f"give one mass in kg, zero or more, or {count} in square brackets"
+    _require_numbers("extensions.joint_mass", masses, count, expected, source)
+    each = np.broadcast_to(np.asarray(masses, dtype=float), (count,))
+    if (each < 0.0).any():
+        raise InputError(source, "extensions.joint_mass", masses, expected)
+    return (
+        platform.with_masses_at(each, np.array([e.platform_anchor for e in table.cables])) if each.any() else platform
+    )
 
 
 def _pulley(entry: CablesEntry, source: str, number: int) -> Pulley | None:

@@ -9,10 +9,11 @@ from typing import Protocol
 
 import numpy as np
 
-from cdpr_struct.statics.cable_response import cable_response
+from cdpr_struct.statics.cable_response import cable_response, let_out
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span
 from cdpr_struct.statics.catenary import CableStatus, solve_end_forces
 from cdpr_struct.statics.catenary_length import force_z_curvature, length_at_chord_tension
+from cdpr_struct.statics.masts import with_settled_masts
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
@@ -46,6 +47,9 @@ class CableModel(Protocol):
     def approach(self) -> "tuple[CableModel, ...]":
         """Models to go through, the last is this one: forward kinematics takes each solution as the next start."""
 
+    def seen(self, arrays: RobotArrays) -> RobotArrays:
+        """The robot as far as this model knows it."""
+
     def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
         """State of cables of unstrained `length` (..., m) [m] that end at `points` (..., m, 3), world [m]."""
 
@@ -64,28 +68,23 @@ class SpringModel:
     def approach(self) -> "tuple[CableModel, ...]":
         return (self,)
 
+    def seen(self, arrays: RobotArrays) -> RobotArrays:
+        return arrays
+
     def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
-        exit_ = _straight(arrays, points)
-        strained = exit_.chord + exit_.wrapped
-        excess = strained - length
-        slack = excess <= 0.0
-        tension = np.where(slack, 0.0, arrays.axial_stiffness * excess / length)
-        wrapped = exit_.wrapped / (1.0 + tension / arrays.axial_stiffness)
-        return _straight_states(arrays, exit_, tension, length - wrapped, wrapped)
+        return with_settled_masts(arrays, lambda moved: _spring(moved, points, length))[0]
 
     def hold(self, arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> HeldCables:
-        exit_ = _straight(arrays, points)
-        stretch = 1.0 + chord_tension / arrays.axial_stiffness
-        states = _straight_states(arrays, exit_, chord_tension, exit_.chord / stretch, exit_.wrapped / stretch)
-        return HeldCables(states, -exit_.offset / exit_.chord[..., None], np.zeros_like(exit_.chord))
+        states, _ = with_settled_masts(arrays, lambda moved: _held_spring(moved, points, chord_tension), locked=False)
+        return HeldCables(states, -states.offset / states.chord[..., None], np.zeros_like(states.chord))
 
     def least_chord_tension(self, arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
         return np.zeros(points.shape[:-1])
 
 
 class IdealModel(SpringModel):
-    """Straight, weightless, inextensible. At given lengths the forces are those of a spring `IDEAL_STIFFENING` times
-    stiffer: its stretch is below a micrometre for the cables of this field."""
+    """Straight, weightless, inextensible, on rigid masts with nothing elastic in line. At given lengths the forces
+    are those of a spring `IDEAL_STIFFENING` times stiffer: its stretch is below a micrometre for such cables."""
 
     name = "ideal"
 
@@ -96,12 +95,15 @@ class IdealModel(SpringModel):
         """Models of growing stiffness that lead here, each the next one's start."""
         return (SpringModel(), *(IdealModel(factor) for factor in (1e1, 1e2, 1e3, 1e4, 1e5)), self)
 
+    def seen(self, arrays: RobotArrays) -> RobotArrays:
+        return arrays.with_rigid_ends()
+
     def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
-        stiff = replace(arrays, axial_stiffness=arrays.axial_stiffness * self.stiffening)
-        return super().states(stiff, points, length)
+        rigid = arrays.with_rigid_ends()
+        return super().states(rigid.stiffened(self.stiffening), points, length)
 
     def hold(self, arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> HeldCables:
-        held = super().hold(arrays, points, chord_tension)
+        held = super().hold(arrays.with_rigid_ends(), points, chord_tension)
         exit_ = _straight(arrays, points)
         states = replace(held.states, length=exit_.chord, wrapped_length=exit_.wrapped)
         stiff = states.axial_stiffness * self.stiffening
@@ -116,26 +118,57 @@ class SaggingModel:
     def approach(self) -> "tuple[CableModel, ...]":
         return (self,)
 
+    def seen(self, arrays: RobotArrays) -> RobotArrays:
+        return arrays
+
     def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
-        offset = points - arrays.frame_anchors
-        if not arrays.has_pulleys:
-            return _catenary(arrays, offset, length, np.zeros_like(length))
-        return _catenary_over_pulley(arrays, offset, length)
+        return with_settled_masts(arrays, lambda moved: _hanging(moved, points, length))[0]
 
     def hold(self, arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> HeldCables:
-        offset = points - arrays.frame_anchors
-        if not arrays.has_pulleys:
-            cable = _catenary_at_tension(arrays, offset, chord_tension, np.zeros(offset.shape[:-1]))
-        else:
-            cable = _held_over_pulley(arrays, offset, chord_tension)
-        states, length_rate = cable
-        response = cable_response(arrays, states)
+        def states_of(moved: RobotArrays) -> CableStates:
+            return _held_hanging(moved, points, chord_tension)[0]
+
+        _, arrays = with_settled_masts(arrays, states_of, locked=False)
+        states, length_rate = _held_hanging(arrays, points, chord_tension)
+        response = cable_response(replace(arrays, series_compliance=np.zeros(1)), states)
         bend = -force_z_curvature(states.span, states.offset[..., 2], chord_tension, states.weight)
         return HeldCables(states, -response.length_rate * length_rate[..., None], bend)
 
     def least_chord_tension(self, arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
         chord = np.linalg.norm(points - arrays.frame_anchors, axis=-1)
         return 0.5 * arrays.weight * chord / SLACKEST_HELD
+
+
+def _spring(arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
+    exit_ = _straight(arrays, points)
+    excess = exit_.chord + exit_.wrapped - length
+    give = length / arrays.axial_stiffness + arrays.series_compliance
+    tension = np.where(excess <= 0.0, 0.0, excess / give)
+    wrapped = exit_.wrapped / (1.0 + tension / arrays.axial_stiffness)
+    passed = let_out(arrays, tension, arrays.axial_stiffness)
+    return _straight_states(arrays, exit_, tension, length - wrapped + passed, wrapped)
+
+
+def _held_spring(arrays: RobotArrays, points: np.ndarray, tension: np.ndarray) -> CableStates:
+    exit_ = _straight(arrays, points)
+    stretch = 1.0 + tension / arrays.axial_stiffness
+    return _straight_states(arrays, exit_, tension, exit_.chord / stretch, exit_.wrapped / stretch)
+
+
+def _hanging(arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
+    offset = points - arrays.frame_anchors
+    if not arrays.has_yielding_frame_ends:
+        zero = np.zeros_like(length)
+        return _catenary(arrays, offset, length, zero, zero)
+    return _catenary_over_pulley(arrays, offset, length)
+
+
+def _held_hanging(arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> tuple[CableStates, np.ndarray]:
+    """State, and rate of the length with the chord tension."""
+    offset = points - arrays.frame_anchors
+    if not arrays.has_pulleys:
+        return _catenary_at_tension(arrays, offset, chord_tension, np.zeros(offset.shape[:-1]))
+    return _held_over_pulley(arrays, offset, chord_tension)
 
 
 MODELS: dict[str, CableModel] = {m.name: m for m in (SaggingModel(), SpringModel(), IdealModel())}
@@ -181,22 +214,27 @@ def _straight_states(
     status = np.where(tension > 0.0, CableStatus.CONVERGED, CableStatus.WEIGHTLESS_SLACK)
     share = tension / exit_.chord
     stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
+    passed = np.broadcast_to(let_out(arrays, tension, stiff), length.shape)
     return CableStates(
         exit_.offset, heading, length, wrapped, share * span, share * exit_.offset[..., 2], stiff,
-        np.zeros_like(length), status,
+        np.zeros_like(length), status, passed,
     )  # fmt: skip
 
 
-def _catenary(arrays: RobotArrays, offset: np.ndarray, length: np.ndarray, wrapped: np.ndarray) -> CableStates:
+def _catenary(
+    arrays: RobotArrays, offset: np.ndarray, length: np.ndarray, wrapped: np.ndarray, passed: np.ndarray
+) -> CableStates:
     heading, span = heading_and_span(offset)
     stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
     weight = np.broadcast_to(arrays.weight, length.shape)
     forces = solve_end_forces(span, offset[..., 2], length, stiff, weight)
-    return CableStates(offset, heading, length, wrapped, forces.force_x, forces.force_z, stiff, weight, forces.status)
+    pull = forces.force_x, forces.force_z
+    return CableStates(offset, heading, length, wrapped, *pull, stiff, weight, forces.status, passed)
 
 
 def _catenary_over_pulley(arrays: RobotArrays, offset: np.ndarray, length: np.ndarray) -> CableStates:
-    """Newton on the tension vector at the exit: its direction places the exit, its size strains the wrapped piece."""
+    """Newton on the tension vector at the frame end: its direction places the exit from the pulley, its size strains
+    the wrapped piece and what is in line behind it."""
     direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
     vector = _leaving(arrays, offset, length, direction, np.zeros(length.shape)).force_at_frame
     for _ in range(_EXIT_ITERATIONS):
@@ -215,8 +253,9 @@ def _leaving(
     """Free catenary of a cable that leaves its pulley in `direction` under `tension`."""
     exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
     wrapped = arrays.pulley_radius * exit_.wrap_angle / (1.0 + tension / arrays.axial_stiffness)
-    free = np.maximum(length - wrapped, 1e-3 * length)
-    return _catenary(arrays, offset - exit_.point, free, wrapped)
+    passed = np.broadcast_to(let_out(arrays, tension, arrays.axial_stiffness), length.shape)
+    free = np.maximum(length - wrapped + passed, 1e-3 * length)
+    return _catenary(arrays, offset - exit_.point, free, wrapped, passed)
 
 
 def _catenary_at_tension(
@@ -231,7 +270,7 @@ def _catenary_at_tension(
     weight = np.broadcast_to(arrays.weight, wrapped.shape)
     states = CableStates(
         offset, heading, cable.length, wrapped, np.where(span > 0.0, cable.force_x, 0.0), cable.force_z, stiff,
-        weight, cable.status,
+        weight, cable.status, np.broadcast_to(let_out(arrays, bottom, stiff), wrapped.shape),
     )  # fmt: skip
     return states, cable.length_rate
 
@@ -249,4 +288,4 @@ def _held_over_pulley(
         direction = states.force_at_frame / states.tension_at_frame[..., None]
         if np.abs(direction - before).max(initial=0.0) <= _EXIT_TOLERANCE:
             break
-    return states, length_rate * states.total_length / states.length  # the wrapped piece stretches alike
+    return states, length_rate * (1.0 + states.wrapped_length / states.length)  # the wrapped piece stretches alike

@@ -1,4 +1,7 @@
-"""How the force of a cable changes when its platform end moves or its length changes, its pulley included."""
+"""How the force of a cable changes when its platform end moves or its length changes.
+
+The pulley at the frame end and what is elastic in line behind it are included.
+"""
 
 from dataclasses import dataclass
 
@@ -26,8 +29,16 @@ class CableResponse:
 
 
 def end_stiffness(arrays: RobotArrays, states: CableStates) -> np.ndarray:
-    """(..., m, 3, 3) stiffness of each cable at its platform end, its pulley included, world [N/m]."""
-    return cable_response(arrays, states).stiffness if arrays.has_pulleys else cable_stiffness(states)
+    """(..., m, 3, 3) stiffness of each cable at its platform end, pulley and what is in line included, world [N/m]."""
+    return cable_response(arrays, states).stiffness if arrays.has_yielding_frame_ends else cable_stiffness(states)
+
+
+def let_out(arrays: RobotArrays, tension: np.ndarray, axial_stiffness: np.ndarray) -> np.ndarray:
+    """(..., m) unstrained length that elements in line let pass the frame end under `tension` (..., m) there [m].
+
+    They stretch by c T; what passes is strained like the cable.
+    """
+    return arrays.series_compliance * tension / (1.0 + tension / axial_stiffness)
 
 
 def cable_response(arrays: RobotArrays, states: CableStates) -> CableResponse:
@@ -35,14 +46,15 @@ def cable_response(arrays: RobotArrays, states: CableStates) -> CableResponse:
 
     Adding cable at the frame end adds it along the tension t there, so the free cable's length rate is
     -K t (1 + T/EA). On a pulley, moving the platform end also turns t, which moves the exit point E and takes cable
-    on or off the wheel: the tension vector at E then solves a 3 x 3 linear system a cable.
+    on or off the wheel: the tension vector at E then solves a 3 x 3 linear system a cable. An element in line lets out
+    cable as the tension grows, which enters that system alike.
     """
     free = cable_stiffness(states)
     tension = np.where(states.slack, 1.0, states.tension_at_frame)
     direction = states.force_at_frame / tension[..., None]
     stretch = 1.0 + states.tension_at_frame / states.axial_stiffness
     free_rate = -stretch[..., None] * np.einsum("...ij,...j->...i", free, direction)
-    if not arrays.has_pulleys:
+    if not arrays.has_yielding_frame_ends:
         return CableResponse(free, free_rate, np.broadcast_to(np.eye(3), free.shape))
     top_rate = free_rate - states.weight[..., None] * _UP
     length_from_tension, matrix = _exit_matrix(arrays, states, free, top_rate, tension)
@@ -65,6 +77,7 @@ def _exit_matrix(
     stretch = (1.0 + states.tension_at_frame / states.axial_stiffness)[..., None]
     winding = -np.einsum("...j,...jk->...k", winds, turn) / stretch
     relaxing = direction * (states.wrapped_length / states.axial_stiffness)[..., None] / stretch
+    relaxing = relaxing + direction * arrays.series_compliance[..., None] / stretch**2
     from_tension = winding + np.where(states.slack[..., None], 0.0, relaxing)
     matrix = np.eye(3) + free @ moves @ turn - top_rate[..., :, None] * from_tension[..., None, :]
     return from_tension, matrix

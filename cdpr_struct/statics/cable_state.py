@@ -19,6 +19,7 @@ class CableStates:
     heading         : (..., m, 3) horizontal unit vector from frame end to platform end, world
     length          : (..., m) unstrained length of the free cable [m]
     wrapped_length  : (..., m) unstrained length on the pulley [m]
+    let_out         : (..., m) unstrained length that elements in line behind the frame end let out by stretching [m]
     force_x, force_z : (..., m) pull on the cable at its platform end, along `heading` and up [N]
     axial_stiffness : (..., m) EA [N]
     weight          : (..., m) w [N/m]; 0 for a straight, weightless cable
@@ -34,6 +35,7 @@ class CableStates:
     axial_stiffness: np.ndarray
     weight: np.ndarray
     status: np.ndarray
+    let_out: np.ndarray
 
     @property
     def force_on_platform(self) -> np.ndarray:
@@ -47,8 +49,8 @@ class CableStates:
 
     @property
     def total_length(self) -> np.ndarray:
-        """(..., m) unstrained length paid out beyond the frame anchor, free and wrapped [m]."""
-        return self.length + self.wrapped_length
+        """(..., m) unstrained length that the winch has paid out beyond the frame anchor [m]."""
+        return self.length + self.wrapped_length - self.let_out
 
     @property
     def tension_at_platform(self) -> np.ndarray:

@@ -7,6 +7,7 @@ import numpy as np
 from cdpr_struct.generated.platform import attachment, geometric_stiffness
 from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.masts import behind_masts
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 
@@ -23,6 +24,11 @@ class PlatformArms:
     arms: np.ndarray
     center: np.ndarray
 
+    @property
+    def position(self) -> np.ndarray:
+        """(..., 3) of the platform origin [m]."""
+        return self.points[..., 0, :] - self.arms[..., 0, :]
+
     @classmethod
     def at(cls, arrays: RobotArrays, position: np.ndarray, rotation: np.ndarray) -> "PlatformArms":
         """Arms at `position` (..., 3) [m] and `rotation` (..., 3, 3), platform to world."""
@@ -32,13 +38,26 @@ class PlatformArms:
 
 
 def weight_wrench(arrays: RobotArrays, arms: PlatformArms) -> np.ndarray:
-    """(..., 6) wrench of the platform's weight about its origin, world axes [N, N m]."""
-    weight = arrays.mass * arrays.gravity
-    wrench = np.zeros((*np.broadcast_shapes(arms.center.shape[:-1], weight.shape), 6))
-    wrench[..., 2] = -weight
-    wrench[..., 3] = -arms.center[..., 1] * weight
-    wrench[..., 4] = arms.center[..., 0] * weight
-    return wrench
+    """(..., 6) wrench of the platform's weight about its origin, world axes [N, N m]; the weight may be tilted."""
+    force = weight_force(arrays)
+    center, force = np.broadcast_arrays(arms.center, force)
+    return np.concatenate([force, np.cross(center, force)], axis=-1)
+
+
+def weight_force(arrays: RobotArrays) -> np.ndarray:
+    """(..., 3) of the platform, world [N]."""
+    size = arrays.mass * arrays.gravity
+    along = np.concatenate([arrays.tilt, np.full((*arrays.tilt.shape[:-1], 1), -1.0)], axis=-1)
+    return size[..., None] * along
+
+
+def load_wrench(arrays: RobotArrays, arms: PlatformArms) -> np.ndarray:
+    """(..., 6) wrench of weight, constant force and hose about the platform origin, world axes [N, N m]."""
+    wrench = weight_wrench(arrays, arms)
+    if not (arrays.hose.any() or arrays.force.any()):
+        return wrench
+    pull = arrays.force + arrays.hose[..., None] * (arrays.hose_center - arms.position)
+    return wrench + np.concatenate([pull, np.zeros_like(pull)], axis=-1)
 
 
 def cable_wrench(states: CableStates, arms: PlatformArms) -> np.ndarray:
@@ -54,18 +73,20 @@ def tangent_stiffness(arrays: RobotArrays, states: CableStates, arms: PlatformAr
     -------
     (..., 6, 6) world axes, rows force [N] and moment [N m] about the platform origin, columns displacement [m] and
     rotation [rad]. Eq. (3.8) with the pulley-aware cable stiffness, plus the geometric terms that (3.8) leaves out:
-    cable force and weight on their rotating lever arms. It is the second derivative of the potential energy along
-    constant twists; `moment_skew` turns it into the derivative of the wrench.
+    cable force and weight on their rotating lever arms; masts and a hose too. It is the second derivative of the
+    potential energy along constant twists; `moment_skew` turns it into the derivative of the wrench.
     """
     map_ = attachment(*np.moveaxis(arms.arms, -1, 0))
     stiff = end_stiffness(arrays, states)
-    m = arrays.cable_count
-    lead = stiff.shape[:-3]
-    stacked, carried = map_.reshape((*map_.shape[:-3], 3 * m, 6)), (stiff @ map_).reshape((*lead, 3 * m, 6))
-    tangent = np.swapaxes(stacked, -1, -2) @ carried
-    weight = arrays.mass * arrays.gravity
-    center = np.moveaxis(arms.center, -1, 0)
-    tangent[..., 3:, 3:] += cable_geometric_stiffness(states, arms) + geometric_stiffness(0.0, 0.0, -weight, *center)
+    if arrays.has_masts:
+        tangent = behind_masts(stiff, map_, arrays.masts, arrays.frame_compliance)
+    else:
+        m, lead = arrays.cable_count, stiff.shape[:-3]
+        stacked, carried = map_.reshape((*map_.shape[:-3], 3 * m, 6)), (stiff @ map_).reshape((*lead, 3 * m, 6))
+        tangent = np.swapaxes(stacked, -1, -2) @ carried
+    weight, center = np.moveaxis(weight_force(arrays), -1, 0), np.moveaxis(arms.center, -1, 0)
+    tangent[..., 3:, 3:] += cable_geometric_stiffness(states, arms) + geometric_stiffness(*weight, *center)
+    tangent[..., :3, :3] += arrays.hose[..., None, None] * np.eye(3)
     return tangent
 
 

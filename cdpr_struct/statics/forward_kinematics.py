@@ -16,12 +16,13 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.energy_descent import EnergyDescent, Evaluation, arm_scale
-from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, tangent_stiffness, weight_wrench
+from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, tangent_stiffness
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 MAX_ITERATIONS = 200
 NEUTRAL = 1e-9  # smallest over largest eigenvalue of the tangent below which an equilibrium counts as neutral
 _TOLERANCE = 1e-11  # of weight plus cable tensions
+_SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
 
 
 class ForwardStatus(IntEnum):
@@ -91,7 +92,7 @@ def forward(
 
     Parameters
     ----------
-    lengths : (..., m) unstrained, from the frame anchors on [m]
+    lengths : (..., m) unstrained, from the frame anchors on, as the encoders say them [m]
     position, rotation : (..., 3) [m], (..., 3, 3), where to start; default below the frame anchors, not rotated
     model : "sagging", "spring" or "ideal"
     external_wrench : (..., 6) on the platform about its origin, world axes, beside its weight [N, N m]
@@ -106,7 +107,7 @@ def forward(
     ValueError : a length that is not positive, or shapes that do not fit.
     """
     arrays = RobotArrays.of(robot, None if mass is None else np.asarray(mass, dtype=float))
-    length = np.asarray(lengths, dtype=float)
+    length = arrays.paid_out(np.asarray(lengths, dtype=float))
     if length.shape[-1:] != (arrays.cable_count,) or not (length > 0.0).all():
         raise ValueError(f"lengths must be (..., {arrays.cable_count}) and > 0, got {length.tolist()!s:.200}")
     wrench = np.zeros(6) if external_wrench is None else np.asarray(external_wrench, dtype=float)
@@ -115,12 +116,30 @@ def forward(
     cores = (length.shape[:-1], wrench.shape[:-1], start.shape[:-1], turn.shape[:-2], arrays.batch_shape)
     shape = np.broadcast_shapes(*cores)
     place, turns = _flat(start, shape, 1), _flat(turn, shape, 2)
-    for station in cable_model(model).approach():
-        balance = _Balance(arrays.flattened(shape), _flat(length, shape, 1), _flat(wrench, shape, 1), station)
+    balance = _Balance(arrays.flattened(shape), _flat(length, shape, 1), _flat(wrench, shape, 1), cable_model(model))
+    entered = balance.arrays
+    for station in balance.model.approach():
+        balance = replace(balance, arrays=station.seen(entered), model=station)
         descent = EnergyDescent(balance, place, turns, arm_scale(arrays))
         descent.run(MAX_ITERATIONS)
         place, turns = descent.position, descent.rotation
+    if balance.arrays.nonlinearity.any():
+        balance, descent = _stiffening(balance, descent, arm_scale(arrays))
     return _solution(descent, balance, descent.leave_saddles(MAX_ITERATIONS), shape)
+
+
+def _stiffening(balance: "_Balance", descent: EnergyDescent, scale: float) -> "tuple[_Balance, EnergyDescent]":
+    """Descents with the stiffness that the cables have at their tension, until it stays."""
+    entered = balance.arrays
+    for _ in range(MAX_ITERATIONS):
+        tension = balance.states(descent.position, descent.rotation).tension_at_platform
+        stiffness, before = entered.stiffness_at(tension), balance.arrays.axial_stiffness
+        if np.abs(stiffness / before - 1.0).max() <= _SAME_STIFFNESS:
+            break
+        balance = replace(balance, arrays=replace(entered, axial_stiffness=stiffness))
+        descent = EnergyDescent(balance, descent.position, descent.rotation, scale)
+        descent.run(MAX_ITERATIONS)
+    return balance, descent
 
 
 def starting_position(arrays: RobotArrays, length: np.ndarray) -> np.ndarray:
@@ -148,7 +167,7 @@ class _Balance:
     def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation:
         arms = PlatformArms.at(self.arrays, position, rotation)
         states = self.model.states(self.arrays, arms.points, self.length)
-        wrench = cable_wrench(states, arms) + weight_wrench(self.arrays, arms) + self.wrench
+        wrench = cable_wrench(states, arms) + load_wrench(self.arrays, arms) + self.wrench
         rounding = 8.0 * np.finfo(float).eps * states.axial_stiffness.sum(axis=-1)
         size = self.arrays.mass * self.arrays.gravity + states.tension_at_platform.sum(axis=-1)
         tangent = tangent_stiffness(self.arrays, states, arms)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.statics.cable_models import CableModel, HeldCables
-from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, weight_wrench
+from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench
 from cdpr_struct.statics.minimum_norm import QuadraticPrograms, solve_programs
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
@@ -47,7 +47,7 @@ class HoldingProblem:
         radius = np.sqrt((arms.arms**2).sum(axis=-1).mean(axis=-1))
         unit = np.ones((len(radius), 6))
         unit[:, 3:] = np.maximum(radius, 1e-3)[:, None]
-        return cls(arrays, model, arms, weight_wrench(arrays, arms) + external_wrench, *bounds, unit)
+        return cls(arrays, model, arms, load_wrench(arrays, arms) + external_wrench, *bounds, unit)
 
     def take(self, index: np.ndarray) -> "HoldingProblem":
         """Some items."""

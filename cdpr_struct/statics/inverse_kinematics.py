@@ -7,7 +7,7 @@ optimum of the chosen cable model, sag included. With as many cables as equation
 the cables cannot balance stays as residual.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 
 import numpy as np
@@ -23,6 +23,8 @@ from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 BALANCED = 1e-8  # residual over load and tensions that counts as balanced
+_SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
+_MOST_STIFFENINGS = 50
 _DIRECTIONS = ("force x", "force y", "force z", "moment x", "moment y", "moment z")
 
 
@@ -39,19 +41,16 @@ class InverseSolution:
     """Lengths and tensions at given poses; leading axes (...) are the batch.
 
     cables             : CableStates (..., m)
+    lengths            : (..., m) unstrained, from the frame anchors on, as the encoders are to say them [m]
     residual_wrench    : (..., 6) what is left unbalanced [N, N m]
     status, iterations : (...); `InverseStatus` values
     """
 
     cables: CableStates
+    lengths: np.ndarray
     residual_wrench: np.ndarray
     status: np.ndarray
     iterations: np.ndarray
-
-    @property
-    def lengths(self) -> np.ndarray:
-        """(..., m) unstrained, from the frame anchors on [m]."""
-        return self.cables.total_length
 
     @property
     def tensions(self) -> np.ndarray:
@@ -107,6 +106,8 @@ def inverse(
     pose, bounds = (flat[0], turns), (flat[2], flat[3])
     problem = HoldingProblem.at(arrays.flattened(shape), cable_model(model), pose, flat[1], bounds)
     solution = _solve(problem)
+    if arrays.nonlinearity.any():
+        problem, solution = _stiffening(problem, solution)
     if not allow_unheld and (solution.status == InverseStatus.NOT_CONVERGED).any():
         left = float(np.abs(solution.residual_wrench).max())
         hint = "Raise the lower bound: the tensions may lie where cable weight and tension balance."
@@ -142,6 +143,18 @@ def unholdable(problem: HoldingProblem, held: np.ndarray, residual: np.ndarray) 
     return UnholdablePoseError(reason + "Move the pose, change the load or the bounds.", cable + 1, amount)
 
 
+def _stiffening(problem: HoldingProblem, solution: InverseSolution) -> tuple[HoldingProblem, InverseSolution]:
+    """Solutions with the stiffness that the cables have at their tension, until it stays."""
+    entered = problem.arrays
+    for _ in range(_MOST_STIFFENINGS):
+        stiffness, before = entered.stiffness_at(solution.tensions), problem.arrays.axial_stiffness
+        if np.abs(stiffness / before - 1.0).max() <= _SAME_STIFFNESS:
+            break
+        problem = replace(problem, arrays=replace(entered, axial_stiffness=stiffness))
+        solution = _solve(problem)
+    return problem, solution
+
+
 def _solve(problem: HoldingProblem) -> InverseSolution:
     tension, iterations, settled = problem.solve()
     states = problem.model.hold(problem.arrays, problem.arms.points, tension).states
@@ -154,7 +167,8 @@ def _solve(problem: HoldingProblem) -> InverseSolution:
     status = np.where(balanced & inside, InverseStatus.HELD, InverseStatus.UNHOLDABLE)
     cut_short = ~settled & ((status == InverseStatus.HELD) | (iterations >= holding_tensions.MAX_ITERATIONS))
     status[cut_short] = InverseStatus.NOT_CONVERGED
-    return InverseSolution(states, residual, status, iterations)
+    lengths = problem.arrays.reading(states.total_length)
+    return InverseSolution(states, lengths, residual, status, iterations)
 
 
 def _bounds(lower: npt.ArrayLike, upper: npt.ArrayLike, m: int) -> tuple[np.ndarray, np.ndarray]:
@@ -176,5 +190,5 @@ def _reshaped(flat: InverseSolution, shape: tuple[int, ...]) -> InverseSolution:
         return value.reshape(shape + value.shape[1:])
 
     cables = CableStates(*(back(getattr(flat.cables, name)) for name in flat.cables.__slots__))
-    rest = ("residual_wrench", "status", "iterations")
+    rest = ("lengths", "residual_wrench", "status", "iterations")
     return InverseSolution(cables, *(back(getattr(flat, name)) for name in rest))

@@ -4,7 +4,7 @@ The lengths come from the ideal inverse model; the pose they lead to, from the s
 minus reference is the global error, spring minus reference the axial part, and the rest is what sag introduces.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -12,8 +12,9 @@ import numpy.typing as npt
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_models import cable_model
-from cdpr_struct.statics.equilibrium import PlatformArms
+from cdpr_struct.statics.equilibrium import PlatformArms, weight_force
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
+from cdpr_struct.statics.masts import pull_on_masts
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 CONTINUATION = (30.0, 4.0)  # times EA: stations between the ideal reference and the spring model
@@ -71,6 +72,8 @@ class PoseError:
 def reference_lengths(robot: Robot | RobotArrays, position: npt.ArrayLike, rotation: npt.ArrayLike) -> np.ndarray:
     """(..., m) cable lengths of the ideal inverse model: straight, inextensible, over the pulleys if there are any [m].
 
+    They are what the controller commands: it knows nothing of encoder errors, compliance in line and masts.
+
     position, rotation : (..., 3) [m], (..., 3, 3) platform to world
     """
     arrays = RobotArrays.of(robot)
@@ -122,11 +125,15 @@ def potential_energy(
     """
     arrays = RobotArrays.of(robot)
     cables = solution.cables
-    strain = (cables.tension_at_platform**2 * cables.total_length / (2.0 * cables.axial_stiffness)).sum(axis=-1)
+    give = cables.total_length / cables.axial_stiffness + arrays.series_compliance
+    strain = 0.5 * (cables.tension_at_platform**2 * give).sum(axis=-1)
+    strain = strain + 0.5 * arrays.frame_compliance * (pull_on_masts(arrays, cables) ** 2).sum(axis=(-1, -2))
+    away = solution.position - arrays.hose_center
+    strain = strain + 0.5 * arrays.hose * (away**2).sum(axis=-1)
     center = PlatformArms.at(arrays, solution.position, solution.rotation).center + solution.position
     force = np.zeros(6) if external_wrench is None else np.asarray(external_wrench, dtype=float)
-    work = np.einsum("...i,...i->...", force[..., :3], solution.position)
-    energy: np.ndarray = strain + arrays.mass * arrays.gravity * center[..., 2] - work
+    work = np.einsum("...i,...i->...", force[..., :3] + arrays.force, solution.position)
+    energy: np.ndarray = strain - np.einsum("...i,...i->...", weight_force(arrays), center) - work
     return energy
 
 
@@ -135,8 +142,7 @@ def _softened(
 ) -> ForwardSolution:
     """Spring equilibrium continuous with the reference pose: cables softened in stations from nearly ideal."""
     for factor in CONTINUATION:
-        stiff = replace(arrays, axial_stiffness=factor * arrays.axial_stiffness)
-        station = forward(stiff, lengths, place, turn, "spring", wrench)
+        station = forward(arrays.stiffened(factor), lengths, place, turn, "spring", wrench)
         place, turn = station.position, station.rotation
     return forward(arrays, lengths, place, turn, "spring", wrench)
 

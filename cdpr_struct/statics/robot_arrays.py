@@ -1,9 +1,10 @@
 """The robot as arrays, any of which may carry batch axes: what batched statics computes with."""
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
+from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import Robot
 
 
@@ -19,6 +20,12 @@ class RobotArrays:
     mass            : (...) [kg]
     center_of_mass  : (..., 3) platform frame [m]
     gravity         : (...) g [m/s^2]
+
+    Extensions (`robot/extensions.py` says what they mean), neutral unless given:
+    series_compliance, length_offset, length_scale : (..., m) [m/N], [m], [-];  frame_compliance : (...) [m/N]
+    masts           : (m, m) 1 where cables share a mast
+    hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  tilt : (..., 2) [rad]
+    nonlinearity    : (...) k with reference_tension (...) [N]
     """
 
     platform_anchors: np.ndarray
@@ -30,13 +37,24 @@ class RobotArrays:
     mass: np.ndarray
     center_of_mass: np.ndarray
     gravity: np.ndarray
+    series_compliance: np.ndarray = field(default_factory=lambda: np.zeros(1))
+    length_offset: np.ndarray = field(default_factory=lambda: np.zeros(1))
+    length_scale: np.ndarray = field(default_factory=lambda: np.ones(1))
+    frame_compliance: np.ndarray = field(default_factory=lambda: np.zeros(()))
+    masts: np.ndarray = field(default_factory=lambda: np.eye(1))
+    hose: np.ndarray = field(default_factory=lambda: np.zeros(()))
+    hose_center: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    force: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    tilt: np.ndarray = field(default_factory=lambda: np.zeros(2))
+    nonlinearity: np.ndarray = field(default_factory=lambda: np.zeros(()))
+    reference_tension: np.ndarray = field(default_factory=lambda: np.ones(()))
 
     @classmethod
     def of(cls, robot: "Robot | RobotArrays", mass: np.ndarray | float | None = None) -> "RobotArrays":
         """Arrays of a robot; `mass` (...) [kg] replaces the platform's."""
         if isinstance(robot, RobotArrays):
             return robot if mass is None else replace(robot, mass=np.asarray(mass, dtype=float))
-        vertical = np.array([0.0, 0.0, 1.0])
+        vertical, more = np.array([0.0, 0.0, 1.0]), robot.extensions
         return cls(
             platform_anchors=robot.platform_anchors,
             frame_anchors=robot.frame_anchors,
@@ -47,6 +65,8 @@ class RobotArrays:
             mass=np.asarray(robot.platform.mass if mass is None else mass, dtype=float),
             center_of_mass=robot.platform.center_of_mass,
             gravity=np.asarray(robot.gravity, dtype=float),
+            masts=masts_of(robot.frame_anchors),
+            **{name: np.asarray(getattr(more, name), dtype=float) for name in EXTENSIONS},
         )
 
     @property
@@ -58,6 +78,43 @@ class RobotArrays:
     def has_pulleys(self) -> bool:
         """Whether any cable runs over a pulley."""
         return bool((self.pulley_radius > 0.0).any())
+
+    @property
+    def has_yielding_frame_ends(self) -> bool:
+        """Whether the length of a free cable depends on its tension, by a pulley or something elastic in line."""
+        return self.has_pulleys or bool(self.series_compliance.any())
+
+    @property
+    def has_masts(self) -> bool:
+        """Whether masts give way."""
+        return bool(self.frame_compliance.any())
+
+    def paid_out(self, reading: np.ndarray) -> np.ndarray:
+        """(..., m) length paid out when encoders say `reading` (..., m), or that is commanded [m]."""
+        return reading * self.length_scale + self.length_offset
+
+    def reading(self, paid_out: np.ndarray) -> np.ndarray:
+        """(..., m) what encoders say at lengths paid out (..., m) [m]."""
+        return (paid_out - self.length_offset) / self.length_scale
+
+    def stiffness_at(self, tension: np.ndarray) -> np.ndarray:
+        """(..., m) EA [N] of cables with tensions (..., m) at the platform [N]: E may change with the tension."""
+        rise = tension / self.reference_tension[..., None] - 1.0
+        return self.axial_stiffness * np.maximum(1.0 + self.nonlinearity[..., None] * rise, _LEAST_MODULUS)
+
+    def with_rigid_ends(self) -> "RobotArrays":
+        """Nothing elastic but the cables themselves, and these alike at all tensions."""
+        rigid = np.zeros(())
+        return replace(self, series_compliance=np.zeros(1), frame_compliance=rigid, nonlinearity=rigid)
+
+    def stiffened(self, factor: float) -> "RobotArrays":
+        """Cables, what is in line with them, and masts all `factor` times stiffer."""
+        return replace(
+            self,
+            axial_stiffness=factor * self.axial_stiffness,
+            series_compliance=self.series_compliance / factor,
+            frame_compliance=self.frame_compliance / factor,
+        )
 
     @property
     def batch_shape(self) -> tuple[int, ...]:
@@ -92,7 +149,20 @@ _CORE_AXES = {
     "mass": 0,
     "center_of_mass": 1,
     "gravity": 0,
+    "series_compliance": 1,
+    "length_offset": 1,
+    "length_scale": 1,
+    "frame_compliance": 0,
+    "masts": 2,
+    "hose": 0,
+    "hose_center": 1,
+    "force": 1,
+    "tilt": 1,
+    "nonlinearity": 0,
+    "reference_tension": 0,
 }
+EXTENSIONS = tuple(name for name in list(_CORE_AXES)[9:] if name != "masts")
+_LEAST_MODULUS = 0.05  # of E as entered: the law is a straight line and would end below zero
 
 
 def _batch(arrays: RobotArrays, name: str) -> tuple[int, ...]:

@@ -9,7 +9,7 @@ from cdpr_struct.generated.platform import attachment
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
-from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, moment_skew, tangent_stiffness, weight_wrench
+from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, moment_skew, tangent_stiffness
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 
@@ -75,7 +75,7 @@ def static_stiffness(
     turn = np.asarray(rotation, dtype=float)
     arms = PlatformArms.at(arrays, np.asarray(position, dtype=float), turn)
     matrix = tangent_stiffness(arrays, cables, arms)
-    moment = (cable_wrench(cables, arms) + weight_wrench(arrays, arms))[..., 3:]
+    moment = (cable_wrench(cables, arms) + load_wrench(arrays, arms))[..., 3:]
     matrix[..., 3:, 3:] += moment_skew(moment)
     axial, sag = _compliance_parts(arrays, cables, arms, matrix)
     return RobotStiffness(matrix, axial, sag, np.broadcast_to(turn, (*matrix.shape[:-2], 3, 3)))

@@ -34,6 +34,7 @@ class TensionDistribution:
     """Tensions at k poses.
 
     cables          : CableStates (k, m)
+    lengths         : (k, m) unstrained, from the frame anchors on, as the encoders are to say them [m]
     lower, upper    : (k, m) bounds on the tension at the platform [N]
     cost            : (k,) what was minimised, in its own unit
     residual_wrench : (k, 6) what is left unbalanced [N, N m]
@@ -44,6 +45,7 @@ class TensionDistribution:
     """
 
     cables: CableStates
+    lengths: np.ndarray
     lower: np.ndarray
     upper: np.ndarray
     cost: np.ndarray
@@ -57,11 +59,6 @@ class TensionDistribution:
     def tensions(self) -> np.ndarray:
         """(k, m) at the platform [N]."""
         return self.cables.tension_at_platform
-
-    @property
-    def lengths(self) -> np.ndarray:
-        """(k, m) unstrained, from the frame anchors on [m]."""
-        return self.cables.total_length
 
     @property
     def at_lower(self) -> np.ndarray:
@@ -232,6 +229,7 @@ def _distribution(problem: DistributionProblem, optimum: Optimum, status: np.nda
     values = np.linalg.svd(tangent.matrix, compute_uv=False)
     return TensionDistribution(
         cables=states,
+        lengths=holding.arrays.reading(states.total_length),
         lower=holding.low,
         upper=holding.high,
         cost=problem.cost.total(states.tension_at_platform, holding.low, holding.high),

@@ -22,9 +22,8 @@ def state(end: np.ndarray, length: float, axial_stiffness: float = AXIAL_STIFFNE
     weight = np.array([DENSITY * GRAVITY])
     forces = solve_end_forces(span, offset[:, 2], np.array([length]), axial_stiffness, weight)
     stiff = np.array([axial_stiffness])
-    return CableStates(
-        offset, heading, np.array([length]), np.zeros(1), forces.force_x, forces.force_z, stiff, weight, forces.status
-    )
+    pull, none = (forces.force_x, forces.force_z), np.zeros(1)
+    return CableStates(offset, heading, np.array([length]), none, *pull, stiff, weight, forces.status, none)
 
 
 def sagging_at(inclination_deg: float, sag_ratio: float) -> tuple[np.ndarray, float]:

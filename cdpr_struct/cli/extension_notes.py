@@ -1,0 +1,82 @@
+"""Which extensions of a robot file act in a command, and which do not and why: nothing is ignored silently."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from cdpr_struct.robot.robot import Robot
+
+_READINGS = "this describes readings, which only diagnose and plan compare"
+_VIBRATION = "this concerns vibration only"
+_NO_BENDING = "this cable model has none; --model exact does"
+_AT_REST = ("inverse", "forward", "pose-error")
+_CABLES_ONLY = ("bending_stiffness", "added_mass")
+_ELASTIC = ("series_compliance", "frame_compliance", "nonlinearity")
+
+
+def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, model: str = "") -> dict[str, Any]:
+    """The result, and what became of the robot's extensions if it has any.
+
+    model : cable model of a vibration command, "" if there is no choice
+    """
+    active = robot.extensions.active
+    if not active:
+        return dict(result)
+    idle = {name: reason for name in active if (reason := _why_idle(name, command, model))}
+    acting = [name for name in active if name not in idle]
+    sentences = [f"Extensions of the robot file that act: {', '.join(acting) or 'none'}."]
+    for reason in dict.fromkeys(idle.values()):
+        names = [name for name in idle if idle[name] == reason]
+        sentences.append(f"No effect here: {', '.join(names)}; {reason}.")
+    sentences += [text for name, text in _particulars(command, model).items() if name in acting]
+    said = {"acting": acting, "idle": idle, "sentences": sentences}
+    return {**result, "extensions": said}
+
+
+def noted(result: Mapping[str, Any], files: Mapping[str, str | bytes]) -> dict[str, str | bytes]:
+    """The files of a result, its report page with the sentences about extensions at the end."""
+    if "extensions" not in result or "report.html" not in files:
+        return dict(files)
+    from html import escape
+
+    page = files["report.html"]
+    text = page.decode("utf-8") if isinstance(page, bytes) else page
+    lines = "".join(f"<p>{escape(sentence)}</p>" for sentence in result["extensions"]["sentences"])
+    section = f"<section><h2>Extensions</h2>{lines}</section>"
+    end = "</main>" if "</main>" in text else "</body>"
+    return {**files, "report.html": text.replace(end, f"{section}{end}", 1)}
+
+
+def _why_idle(name: str, command: str, model: str) -> str:
+    from cdpr_struct.robot.extensions import SENSORS
+
+    if command in ("diagnose", "plan"):
+        return ""
+    if name in SENSORS:
+        return _READINGS
+    if command == "distribute":
+        return "forces are distributed with EA as entered" if name == "nonlinearity" else ""
+    if name not in _CABLES_ONLY:
+        return "inextensible cables on rigid masts know none" if model == "ideal" and name in _ELASTIC else ""
+    if command in _AT_REST:
+        return _VIBRATION
+    if command == "audit":
+        return "the printed limits know nothing of it"
+    if command == "verify":
+        return "the bars of the referee have none, so it is left out on both sides"
+    if model == "fem":
+        return "the bars of the referee have none; --model exact does"
+    return _NO_BENDING if model in ("static", "dsm") else ""
+
+
+def _particulars(command: str, model: str) -> dict[str, str]:
+    """What is to be known about extensions that act."""
+    said = {"tilt": "tilt turns the weight of the platform; that of the cables stays vertical."}
+    if command in ("frf", "transient", "modes", "map", "distribute"):
+        said["added_mass"] = "added_mass takes part in vibration; its weight does not bend the cable."
+    if command == "frf":
+        said["frame_compliance"] = "Points of cables are shaken and watched as if their masts stood still."
+    if command == "pose-error":
+        wrong = "enters the axial part: spring and sagging cables get the same wrong length."
+        said |= {name: f"{name} {wrong}" for name in ("length_offset", "length_scale")}
+    return said

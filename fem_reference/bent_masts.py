@@ -1,0 +1,75 @@
+"""Where do masts stand under the pull of their cables, and how do they soften the robot?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fem_reference.cable_statics import EPS, CableBatch, ChainState, solve_chains
+from fem_reference.surroundings import SurroundingsData
+
+MAX_ITERATIONS = 60
+
+
+@dataclass(frozen=True, eq=False)
+class BentMasts:
+    """Cables in balance with their masts.
+
+    starts : (m, 3) [m], where the cables start;  energy : [J] in the masts;  chains, iterations : of the cables
+    """
+
+    starts: np.ndarray
+    energy: float
+    chains: ChainState
+    iterations: int
+
+
+def bend(
+    batch: CableBatch, anchors: np.ndarray, ends: np.ndarray, around: SurroundingsData, first: np.ndarray | None
+) -> BentMasts:
+    """Newton on the displacement of each mast: what its compliance makes of the pulls it feels is where it stands."""
+    chains, steps = solve_chains(batch, anchors, ends, first)
+    if not around.bending:
+        return BentMasts(anchors, 0.0, chains, steps)
+    moved, energy = np.zeros((len(around.bending), 3)), 0.0
+    for _ in range(MAX_ITERATIONS):
+        pulls = chains.tension_vectors[:, 0] + 0.5 * batch.element_weight
+        rates = np.linalg.inv(chains.flexibility)
+        largest, energy = 0.0, 0.0
+        for number, mast in enumerate(around.bending):
+            carried = list(mast)
+            pull = pulls[carried].sum(axis=0)
+            energy += 0.5 * around.mast_compliance * float(pull @ pull)
+            miss = around.mast_compliance * pull - moved[number]
+            slope = np.eye(3) + around.mast_compliance * rates[carried].sum(axis=0)
+            step = np.linalg.solve(slope, miss)
+            moved[number] += step
+            largest = max(largest, float(np.abs(step).max()))
+        starts = anchors.copy()
+        for number, mast in enumerate(around.bending):
+            starts[list(mast)] += moved[number]
+        chains, more = solve_chains(batch, starts, ends, chains.mid_force)
+        steps += more
+        if largest <= 16.0 * EPS * float(np.abs(anchors).max()):
+            break
+    return BentMasts(starts, energy, chains, steps)
+
+
+def softened(
+    around: SurroundingsData, ends: np.ndarray, starts: np.ndarray, between: np.ndarray, motion: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffness (..., 6, 6) at the platform of cables on masts, and the masts' own (..., 3 k, 3 k) before elimination.
+
+    ends, starts, between : (..., m, 3, 3) [N/m] blocks of the condensed cables: end-end, start-start, start-end
+    motion : (m, 3, 6) of the cable ends per platform motion
+    """
+    platform = np.einsum("mka,...mkl,mlb->...ab", motion, ends, motion, optimize=True)
+    count = 3 * len(around.bending)
+    own = np.zeros((*platform.shape[:-2], count, count), dtype=platform.dtype)
+    coupling = np.zeros((*platform.shape[:-2], count, 6), dtype=platform.dtype)
+    for number, mast in enumerate(around.bending):
+        rows, carried = slice(3 * number, 3 * number + 3), list(mast)
+        own[..., rows, rows] = starts[..., carried, :, :].sum(axis=-3) + np.eye(3) / around.mast_compliance
+        coupling[..., rows, :] = (between[..., carried, :, :] @ motion[carried]).sum(axis=-3)
+    return platform - np.swapaxes(coupling, -1, -2) @ np.linalg.solve(own, coupling), own
