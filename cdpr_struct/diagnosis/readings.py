@@ -36,7 +36,7 @@ class Readings:
 
 
 def exit_turns(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-    """(..., m) right angles by which a cable that comes up from a winch below turns at its exit, straight to the pose."""
+    """(..., m) right angles by which a cable that comes up from a winch below turns at its exit, cables straight."""
     away = position[..., None, :] + robot.platform_anchors @ np.swapaxes(rotation, -1, -2) - robot.frame_anchors
     upward = away[..., 2] / np.linalg.norm(away, axis=-1)
     return np.asarray(np.arccos(upward) / (0.5 * np.pi))

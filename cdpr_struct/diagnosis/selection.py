@@ -98,7 +98,7 @@ def _by_large_steps(ground: Ground, rows: list[Screened]) -> list[Screened]:
             if pattern.basis.shape[1] == 1:
                 theta = _LARGE_STEPS[:, None] * pattern.prior
                 world = row.candidate.cause.apply(ground.world, theta @ pattern.basis.T)
-                white = ground.null.white(residuals(ground.setting, world, ground.readings, small=True).T)
+                white = ground.null.white(residuals(ground.setting, world, ground.readings).T)
                 for part in (np.ones_like(clear), clear):
                     drop = (ground.z[part] ** 2).sum() - (white[part] ** 2).sum(axis=0) - _LARGE_STEPS**2
                     best = max(best, float(np.nan_to_num(drop, nan=-np.inf).max()))

@@ -16,7 +16,7 @@ CREDIBLE = 0.95  # probability that a class holds together
 CONFIRMED = 1.0  # nats that a cause keeps whichever group of states is left out, or it is not named
 UNCONFIRMED = 0.5  # largest probability of a cause that hangs on one group of states
 _LEFT = 3.0  # nats that a law outside the library must add to them
-_PRIOR_OUTSIDE = -2.0  # ln prior of a law outside the library beside that of a cause
+_PRIOR_OUTSIDE = -4.6  # ln prior of the best channel, one in fourteen of one in seven, beside that of no further cause
 _BEYOND = 3.0  # nats by which a law outside the library must beat the chosen causes
 _PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
