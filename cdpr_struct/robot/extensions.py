@@ -43,7 +43,7 @@ KEYS: dict[str, Key] = {
     "added_mass": Key("cables", 0.0, "kg", "at mid-cable, for vibration only", 0.0),
     "cell_gain": Key("cables", 1.0, "1", "load cell reading = cell_gain * tension + cell_bias", above=0.0),
     "cell_bias": Key("cables", 0.0, "N", "see cell_gain"),
-    "friction": Key("cables", 0.0, "1", "load cell reading = tension * exp(friction * last direction * turn at the exit)"),
+    "friction": Key("cables", 0.0, "1", "load cell = tension * exp(friction * last direction * turn at the exit)"),
     "tracker": Key(6, 0.0, "m, rad", "true pose = tracker's pose, turned and shifted by this"),
     "creep": Key(0, 0.0, "1", "share of the elastic strain per decade of time after 1 min"),
     "slip": Key("cables", 0.0, "m/h", "of the winch"),
