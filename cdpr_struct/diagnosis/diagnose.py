@@ -11,18 +11,25 @@ from cdpr_struct.diagnosis.causes.registry import causes_for
 from cdpr_struct.diagnosis.evidence import Candidate, candidates, choices, largest_gains, screen
 from cdpr_struct.diagnosis.handling_screen import best_correction
 from cdpr_struct.diagnosis.heldout import Held, groups_of, left_out, predicted, transfer, weakest
-from cdpr_struct.diagnosis.null_model import NullModel, null_model, null_with_bending
+from cdpr_struct.diagnosis.null_model import (
+    NullModel,
+    likeliest_tolerances,
+    null_model,
+    null_with_bending,
+    relinearised,
+    tolerated,
+)
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.refit import Fit, Ground
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.selection import Selection, select
-from cdpr_struct.diagnosis.setting import make_setting
+from cdpr_struct.diagnosis.setting import anchored, make_setting, with_equilibria
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
 
-FURTHER = 4.0  # nats that each further cause must bring
+FURTHER = 6.0  # nats that each further cause must bring
 NAMED = 5.0  # nats that a named cause must bring
 SIGNIFICANT = 0.04
 ADEQUATE = 1e-3
@@ -159,15 +166,22 @@ def prepare(campaign: Campaign, plan: Budget) -> Prepared:
         raise InputError(campaign.source, "measurement", kinds, "also static states, loaded poses or frequencies")
     setting, near = make_setting(campaign)
     world, readings = World.of(campaign.robot, len(campaign.states.names)), Readings.of(setting.campaign.states)
-    null, extra = null_with_bending(setting, world, readings, plan.draws, SEED)
+    first, extra = null_with_bending(setting, world, readings, plan.draws, SEED)
+    fine = first if near is setting else null_model(near, world, readings, extra)
+    u = likeliest_tolerances(near, fine)
+    likeliest = tolerated(setting, world, u)
+    setting = with_equilibria(setting, likeliest)
+    null, offset = relinearised(setting, world, readings, extra, u)
+    level = null.level
+    if campaign.robot_frequencies.hertz.size:
+        level = relinearised(anchored(near, likeliest), world, readings, extra, u)[0].level
     causes, not_testable = causes_for(setting)
-    library = candidates(setting, world, readings, null, causes)
-    outside = channels(setting, world, readings, null)
-    fine = null if near is setting else null_model(near, world, readings, extra)
+    library = candidates(setting, likeliest, readings, null, causes)
+    outside = channels(setting, likeliest, readings, null)
     for candidate in library:
         if strength(candidate) < 2.0:
             not_testable[candidate.name] = "at its typical size it hides in noise and tolerances"
-    ground = Ground(setting, world, readings, null, library, plan.refits, fine.level, extra)
+    ground = Ground(setting, likeliest, readings, null, library, plan.refits, level, extra, offset, world)
     draws = np.random.default_rng(SEED).standard_normal((len(null.r), _NULL_DRAWS))
     gains = _most(library, outside, draws)
     return Prepared(ground, fine, outside, gains, _significance(ground, outside, gains), not_testable)

@@ -15,7 +15,7 @@ from cdpr_struct.robot.robot import Robot
 def extended_world(found: Diagnosis) -> World:
     """The world with the chosen causes."""
     fit = found.selection.fit
-    return found.ground.world if fit is None else world_with(found.ground.world, fit.choices, fit.theta)
+    return found.ground.entered if fit is None else world_with(found.ground.entered, fit.choices, fit.theta)
 
 
 def extended_robot(found: Diagnosis) -> Robot:

@@ -15,6 +15,7 @@ from cdpr_struct.diagnosis.world import World
 
 STEP = 0.1  # of a sigma
 _WILD = 5.0  # times the median miss
+_FARTHEST = 2.5  # sigmas
 FLOOR = {"EQ": 0.05, "CO": 0.02, "NS": 0.1, "LP": 0.02, "CF": 0.03, "RF": 0.05}  # what the model itself may miss
 
 
@@ -107,9 +108,18 @@ def misread(setting: Setting, readings: Readings, u: np.ndarray) -> Readings:
     )
 
 
-def null_model(setting: Setting, world: World, readings: Readings, extra: np.ndarray | None = None) -> NullModel:
-    """The null linearised at a world and readings; `extra` (n,) is further noise of each residual."""
-    r = residuals(setting, world, readings)
+def null_model(
+    setting: Setting,
+    world: World,
+    readings: Readings,
+    extra: np.ndarray | None = None,
+    offset: np.ndarray | None = None,
+) -> NullModel:
+    """The null linearised at a world and readings.
+
+    extra : (n,) further noise of each residual;  offset : (n,) added to the residuals, see `relinearised`
+    """
+    r = residuals(setting, world, readings) + (0.0 if offset is None else offset)
     base = residuals(setting, world, readings, small=True)
     noise = _reading_columns(setting, world, readings, base)
     t = tolerance_count(setting)
@@ -188,6 +198,28 @@ def null_with_bending(
     extra = np.sqrt((np.minimum(missed, _WILD * np.median(missed, axis=0)) ** 2).mean(axis=0))
     columns = np.concatenate([null.columns, np.diag(extra)], axis=1)
     return NullModel(null.r, columns, np.linalg.cholesky(columns @ columns.T)), extra
+
+
+def likeliest_tolerances(setting: Setting, null: NullModel) -> np.ndarray:
+    """(t,) tolerances that explain the residuals of a null best, in sigmas; none beyond `_FARTHEST`."""
+    noise = reading_count(setting)
+    columns = null.white(null.columns[:, noise : noise + tolerance_count(setting)])
+    likeliest = -columns.T @ null.white(null.r)
+    result: np.ndarray = likeliest * min(1.0, _FARTHEST / max(float(np.abs(likeliest).max()), 1e-9))
+    return result
+
+
+def relinearised(
+    setting: Setting, world: World, readings: Readings, extra: np.ndarray, u: np.ndarray
+) -> tuple[NullModel, np.ndarray]:
+    """The null linearised where tolerances are u, and the offset that keeps its residuals those of u = 0.
+
+    To first order r(0) = r(u) - A u with the columns A at u: what bends on the way from 0 to u no longer counts.
+    """
+    null = null_model(setting, tolerated(setting, world, u), readings, extra)
+    noise = reading_count(setting)
+    offset = -null.columns[:, noise : noise + len(u)] @ u
+    return NullModel(null.r + offset, null.columns, null.lower), offset
 
 
 def drawn_residuals(setting: Setting, world: World, readings: Readings, u: np.ndarray) -> np.ndarray:

@@ -21,9 +21,11 @@ _STEP = 0.02  # of the prior's sigma
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ground:
-    """What hypotheses are judged on: fixed part, world and readings as entered, null and whitened residuals.
+    """What hypotheses are judged on.
 
-    level : minus the log evidence of the null as entered, so that gains compare;  extra : (n,) noise of bending
+    world : as entered but for the likeliest tolerances;  offset : (n,) what these did to the residuals, undone
+    level : minus the log evidence of the null, so that gains compare;  extra : (n,) noise of bending
+    entered : world as entered, where that is not `world`
     """
 
     setting: Setting
@@ -34,6 +36,8 @@ class Ground:
     budget: int
     level: float
     extra: np.ndarray
+    offset: np.ndarray
+    entered: World
 
     @property
     def z(self) -> np.ndarray:
@@ -137,14 +141,14 @@ def settled(ground: Ground, fit: Fit) -> Fit:
         setting = anchored(ground.setting, world)
     except ValueError:  # a body or a cable that cannot exist
         return replace(fit, gain=-np.inf)
-    null = null_model(setting, world, ground.readings, extra=ground.extra)
+    null = null_model(setting, world, ground.readings, ground.extra, ground.offset)
     there = replace(ground, setting=setting, null=null)
     again = refit(there, fit.choices, fit.theta)
     return replace(again, gain=again.gain + fit.spread, spread=fit.spread)
 
 
 def _residuals(ground: Ground, picked: tuple[Choice, ...], theta: np.ndarray) -> np.ndarray:
-    return residuals(ground.setting, world_with(ground.world, picked, theta), ground.readings)
+    return residuals(ground.setting, world_with(ground.world, picked, theta), ground.readings) + ground.offset
 
 
 def _signature(ground: Ground, picked: tuple[Choice, ...], theta: np.ndarray) -> np.ndarray:

@@ -35,6 +35,11 @@ class _Followed:
     matrix: np.ndarray
     rate: np.ndarray
 
+    def some(self, index: np.ndarray) -> "_Followed":
+        """Modes of the given indices."""
+        rows = robot_pitch.Rows(self.rows.state[index], self.rows.omega[index], self.rows.shape[index])
+        return _Followed(rows, self.gap[index], self.matrix[index], self.rate[index])
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ModelModes:
@@ -52,8 +57,11 @@ def model_modes(setting: Setting, world: World, points: dict[int, OperatingPoint
     ------
     InputError : far fewer modes than peaks.
     """
-    modes = _modes_at(setting, points)
-    followed = _followed(setting, world, modes)
+    exact = _modes_at(setting, points)
+    followed = _followed(setting, world, exact)
+    hertz = followed.rows.omega * np.exp(followed.gap) / (2.0 * np.pi)  # with what the exact model has no place for
+    order = np.lexsort((hertz, exact.state))
+    followed, modes = followed.some(order), replace(exact, hertz=hertz).some(order)
     return ModelModes(modes, followed, _covariance(setting, world, followed))
 
 
@@ -110,10 +118,14 @@ def _followed(setting: Setting, world: World, modes: Modes) -> _Followed:
     exact = 2.0 * np.pi * modes.hertz
     rows = robot_pitch.Rows(modes.state, exact, modes.shape)
     readings = Readings.of(setting.campaign.states)
-    gap = np.log(exact / robot_pitch.follow(_dynamics(setting, rigid, readings, modes.state), rows))
+    still = _dynamics(setting, rigid, readings, modes.state)
+    gap = np.log(exact / robot_pitch.follow(still, rows))
     gap = np.where(np.abs(gap) < _MOST_GAP, gap, 0.0)
+    rows = robot_pitch.Rows(modes.state, exact * np.exp(-gap), modes.shape)
     dynamics = _dynamics(setting, world, readings, modes.state)
-    omega = robot_pitch.follow(dynamics, rows, exact * np.exp(-gap))
+    rate = robot_pitch.rate(still, rows.omega**2)
+    moved = robot_pitch.first_order(dynamics, rows, still.matrix(rows.omega**2), rate)
+    omega = robot_pitch.follow(dynamics, rows, rows.omega * np.exp(moved))
     matrix = dynamics.matrix(omega**2)
     scale = np.sqrt(np.abs(np.diagonal(dynamics.mass, axis1=-2, axis2=-1)))
     _, vectors = np.linalg.eigh(matrix / scale[:, :, None] / scale[:, None, :])

@@ -15,8 +15,9 @@ _ADEQUATE = 1e-3
 _LARGE = 150.0  # chi^2 beyond its mean from which small steps do not tell enough
 _LARGE_STEPS = np.array([-2.5, -1.0, 1.0, 2.5])  # prior sigmas
 _SETTLED = 4.0  # nats from the best refit: frequencies are paired again in its own world
+_SETTLED_SHARE = 0.5  # of the best gain: large effects move frequencies past each other, and gains with them
 _HOPELESS = 1.0  # nats at screening below which a further cause is not refitted
-_HOLDS = 0.0  # nats that a further cause keeps whichever group of states is left out
+_HOLDS = 1.0  # nats that a further cause keeps whichever group of states is left out
 _BETTER = 0.5  # nats that make an exchange worth while
 
 
@@ -74,7 +75,8 @@ def _ranked(ground: Ground, accepted: tuple[Choice, ...]) -> list[Fit]:
 
 def _settled(ground: Ground, fits: list[Fit]) -> list[Fit]:
     """The fits, those settled that may be the best: all if none of the near ones explains the data."""
-    near = max(2, sum(fit.gain > fits[0].gain - _SETTLED for fit in fits))
+    margin = max(_SETTLED, _SETTLED_SHARE * fits[0].gain)
+    near = max(2, sum(fit.gain > fits[0].gain - margin for fit in fits))
     first = [settled(ground, fit) for fit in fits[:near]]
     if any(_explains(fit) for fit in first):
         return first + fits[near:]
@@ -98,7 +100,7 @@ def _by_large_steps(ground: Ground, rows: list[Screened]) -> list[Screened]:
             if pattern.basis.shape[1] == 1:
                 theta = _LARGE_STEPS[:, None] * pattern.prior
                 world = row.candidate.cause.apply(ground.world, theta @ pattern.basis.T)
-                white = ground.null.white(residuals(ground.setting, world, ground.readings).T)
+                white = ground.null.white((residuals(ground.setting, world, ground.readings) + ground.offset).T)
                 for part in (np.ones_like(clear), clear):
                     drop = (ground.z[part] ** 2).sum() - (white[part] ** 2).sum(axis=0) - _LARGE_STEPS**2
                     best = max(best, float(np.nan_to_num(drop, nan=-np.inf).max()))

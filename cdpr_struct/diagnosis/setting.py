@@ -50,7 +50,7 @@ def make_setting(campaign: Campaign) -> tuple[Setting, Setting]:
     )  # fmt: skip
     setting = replace(setting, labels=_labels(setting))
     world = World.of(campaign.robot, len(states.names))
-    setting = _with_equilibria(setting, world)
+    setting = with_equilibria(setting, world)
     if campaign.cable_frequencies.hertz.size and setting.known.sagging:
         setting = replace(setting, cable_gap=_cable_gap(setting, world))
     if not campaign.robot_frequencies.hertz.size:
@@ -112,14 +112,14 @@ def _cable_gap(setting: Setting, world: World) -> np.ndarray:
 
 def anchored(setting: Setting, world: World) -> Setting:
     """The same residuals about a given world: its locked poses, and robot frequencies paired with its exact modes."""
-    setting = _with_equilibria(setting, world)
+    setting = with_equilibria(setting, world)
     states = setting.campaign.robot_frequencies.state
     if not states.size:
         return setting
     return with_robot_rows(setting, model_modes(setting, world, _points(setting, world, states)), wary=False)
 
 
-def _with_equilibria(setting: Setting, world: World) -> Setting:
+def with_equilibria(setting: Setting, world: World) -> Setting:
     """First-order changes of locked poses start from their equilibria in this world."""
     if not setting.locked.size or np.any(world.frame_compliance) or np.any(world.nonlinearity):
         return replace(setting, locked_at=None)
