@@ -12,6 +12,8 @@ from cdpr_struct.statics.equilibrium import rotation_from_vector
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 
 _STEP = 1e-4  # [m, rad]
+_REACH = 2e-3  # [m, rad]: so far may the commanded pose be from the measured one
+_MOST_BEND = 3e-4  # [m]: beyond, another cable is at its lower bound there, and the command says little
 _TAUT = 3.0  # times the weight of a cable: below this tension its length says little of its tension
 
 
@@ -19,7 +21,7 @@ _TAUT = 3.0  # times the weight of a cable: below this tension its length says l
 class Commanded:
     """Of each held state (k); zero where lengths were read.
 
-    null_space (k, m, q) : of the structure matrix, orthonormal; zero too where a commanded cable hangs slack
+    null_space (k, m, q) : of the structure matrix, orthonormal; zero too where the command is uncertain
     lengths (k, m) : that the simulation commands [m]
     rate (k, q, q) : change of these along the null space a newton of an internal force alike everywhere [m/N]
     slope (k, q, 6) : change of these along the null space with the pose that is commanded [m/m, m/rad]
@@ -47,12 +49,13 @@ def commanded(campaign: Campaign, held: np.ndarray) -> Commanded:
         reference = reference if reference.any() else null
         solution = _held(campaign, int(i), states.position[i], turn[i])
         found.lengths[k] = solution.lengths
+        slope, bend = _pose_slope(campaign, int(i), states.position[i], turn[i])
         taut = solution.tensions > _TAUT * robot.linear_density * robot.gravity * solution.lengths
-        if taut.all():
+        if taut.all() and np.abs(null.T @ bend).max() < _MOST_BEND:
             left, _, right = np.linalg.svd(null @ null.T @ reference, full_matrices=False)
             found.null_space[k] = null
             found.rate[k] = null.T @ (length_rate(solution.cables)[:, None] * (left @ right)) * np.sqrt(m)
-            found.slope[k] = null.T @ _pose_slope(campaign, int(i), states.position[i], turn[i])
+            found.slope[k] = null.T @ slope
     return found
 
 
@@ -63,12 +66,14 @@ def _held(campaign: Campaign, state: int, position: np.ndarray, rotation: np.nda
     return inverse(robot, position, rotation, model, lower_bound=campaign.lower_bound, allow_unheld=True)
 
 
-def _pose_slope(campaign: Campaign, state: int, position: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-    """(m, 6) change of the commanded lengths with the pose."""
-    steps = _STEP * np.concatenate([np.eye(6), -np.eye(6)])
+def _pose_slope(
+    campaign: Campaign, state: int, position: np.ndarray, rotation: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """(m, 6) change of the commanded lengths with the pose, and by how much (m, 6) it bends within `_REACH`."""
+    steps = np.concatenate([np.zeros((1, 6)), *(s * np.eye(6) for s in (_STEP, -_STEP, _REACH, -_REACH))])
     lengths = _held(campaign, state, position + steps[:, :3], rotation_from_vector(steps[:, 3:]) @ rotation).lengths
-    result: np.ndarray = (lengths[:6] - lengths[6:]).T / (2.0 * _STEP)
-    return result
+    middle, up, down, far, back = lengths[:1], *np.split(lengths[1:], 4)
+    return (up - down).T / (2.0 * _STEP), (far + back - 2.0 * middle).T
 
 
 def null_space(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> np.ndarray:

@@ -35,11 +35,6 @@ class _Followed:
     matrix: np.ndarray
     rate: np.ndarray
 
-    def some(self, index: np.ndarray) -> "_Followed":
-        """Modes of the given indices."""
-        rows = robot_pitch.Rows(self.rows.state[index], self.rows.omega[index], self.rows.shape[index])
-        return _Followed(rows, self.gap[index], self.matrix[index], self.rate[index])
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ModelModes:
@@ -57,11 +52,8 @@ def model_modes(setting: Setting, world: World, points: dict[int, OperatingPoint
     ------
     InputError : far fewer modes than peaks.
     """
-    exact = _modes_at(setting, points)
-    followed = _followed(setting, world, exact)
-    hertz = followed.rows.omega * np.exp(followed.gap) / (2.0 * np.pi)  # with what the exact model has no place for
-    order = np.lexsort((hertz, exact.state))
-    followed, modes = followed.some(order), replace(exact, hertz=hertz).some(order)
+    modes = _modes_at(setting, points)
+    followed = _followed(setting, world, modes)
     return ModelModes(modes, followed, _covariance(setting, world, followed))
 
 
@@ -114,18 +106,13 @@ def _modes(setting: Setting, point: OperatingPoint, state: int, highest: float) 
 
 def _followed(setting: Setting, world: World, modes: Modes) -> _Followed:
     """The modes in the closed form: its own frequency, shape and slope, and how far it is from the exact one."""
-    rigid = replace(world, frame_compliance=0.0 * world.frame_compliance, hose=0.0 * world.hose)
     exact = 2.0 * np.pi * modes.hertz
     rows = robot_pitch.Rows(modes.state, exact, modes.shape)
     readings = Readings.of(setting.campaign.states)
-    still = _dynamics(setting, rigid, readings, modes.state)
-    gap = np.log(exact / robot_pitch.follow(still, rows))
-    gap = np.where(np.abs(gap) < _MOST_GAP, gap, 0.0)
-    rows = robot_pitch.Rows(modes.state, exact * np.exp(-gap), modes.shape)
     dynamics = _dynamics(setting, world, readings, modes.state)
-    rate = robot_pitch.rate(still, rows.omega**2)
-    moved = robot_pitch.first_order(dynamics, rows, still.matrix(rows.omega**2), rate)
-    omega = robot_pitch.follow(dynamics, rows, rows.omega * np.exp(moved))
+    gap = np.log(exact / robot_pitch.follow(dynamics, rows))
+    gap = np.where(np.abs(gap) < _MOST_GAP, gap, 0.0)
+    omega = robot_pitch.follow(dynamics, rows, exact * np.exp(-gap))
     matrix = dynamics.matrix(omega**2)
     scale = np.sqrt(np.abs(np.diagonal(dynamics.mass, axis1=-2, axis2=-1)))
     _, vectors = np.linalg.eigh(matrix / scale[:, :, None] / scale[:, None, :])

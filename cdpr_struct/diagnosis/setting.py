@@ -17,7 +17,7 @@ from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
-from cdpr_struct.robot.extensions import masts_of
+from cdpr_struct.robot.extensions import Extensions, masts_of
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.inverse_kinematics import inverse
@@ -136,6 +136,10 @@ def _points(setting: Setting, world: World, states: np.ndarray) -> dict[int, Ope
     """Operating point of each state."""
     campaign, state = setting.campaign, _conditioned(setting, world)
     robot = robot_of(campaign.robot, world)
+    given = {"frame_compliance": np.maximum(world.frame_compliance, 0.0), "hose": np.maximum(world.hose, 0.0)}
+    if any(np.any(value) for value in given.values()):
+        more = Extensions.of(world.cables, {**given, "hose_center": setting.known.center})
+        robot = replace(robot, extensions=more)
     return {int(i): _point(robot, state, int(i), campaign.states.payload[i]) for i in np.unique(states)}
 
 

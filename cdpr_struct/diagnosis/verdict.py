@@ -12,6 +12,7 @@ from cdpr_struct.diagnosis.refit import Fit
 from cdpr_struct.diagnosis.residuals import KIND_OF_BLOCK, UNITS
 
 LARGEST_CLASS = 4
+TEMPER = 0.7  # of the evidence between causes: the model of noise and tolerances is a model too
 CREDIBLE = 0.95  # probability that a class holds together
 CONFIRMED = 1.0  # nats that a cause keeps whichever group of states is left out, or it is not named
 UNCONFIRMED = 0.5  # largest probability of a cause that hangs on one group of states
@@ -115,7 +116,7 @@ def _class(found: Diagnosis, i: int) -> tuple[str, ...]:
     for rival in found.selection.rivals[i]:
         if rival.names[-1] not in fit.names:
             rivals.setdefault(rival.names[-1], rival.gain)
-    weights = np.exp(np.array([fit.gain, *rivals.values()]) - fit.gain)
+    weights = np.exp(TEMPER * (np.array([fit.gain, *rivals.values()]) - fit.gain))
     held = np.cumsum(weights / weights.sum())
     return (fit.names[i], *(name for name, before in zip(rivals, held[:-1], strict=True) if before < CREDIBLE))
 
@@ -133,8 +134,8 @@ def _probability(found: Diagnosis) -> float:
     classes = [_class(found, i) for i in range(len(fit.names))]
     answer = [gain for names, gain in gains.items() if _within(names, classes)]
     logs = np.array([0.0, beyond, *gains.values()])
-    said = beyond if is_unknown(found) else float(np.logaddexp.reduce(answer))
-    share = float(np.exp(said - np.logaddexp.reduce(logs)))
+    said = TEMPER * beyond if is_unknown(found) else float(np.logaddexp.reduce(TEMPER * np.array(answer)))
+    share = float(np.exp(said - np.logaddexp.reduce(TEMPER * logs)))
     if is_unknown(found) and found.p_adequate < ADEQUATE:
         share = max(share, 0.9)
     return float(np.round(min(share, 0.99 if is_unknown(found) or _confirmed(found) else UNCONFIRMED), 2))
