@@ -1,4 +1,4 @@
-"""Modes of a free decay: every channel is a sum of the same damped sines about a rest that need not be zero.
+"""Modes of a free decay: every channel is a sum of the same damped sines about a rest that may drift.
 
 Starting poles come from the eigensystem realisation of one Hankel matrix (Juang and Pappa 1985) at every model order;
 each order is then fitted by least squares, and the order is that of the smallest Bayesian information criterion. The
@@ -9,6 +9,7 @@ not be white, but what is not noise (an amplitude-dependent frequency) must be s
 import numpy as np
 
 from cdpr_struct.measurement.modal_estimate import Modes, modes_from_poles
+from cdpr_struct.measurement.peak_kinds import shadows
 from cdpr_struct.measurement.separable_fit import SeparableFit, separable_fit
 
 MOST_MODES = 10
@@ -18,6 +19,7 @@ _PEAK = 30.0  # times the median of the spectrum: above it there is a vibration
 _PATIENCE = 2  # orders without improvement after which the search ends
 _NEIGHBOURS = 12  # spectral bins on either side of a mode that tell the noise there
 _LEAST_STRENGTH = 6.0
+_DRIFT = 2  # degree of the rest in time
 
 
 def decay_modes(time: np.ndarray, signal: np.ndarray, most: int = MOST_MODES) -> Modes:
@@ -42,10 +44,13 @@ def decay_modes(time: np.ndarray, signal: np.ndarray, most: int = MOST_MODES) ->
     if best is None:
         return _none(signal.shape[1])
     noise = np.maximum(best.residual.std(axis=0) / weight[0], 1e-9 * spread[alive])
-    for _ in range(2):
-        best = separable_fit(_decays(clock), target, 1.0 / noise[None], best.poles)
+    poles = best.poles
+    for _ in range(3):
+        best = separable_fit(_Decays(clock), target, 1.0 / noise[None], poles)
         noise = np.maximum(noise * best.residual.std(axis=0), 1e-9 * spread[alive])
-    return _clear(_estimates(clock, best, noise, alive), 1.0 / clock[-1])
+        found = _estimates(clock, best, noise, alive)
+        poles = found.poles[~shadows(found)]
+    return _clear(found, 1.0 / clock[-1])
 
 
 def refine(time: np.ndarray, signal: np.ndarray, start: np.ndarray) -> Modes:
@@ -55,29 +60,26 @@ def refine(time: np.ndarray, signal: np.ndarray, start: np.ndarray) -> Modes:
     alive = spread > 1e-12 * max(float(spread.max()), 1e-300)
     noise = spread[alive]
     for _ in range(3):
-        fit = separable_fit(_decays(clock), signal[:, alive], 1.0 / noise[None], start)
+        fit = separable_fit(_Decays(clock), signal[:, alive], 1.0 / noise[None], start)
         noise = np.maximum(noise * fit.residual.std(axis=0), 1e-9 * spread[alive])
     return _estimates(clock, fit, noise, alive)
 
 
-def _decays(clock: np.ndarray) -> "_Decays":
-    return _Decays(clock)
-
-
 class _Decays:
-    """Columns of damped sines and a constant."""
+    """Columns of damped sines, and of a rest that may drift (a parabola)."""
 
     def __init__(self, clock: np.ndarray) -> None:
         self.clock = clock
+        self.rest = np.polynomial.legendre.legvander(2.0 * clock / clock[-1] - 1.0, _DRIFT)
 
     def __call__(self, poles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         n, k = len(self.clock), len(poles)
         grown = np.clip(poles.real[None] * self.clock[:, None], None, 50.0)
         wave = np.exp(grown + 1j * poles.imag[None] * self.clock[:, None])
         slope = wave * self.clock[:, None]
-        columns = np.ones((n, 2 * k + 1))
+        columns = np.concatenate([np.zeros((n, 2 * k)), self.rest], axis=1)
         columns[:, 0 : 2 * k : 2], columns[:, 1 : 2 * k : 2] = wave.real, -wave.imag
-        slopes = np.zeros((2 * k, n, 2 * k + 1))
+        slopes = np.zeros((2 * k, n, columns.shape[1]))
         for i in range(k):
             slopes[2 * i, :, 2 * i], slopes[2 * i, :, 2 * i + 1] = slope[:, i].real, -slope[:, i].imag
             slopes[2 * i + 1, :, 2 * i], slopes[2 * i + 1, :, 2 * i + 1] = -slope[:, i].imag, -slope[:, i].real
@@ -92,9 +94,12 @@ def _best_order(clock: np.ndarray, signal: np.ndarray, weight: np.ndarray, most:
     best, waited = None, 0
     for order in range(1, most + 1):
         start = _realised(vectors, few.shape[1], order, float(short[1] - short[0]))
+        start = start[_plausible(start, short)]
         if not len(start):
             continue
-        fit = separable_fit(basis, few, weight, start)
+        fit = _physical_fit(basis, few, weight, start)
+        if fit is None:
+            continue
         if best is None or fit.criterion() < best.criterion() - 2.0:
             best, waited = fit, 0
         else:
@@ -102,6 +107,29 @@ def _best_order(clock: np.ndarray, signal: np.ndarray, weight: np.ndarray, most:
             if waited > _PATIENCE:
                 break
     return best
+
+
+def _physical_fit(
+    basis: _Decays, signal: np.ndarray, weight: np.ndarray, start: np.ndarray
+) -> SeparableFit | None:
+    """The fit after poles that grow, hardly swing, or are slower than a period in the record were left out."""
+    for _ in range(len(start)):
+        fit = separable_fit(basis, signal, weight, start)
+        good = _plausible(fit.poles, basis.clock)
+        if good.all():
+            return fit
+        start = fit.poles[good]
+        if not len(start):
+            return None
+    return None
+
+
+def _plausible(poles: np.ndarray, clock: np.ndarray) -> np.ndarray:
+    ratio = -poles.real / np.abs(poles)
+    period, step = clock[-1], clock[1] - clock[0]
+    fast = poles.imag > 2.0 * np.pi / period
+    good: np.ndarray = (np.abs(poles.real) * period < 50.0) & (ratio > -0.005) & (ratio < 1.5 * LARGEST_DAMPING)
+    return good & fast & (poles.imag < 0.95 * np.pi / step)
 
 
 def _thinning(clock: np.ndarray, signal: np.ndarray) -> int:
@@ -136,10 +164,8 @@ def _realised(vectors: np.ndarray, channels: int, order: int, step: float) -> np
     basis = vectors[:, : 2 * order]
     transition = np.linalg.lstsq(basis[:-channels], basis[channels:], rcond=None)[0]
     discrete = np.linalg.eigvals(transition)
-    poles = np.log(discrete[np.abs(discrete) > 1e-6].astype(complex)) / step
-    swings = (poles.imag > 0.0) & (np.abs(poles.real) < 0.5 * np.abs(poles)) & (poles.imag < 0.95 * np.pi / step)
-    found: np.ndarray = poles[swings]
-    return found
+    poles: np.ndarray = np.log(discrete[np.abs(discrete) > 1e-6].astype(complex)) / step
+    return poles
 
 
 def _estimates(clock: np.ndarray, fit: SeparableFit, noise: np.ndarray, alive: np.ndarray) -> Modes:
