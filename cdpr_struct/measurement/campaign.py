@@ -1,10 +1,14 @@
 """What was measured on a robot: states, readings, how sure they are, and the simulation they are held against."""
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cdpr_struct.robot.robot import Robot
+
+if TYPE_CHECKING:
+    from cdpr_struct.measurement.identified import Identified
 
 KINDS = (
     "static_state", "loaded_pose", "cable_frequency", "robot_frequency", "frf", "free_decay", "platform_motion",
@@ -135,6 +139,7 @@ class Campaign:
 
     model : static, dsm, exact or spring
     stated : names of the tolerances that the file gives; the others are defaults
+    identified : modes found in the signals of `series`; those used are among `robot_frequencies`
     """
 
     source: str
@@ -147,6 +152,7 @@ class Campaign:
     cable_frequencies: CableFrequencies
     robot_frequencies: RobotFrequencies
     series: tuple[Series, ...] = ()
+    identified: tuple["Identified", ...] = ()
     assembly: str = "consistent"
     tension_distribution: str = "minimum_norm"
     lower_bound: float = 0.0

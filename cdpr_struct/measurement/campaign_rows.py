@@ -68,6 +68,8 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
     words = {str(c): [str(v).strip() for v in table[c]] for c in table.columns if c in _WORDS}
     rows = Rows(kind, str(path), numbers, words)
     _check_values(rows, cables)
+    if "case" not in words and kind == "platform_motion":
+        words["case"] = [path.stem] * len(table)
     if "case" not in words:
         words["case"] = _cases_from_poses(rows)
     return rows

@@ -44,12 +44,11 @@ def decay_modes(time: np.ndarray, signal: np.ndarray, most: int = MOST_MODES) ->
     if best is None:
         return _none(signal.shape[1])
     noise = np.maximum(best.residual.std(axis=0) / weight[0], 1e-9 * spread[alive])
-    poles = best.poles
-    for _ in range(3):
-        best = separable_fit(_Decays(clock), target, 1.0 / noise[None], poles)
+    for _ in range(2):
+        best = separable_fit(_Decays(clock), target, 1.0 / noise[None], best.poles)
         noise = np.maximum(noise * best.residual.std(axis=0), 1e-9 * spread[alive])
-        found = _estimates(clock, best, noise, alive)
-        poles = found.poles[~shadows(found)]
+    found = _estimates(clock, best, noise, alive)
+    found = found.take(np.flatnonzero(~shadows(found)))
     return _clear(found, 1.0 / clock[-1])
 
 
@@ -112,10 +111,15 @@ def _best_order(clock: np.ndarray, signal: np.ndarray, weight: np.ndarray, most:
 def _physical_fit(
     basis: _Decays, signal: np.ndarray, weight: np.ndarray, start: np.ndarray
 ) -> SeparableFit | None:
-    """The fit after poles that grow, hardly swing, or are slower than a period in the record were left out."""
+    """The fit after poles that grow, hardly swing, are slower than a period, or double another were left out."""
     for _ in range(len(start)):
         fit = separable_fit(basis, signal, weight, start)
         good = _plausible(fit.poles, basis.clock)
+        if good.all():
+            spread = np.maximum(fit.residual.std(axis=0) / weight[0], 1e-9 / weight[0])
+            found = _estimates(basis.clock, fit, spread, np.ones(signal.shape[1], dtype=bool))
+            doubled = found.poles[shadows(found)]
+            good = np.abs(fit.poles[:, None] - doubled).min(axis=1, initial=np.inf) > 1e-9 * np.abs(fit.poles)
         if good.all():
             return fit
         start = fit.poles[good]

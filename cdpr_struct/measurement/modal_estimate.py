@@ -35,8 +35,10 @@ class Modes:
 
     def take(self, index: np.ndarray) -> "Modes":
         """Some of the modes."""
-        each = (getattr(self, name)[index] for name in self.__slots__ if name != "noise")
-        return Modes(*each, self.noise)
+        return Modes(
+            self.hertz[index], self.hertz_sigma[index], self.damping[index], self.damping_sigma[index],
+            self.shape[index], self.strength[index], self.noise,
+        )  # fmt: skip
 
 
 def modes_from_poles(

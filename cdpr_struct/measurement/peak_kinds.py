@@ -1,4 +1,4 @@
-"""Which peaks of a free vibration are modes of their own, and which come from others because the motion is not small."""
+"""Which peaks of a free vibration are modes of their own, and which others make because the motion is not small."""
 
 import numpy as np
 
@@ -59,5 +59,4 @@ def _tones(parents: np.ndarray) -> np.ndarray:
     pairs = np.concatenate([(parents[:, None] + parents).ravel(), np.abs(parents[:, None] - parents).ravel()])
     triple = np.abs(2.0 * parents[:, None] - parents).ravel()
     own = np.isclose(triple[:, None], parents[None], rtol=1e-12).any(axis=1)
-    tones = np.concatenate([pairs[pairs > 0.0], triple[~own], 3.0 * parents])
-    return tones
+    return np.concatenate([pairs[pairs > 0.0], triple[~own], 3.0 * parents])

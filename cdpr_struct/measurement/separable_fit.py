@@ -78,7 +78,7 @@ def separable_fit(basis: Basis, signal: np.ndarray, weight: np.ndarray, start: n
 
     first = np.stack([start.real, start.imag], axis=1).ravel() / scale
     with np.errstate(over="ignore"):
-        found = least_squares(rest, first, jac=slope, method="lm", max_nfev=_EVALUATIONS)  # type: ignore[arg-type]
+        found = least_squares(rest, first, jac=slope, method="lm", max_nfev=_EVALUATIONS)
         done = parts(found.x)
     information = sum(np.einsum("pcn,qcn->pq", p[1], p[1]) for p in done)
     linear = np.concatenate([p[2] for p in done], axis=1)
