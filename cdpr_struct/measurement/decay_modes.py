@@ -108,9 +108,7 @@ def _best_order(clock: np.ndarray, signal: np.ndarray, weight: np.ndarray, most:
     return best
 
 
-def _physical_fit(
-    basis: _Decays, signal: np.ndarray, weight: np.ndarray, start: np.ndarray
-) -> SeparableFit | None:
+def _physical_fit(basis: _Decays, signal: np.ndarray, weight: np.ndarray, start: np.ndarray) -> SeparableFit | None:
     """The fit after poles that grow, hardly swing, are slower than a period, or double another were left out."""
     for _ in range(len(start)):
         fit = separable_fit(basis, signal, weight, start)

@@ -92,9 +92,7 @@ def _poles(parts: np.ndarray) -> np.ndarray:
     return parts[0::2] + 1j * np.abs(parts[1::2])
 
 
-def _project(
-    columns: np.ndarray, slopes: np.ndarray, target: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _project(columns: np.ndarray, slopes: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Residual (n, c), its slopes (2k, c, n) and the coefficients (q, c)."""
     q, r = np.linalg.qr(columns)
     inside = q.T @ target

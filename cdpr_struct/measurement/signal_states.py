@@ -102,7 +102,7 @@ def partners(modes: Modes, state: StateModes, record: SignalRecord) -> np.ndarra
     """(k,) the model's mode for each identified one, by frequency, shape and visibility; -1 where none is near."""
     far = (np.log(modes.hertz)[:, None] - np.log(state.hertz)[None]) / _SPREAD
     shapes = model_shapes(state, record)
-    unlike = np.array([[1.0 - assurance(s, p) for p in shapes] for s in modes.shape * _weight(state, record)])
+    unlike = np.array([[1.0 - assurance(s, p) for p in shapes] for s in modes.shape * channel_weight(state, record)])
     cost = far**2 + 4.0 * unlike + 6.0 * (1.0 - state.modes.platform_energy)[None]
     alone = np.full((len(modes), len(modes)), _NO_PARTNER)
     rows, columns = linear_sum_assignment(np.concatenate([cost, alone], axis=1))
@@ -117,7 +117,7 @@ def model_shapes(state: StateModes, record: SignalRecord) -> np.ndarray:
     if record.kind == "free_decay":
         return platform[:, :3]
     if record.kind == "platform_motion":
-        return platform * _weight(state, record)
+        return platform * channel_weight(state, record)
     columns = []
     for name in record.channels:
         respond, excite = (_direction(part) for part in name.split("/", 1))
@@ -127,15 +127,15 @@ def model_shapes(state: StateModes, record: SignalRecord) -> np.ndarray:
 
 def _direction(name: str) -> np.ndarray:
     """(6,) unit platform motion that a channel's name means: x .. rz, fx .. mz; zeros for any other."""
-    text = name.strip().lower()
+    sign, text = (-1.0 if name.strip().startswith("-") else 1.0), name.strip().lower().removeprefix("-")
     text = "r" + text[1:] if text.startswith("m") else text.removeprefix("f")
     found = np.zeros(6)
     if text in MOTION:
-        found[MOTION.index(text)] = 1.0
+        found[MOTION.index(text)] = sign
     return found
 
 
-def _weight(state: StateModes, record: SignalRecord) -> np.ndarray:
+def channel_weight(state: StateModes, record: SignalRecord) -> np.ndarray:
     """(c,) factors that make channels comparable: turns count by what they do at the radius of the anchors."""
     if record.kind != "platform_motion":
         return np.ones(len(record.channels))

@@ -20,10 +20,14 @@ _MARGIN, _MOST = 1.35, 60
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StateModes:
-    """The robot at rest in a measured state, and its modes up to beyond the highest frequency of interest."""
+    """The robot at rest in a measured state, and its modes up to beyond the highest frequency of interest.
+
+    first_frequency : (m,) of the clamped cables [rad/s], infinite without mass
+    """
 
     point: OperatingPoint
     modes: RitzModes
+    first_frequency: np.ndarray
 
     @property
     def hertz(self) -> np.ndarray:
@@ -55,4 +59,5 @@ def state_modes(
     count = 6 if name == "static" else int(count_below(point, cables, np.array([omega]), "consistent")[0])
     if count == 0:
         raise CdprError(f"the model has no mode below {highest * _MARGIN:.3g} Hz at this state")
-    return StateModes(point, ritz_modes(point, cables.expansion(omega), min(count, _MOST), "consistent"))
+    modes = ritz_modes(point, cables.expansion(omega), min(count, _MOST), "consistent")
+    return StateModes(point, modes, cables.first_frequency)
