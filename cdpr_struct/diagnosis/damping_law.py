@@ -6,7 +6,6 @@ entered law is uncertain by its tolerance; shapes and shares of the model by a s
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 from scipy.stats import chi2
@@ -15,7 +14,7 @@ from cdpr_struct.diagnosis.damping_rows import DampingRows
 
 NAMED, SAME_CLASS, ADEQUATE = 5.0, 3.0, 1e-3
 MODEL_SHARE = 0.15  # of a mode's damping: how well the model knows its energies and angles
-_POINTS, _DECADES = 81, 4.0  # of the prior, level in the logarithm of the size
+_POINTS, _DECADES = {1: 4001, 2: 601}, 4.0  # of the prior, level in the logarithm of the size
 _LARGEST = 0.3  # damping ratio of the largest size considered
 UNITS = {"damping_ratio_factor": "", "stiffness_time": "s", "loss_factor": "", "friction_moment": "N m"}
 _LAWS = (
@@ -53,8 +52,8 @@ def damping_finding(rows: DampingRows, tolerance: float) -> DampingFinding:
     if len(rows) < 2:
         return DampingFinding("not testable", (), (), rows, "needs free decays or FRFs with two clear modes or windows")
     covariance = _covariance(rows, tolerance)
-    null, p_null = _likelihood(rows, covariance, np.zeros((1, len(rows))))[0], _tail(rows, covariance, rows.entered)
-    fits = sorted((_fit(rows, covariance, laws, null) for laws in _hypotheses(rows)), key=lambda f: -f.gain)
+    p_null = _tail(rows, covariance, rows.entered)
+    fits = sorted((_fit(rows, covariance, laws) for laws in _hypotheses(rows)), key=lambda f: -f.gain)
     best = fits[0]
     if best.gain < NAMED:
         status = "adequate" if p_null >= ADEQUATE else "unknown"
@@ -76,20 +75,21 @@ def _hypotheses(rows: DampingRows) -> list[list[int]]:
 
 
 def _covariance(rows: DampingRows, tolerance: float) -> np.ndarray:
-    """(n, n) of the damping ratios: noise, the entered law, and the model's shares, the same in a mode's windows."""
+    """(n, n) of the damping ratios: noise, the entered law, and the model's shares (a mode's windows share them)."""
     same = rows.mode[:, None] == rows.mode[None]
-    mean = np.array([rows.ratio[rows.mode == m].mean() for m in rows.mode])
-    share = (MODEL_SHARE * np.abs(mean))[:, None] * (MODEL_SHARE * np.abs(mean))[None] * same
+    size = MODEL_SHARE * np.abs(rows.ratio)
+    share = size[:, None] * size[None] * same
     entered = tolerance * rows.entered
     covariance: np.ndarray = np.diag(rows.sigma**2) + share + entered[:, None] * entered[None]
     return covariance
 
 
-def _likelihood(rows: DampingRows, covariance: np.ndarray, added: np.ndarray) -> np.ndarray:
-    """(h,) log likelihood of damping `added` (h, n) to the entered one."""
+def _likelihood(rows: DampingRows, covariance: np.ndarray, sizes: np.ndarray, signature: np.ndarray) -> np.ndarray:
+    """(h,) log likelihood, against the entered law, of sizes (h, l) of laws with signatures (l, n)."""
     lower = np.linalg.cholesky(covariance)
-    z = np.linalg.solve(lower, (rows.ratio - rows.entered - added).T)
-    result: np.ndarray = -0.5 * (z**2).sum(axis=0)
+    z, law = (np.linalg.solve(lower, x.T) for x in (rows.ratio - rows.entered, signature))
+    pull, curve = law.T @ z, law.T @ law
+    result: np.ndarray = sizes @ pull - 0.5 * np.einsum("hi,ij,hj->h", sizes, curve, sizes, optimize=True)
     return result
 
 
@@ -98,15 +98,15 @@ def _tail(rows: DampingRows, covariance: np.ndarray, predicted: np.ndarray) -> f
     return float(chi2.sf(float(z @ z), len(z)))
 
 
-def _fit(rows: DampingRows, covariance: np.ndarray, laws: list[int], null: float) -> LawFit:
+def _fit(rows: DampingRows, covariance: np.ndarray, laws: list[int]) -> LawFit:
     signature = np.stack([getattr(rows, _LAWS[j][3]) for j in laws])
     top = np.log(_LARGEST / np.abs(signature).max(axis=1))
     # a size beyond which even the least damped row would exceed the limit is of no use; four decades below it
-    axes = [np.linspace(t - _DECADES * np.log(10.0), t, _POINTS) for t in top]
-    sizes = np.exp(np.array(list(product(*axes))))
-    log = _likelihood(rows, covariance, sizes @ signature)
+    axes = [np.linspace(t - _DECADES * np.log(10.0), t, _POINTS[len(laws)]) for t in top]
+    sizes = np.exp(np.stack([a.ravel() for a in np.meshgrid(*axes, indexing="ij")], axis=1))
+    log = _likelihood(rows, covariance, sizes, signature)
     weight = np.exp(log - log.max())
-    gain = float(log.max() + np.log(weight.mean()) - null)
+    gain = float(log.max() + np.log(weight.mean()))
     best = sizes[log.argmax()]
     found = {}
     for column, j in enumerate(laws):

@@ -63,7 +63,7 @@ def covered(z, limit=1.96):
 
 @pytest.mark.parametrize("make", [lambda s: decay(s, False), lambda s: decay(s, True), responses], ids=range(3))
 def test_two_sigma_hold_the_truth_19_times_out_of_20(make):
-    """Eight records: as many inside as a 95 % interval leaves with probability above 1e-3; a third of sigma does not."""
+    """As many of eight records inside as a 95 % interval leaves with probability 1e-3; a third of sigma fails."""
     parts = [deviations(*make(seed)) for seed in range(40, 48)]
     hertz, ratio = (np.concatenate([p[i] for p in parts]) for i in range(2))
     assert sum(p[2] for p in parts) == 0  # none missed
@@ -103,7 +103,7 @@ def rows(law, size, seed=3):
     hertz, amplitude = np.repeat([1.0, 1.7, 2.9, 4.1, 6.3, 8.8], 3), np.tile([4e-3, 2e-3, 1e-3], 6)
     share = np.repeat(generator.uniform(0.5, 1.0, 6), 3)
     signature = {
-        "entered": np.full(18, 1e-3), "material": np.pi * hertz * share, "structural": 0.5 * share,
+        "entered": 2e-3 / hertz, "material": np.pi * hertz * share, "structural": 0.5 * share,
         "friction": 1e-3 / (hertz**2 * amplitude),
     }  # fmt: skip
     ratio = signature["entered"] + size * signature[law]
