@@ -115,11 +115,33 @@ class CableFrequencies:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotFrequencies:
-    """Natural frequencies of the robot, unlabelled: state, [Hz], sigma [Hz]."""
+    """Natural frequencies of the robot, unlabelled: state, [Hz], sigma [Hz].
+
+    shape : (r, 6) complex, motion of the platform that signals show in each mode, any scale [m, rad], nan where not
+            seen; or (0, 6)
+    """
 
     state: np.ndarray
     hertz: np.ndarray
     sigma: np.ndarray
+    shape: np.ndarray = field(default_factory=lambda: np.zeros((0, 6), dtype=complex))
+
+    def unlike(self, rows: np.ndarray, model: np.ndarray, radius: float) -> np.ndarray:
+        """(r, k) 1 - modal assurance of rows against the model's platform shapes (k, 6); nan without a measured shape.
+
+        radius : of the platform [m], weighs turns against shifts
+        """
+        result = np.full((len(rows), len(model)), np.nan)
+        if len(self.shape) != len(self.hertz):
+            return result
+        weight = np.array([1.0] * 3 + [radius] * 3)
+        for i, row in enumerate(rows):
+            seen = np.isfinite(self.shape[row])
+            own, other = (self.shape[row] * weight)[seen], (model * weight)[:, seen]
+            size = np.vdot(own, own).real * (np.abs(other) ** 2).sum(axis=1)
+            if seen.sum() > 1 and (size > 0.0).all():
+                result[i] = 1.0 - np.abs(other.conj() @ own) ** 2 / size
+        return result
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -38,6 +38,7 @@ class Gathering:
     cable_rows: list[tuple[int, int, int, bool, float, float]] = field(default_factory=list)
     robot_rows: list[tuple[int, float, float]] = field(default_factory=list)
     series: list[tuple[Series, Sigmas]] = field(default_factory=list)
+    shapes: dict[int, np.ndarray] = field(default_factory=dict)
 
     def add(self, rows: Rows, sigmas: Sigmas) -> None:
         """Take in the rows of one file.
@@ -86,9 +87,9 @@ class Gathering:
 
     def add_frequencies(
         self, case: str, pose: np.ndarray, payload: float, lengths: np.ndarray, sigmas: Sigmas,
-        frequencies: list[tuple[float, float]],
+        frequencies: list[tuple[float, float, np.ndarray]],
     ) -> None:  # fmt: skip
-        """Robot frequencies (Hz, sigma) that signals of a case gave; the case becomes a state if it is none yet.
+        """Robot frequencies (Hz, sigma, shape) that signals of a case gave; the case becomes a state if it is none yet.
 
         pose : (6,) [m, deg];  lengths : (m,) [m], nan if not read
         """
@@ -97,7 +98,9 @@ class Gathering:
             state = self._new(case, pose, payload, sigmas)
             state.length, state.length_sigma = lengths, np.full(self.m, sigmas.length_m)
         place = list(self.known).index(case)
-        self.robot_rows.extend((place, hertz, sigma) for hertz, sigma in frequencies)
+        for hertz, sigma, shape in frequencies:
+            self.shapes[len(self.robot_rows)] = shape
+            self.robot_rows.append((place, hertz, sigma))
 
     def _static(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         own = rows.get("sigma")
@@ -186,7 +189,10 @@ class Gathering:
     def robot_frequencies(self) -> RobotFrequencies:
         """All frequencies of the robot."""
         table = np.array(self.robot_rows, dtype=float).reshape((-1, 3))
-        return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2])
+        shape = np.full((len(table), 6), np.nan, dtype=complex)
+        for row, seen in self.shapes.items():
+            shape[row] = seen
+        return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2], shape)
 
 
 def _locks(length: np.ndarray) -> np.ndarray:

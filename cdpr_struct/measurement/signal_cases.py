@@ -5,7 +5,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.identified import Identified
-from cdpr_struct.measurement.signal_states import identify
+from cdpr_struct.measurement.signal_states import identify, platform_shape
 from cdpr_struct.robot.robot import Robot
 
 _SAME_POSE = 1e-6
@@ -27,7 +27,10 @@ def join_signals(gathering: Gathering, robot: Robot, model: str) -> tuple[Identi
             found.append(item)
             _check_pose(item, poses)
             record = item.record
-            rows = [(float(item.modes.hertz[i]), float(item.sigma[i])) for i in np.flatnonzero(item.used)]
+            rows = [
+                (float(item.modes.hertz[i]), float(item.sigma[i]), platform_shape(record, item.modes.shape[i]))
+                for i in np.flatnonzero(item.used)
+            ]
             if rows:
                 pose = np.concatenate([record.position, np.degrees(record.angles)])
                 gathering.add_frequencies(record.case, pose, record.payload, record.lengths, sigmas, rows)

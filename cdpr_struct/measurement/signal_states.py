@@ -103,7 +103,7 @@ def partners(modes: Modes, state: StateModes, record: SignalRecord) -> np.ndarra
     far = (np.log(modes.hertz)[:, None] - np.log(state.hertz)[None]) / _SPREAD
     shapes = model_shapes(state, record)
     unlike = np.array([[1.0 - assurance(s, p) for p in shapes] for s in modes.shape * channel_weight(state, record)])
-    cost = far**2 + 4.0 * unlike + 6.0 * (1.0 - state.modes.platform_energy)[None]
+    cost = far**2 + 12.0 * unlike + 3.0 * (1.0 - state.modes.platform_energy)[None]
     alone = np.full((len(modes), len(modes)), _NO_PARTNER)
     rows, columns = linear_sum_assignment(np.concatenate([cost, alone], axis=1))
     found = np.full(len(modes), -1)
@@ -123,6 +123,22 @@ def model_shapes(state: StateModes, record: SignalRecord) -> np.ndarray:
         respond, excite = (_direction(part) for part in name.split("/", 1))
         columns.append((platform @ respond) * (platform @ excite))
     return np.stack(columns, axis=1)
+
+
+def platform_shape(record: SignalRecord, shape: np.ndarray) -> np.ndarray:
+    """(6,) complex motion of the platform in a mode with channels' amplitudes (c,); nan where no channel looks."""
+    seen = np.full(6, np.nan, dtype=complex)
+    if record.kind != "frf":
+        seen[: len(shape)] = shape
+        return seen
+    source = record.channels[0].split("/", 1)[1]
+    for name, value in zip(record.channels, shape, strict=True):
+        respond, excite = name.split("/", 1)
+        along = _direction(respond)
+        if excite == source and along.any():
+            axis = int(np.abs(along).argmax())
+            seen[axis] = value * along[axis]
+    return seen
 
 
 def _direction(name: str) -> np.ndarray:
