@@ -27,6 +27,7 @@ from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 _MAST_ITERATIONS = 4
+_STEPS, _BALANCED = 8, 1e-3  # most steps near a reference; imbalance left, in the largest load
 
 
 def robot_arrays(world: World, stiffness: np.ndarray, anchors: np.ndarray, known: Circumstances) -> RobotArrays:
@@ -105,7 +106,10 @@ def reference(world: World, readings: Readings, known: Circumstances) -> Referen
 
 
 def nearby_pose(world: World, readings: Readings, known: Circumstances, about: Reference) -> Nearby:
-    """Equilibria (..., S) of worlds near that of a reference: one step of Newton's method from there."""
+    """Equilibria (..., S) of worlds near that of a reference: Newton's method from there, its stiffness kept.
+
+    One step does, except for cables that hardly stretch: there the square of a small turn is a large force.
+    """
     position, rotation = true_pose(world, readings)
     length = paid_out(world, readings, known)
     load = load_wrench(world, position, rotation, known) - _own_weight(world, rotation)
@@ -127,11 +131,16 @@ def nearby_pose(world: World, readings: Readings, known: Circumstances, about: R
         arms = PlatformArms.at(flat, place.reshape((-1, 3)), turn.reshape((-1, 3, 3)))
         return model.states(flat, arms.points, length.reshape((-1, length.shape[-1]))), arms
 
-    states, arms = cables_at(*start)
-    wrench = (cable_wrench(states, arms) + weight_wrench(flat, arms)).reshape((*shape, 6)) + load
-    step = (about.flexibility @ wrench[..., None])[..., 0]
-    place, turn = start[0] + step[..., :3], rotation_from_vector(step[..., 3:]) @ start[1]
-    states, _ = cables_at(place, turn)
+    place, turn = start
+    states, arms = cables_at(place, turn)
+    for _ in range(_STEPS):
+        weight = weight_wrench(flat, arms).reshape((*shape, 6))
+        wrench = cable_wrench(states, arms).reshape((*shape, 6)) + weight + load
+        if place is not start[0] and np.abs(wrench).max() < _BALANCED * np.abs(weight + load).max():
+            break
+        step = (about.flexibility @ wrench[..., None])[..., 0]
+        place, turn = place + step[..., :3], rotation_from_vector(step[..., 3:]) @ turn
+        states, arms = cables_at(place, turn)
     whole = CableStates(
         *(getattr(states, n).reshape((*shape, *getattr(states, n).shape[1:])) for n in states.__slots__)
     )

@@ -12,6 +12,7 @@ import numpy as np
 _BEAM = 48
 _STRAY = -6.0  # ln density of a peak that belongs to no mode
 _STRAY_DOUBT = 0.3  # of ln f
+_SHAPE = 6.0  # ln density lost by a shape that is orthogonal to the mode's
 _SEEN = (0.05, 0.75)  # probability that a mode without and with platform motion is picked
 _PLATFORM = (0.1, 0.4)  # of the kinetic energy in the platform: between these the probability rises
 
@@ -51,19 +52,28 @@ class _Path:
     covariance: np.ndarray
 
 
-def paired(state: np.ndarray, hertz: np.ndarray, noise: np.ndarray, modes: Modes, covariance: np.ndarray) -> Pairing:
+def paired(
+    state: np.ndarray,
+    hertz: np.ndarray,
+    noise: np.ndarray,
+    modes: Modes,
+    covariance: np.ndarray,
+    unlike: np.ndarray,
+) -> Pairing:
     """Pair peaks with modes.
 
     Parameters
     ----------
     state (r,), hertz (r,), noise (r,) : of the peaks; noise is one sigma of ln f
     covariance : (k, k) of the modes' ln f
+    unlike : (r, k) 1 - modal assurance of measured and model shapes, nan where no shape was measured
     """
     order = np.lexsort((hertz, state))
     paths = [_Path(0.0, (), np.log(modes.hertz), covariance)]
-    odds = _log_odds(modes.energy)
+    odds, shapes = _log_odds(modes.energy), _SHAPE * np.nan_to_num(unlike)
     for i in order:
-        grown = [new for path in paths for new in _grown(path, state[i], np.log(hertz[i]), noise[i], modes, odds)]
+        log, seen = np.log(hertz[i]), odds - shapes[i]
+        grown = [new for path in paths for new in _grown(path, state[i], log, noise[i], modes, seen)]
         grown.sort(key=lambda new: -new[0])
         paths = [_taken(path, j, weight, np.log(hertz[i]), noise[i]) for weight, j, path in grown[:_BEAM]]
     chosen, doubt = np.zeros(len(order), dtype=int), np.zeros(len(order))

@@ -18,6 +18,7 @@ _STEP = 1e-5
 _ITERATIONS = 5
 _SETTLED = 1e-7  # of omega^2
 _LARGEST_MOVE = 0.02  # of ln omega, beyond the first-order estimate
+_STIFF = 100.0  # times omega^2: a direction so stiff follows at once, as along cables that hardly stretch
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -153,11 +154,31 @@ def rate(dynamics: Dynamics, omega_squared: np.ndarray) -> np.ndarray:
 
 
 def first_order(dynamics: Dynamics, rows: Rows, entered: np.ndarray, entered_rate: np.ndarray) -> np.ndarray:
-    """Change of ln omega (..., r) to first order, from D as entered (r, 6, 6) and its rate."""
+    """Change of ln omega (..., r) to first order, from D as entered (r, 6, 6) and its rate.
+
+    In very stiff directions the shape follows the change: there it is condensed exactly. With the shape held, a cable
+    that hardly stretches would answer the square of the smallest turn with all its stiffness.
+    """
     change = dynamics.matrix(rows.omega**2) - entered
     top = np.einsum("ri,...rij,rj->...r", rows.shape, change, rows.shape)
+    top = top - _condensed(change, rows, entered, entered_rate)
     bottom = np.einsum("ri,rij,rj->r", rows.shape, entered_rate, rows.shape)
     return -top / bottom / (2.0 * rows.omega**2)
+
+
+def _condensed(change: np.ndarray, rows: Rows, entered: np.ndarray, entered_rate: np.ndarray) -> np.ndarray:
+    """(..., r) what stiff directions take back of shape' change shape by giving way."""
+    scale = np.sqrt(np.abs(np.diagonal(entered_rate, axis1=-2, axis2=-1)))
+    values, vectors = np.linalg.eigh(entered / scale[:, :, None] / scale[:, None, :])
+    stiff = values > _STIFF * rows.omega[:, None] ** 2
+    if not stiff.any():
+        return np.zeros(change.shape[:-2])
+    modes = vectors / scale[:, :, None] * stiff[:, None, :]
+    pull = np.einsum("rik,...rij,rj->...rk", modes, change, rows.shape)
+    own = np.einsum("rik,...rij,rjl->...rkl", modes, change, modes)
+    own = own + np.eye(6) * np.where(stiff, values, 1.0)[:, None, :]
+    result: np.ndarray = (pull * np.linalg.solve(own, pull[..., None])[..., 0]).sum(axis=-1)
+    return result
 
 
 def follow(dynamics: Dynamics, rows: Rows, start: np.ndarray | None = None) -> np.ndarray:

@@ -67,7 +67,8 @@ def with_robot_rows(setting: Setting, model: ModelModes, wary: bool) -> Setting:
     covariance = model.covariance + own
     if wary:
         covariance = covariance + _ELSEWHERE[0] ** 2 + _ELSEWHERE[1] ** 2 * np.eye(len(covariance))
-    pairing: Pairing = paired(peaks.state, peaks.hertz, peaks.sigma / peaks.hertz, modes, covariance)
+    unlike = peaks.unlike(np.arange(len(peaks.hertz)), modes.shape, setting.radius)
+    pairing: Pairing = paired(peaks.state, peaks.hertz, peaks.sigma / peaks.hertz, modes, covariance, unlike)
     pick = pairing.chosen
     rows = robot_pitch.Rows(peaks.state, followed.rows.omega[pick], followed.rows.shape[pick])
     return replace(

@@ -1,10 +1,14 @@
 """What was measured on a robot: states, readings, how sure they are, and the simulation they are held against."""
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cdpr_struct.robot.robot import Robot
+
+if TYPE_CHECKING:
+    from cdpr_struct.measurement.identified import Identified
 
 KINDS = (
     "static_state", "loaded_pose", "cable_frequency", "robot_frequency", "frf", "free_decay", "platform_motion",
@@ -111,11 +115,33 @@ class CableFrequencies:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotFrequencies:
-    """Natural frequencies of the robot, unlabelled: state, [Hz], sigma [Hz]."""
+    """Natural frequencies of the robot, unlabelled: state, [Hz], sigma [Hz].
+
+    shape : (r, 6) complex, motion of the platform that signals show in each mode, any scale [m, rad], nan where not
+            seen; or (0, 6)
+    """
 
     state: np.ndarray
     hertz: np.ndarray
     sigma: np.ndarray
+    shape: np.ndarray = field(default_factory=lambda: np.zeros((0, 6), dtype=complex))
+
+    def unlike(self, rows: np.ndarray, model: np.ndarray, radius: float) -> np.ndarray:
+        """(r, k) 1 - modal assurance of rows against the model's platform shapes (k, 6); nan without a measured shape.
+
+        radius : of the platform [m], weighs turns against shifts
+        """
+        result = np.full((len(rows), len(model)), np.nan)
+        if len(self.shape) != len(self.hertz):
+            return result
+        weight = np.array([1.0] * 3 + [radius] * 3)
+        for i, row in enumerate(rows):
+            seen = np.isfinite(self.shape[row])
+            own, other = (self.shape[row] * weight)[seen], (model * weight)[:, seen]
+            size = np.vdot(own, own).real * (np.abs(other) ** 2).sum(axis=1)
+            if seen.sum() > 1 and (size > 0.0).all():
+                result[i] = 1.0 - np.abs(other.conj() @ own) ** 2 / size
+        return result
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -135,6 +161,7 @@ class Campaign:
 
     model : static, dsm, exact or spring
     stated : names of the tolerances that the file gives; the others are defaults
+    identified : modes found in the signals of `series`; those used are among `robot_frequencies`
     """
 
     source: str
@@ -147,6 +174,7 @@ class Campaign:
     cable_frequencies: CableFrequencies
     robot_frequencies: RobotFrequencies
     series: tuple[Series, ...] = ()
+    identified: tuple["Identified", ...] = ()
     assembly: str = "consistent"
     tension_distribution: str = "minimum_norm"
     lower_bound: float = 0.0

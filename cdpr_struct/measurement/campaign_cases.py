@@ -37,7 +37,8 @@ class Gathering:
     known: dict[str, _State] = field(default_factory=dict)
     cable_rows: list[tuple[int, int, int, bool, float, float]] = field(default_factory=list)
     robot_rows: list[tuple[int, float, float]] = field(default_factory=list)
-    series: list[Series] = field(default_factory=list)
+    series: list[tuple[Series, Sigmas]] = field(default_factory=list)
+    shapes: dict[int, np.ndarray] = field(default_factory=dict)
 
     def add(self, rows: Rows, sigmas: Sigmas) -> None:
         """Take in the rows of one file.
@@ -48,7 +49,8 @@ class Gathering:
         """
         if rows.kind in ("frf", "free_decay", "platform_motion"):
             labels = {k: tuple(v) for k, v in rows.words.items() if k != "case"}
-            self.series.append(Series(rows.kind, rows.file, tuple(rows.words["case"]), dict(rows.numbers), labels))
+            signals = Series(rows.kind, rows.file, tuple(rows.words["case"]), dict(rows.numbers), labels)
+            self.series.append((signals, sigmas))
             return
         states = [self._state(rows, i, sigmas) for i in range(len(rows))]
         if rows.kind == "static_state":
@@ -66,19 +68,39 @@ class Gathering:
         payload = float(rows.get("payload_kg", 0.0)[i])
         found = self.known.get(name)
         if found is None:
-            blank = np.full((5, self.m), np.nan)
-            found = _State(
-                name, pose, payload, sigmas.position_m, float(np.radians(sigmas.rotation_deg)),
-                blank[0], blank[1], blank[2], blank[3], blank[4],
-                float(rows.get("temperature_K")[i]), float(rows.get("time_s")[i]),
-            )  # fmt: skip
-            self.known[name] = found
+            found = self._new(name, pose, payload, sigmas)
+            found.temperature, found.time = float(rows.get("temperature_K")[i]), float(rows.get("time_s")[i])
         elif np.abs(found.pose - pose).max() > _SAME_POSE[0] or found.payload != payload:
             raise InputError(
                 rows.file, f"row {i + 1}, case {name}", [*pose.tolist(), payload],
                 f"the pose and payload given before for this case, {[*found.pose.tolist(), found.payload]}",
             )  # fmt: skip
         return found
+
+    def _new(self, name: str, pose: np.ndarray, payload: float, sigmas: Sigmas) -> _State:
+        blank = np.full((5, self.m), np.nan)
+        self.known[name] = _State(
+            name, pose, payload, sigmas.position_m, float(np.radians(sigmas.rotation_deg)),
+            blank[0], blank[1], blank[2], blank[3], blank[4], np.nan, np.nan,
+        )  # fmt: skip
+        return self.known[name]
+
+    def add_frequencies(
+        self, case: str, pose: np.ndarray, payload: float, lengths: np.ndarray, sigmas: Sigmas,
+        frequencies: list[tuple[float, float, np.ndarray]],
+    ) -> None:  # fmt: skip
+        """Robot frequencies (Hz, sigma, shape) that signals of a case gave; the case becomes a state if it is none yet.
+
+        pose : (6,) [m, deg];  lengths : (m,) [m], nan if not read
+        """
+        state = self.known.get(case)
+        if state is None:
+            state = self._new(case, pose, payload, sigmas)
+            state.length, state.length_sigma = lengths, np.full(self.m, sigmas.length_m)
+        place = list(self.known).index(case)
+        for hertz, sigma, shape in frequencies:
+            self.shapes[len(self.robot_rows)] = shape
+            self.robot_rows.append((place, hertz, sigma))
 
     def _static(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         own = rows.get("sigma")
@@ -167,7 +189,10 @@ class Gathering:
     def robot_frequencies(self) -> RobotFrequencies:
         """All frequencies of the robot."""
         table = np.array(self.robot_rows, dtype=float).reshape((-1, 3))
-        return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2])
+        shape = np.full((len(table), 6), np.nan, dtype=complex)
+        for row, seen in self.shapes.items():
+            shape[row] = seen
+        return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2], shape)
 
 
 def _locks(length: np.ndarray) -> np.ndarray:

@@ -12,6 +12,7 @@ from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign, Sigmas, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
+from cdpr_struct.measurement.signal_cases import join_signals
 from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import builtin_names, input_error, load_robot
@@ -95,6 +96,7 @@ def load_campaign(path: str | Path) -> Campaign:
     gathering = Gathering(len(robot.cables))
     for entry in table.measurement:
         gathering.add(_rows(entry, source, len(robot.cables)), _sigmas(entry))
+    identified = join_signals(gathering, robot, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(
         source=str(path),
@@ -106,7 +108,8 @@ def load_campaign(path: str | Path) -> Campaign:
         states=gathering.states(),
         cable_frequencies=gathering.cable_frequencies(),
         robot_frequencies=gathering.robot_frequencies(),
-        series=tuple(gathering.series),
+        series=tuple(series for series, _ in gathering.series),
+        identified=identified,
         assembly=table.nominal.assembly,
         tension_distribution=table.tension_distribution,
         lower_bound=table.lower_bound_N,

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 from cdpr_struct.errors import InputError
+from cdpr_struct.measurement.universal_rows import is_universal, universal_columns
 
 POSE = ("x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg")
 _NEEDED: dict[str, tuple[str, ...]] = {
@@ -53,8 +54,8 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
     ------
     InputError : file, column or row that cannot be used.
     """
-    if path.suffix.lower() in (".uff", ".unv"):
-        raise InputError(str(path), "", path.suffix, "a CSV file; universal files are not read by diagnose yet")
+    if is_universal(path):
+        return _universal(kind, path)
     try:
         table = pd.read_csv(path, dtype=str, keep_default_na=False, skipinitialspace=True, comment="#")
     except (OSError, UnicodeDecodeError) as error:
@@ -68,9 +69,18 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
     words = {str(c): [str(v).strip() for v in table[c]] for c in table.columns if c in _WORDS}
     rows = Rows(kind, str(path), numbers, words)
     _check_values(rows, cables)
+    if "case" not in words and kind == "platform_motion":
+        words["case"] = [path.stem] * len(table)
     if "case" not in words:
         words["case"] = _cases_from_poses(rows)
     return rows
+
+
+def _universal(kind: str, path: Path) -> Rows:
+    if kind != "frf":
+        raise InputError(str(path), "kind", kind, "frf: universal files are read for FRFs only")
+    numbers, words = universal_columns(path)
+    return Rows(kind, str(path), numbers, words)
 
 
 def length_columns(cables: int) -> list[str]:

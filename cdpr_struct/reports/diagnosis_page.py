@@ -8,6 +8,7 @@ import numpy as np
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.extended_model import extended_robot_toml
 from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.diagnosis_signals import signal_plates, signal_tables
 from cdpr_struct.reports.figures import diagnosis as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
@@ -31,6 +32,7 @@ def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, st
             "Three nats are a factor of twenty in probability.",
         ),
     ]
+    plates += signal_plates(found.campaign)
     files: dict[str, str | bytes] = {
         "residuals.csv": _residuals_csv(found),
         **{f"{plate.name}.svg": plate.svg for plate in plates},
@@ -60,7 +62,7 @@ def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Pla
         holds=said["status"] == "adequate",
         facts=facts,
         plates=plates,
-        tables=_tables(result),
+        tables=_tables(result) + signal_tables(dict(result)),
         notes=[("How it was computed", [_METHOD])],
         command=f"cdpr-struct diagnose {found.campaign.source} --out=DIR",
     )

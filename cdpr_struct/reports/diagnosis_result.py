@@ -6,12 +6,13 @@ from cdpr_struct.diagnosis.diagnose import SIGNIFICANT, Diagnosis
 from cdpr_struct.diagnosis.plan import minimum_detectable
 from cdpr_struct.diagnosis.simulation_error import simulation_error
 from cdpr_struct.diagnosis.verdict import candidate_rows, verdict
+from cdpr_struct.reports.diagnosis_signals import with_signals
 
 
 def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
     """result.json of `diagnose`."""
     said = verdict(found)
-    return {
+    result = {
         "campaign": found.campaign.source,
         "robot": found.campaign.robot_name,
         "model": found.campaign.model,
@@ -36,6 +37,7 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
         },
         "not_used": sorted({s.kind for s in found.campaign.series}),
     }  # fmt: skip
+    return with_signals(result, found.campaign)
 
 
 def _gain(found: Diagnosis) -> dict[str, Any]:

@@ -1,0 +1,34 @@
+"""Modes identified in the signals of a campaign, and which of them join it as robot frequencies."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.measurement.amplitude_windows import AmplitudeWindows
+from cdpr_struct.measurement.modal_estimate import Modes
+from cdpr_struct.measurement.signal_records import SignalRecord
+from cdpr_struct.measurement.state_modes import StateModes
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Identified:
+    """One record with its k identified modes.
+
+    sigma   : (k,) of the frequencies as they join the campaign [Hz]: of the fit, times the scatter between windows
+    kinds   : (k,) "mode" or "combination tone"
+    partner : (k,) number of the model's mode, -1 without one
+    used    : (k,) bool, joins the campaign as a robot frequency
+    reason  : (k,) why not, "" if used;  note : why the record as a whole is not used, or ""
+    state   : the model at that state, None if it could not be computed (see `note`)
+    """
+
+    record: SignalRecord
+    modes: Modes
+    windows: AmplitudeWindows | None
+    sigma: np.ndarray
+    kinds: tuple[str, ...]
+    partner: np.ndarray
+    used: np.ndarray
+    reason: tuple[str, ...]
+    note: str
+    state: StateModes | None

@@ -1,0 +1,102 @@
+"""Least squares for damped modes: the poles are searched for, everything linear in the model follows by projection.
+
+A signal of c channels is B(poles) R + noise. For given poles the best R is linear algebra, so that only the poles are
+unknown (variable projection, Golub and Pereyra 1973; the Jacobian is Kaufman's, whose J'J is the exact information on
+the poles once R is eliminated).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+Basis = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+_EVALUATIONS = 60
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SeparableFit:
+    """Result of a fit of k poles to n rows of c channels.
+
+    poles      : (k,) complex, positive imaginary part [rad/s]
+    covariance : (2k, 2k) of (real, imaginary) parts, pole by pole, for residuals of unit variance
+    linear     : (columns, c) of the basis;  residual : (n, c) weighted
+    """
+
+    poles: np.ndarray
+    covariance: np.ndarray
+    linear: np.ndarray
+    residual: np.ndarray
+
+    @property
+    def squares(self) -> float:
+        """Sum of squares of the residuals."""
+        return float((self.residual**2).sum())
+
+    @property
+    def variance(self) -> float:
+        """Of the noise, per row and channel."""
+        n, c = self.residual.shape
+        free = n * c - self.linear.size - 2 * len(self.poles)
+        return self.squares / max(free, 1)
+
+    def criterion(self) -> float:
+        """Bayesian information criterion; the smaller, the better."""
+        n, c = self.residual.shape
+        unknown = self.linear.size + 2 * len(self.poles)
+        return n * c * float(np.log(max(self.squares, 1e-300) / (n * c))) + unknown * float(np.log(n * c))
+
+
+def separable_fit(basis: Basis, signal: np.ndarray, weight: np.ndarray, start: np.ndarray) -> SeparableFit:
+    """Poles and linear coefficients that fit a signal best.
+
+    Parameters
+    ----------
+    basis : poles (k,) to columns (n, q) and their derivatives (2k, n, q) by real and imaginary parts, pole by pole
+    signal : (n, c);  weight : (n, c) or (1, c), one over the noise's standard deviation
+    start : (k,) complex poles [rad/s]
+    """
+    scale = np.repeat(np.abs(start), 2)
+    shared = weight.shape[0] == 1
+    target = signal * weight
+
+    def parts(x: np.ndarray) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        columns, slopes = basis(_poles(x * scale))
+        if shared:
+            return [_project(columns, slopes, target)]
+        return [
+            _project(weight[:, [i]] * columns, weight[:, [i]] * slopes, target[:, [i]]) for i in range(target.shape[1])
+        ]
+
+    def rest(x: np.ndarray) -> np.ndarray:
+        return np.concatenate([p[0].T.ravel() for p in parts(x)])
+
+    def slope(x: np.ndarray) -> np.ndarray:
+        jacobian = np.concatenate([p[1].reshape((len(x), -1)).T for p in parts(x)])
+        return jacobian * scale
+
+    first = np.stack([start.real, start.imag], axis=1).ravel() / scale
+    with np.errstate(over="ignore"):
+        found = least_squares(rest, first, jac=slope, method="lm", max_nfev=_EVALUATIONS)
+        done = parts(found.x)
+    information = sum(np.einsum("pcn,qcn->pq", p[1], p[1]) for p in done)
+    linear = np.concatenate([p[2] for p in done], axis=1)
+    if shared:
+        linear = linear / weight
+    residual = np.concatenate([p[0] for p in done], axis=1)
+    return SeparableFit(_poles(found.x * scale), np.linalg.pinv(information), linear, residual)
+
+
+def _poles(parts: np.ndarray) -> np.ndarray:
+    return parts[0::2] + 1j * np.abs(parts[1::2])
+
+
+def _project(columns: np.ndarray, slopes: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Residual (n, c), its slopes (2k, c, n) and the coefficients (q, c)."""
+    q, r = np.linalg.qr(columns)
+    inside = q.T @ target
+    linear = np.linalg.lstsq(r, inside, rcond=None)[0]
+    moved = slopes @ linear
+    across = moved - q @ (q.T @ moved)
+    return target - q @ inside, -np.swapaxes(across, 1, 2), linear

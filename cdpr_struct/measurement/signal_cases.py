@@ -1,0 +1,50 @@
+"""Frequencies found in the signals of a campaign become robot frequencies of its states."""
+
+import numpy as np
+
+from cdpr_struct.errors import InputError
+from cdpr_struct.measurement.campaign_cases import Gathering
+from cdpr_struct.measurement.identified import Identified
+from cdpr_struct.measurement.signal_states import identify, platform_shape
+from cdpr_struct.robot.robot import Robot
+
+_SAME_POSE = 1e-6
+
+
+def join_signals(gathering: Gathering, robot: Robot, model: str) -> tuple[Identified, ...]:
+    """Identify the modes of all signals; those that are clear join the gathered frequencies.
+
+    Raises
+    ------
+    InputError : rows that do not make records, or a pose that contradicts another file's for the same case.
+    """
+    poses = {
+        name: np.concatenate([s.pose[:3], np.radians(s.pose[3:]), [s.payload]]) for name, s in gathering.known.items()
+    }
+    found: list[Identified] = []
+    for series, sigmas in gathering.series:
+        for item in identify(series, robot, model, sigmas, poses):
+            found.append(item)
+            _check_pose(item, poses)
+            record = item.record
+            rows = [
+                (float(item.modes.hertz[i]), float(item.sigma[i]), platform_shape(record, item.modes.shape[i]))
+                for i in np.flatnonzero(item.used)
+            ]
+            if rows:
+                pose = np.concatenate([record.position, np.degrees(record.angles)])
+                gathering.add_frequencies(record.case, pose, record.payload, record.lengths, sigmas, rows)
+    return tuple(found)
+
+
+def _check_pose(item: Identified, poses: dict[str, np.ndarray]) -> None:
+    record = item.record
+    known = poses.get(record.case)
+    if known is None or record.kind == "platform_motion":
+        return
+    own = np.concatenate([record.position, record.angles, [record.payload]])
+    if np.isfinite(own).all() and np.abs(own - known).max() > _SAME_POSE:
+        raise InputError(
+            record.file, f"case {record.case}", own.round(6).tolist(),
+            f"the pose and payload that another file gives for this case, {known.round(6).tolist()} (m, rad, kg)",
+        )  # fmt: skip

@@ -1,0 +1,160 @@
+"""Signals become robot frequencies: modes are identified, held against the model's, and join the campaign."""
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from cdpr_struct.errors import CdprError
+from cdpr_struct.measurement.amplitude_windows import AmplitudeWindows, amplitude_windows
+from cdpr_struct.measurement.campaign import Series, Sigmas
+from cdpr_struct.measurement.decay_modes import decay_modes
+from cdpr_struct.measurement.identified import Identified
+from cdpr_struct.measurement.modal_estimate import Modes
+from cdpr_struct.measurement.peak_kinds import MODE, assurance, peak_kinds
+from cdpr_struct.measurement.response_modes import response_modes
+from cdpr_struct.measurement.signal_records import MOTION, SignalRecord, records
+from cdpr_struct.measurement.state_modes import StateModes, state_modes
+from cdpr_struct.robot.robot import Robot
+
+VISIBLE = 0.15  # share of the kinetic energy in the platform from which on a mode counts as the robot's
+CLEAR = 10.0  # amplitude over its sigma
+_NO_PARTNER = 16.0  # cost; a frequency 40 % off with the right shape
+_SPREAD = 0.1  # of ln f
+
+
+def identify(
+    series: Series, robot: Robot, model: str, sigmas: Sigmas, poses: dict[str, np.ndarray]
+) -> list[Identified]:
+    """Modes of every record of a signal file.
+
+    poses : case to (7,) pose (m, rad) and payload [kg], of cases that other files describe
+
+    Raises
+    ------
+    InputError : rows that do not make records.
+    """
+    return [_identify(_placed(r, poses), robot, model, sigmas) for r in records(series, len(robot.cables))]
+
+
+def _placed(record: SignalRecord, poses: dict[str, np.ndarray]) -> SignalRecord:
+    """The record with the pose of its case, where its own file has none."""
+    known = poses.get(record.case)
+    if known is None or np.isfinite(record.position).all():
+        return record
+    return replace(record, position=known[:3], angles=known[3:6], payload=float(known[6]))
+
+
+def _identify(record: SignalRecord, robot: Robot, model: str, sigmas: Sigmas) -> Identified:
+    if record.kind == "frf":
+        modes, windows = response_modes(record.axis, record.signal), None
+        scatter, kinds = np.ones(len(modes)), [MODE] * len(modes)
+    else:
+        modes = decay_modes(record.axis, record.signal)
+        kinds = peak_kinds(modes)
+        own = [f for f, kind, s in zip(modes.hertz, kinds, modes.strength, strict=True) if kind == MODE and s > CLEAR]
+        windows = amplitude_windows(record.axis, record.signal, modes, min(own, default=0.0))
+        scatter = windows.scatter() if len(windows.middle) else np.ones(len(modes))
+    sigma = modes.hertz_sigma * scatter
+    if sigmas.frequency_hz is not None:
+        sigma = np.hypot(sigma, sigmas.frequency_hz)
+    return _against_model(record, robot, model, modes, windows, sigma, kinds)
+
+
+def _against_model(
+    record: SignalRecord, robot: Robot, model: str, modes: Modes, windows: AmplitudeWindows | None,
+    sigma: np.ndarray, kinds: list[str],
+) -> Identified:  # fmt: skip
+    partner, state, note = np.full(len(modes), -1), None, ""
+    own = np.flatnonzero([kind == MODE for kind in kinds])
+    if not len(own):
+        note = "no mode stands out of the noise"
+    elif not np.isfinite(record.position).all():
+        note = "no pose: give pose columns, or a case that another file describes"
+    elif len(robot.cables) < 6 and not np.isfinite(record.lengths).all():
+        note = "fewer than six cables hold a pose at locked lengths only: give length columns"
+    else:
+        try:
+            loaded, highest = robot.with_load(record.payload), float(modes.hertz[own].max())
+            state = state_modes(loaded, record.position, record.angles, record.lengths, highest, model)
+            partner[own] = partners(modes.take(own), state, record)
+        except CdprError as error:
+            note = str(error)
+    reason = [_reason(i, modes, kinds, partner, state) for i in range(len(modes))]
+    used = np.array([not r for r in reason], dtype=bool) & (state is not None)
+    return Identified(record, modes, windows, sigma, tuple(kinds), partner, used, tuple(reason), note, state)
+
+
+def _reason(i: int, modes: Modes, kinds: list[str], partner: np.ndarray, state: StateModes | None) -> str:
+    if kinds[i] != MODE:
+        return kinds[i]
+    if modes.strength[i] < CLEAR:
+        return "weak"
+    if state is None:
+        return "no model at this state"
+    if partner[i] < 0:
+        return "no partner in the model"
+    share = float(state.modes.platform_energy[partner[i]])
+    return "" if share >= VISIBLE else f"a mode of the cables ({share:.0%} of its energy in the platform)"
+
+
+def partners(modes: Modes, state: StateModes, record: SignalRecord) -> np.ndarray:
+    """(k,) the model's mode for each identified one, by frequency, shape and visibility; -1 where none is near."""
+    far = (np.log(modes.hertz)[:, None] - np.log(state.hertz)[None]) / _SPREAD
+    shapes = model_shapes(state, record)
+    unlike = np.array([[1.0 - assurance(s, p) for p in shapes] for s in modes.shape * channel_weight(state, record)])
+    cost = far**2 + 12.0 * unlike + 3.0 * (1.0 - state.modes.platform_energy)[None]
+    alone = np.full((len(modes), len(modes)), _NO_PARTNER)
+    rows, columns = linear_sum_assignment(np.concatenate([cost, alone], axis=1))
+    found = np.full(len(modes), -1)
+    found[rows] = np.where(columns < len(state.hertz), columns, -1)
+    return found
+
+
+def model_shapes(state: StateModes, record: SignalRecord) -> np.ndarray:
+    """(k, c) the model's mode shapes in the channels of a record; turns weighed by the platform's radius."""
+    platform = state.modes.platform
+    if record.kind == "free_decay":
+        return platform[:, :3]
+    if record.kind == "platform_motion":
+        return platform * channel_weight(state, record)
+    columns = []
+    for name in record.channels:
+        respond, excite = (_direction(part) for part in name.split("/", 1))
+        columns.append((platform @ respond) * (platform @ excite))
+    return np.stack(columns, axis=1)
+
+
+def platform_shape(record: SignalRecord, shape: np.ndarray) -> np.ndarray:
+    """(6,) complex motion of the platform in a mode with channels' amplitudes (c,); nan where no channel looks."""
+    seen = np.full(6, np.nan, dtype=complex)
+    if record.kind != "frf":
+        seen[: len(shape)] = shape
+        return seen
+    source = record.channels[0].split("/", 1)[1]
+    for name, value in zip(record.channels, shape, strict=True):
+        respond, excite = name.split("/", 1)
+        along = _direction(respond)
+        if excite == source and along.any():
+            axis = int(np.abs(along).argmax())
+            seen[axis] = value * along[axis]
+    return seen
+
+
+def _direction(name: str) -> np.ndarray:
+    """(6,) unit platform motion that a channel's name means: x .. rz, fx .. mz; zeros for any other."""
+    sign, text = (-1.0 if name.strip().startswith("-") else 1.0), name.strip().lower().removeprefix("-")
+    text = "r" + text[1:] if text.startswith("m") else text.removeprefix("f")
+    found = np.zeros(6)
+    if text in MOTION:
+        found[MOTION.index(text)] = sign
+    return found
+
+
+def channel_weight(state: StateModes, record: SignalRecord) -> np.ndarray:
+    """(c,) factors that make channels comparable: turns count by what they do at the radius of the anchors."""
+    if record.kind != "platform_motion":
+        return np.ones(len(record.channels))
+    anchors = state.point.robot.platform_anchors
+    radius = max(float(np.sqrt((anchors**2).sum(axis=1).mean())), 1e-3)
+    return np.array([1.0] * 3 + [radius] * 3)

@@ -1,0 +1,177 @@
+"""What the signals of a campaign gave: identified peaks and the damping law, joined to a diagnosis' result."""
+
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.diagnosis.damping_law import UNITS, DampingFinding, LawFit, damping_finding
+from cdpr_struct.diagnosis.damping_rows import damping_rows
+from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.measurement.identified import Identified
+from cdpr_struct.reports.figures import signals as figures
+from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.html import HtmlTable, Plate
+
+_LAWS = ("viscous_damping", "hysteretic_damping", "coulomb_damping")
+_MOST_PLATES = 6
+
+
+def with_signals(result: dict[str, Any], campaign: Campaign) -> dict[str, Any]:
+    """The result with `signals` and `damping`; damping that stands out speaks up where nothing else does."""
+    if not campaign.identified:
+        return result | {"signals": [], "damping": None}
+    finding = damping_finding(damping_rows(campaign.identified), campaign.tolerances.damping)
+    why = {k: v for k, v in result["why_not_testable"].items() if k not in _LAWS} | _untestable(finding)
+    why |= _sensors(campaign)
+    more = {
+        "signals": [_signal(item) for item in campaign.identified],
+        "damping": _damping(finding),
+        "why_not_testable": why,
+        "not_testable": sorted(why),
+        "not_used": sorted({i.record.kind for i in campaign.identified if not i.used.any()}),
+        "verdict": _spoken(result["verdict"], finding),
+    }
+    if finding.causes:
+        more["candidates"] = [*result["candidates"], *(_candidate(f) for f in finding.fits[:4])]
+    return result | more
+
+
+def _untestable(finding: DampingFinding) -> dict[str, str]:
+    if finding.reason:
+        return dict.fromkeys(_LAWS, finding.reason)
+    if not np.isfinite(finding.rows.amplitude).all():
+        return {"coulomb_damping": "needs decays at two or more amplitudes; FRFs have none"}
+    return {}
+
+
+def _sensors(campaign: Campaign) -> dict[str, str]:
+    """Why the causes of accelerometers cannot be judged although FRFs were measured."""
+    if not any(item.record.kind == "frf" for item in campaign.identified):
+        return {}
+    constants = "FRFs are read for frequencies, damping and shapes; the size of modal constants is not judged"
+    places = "the file has no places of accelerometers, so that no rigid body can be checked"
+    return {"accelerometer_gain": constants, "accelerometer_mass": constants, "flexible_platform": places}
+
+
+def _signal(item: Identified) -> dict[str, Any]:
+    """One record as JSON."""
+    modes, state = item.modes, item.state
+    rows = []
+    for i in range(len(modes)):
+        partner = int(item.partner[i])
+        rows.append(
+            {
+                "frequency_hz": float(modes.hertz[i]), "sigma_hz": float(item.sigma[i]),
+                "damping_ratio": float(modes.damping[i]), "damping_sigma": float(modes.damping_sigma[i]),
+                "strength": float(modes.strength[i]), "kind": item.kinds[i],
+                "model_hz": float(state.hertz[partner]) if state is not None and partner >= 0 else None,
+                "used": bool(item.used[i]), "reason": item.reason[i],
+            }
+        )  # fmt: skip
+    return {"kind": item.record.kind, "case": item.record.case, "note": item.note, "modes": rows}
+
+
+def _candidate(fit: LawFit) -> dict[str, Any]:
+    return {
+        "cause": fit.causes[0], "with": list(fit.causes[1:]), "pattern": fit.pattern, "heldout_rms": None,
+        "explained_fraction": None, "log_evidence_gain": fit.gain, "p_adequate": fit.p_adequate,
+        "parameters": {
+            name: {"value": middle, "sigma": 0.25 * (high - low), "low": low, "high": high, "unit": UNITS[name]}
+            for name, (middle, low, high) in fit.sizes.items()
+        },
+    }  # fmt: skip
+
+
+def _damping(finding: DampingFinding) -> dict[str, Any]:
+    rows = finding.rows
+    return {
+        "status": finding.status, "causes": list(finding.causes), "reason": finding.reason,
+        "sentence": damping_sentence(finding), "candidates": [_candidate(f) for f in finding.fits],
+        "measured": [
+            {
+                "case": rows.case[i], "frequency_hz": float(rows.hertz[i]), "damping_ratio": float(rows.ratio[i]),
+                "sigma": float(rows.sigma[i]), "entered": float(rows.entered[i]),
+                "amplitude_m": float(rows.amplitude[i]) if np.isfinite(rows.amplitude[i]) else None,
+            }
+            for i in range(len(rows))
+        ],
+    }  # fmt: skip
+
+
+def damping_sentence(finding: DampingFinding) -> str:
+    """What the damping says, in one sentence; nothing if nothing stands out."""
+    if finding.status in ("adequate", "not testable"):
+        return ""
+    best = finding.fits[0]
+    sizes = ", ".join(
+        f"{name.replace('_', ' ')} {middle:.2g} ({low:.2g} to {high:.2g}) {UNITS[name]}".strip()
+        for name, (middle, low, high) in best.sizes.items()
+    )
+    words = " and ".join(c.replace("_", " ") for c in best.causes)
+    if finding.status == "unknown":
+        return f"The damping is not the entered one, and no law fits it; the best, {words}, leaves more than noise."
+    if finding.status == "class":
+        names = " from ".join(c.replace("_", " ") for c in finding.causes)
+        return f"The damping is not the entered one; these data do not tell {names}."
+    return f"The damping is that of {words}: {sizes}."
+
+
+def _spoken(verdict: dict[str, Any], finding: DampingFinding) -> dict[str, Any]:
+    """The verdict with the damping's sentence; where nothing else is wrong, the damping is the verdict."""
+    text = damping_sentence(finding)
+    if not text:
+        return verdict
+    if verdict["status"] != "adequate" or finding.status == "unknown":
+        return verdict | {"sentence": f"{verdict['sentence']} {text}"}
+    return verdict | {
+        "status": finding.status, "causes": list(finding.causes), "class": [list(finding.causes)],
+        "sentence": f"{text} Nothing else is significant.", "location": "the damping ratios",
+        "next_measurement": "decays from two or more amplitudes, four or more modes",
+    }  # fmt: skip
+
+
+def signal_plates(campaign: Campaign) -> list[Plate]:
+    """Spectra with identified peaks, and damping ratios over amplitude."""
+    plates = [_plate(f"signal-{i + 1}", item) for i, item in enumerate(campaign.identified[:_MOST_PLATES])]
+    rows = damping_rows(campaign.identified)
+    if np.isfinite(rows.amplitude).any():
+        plates.append(
+            Plate(
+                "damping",
+                "Damping ratio over amplitude",
+                svg("damping", figures.DAMPING_SIZE, lambda f: figures.draw_damping(f, rows)),
+                "One line per mode and record, one point per window of the decay; bars are two sigma. Level lines mean "
+                "viscous or structural damping; lines that rise towards small amplitudes mean friction.",
+            )
+        )
+    return plates
+
+
+def _plate(name: str, item: Identified) -> Plate:
+    return Plate(
+        name,
+        f"Peaks in {item.record.case} ({item.record.kind.replace('_', ' ')})",
+        svg(name, figures.SPECTRUM_SIZE, lambda f: figures.draw_spectrum(f, item)),
+        "Measured spectrum. Blue dots: peaks that joined the campaign as robot frequencies; orange rings: peaks that "
+        "did not, being combination tones of a motion that is not small, weak, or without partner. Upright lines: "
+        "the model's modes, black where the platform moves. See whether each black line has a blue dot on it, and to "
+        "which side it misses.",
+    )
+
+
+def signal_tables(result: dict[str, Any]) -> list[HtmlTable]:
+    """Identified peaks, with what became of each."""
+    rows = [
+        [
+            signal["case"], f"{m['frequency_hz']:.4f} ± {m['sigma_hz']:.2g}",
+            f"{100.0 * m['damping_ratio']:.2f} ± {100.0 * m['damping_sigma']:.2g}",
+            "" if m["model_hz"] is None else f"{m['model_hz']:.4f}", "used" if m["used"] else m["reason"],
+        ]
+        for signal in result.get("signals", ())
+        for m in signal["modes"]
+    ]  # fmt: skip
+    notes = [[s["case"], "", "", "", s["note"]] for s in result.get("signals", ()) if s["note"]]
+    if not rows + notes:
+        return []
+    head = ["case", "frequency [Hz]", "damping ratio [%]", "model [Hz]", "what became of it"]
+    return [HtmlTable("Peaks identified in the signals", head, rows + notes)]

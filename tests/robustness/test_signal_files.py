@@ -1,0 +1,99 @@
+"""Unusable signals: one line naming file, case, value and what would be right; exit code 2."""
+
+import numpy as np
+import pandas as pd
+import pytest
+import pyuff
+
+from cdpr_struct.cli.main import run
+from cdpr_struct.measurement.campaign_file import load_campaign
+from cdpr_struct.measurement.universal_rows import universal_columns
+
+CAMPAIGN = 'robot = "thesis-3-1"\nmodel = "exact"\n[[measurement]]\nkind = "{kind}"\nfile = "{file}"\n'
+
+
+def complaint(tmp_path, capsys, kind, file) -> str:
+    path = tmp_path / "campaign.toml"
+    path.write_text(CAMPAIGN.format(kind=kind, file=file))
+    assert run(["diagnose", str(path)]) == 2
+    captured = capsys.readouterr()
+    lines = captured.err.strip().splitlines()
+    assert captured.out == ""
+    assert len(lines) == 1, captured.err
+    return lines[0]
+
+
+def decay(time) -> pd.DataFrame:
+    wave = np.exp(-0.1 * time) * np.cos(20.0 * time)
+    return pd.DataFrame(
+        {"case": "a", "x_m": 0.0, "y_m": 0.0, "z_m": 0.5, "time_s": time, "ax": wave, "ay": 0.5 * wave, "az": 0.0}
+    )
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda t: t.head(20), ["case a", "20 samples", "at least 64"]),
+        (lambda t: t.drop(index=50), ["case a", "time_s", "even steps"]),
+        (lambda t: t.assign(x_m=np.linspace(0.0, 1.0, len(t))), ["case a", "one pose a case"]),
+        (lambda t: t.assign(ax="much"), ["row 1", "ax", "much", "a number"]),
+    ],
+    ids=range(4),
+)
+def test_bad_decays(change, words, tmp_path, capsys):
+    change(decay(np.arange(400) * 0.01)).to_csv(tmp_path / "decay.csv", index=False)
+    line = complaint(tmp_path, capsys, "free_decay", "decay.csv")
+    assert all(word in line for word in ["decay.csv", *words]), line
+
+
+def test_a_decay_without_a_pose_says_so(tmp_path):
+    decay(np.arange(400) * 0.01).drop(columns=["x_m", "y_m", "z_m"]).to_csv(tmp_path / "decay.csv", index=False)
+    path = tmp_path / "campaign.toml"
+    path.write_text(CAMPAIGN.format(kind="free_decay", file="decay.csv"))
+    (item,) = load_campaign(path).identified
+    assert "pose columns" in item.note
+    assert not item.used.any()
+
+
+def universal(path, **change):
+    hertz = np.linspace(0.0, 20.0, 401)
+    value = 1.0 / (25.0 - hertz**2 + 0.1j * hertz)
+    entry = pyuff.prepare_58(
+        binary=0, func_type=change.get("func_type", 4), rsp_ent_name="A", rsp_node=1, rsp_dir=3, ref_ent_name="A",
+        ref_node=1, ref_dir=-3, abscissa_spacing=1, abscissa_spec_data_type=18,
+        ordinate_spec_data_type=change.get("ordinate", 8), orddenom_spec_data_type=13, data=value, x=hertz,
+        id1="a", id2="b", id3="c", id4="d", id5="e",
+    )  # fmt: skip
+    pyuff.UFF(str(path)).write_sets([entry], mode="overwrite")
+    return hertz, value
+
+
+def test_universal_displacement_becomes_acceleration(tmp_path):
+    hertz, value = universal(tmp_path / "point.uff")
+    numbers, words = universal_columns(tmp_path / "point.uff")
+    got = numbers["real"] + 1j * numbers["imag"]
+    assert np.abs(got + (2.0 * np.pi * hertz[1:]) ** 2 * value[1:]).max() < 1e-5 * np.abs(got).max()
+    assert (words["case"][0], words["respond"][0], words["excite"][0]) == ("point", "z", "-z")
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [({"func_type": 1}, ["function type 4"]), ({"ordinate": 2}, ["ordinate type", "12 (acceleration)"])],
+    ids=range(2),
+)
+def test_universal_files_without_frfs(change, words, tmp_path, capsys):
+    universal(tmp_path / "point.uff", **change)
+    line = complaint(tmp_path, capsys, "frf", "point.uff")
+    assert all(word in line for word in ["point.uff", *words]), line
+
+
+@pytest.mark.parametrize("content", ["", "no universal file\n", "    -1\n    58\nrubbish\n    -1\n", None])
+def test_broken_universal_files(content, tmp_path, capsys):
+    if content is not None:
+        (tmp_path / "point.uff").write_text(content)
+    assert "point.uff" in complaint(tmp_path, capsys, "frf", "point.uff")
+
+
+def test_universal_files_are_frfs_only(tmp_path, capsys):
+    universal(tmp_path / "point.uff")
+    assert "FRFs only" in complaint(tmp_path, capsys, "free_decay", "point.uff")
