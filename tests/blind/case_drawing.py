@@ -111,7 +111,8 @@ def _hidden(
     deviations = tolerances
     for name, multiple in kind.effects:
         effect = catalogue[name]
-        shape, pattern, size, reached = _sized(effect, robot, multiple, rng)
+        seen_as = "load_cell_gain" if kind.kind == "ambiguous" and name in ONE_SIDED else name
+        shape, pattern, size, reached = _sized(effect, robot, multiple, rng, seen_as)
         deviations = deviations.plus(name, size * pattern)
         record = {"cause": name, "multiple": reached, "size": size, "unit": effect.unit, "shape": shape}
         record["sigmas_left"] = sigmas_left(robot.name, name, size * pattern)
@@ -123,13 +124,16 @@ def _hidden(
 
 
 def _sized(
-    effect: Effect, robot: EnteredRobot, multiple: float, rng: np.random.Generator
+    effect: Effect, robot: EnteredRobot, multiple: float, rng: np.random.Generator, seen_as: str
 ) -> tuple[str, np.ndarray, float, float]:
-    """Shape, pattern, size and the multiple of the reference size that it reaches."""
+    """Shape, pattern, size and the multiple of the reference size that it reaches.
+
+    seen_as : effect whose reference size counts; approached from one side only, friction is a gain
+    """
     if effect.name == "internal_force" and robot.name not in SUSPENDED:
         raise RejectedDrawError
     shape, pattern = drawn_pattern(effect, robot.cables, rng)
-    reference = reference_size(robot.name, effect.name, pattern)
+    reference = reference_size(robot.name, seen_as, pattern)
     if reference is None:
         raise RejectedDrawError
     size = min(multiple * reference, effect.largest)
