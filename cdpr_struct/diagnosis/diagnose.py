@@ -171,17 +171,17 @@ def prepare(campaign: Campaign, plan: Budget) -> Prepared:
     u = likeliest_tolerances(near, fine)
     likeliest = tolerated(setting, world, u)
     setting = with_equilibria(setting, likeliest)
-    null, offset = relinearised(setting, world, readings, extra, u)
+    null, offset = relinearised(setting, likeliest, readings, extra, u)
     level = null.level
     if campaign.robot_frequencies.hertz.size:
-        level = relinearised(anchored(near, likeliest), world, readings, extra, u)[0].level
+        level = relinearised(anchored(near, likeliest), likeliest, readings, extra, u)[0].level
     causes, not_testable = causes_for(setting)
     library = candidates(setting, likeliest, readings, null, causes)
     outside = channels(setting, likeliest, readings, null)
     for candidate in library:
         if strength(candidate) < 2.0:
             not_testable[candidate.name] = "at its typical size it hides in noise and tolerances"
-    ground = Ground(setting, likeliest, readings, null, library, plan.refits, level, extra, offset, world)
+    ground = Ground(setting, likeliest, readings, null, library, plan.refits, level, extra, u, offset, world)
     draws = np.random.default_rng(SEED).standard_normal((len(null.r), _NULL_DRAWS))
     gains = _most(library, outside, draws)
     return Prepared(ground, fine, outside, gains, _significance(ground, outside, gains), not_testable)

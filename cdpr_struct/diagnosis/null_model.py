@@ -108,18 +108,9 @@ def misread(setting: Setting, readings: Readings, u: np.ndarray) -> Readings:
     )
 
 
-def null_model(
-    setting: Setting,
-    world: World,
-    readings: Readings,
-    extra: np.ndarray | None = None,
-    offset: np.ndarray | None = None,
-) -> NullModel:
-    """The null linearised at a world and readings.
-
-    extra : (n,) further noise of each residual;  offset : (n,) added to the residuals, see `relinearised`
-    """
-    r = residuals(setting, world, readings) + (0.0 if offset is None else offset)
+def null_model(setting: Setting, world: World, readings: Readings, extra: np.ndarray | None = None) -> NullModel:
+    """The null linearised at a world and readings; `extra` (n,) is further noise of each residual."""
+    r = residuals(setting, world, readings)
     base = residuals(setting, world, readings, small=True)
     noise = _reading_columns(setting, world, readings, base)
     t = tolerance_count(setting)
@@ -212,11 +203,11 @@ def likeliest_tolerances(setting: Setting, null: NullModel) -> np.ndarray:
 def relinearised(
     setting: Setting, world: World, readings: Readings, extra: np.ndarray, u: np.ndarray
 ) -> tuple[NullModel, np.ndarray]:
-    """The null linearised where tolerances are u, and the offset that keeps its residuals those of u = 0.
+    """The null at a world whose tolerances are u already, and the offset that keeps its residuals those of u = 0.
 
     To first order r(0) = r(u) - A u with the columns A at u: what bends on the way from 0 to u no longer counts.
     """
-    null = null_model(setting, tolerated(setting, world, u), readings, extra)
+    null = null_model(setting, world, readings, extra)
     noise = reading_count(setting)
     offset = -null.columns[:, noise : noise + len(u)] @ u
     return NullModel(null.r + offset, null.columns, null.lower), offset

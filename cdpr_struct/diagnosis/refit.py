@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.diagnosis.evidence import Candidate, Choice
-from cdpr_struct.diagnosis.null_model import NullModel, null_model
+from cdpr_struct.diagnosis.null_model import NullModel, relinearised
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, residuals
 from cdpr_struct.diagnosis.setting import anchored
@@ -23,7 +23,7 @@ _STEP = 0.02  # of the prior's sigma
 class Ground:
     """What hypotheses are judged on.
 
-    world : as entered but for the likeliest tolerances;  offset : (n,) what these did to the residuals, undone
+    world : as entered but for the likeliest tolerances (t,);  offset : (n,) what these did to the residuals, undone
     level : minus the log evidence of the null, so that gains compare;  extra : (n,) noise of bending
     entered : world as entered, where that is not `world`
     """
@@ -36,6 +36,7 @@ class Ground:
     budget: int
     level: float
     extra: np.ndarray
+    likeliest: np.ndarray
     offset: np.ndarray
     entered: World
 
@@ -141,8 +142,8 @@ def settled(ground: Ground, fit: Fit) -> Fit:
         setting = anchored(ground.setting, world)
     except ValueError:  # a body or a cable that cannot exist
         return replace(fit, gain=-np.inf)
-    null = null_model(setting, world, ground.readings, ground.extra, ground.offset)
-    there = replace(ground, setting=setting, null=null)
+    null, offset = relinearised(setting, world, ground.readings, ground.extra, ground.likeliest)
+    there = replace(ground, setting=setting, null=null, offset=offset)
     again = refit(there, fit.choices, fit.theta)
     return replace(again, gain=again.gain + fit.spread, spread=fit.spread)
 

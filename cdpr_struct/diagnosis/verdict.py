@@ -16,9 +16,8 @@ TEMPER = 0.7  # of the evidence between causes: the model of noise and tolerance
 CREDIBLE = 0.95  # probability that a class holds together
 CONFIRMED = 1.0  # nats that a cause keeps whichever group of states is left out, or it is not named
 UNCONFIRMED = 0.5  # largest probability of a cause that hangs on one group of states
-_LEFT = 6.0  # nats that a law outside the library must add to them
+_LEFT = 4.0  # nats that a law outside the library must add to them
 _PRIOR_OUTSIDE = -4.6  # ln prior of the best channel, one in fourteen of one in seven, beside that of no further cause
-_BEYOND = 3.0  # nats by which a law outside the library must beat the chosen causes
 _PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
     "NS": "the null space of the structure matrix (internal force)", "LP": "the poses at locked lengths",
@@ -69,7 +68,7 @@ def is_unknown(found: Diagnosis) -> bool:
         return not found.corrections or found.p_value_left < ADEQUATE
     outside = found.outside
     structured = outside.left > max(outside.limit, _LEFT)
-    return found.p_adequate < ADEQUATE or structured or outside.alone > fit.gain + _BEYOND
+    return found.p_adequate < ADEQUATE or structured
 
 
 def _unknown_sentence(found: Diagnosis, place: str) -> str:
@@ -78,7 +77,7 @@ def _unknown_sentence(found: Diagnosis, place: str) -> str:
     if fit:
         text += f" The best candidate, {' with '.join(fit.names).replace('_', ' ')}, leaves a structured remainder."
     words = outside.left_words if fit else outside.words
-    return text + (f" It looks like {words}." if max(outside.left, outside.alone) > _BEYOND else "")
+    return text + (f" It looks like {words}." if (outside.left if fit else outside.alone) > _LEFT else "")
 
 
 def _confirmed(found: Diagnosis) -> bool:
@@ -130,7 +129,7 @@ def _probability(found: Diagnosis) -> float:
     for row in found.selection.rivals:
         for rival in row:
             gains.setdefault(rival.names, rival.gain)
-    beyond = float(np.logaddexp(outside.alone, fit.gain + outside.left + _PRIOR_OUTSIDE))
+    beyond = fit.gain + outside.left + _PRIOR_OUTSIDE
     classes = [_class(found, i) for i in range(len(fit.names))]
     answer = [gain for names, gain in gains.items() if _within(names, classes)]
     logs = np.array([0.0, beyond, *gains.values()])
