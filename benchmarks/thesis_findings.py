@@ -1,0 +1,207 @@
+"""Tables of docs/thesis_measurements.md beside the verdicts: where the error sits, and what numbers would remove it.
+
+Each function returns a table in Markdown. Run them with `python -m benchmarks.thesis_campaigns`.
+"""
+
+import math
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.stats import chi2
+
+from cdpr_struct.diagnosis.diagnose import BUDGETS, diagnose, prepare
+from cdpr_struct.diagnosis.evidence import candidates
+from cdpr_struct.diagnosis.null_model import null_model
+from cdpr_struct.diagnosis.selection import Ground, rank
+from cdpr_struct.diagnosis.setting import anchored
+from cdpr_struct.diagnosis.simulation_error import tension_errors
+from cdpr_struct.measurement.campaign import Campaign, Tolerances
+from cdpr_struct.measurement.campaign_file import load_campaign
+from cdpr_struct.reports.diagnosis_result import diagnosis_json
+from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.thesis import cable_tables, cogiro_vibration
+from cdpr_struct.thesis.reproduction import printed_table
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+FACTORS = (0.5, 1.0, 2.0)
+STATIC = (("EQ", "balance"), ("NS", "internal force"))
+
+
+def table(head: list[str], rows: list[list[str]]) -> str:
+    """Markdown."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def example(name: str) -> Campaign:
+    """A campaign of examples/, without .toml."""
+    return load_campaign(str(EXAMPLES / f"{name}.toml"))
+
+
+def where_table_4_4_fails() -> str:
+    """Per pose: what the measured and the thesis's simulated forces leave of the balance, and of the null space."""
+    rows = []
+    for column, label in (("measured_N", "measured"), ("thesis_simulation_N", "thesis's simulation")):
+        ground = _ground(_with_column(example("table-4-4/campaign"), column))
+        labels, r, off = ground.setting.labels, ground.null.r, tension_errors(ground.setting)
+        for i, name in enumerate(ground.setting.campaign.states.names):
+            own = labels.state == i
+            balance, inner = r[own & (labels.block == "EQ")], r[own & (labels.block == "NS")]
+            rows.append(
+                [name, label, f"{np.sqrt((off[i] ** 2).mean()):.0f}", " ".join(f"{f:+.0f}" for f in balance[:3]),
+                 f"{np.linalg.norm(balance[3:]) * ground.setting.radius:.0f}", " ".join(f"{n:+.1f}" for n in inner),
+                 *(_chance(ground, own & (labels.block == block)) for block, _ in STATIC)]
+            )  # fmt: skip
+    head = ["pose", "forces", "rms from ours [N]", "unbalanced x y z [N]", "moment [N m]", "null space [mm of cable]",
+            "p of balance", "p of null space"]  # fmt: skip
+    return table(head, rows)
+
+
+def internal_force_share() -> str:
+    """Per pose and pair of force columns: rms difference, and the share of its square in the null space."""
+    campaign = example("table-4-4/campaign")
+    ground, measured = _ground(campaign), campaign.states.tension
+    ours = measured - tension_errors(ground.setting)
+    thesis = _with_column(campaign, "thesis_simulation_N").states.tension
+    rows = []
+    for i, name in enumerate(campaign.states.names):
+        cells = [name]
+        for gap in (measured[i] - thesis[i], measured[i] - ours[i], thesis[i] - ours[i]):
+            inner = ground.setting.null_space[i].T @ gap
+            cells.append(f"{np.sqrt((gap**2).mean()):.0f} N, {100.0 * (inner @ inner) / (gap @ gap):.0f} %")
+        rows.append(cells)
+    return table(["pose", "measured - thesis", "measured - ours", "thesis - ours"], rows)
+
+
+def _with_column(campaign: Campaign, column: str) -> Campaign:
+    """Table 4.4 with the printed numbers of another line."""
+    printed = np.array([float(row[column]) for row in printed_table("table_4_4")])
+    return replace(campaign, states=replace(campaign.states, tension=printed.reshape(campaign.states.tension.shape)))
+
+
+def _ground(campaign: Campaign) -> Ground:
+    return prepare(campaign, BUDGETS["small"])[0]
+
+
+def _chance(ground: Ground, rows: np.ndarray) -> str:
+    """p-value of some residuals under noise and tolerances."""
+    lower = np.linalg.cholesky(ground.null.covariance[np.ix_(rows, rows)])
+    z = np.linalg.solve(lower, ground.null.r[rows])
+    return f"{chi2.sf(float(z @ z), len(z)):.1g}"
+
+
+def sensitivity(name: str) -> str:
+    """Verdict of a campaign for assumed sigmas and tolerances times 0.5, 1, 2."""
+    rows = []
+    for sigma in FACTORS:
+        for tolerance in FACTORS:
+            result = diagnosis_json(diagnose(scaled(example(name), sigma, tolerance)))
+            place = result["verdict"]["location"].rpartition("case ")[2] or "-"
+            rows.append([f"x{sigma:g}", f"x{tolerance:g}", *verdict_cells(result), place])
+    return table(["sigmas", "tolerances", *VERDICT_HEAD, "worst state"], rows)
+
+
+VERDICT_HEAD = ["p", "status", "cause", "nats", "next", "nats", "left out, ratio"]
+
+
+def verdict_cells(result: dict[str, Any]) -> list[str]:
+    """p-value, status, best cause and the runner-up with their evidence, held-out ratio."""
+    said, ratio = result["verdict"], result["gain"]["ratio"]
+    gains = [(c["cause"], f"{c['log_evidence_gain']:.1f}") for c in result["candidates"]]
+    chosen = max(len(said["causes"]), 1)
+    best = (" + ".join(said["causes"]), gains[0][1]) if said["causes"] else (f"({gains[0][0]})", gains[0][1]) if gains \
+        else ("-", "-")  # fmt: skip
+    second = gains[chosen] if len(gains) > chosen else ("-", "-")
+    held = "-" if ratio is None else f"{ratio:.2f}"
+    return [f"{result['p_value']:.1g}", said["status"], *best, *second, held]
+
+
+def scaled(campaign: Campaign, sigma: float, tolerance: float) -> Campaign:
+    """The campaign with all sensor sigmas and all tolerances multiplied."""
+    states, cable, robot = campaign.states, campaign.cable_frequencies, campaign.robot_frequencies
+    named = ("sigma_position", "sigma_rotation", "tension_sigma", "length_sigma")
+    return replace(
+        campaign,
+        tolerances=Tolerances(**{f.name: tolerance * getattr(campaign.tolerances, f.name) for f in fields(Tolerances)}),
+        states=replace(states, **{name: sigma * getattr(states, name) for name in named}),
+        cable_frequencies=replace(cable, sigma=sigma * cable.sigma),
+        robot_frequencies=replace(robot, sigma=sigma * robot.sigma),
+    )
+
+
+def tensions_that_frequencies_mean() -> str:
+    """Tension of cable 5 by each printed frequency (a taut string), beside what was read and what is computed."""
+    rows = []
+    for name, place, measured in (
+        ("table_4_5", cogiro_vibration.CENTRE, 307),
+        ("table_4_6", cogiro_vibration.EDGE, 383),
+    ):
+        robot = example("tables-4-5-4-6/campaign").robot
+        cables = inverse(robot, place, np.eye(3)).cables
+        loaded = inverse(robot.with_load(15.0), place, np.eye(3)).cables
+        printed = printed_table(name)
+        for column, label in (("experiment_Hz", "experiment"), ("dsm_Hz", "thesis's simulation")):
+            first = np.array([float(row[column]) / int(row["mode"]) for row in printed])
+            means = robot.linear_density[4] * (2.0 * cables.chord[4] * first) ** 2
+            rows.append(
+                [name.replace("table_", "").replace("_", "."), label, ", ".join(f"{t:.0f}" for t in means),
+                 f"{np.median(means):.0f}", f"{measured}", f"{cables.tension[4]:.0f}", f"{loaded.tension[4]:.0f}"]
+            )  # fmt: skip
+    head = ["table", "line", "tension by mode 1, 2, ... [N]", "median", "read in Table 4.4", "ours, 118.5 kg",
+            "ours, 133.5 kg"]  # fmt: skip
+    return table(head, rows)
+
+
+def platform_modes() -> str:
+    """Section 4.3.3 with each stated mode taken for the platform's: which single cause brings ours there?"""
+    rows = []
+    for name, model in (("campaign", "static"), ("campaign", "dsm"), ("simulated", "static"), ("simulated", "dsm")):
+        ground = _ground(replace(example(f"section-4-3-3/{name}"), model=model))
+        sure = _sure(ground)
+        fits = rank(sure)
+        computed = np.exp(sure.setting.robot_log - 0.01 * sure.null.r[sure.setting.labels.block == "RF"])
+        shown = [f"{f.names[0]} {_size(f.choices[0], f.theta)} ({f.gain:.0f} nats)" for f in fits[:2]]
+        rows.append(
+            [f"{name}, {model}", _hertz(sure.setting.campaign.robot_frequencies.hertz), _hertz(computed / 2 / math.pi),
+             f"{float(sure.z @ sure.z):.0f} / {len(sure.z)}", *shown, *["-"] * (2 - len(shown))]
+        )  # fmt: skip
+    return table(["data, our model", "stated [Hz]", "our partners [Hz]", "chi2 / n", "best", "next"], rows)
+
+
+def _sure(ground: Ground) -> Ground:
+    """The ground without the doubt that a far-off frequency may belong to another mode."""
+    setting = anchored(ground.setting, ground.world)
+    null = null_model(setting, ground.world, ground.readings)
+    library = candidates(setting, ground.world, ground.readings, null, [c.cause for c in ground.candidates])
+    blank = np.zeros_like(ground.extra)
+    return replace(
+        ground, setting=setting, null=null, candidates=library, level=null.level, extra=blank, budget=6
+    )  # fmt: skip
+
+
+def _size(choice: Any, theta: np.ndarray) -> str:
+    shown = [p.shown(float(t), 0.0) for p, t in zip(choice.pattern.parameters, theta * choice.prior, strict=True)]
+    return ", ".join(f"{s['value']:.2f}" for s in shown[:3]) + f" {shown[0]['unit']}"
+
+
+def _hertz(values: np.ndarray) -> str:
+    return " ".join(f"{v:.1f}" for v in values)
+
+
+def weight_of_tables_2() -> str:
+    """Cells of Tables 2.2-2.4 that round to the print, by weight per metre."""
+    rows = []
+    for weight in (0.6573, 0.6540, 0.6520, 0.6512, 0.6505, 0.6480):
+        density, keep = weight / cable_tables.GRAVITY, cable_tables.DENSITY
+        cable_tables.DENSITY = density
+        try:
+            items = [cable_tables.table_2_2(), cable_tables.table_2_3(), cable_tables.table_2_4()]
+        finally:
+            cable_tables.DENSITY = keep
+        cells = [cell for item in items for cell in item.cells]
+        far = max(abs(cell.deviation / float(cell.printed)) for cell in cells)
+        inside = sum(cell.within_print for cell in cells)
+        rows.append([f"{weight:.4f}", f"{inside} of {len(cells)}", f"{100 * far:.2f} %"])
+    return table(["weight [N/m]", "cells that round to the print", "largest deviation"], rows)
