@@ -54,3 +54,17 @@ def test_plan_lists_sizes_and_confusions(capsys):
     result = json.loads(capsys.readouterr().out)
     assert {"detectable", "confusable", "next"} <= result.keys()
     assert {"cause", "minimum_detectable"} <= result["detectable"][0].keys()
+    assert "pulley_friction" in result["not_testable"]  # nobody said from which side the poses were approached
+    assert "pulley_friction" not in {row["cause"] for row in result["detectable"]}
+
+
+def test_plan_says_what_to_measure_next(capsys):
+    assert run(["plan", LEVEL, "--json"]) == 0
+    following = json.loads(capsys.readouterr().out)["next"]
+    assert {"measurement", "gain_nats", "sentence", "separates"} <= following[0].keys()
+    assert [row["gain_nats"] for row in following] == sorted((row["gain_nats"] for row in following), reverse=True)
+    (weighing,) = [row for row in following if row["measurement"] == "weigh the platform (+-0.1 kg)"]
+    told_apart = {(s["cause"], s["from"]): s for s in weighing["separates"]}
+    assert told_apart["joint_mass", "platform_mass"]["nats_after"] > 5.0
+    assert "separates" in weighing["sentence"]
+    assert weighing["sentence"].endswith("nats")
