@@ -2,7 +2,7 @@
 
     python -m benchmarks.thesis_campaigns                 all tables, to the screen (about two minutes)
     python -m benchmarks.thesis_campaigns verdicts modes  some of them
-    python -m benchmarks.thesis_campaigns --write         puts them into docs/thesis_measurements.md
+    python -m benchmarks.thesis_campaigns --write         puts them into docs/thesis_measurements.md, with figures
 
 Every table of that page stands between `<!-- name -->` and `<!-- end -->` and comes from here.
 """
@@ -16,8 +16,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from benchmarks import thesis_findings as findings
 from cdpr_struct.diagnosis.diagnose import diagnose
+from cdpr_struct.reports.diagnosis_page import diagnosis_files
 from cdpr_struct.reports.diagnosis_result import diagnosis_json
 
+FIGURES = {"table-4-4/level": "level", "tables-4-5-4-6/campaign": "frequencies"}
 PAGE = Path(__file__).parents[1] / "docs" / "thesis_measurements.md"
 CAMPAIGNS = (
     "table-4-4/campaign",
@@ -52,6 +54,15 @@ TABLES = {
 }
 
 
+def draw() -> None:
+    """The residuals of two campaigns, as `diagnose --out` draws them, beside the page."""
+    for name, short in FIGURES.items():
+        found = diagnose(findings.example(name))
+        drawn = diagnosis_files(found, diagnosis_json(found))["residuals.svg"]
+        text = drawn if isinstance(drawn, str) else drawn.decode("utf-8")
+        PAGE.with_name(f"{PAGE.stem}_{short}.svg").write_text(text, "utf-8")
+
+
 def put(page: str, name: str, text: str) -> str:
     """The page with the table between its two comments replaced."""
     before, mark, rest = page.partition(f"<!-- {name} -->")
@@ -72,6 +83,8 @@ def main(arguments: list[str]) -> int:
         print(f"\n{name}\n{text}", flush=True)
         if "--write" in arguments:
             PAGE.write_text(put(PAGE.read_text("utf-8"), name, text), "utf-8")
+    if "--write" in arguments:
+        draw()
     return 0
 
 

@@ -5,6 +5,7 @@ Each function returns a table in Markdown. Run them with `python -m benchmarks.t
 
 import math
 from dataclasses import fields, replace
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +15,12 @@ from scipy.stats import chi2
 from cdpr_struct.diagnosis.diagnose import BUDGETS, diagnose, prepare
 from cdpr_struct.diagnosis.evidence import candidates
 from cdpr_struct.diagnosis.null_model import null_model
+from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.residuals import residuals
 from cdpr_struct.diagnosis.selection import Ground, rank
-from cdpr_struct.diagnosis.setting import anchored
+from cdpr_struct.diagnosis.setting import anchored, make_setting
 from cdpr_struct.diagnosis.simulation_error import tension_errors
+from cdpr_struct.diagnosis.world import World
 from cdpr_struct.measurement.campaign import Campaign, Tolerances
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.reports.diagnosis_result import diagnosis_json
@@ -57,6 +61,20 @@ def where_table_4_4_fails() -> str:
     head = ["pose", "forces", "rms from ours [N]", "unbalanced x y z [N]", "moment [N m]", "null space [mm of cable]",
             "p of balance", "p of null space"]  # fmt: skip
     return table(head, rows)
+
+
+def inclined_imbalance(column: str) -> list[tuple[float, float]]:
+    """Sideways force [N] and moment [N m] left at the inclined pose, turned about x, y, z by +23 and -23 degrees."""
+    campaign = _with_column(example("table-4-4/campaign"), column)
+    states, left = campaign.states, []
+    for axis, sign in product(range(3), (1.0, -1.0)):
+        angles = states.angles.copy()
+        angles[3] = sign * np.radians(23.0) * np.eye(3)[axis]
+        setting = make_setting(replace(campaign, states=replace(states, angles=angles)))
+        world, readings = World.of(campaign.robot, len(states.names)), Readings.of(setting.campaign.states)
+        balance = residuals(setting, world, readings)[(setting.labels.state == 3) & (setting.labels.block == "EQ")]
+        left.append((float(np.hypot(*balance[:2])), float(np.linalg.norm(balance[3:]) * setting.radius)))
+    return left
 
 
 def internal_force_share() -> str:

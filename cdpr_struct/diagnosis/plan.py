@@ -1,5 +1,6 @@
 """Before measuring: the smallest sizes that would be detected, and what would be confused."""
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -34,6 +35,7 @@ def minimum_detectable(candidates: list[Candidate]) -> dict[str, dict[str, Any]]
     return table
 
 
+@cache
 def noncentrality(d: int) -> float:
     """Noncentrality at which a chi^2 test of d degrees of freedom has the wanted power."""
     limit, low, high = chi2.isf(ALPHA, d), 0.0, 400.0

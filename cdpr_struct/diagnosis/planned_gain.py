@@ -65,6 +65,8 @@ def next_measurements(ground: Ground, pairs: list[tuple[str, str]]) -> list[Gain
     """Measurements that would tell confused pairs of causes apart, best first; of each family the best one."""
     if not pairs:
         return []
+    named = {name for pair in pairs for name in pair}
+    ground = replace(ground, candidates=[c for c in ground.candidates if c.name in named])
     judge = _Judge(ground, pairs)
     found = [judge.gain(c.text, c.text, _checked(ground, c)) for c in CHECKS]
     for proposal in proposals(ground.setting.campaign):
@@ -84,8 +86,8 @@ class _Judge:
 
     def __init__(self, ground: Ground, pairs: list[tuple[str, str]]) -> None:
         self.pairs, self.lower = pairs, ground.null.lower
-        names = {name for pair in pairs for name in pair}
-        self.choices = {c.name: plainest(c) for c in ground.candidates if c.name in names}
+        named = {name for pair in pairs for name in pair}
+        self.choices = {c.name: plainest(c) for c in ground.candidates if c.name in named}
         start = reading_count(ground.setting)
         self.tolerance = ground.null.columns[:, start : start + tolerance_count(ground.setting)]
         self.covariance = ground.null.covariance
@@ -168,8 +170,16 @@ def _simulated(ground: Ground, proposal: Proposal) -> NewRows:
     null, _, _ = null_with_draws(setting, world, readings, _DRAWS, _SEED)
     start, t = reading_count(setting), tolerance_count(setting)
     noise = np.delete(null.columns, np.s_[start : start + t], axis=1)
+    base = residuals(setting, world, readings, small=True)
+
+    def effect(apply: Apply, sizes: np.ndarray) -> np.ndarray:
+        """(n, d) change of the residuals per unit of each parameter."""
+        moved = residuals(setting, apply(world, _STEP * np.diag(sizes)), readings, small=True)
+        change: np.ndarray = (moved - base).T / (_STEP * sizes)
+        return change
+
     signature = {
-        c.name: _effect(setting, world, readings, c.cause.apply, [p.prior for p in c.cause.basic(setting)])
+        c.name: effect(c.cause.apply, np.array([p.prior for p in c.cause.basic(setting)]))
         for c in ground.candidates
         if c.cause.count is None and c.name != _INTERNAL
     }
@@ -177,15 +187,5 @@ def _simulated(ground: Ground, proposal: Proposal) -> NewRows:
     fresh = np.zeros((len(null.r), 0))
     if own is not None and setting.null_space.size:
         prior = own.basic(ground.setting)[0].prior
-        count = world.internal.shape[-1]
-        fresh = prior * _effect(setting, world, readings, own.apply, [prior] * count)
+        fresh = prior * effect(own.apply, np.full(world.internal.shape[-1], prior))
     return NewRows(null.columns[:, start : start + t], noise, signature, fresh)
-
-
-def _effect(setting: Setting, world: World, readings: Readings, apply: Apply, prior: list[float]) -> np.ndarray:
-    """(n, d) change of the residuals per unit of each parameter."""
-    sizes = np.array(prior)
-    base = residuals(setting, world, readings, small=True)
-    moved = residuals(setting, apply(world, _STEP * np.diag(sizes)), readings, small=True)
-    change: np.ndarray = (moved - base).T / (_STEP * sizes)
-    return change

@@ -125,6 +125,21 @@ def test_sensitivity_on_the_page_is_current():
     assert [r["status"] for r in fresh] == [r["status"] for r in on_the_page("sensitivity")], AGAIN
 
 
+def test_figures_of_the_page_are_there():
+    page = thesis_campaigns.PAGE.read_text("utf-8")
+    for short in thesis_campaigns.FIGURES.values():
+        assert f"]({thesis_campaigns.PAGE.stem}_{short}.svg)" in page
+        assert thesis_campaigns.PAGE.with_name(f"{thesis_campaigns.PAGE.stem}_{short}.svg").exists()
+
+
+def test_no_turn_of_the_platform_balances_the_inclined_pose():
+    """Any axis and sign of 23 degrees: 151 N measured and 42 N simulated sideways at least, over 100 N m each."""
+    for column, sideways in (("measured_N", 140.0), ("thesis_simulation_N", 38.0)):
+        for force, moment in thesis_findings.inclined_imbalance(column):
+            assert force > sideways
+            assert moment > 100.0
+
+
 def test_every_table_has_its_place_on_the_page():
     page = Path(thesis_campaigns.PAGE).read_text("utf-8")
     for name in thesis_campaigns.TABLES:
