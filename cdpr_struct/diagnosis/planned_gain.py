@@ -140,14 +140,15 @@ def _checked(ground: Ground, check: Check) -> NewRows:
     """Rows of a direct reading."""
     world, t = ground.world, tolerance_count(ground.setting)
     basics = {c.name: np.array([p.prior for p in c.cause.basic(ground.setting)]) for c in ground.candidates}
-    if check.reads is None:
+    reads = check.reads
+    if reads is None:
         d = len(basics.get(check.cause, ()))
         return NewRows(np.zeros((d, t)), check.sigma * np.eye(d), {check.cause: np.eye(d)}, np.zeros((d, 0)))
-    plain = check.reads(world)
+    plain = reads(world)
     k = plain.shape[-1]
 
     def effect(moved: World, count: int, step: np.ndarray | float) -> np.ndarray:
-        change: np.ndarray = (np.broadcast_to(check.reads(moved), (count, k)) - plain).T / step  # type: ignore[misc]
+        change: np.ndarray = (np.broadcast_to(reads(moved), (count, k)) - plain).T / step
         return change
 
     signature = {
@@ -170,14 +171,7 @@ def _simulated(ground: Ground, proposal: Proposal) -> NewRows:
     null, _, _ = null_with_draws(setting, world, readings, _DRAWS, _SEED)
     start, t = reading_count(setting), tolerance_count(setting)
     noise = np.delete(null.columns, np.s_[start : start + t], axis=1)
-    base = residuals(setting, world, readings, small=True)
-
-    def effect(apply: Apply, sizes: np.ndarray) -> np.ndarray:
-        """(n, d) change of the residuals per unit of each parameter."""
-        moved = residuals(setting, apply(world, _STEP * np.diag(sizes)), readings, small=True)
-        change: np.ndarray = (moved - base).T / (_STEP * sizes)
-        return change
-
+    effect = _effects(setting, world, readings)
     signature = {
         c.name: effect(c.cause.apply, np.array([p.prior for p in c.cause.basic(setting)]))
         for c in ground.candidates
@@ -189,3 +183,15 @@ def _simulated(ground: Ground, proposal: Proposal) -> NewRows:
         prior = own.basic(ground.setting)[0].prior
         fresh = prior * effect(own.apply, np.full(world.internal.shape[-1], prior))
     return NewRows(null.columns[:, start : start + t], noise, signature, fresh)
+
+
+def _effects(setting: Setting, world: World, readings: Readings) -> Callable[[Apply, np.ndarray], np.ndarray]:
+    """Function of a cause and the sizes (d,) of its parameters: (n, d) change of the residuals per unit of each."""
+    base = residuals(setting, world, readings, small=True)
+
+    def effect(apply: Apply, sizes: np.ndarray) -> np.ndarray:
+        moved = residuals(setting, apply(world, _STEP * np.diag(sizes)), readings, small=True)
+        change: np.ndarray = (moved - base).T / (_STEP * sizes)
+        return change
+
+    return effect

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cdpr_struct.diagnosis.diagnose import Diagnosis
@@ -41,17 +42,21 @@ def draw_residuals(figure: Figure, found: Diagnosis) -> None:
             markersize=4,
             label="with causes",
         )
-    blocks = labels.block[order]
-    edges = np.flatnonzero(blocks[1:] != blocks[:-1]) + 0.5
-    for edge in edges:
-        axes.axvline(edge, color=GREY, linewidth=0.6)
-    present = [b for b in _WORDS if (blocks == b).any()]
-    axes.set_xticks([float(place[blocks == b].mean()) for b in present], [_WORDS[b] for b in present])
-    axes.tick_params(axis="x", length=0)
+    _name_blocks(axes, labels.block[order])
     axes.set_yscale("symlog", linthresh=3.0)
     axes.set_ylabel("residual / its sigma [-]")
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
     quiet(axes)
+
+
+def _name_blocks(axes: Axes, blocks: np.ndarray) -> None:
+    """Lines between blocks of residuals, their names below."""
+    place = np.arange(len(blocks))
+    for edge in np.flatnonzero(blocks[1:] != blocks[:-1]) + 0.5:
+        axes.axvline(edge, color=GREY, linewidth=0.6)
+    present = [b for b in _WORDS if (blocks == b).any()]
+    axes.set_xticks([float(place[blocks == b].mean()) for b in present], [_WORDS[b] for b in present])
+    axes.tick_params(axis="x", length=0)
 
 
 def draw_evidence(figure: Figure, result: Mapping[str, Any]) -> None:
