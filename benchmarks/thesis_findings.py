@@ -16,8 +16,9 @@ from cdpr_struct.diagnosis.diagnose import BUDGETS, diagnose, prepare
 from cdpr_struct.diagnosis.evidence import candidates
 from cdpr_struct.diagnosis.null_model import null_model
 from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.residuals import residuals
-from cdpr_struct.diagnosis.selection import Ground, rank
+from cdpr_struct.diagnosis.selection import Search
 from cdpr_struct.diagnosis.setting import anchored, make_setting
 from cdpr_struct.diagnosis.simulation_error import tension_errors
 from cdpr_struct.diagnosis.world import World
@@ -70,7 +71,7 @@ def inclined_imbalance(column: str) -> list[tuple[float, float]]:
     for axis, sign in product(range(3), (1.0, -1.0)):
         angles = states.angles.copy()
         angles[3] = sign * np.radians(23.0) * np.eye(3)[axis]
-        setting = make_setting(replace(campaign, states=replace(states, angles=angles)))
+        setting, _ = make_setting(replace(campaign, states=replace(states, angles=angles)))
         world, readings = World.of(campaign.robot, len(states.names)), Readings.of(setting.campaign.states)
         balance = residuals(setting, world, readings)[(setting.labels.state == 3) & (setting.labels.block == "EQ")]
         left.append((float(np.hypot(*balance[:2])), float(np.linalg.norm(balance[3:]) * setting.radius)))
@@ -87,7 +88,7 @@ def internal_force_share() -> str:
     for i, name in enumerate(campaign.states.names):
         cells = [name]
         for gap in (measured[i] - thesis[i], measured[i] - ours[i], thesis[i] - ours[i]):
-            inner = ground.setting.null_space[i].T @ gap
+            inner = ground.setting.sent.null_space[i].T @ gap
             cells.append(f"{np.sqrt((gap**2).mean()):.0f} N, {100.0 * (inner @ inner) / (gap @ gap):.0f} %")
         rows.append(cells)
     return table(["pose", "measured - thesis", "measured - ours", "thesis - ours"], rows)
@@ -100,7 +101,7 @@ def _with_column(campaign: Campaign, column: str) -> Campaign:
 
 
 def _ground(campaign: Campaign) -> Ground:
-    return prepare(campaign, BUDGETS["small"])[0]
+    return prepare(campaign, BUDGETS["small"]).ground
 
 
 def _chance(ground: Ground, rows: np.ndarray) -> str:
@@ -178,7 +179,7 @@ def platform_modes() -> str:
     for name, model in (("campaign", "static"), ("campaign", "dsm"), ("simulated", "static"), ("simulated", "dsm")):
         ground = _ground(replace(example(f"section-4-3-3/{name}"), model=model))
         sure = _sure(ground)
-        fits = rank(sure)
+        fits = Search(sure).rank()
         computed = np.exp(sure.setting.robot_log - 0.01 * sure.null.r[sure.setting.labels.block == "RF"])
         shown = [f"{f.names[0]} {_size(f.choices[0], f.theta)} ({f.gain:.0f} nats)" for f in fits[:2]]
         rows.append(

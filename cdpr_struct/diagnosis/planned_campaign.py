@@ -37,7 +37,8 @@ def planned(campaign: Campaign) -> Plan:
     ------
     InputError : the campaign holds nothing that can be diagnosed.
     """
-    ground, _, _, not_testable = prepare(one_sided(campaign), BUDGETS["small"])
+    prepared = prepare(one_sided(campaign), BUDGETS["small"])
+    ground, not_testable = prepared.ground, prepared.not_testable
     if not np.isfinite(campaign.states.approach).any() and _FRICTION in {c.name for c in ground.candidates}:
         not_testable[_FRICTION] = "needs a column approach (+1 or -1)"
     pairs = confusable(ground)

@@ -10,14 +10,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cdpr_struct.diagnosis.causes.sensors import internal_force
 from cdpr_struct.diagnosis.evidence import Choice
-from cdpr_struct.diagnosis.null_model import null_with_draws, reading_count, tolerance_count, tolerated
+from cdpr_struct.diagnosis.null_model import null_with_bending, reading_count, tolerance_count, tolerated
 from cdpr_struct.diagnosis.plan import WIDE, left_over, noncentrality, plainest
 from cdpr_struct.diagnosis.planned_checks import CHECKS, Check
 from cdpr_struct.diagnosis.planned_states import Proposal, proposals
 from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.residuals import Setting, residuals
-from cdpr_struct.diagnosis.selection import Ground
 from cdpr_struct.diagnosis.setting import make_setting
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import CdprError
@@ -163,12 +164,12 @@ def _checked(ground: Ground, check: Check) -> NewRows:
 
 def _simulated(ground: Ground, proposal: Proposal) -> NewRows:
     """Rows of new states; what refers to the campaign as a whole (mean pose and tension) stays the campaign's."""
-    setting = make_setting(proposal.campaign)
+    setting, _ = make_setting(proposal.campaign)
     old = ground.setting.known
     setting = replace(setting, known=replace(setting.known, center=old.center, mean_tension=old.mean_tension))
     states = setting.campaign.states
     world, readings = World.of(proposal.campaign.robot, len(states.names)), Readings.of(states)
-    null, _, _ = null_with_draws(setting, world, readings, _DRAWS, _SEED)
+    null, _ = null_with_bending(setting, world, readings, _DRAWS, _SEED)
     start, t = reading_count(setting), tolerance_count(setting)
     noise = np.delete(null.columns, np.s_[start : start + t], axis=1)
     effect = _effects(setting, world, readings)
@@ -177,11 +178,11 @@ def _simulated(ground: Ground, proposal: Proposal) -> NewRows:
         for c in ground.candidates
         if c.cause.count is None and c.name != _INTERNAL
     }
-    own = next((c.cause for c in ground.candidates if c.name == _INTERNAL), None)
     fresh = np.zeros((len(null.r), 0))
-    if own is not None and setting.null_space.size:
-        prior = own.basic(ground.setting)[0].prior
-        fresh = prior * effect(own.apply, np.full(world.internal.shape[-1], prior))
+    if setting.sent.null_space.any() and _INTERNAL in {c.name for c in ground.candidates}:
+        own, common = internal_force(setting), world.internal_force.shape[-1]
+        prior = np.array([p.prior for p in own.parameters])
+        fresh = (effect(own.apply, prior) * prior)[:, common:]
     return NewRows(null.columns[:, start : start + t], noise, signature, fresh)
 
 

@@ -226,7 +226,7 @@ def _robot(campaign: Campaign, home: int) -> Iterator[Proposal]:
 
 def _tuned(campaign: Campaign) -> Campaign:
     """The campaign with its frequencies moved onto those of the model that they were paired with."""
-    setting = make_setting(campaign)
+    setting, _ = make_setting(campaign)
     r = residuals(setting, World.of(campaign.robot, len(campaign.states.names)), Readings.of(campaign.states))
     cable, robot = (np.exp(-r[setting.labels.block == block] / 100.0) for block in ("CF", "RF"))
     old, unlabelled = campaign.cable_frequencies, campaign.robot_frequencies

@@ -26,7 +26,7 @@ PAIRS = [
 
 @pytest.fixture(scope="module")
 def ground():
-    return prepare(one_sided(clean_campaign(4)), BUDGETS["small"])[0]
+    return prepare(one_sided(clean_campaign(4)), BUDGETS["small"]).ground
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +66,7 @@ def test_stacked_rows_say_what_the_whole_campaign_says(ground, family):
     proposal = next(p for p in proposals(ground.setting.campaign) if p.family == family)
     judge = planned_gain._Judge(ground, PAIRS)
     stacked = judge._nats(planned_gain._simulated(ground, proposal))
-    whole = prepare(joined(ground.setting.campaign, proposal.campaign), BUDGETS["small"])[0]
+    whole = prepare(joined(ground.setting.campaign, proposal.campaign), BUDGETS["small"]).ground
     choices = {c.name: plainest(c) for c in whole.candidates}
     anew = np.array([
         left_over(choices[a].signature @ judge.theta[a], WIDE * choices[b].signature) for a, b in PAIRS
