@@ -16,14 +16,13 @@ def run(
     out: Out = None,
     json: Json = False,
 ) -> int:
-    """Smallest detectable size of each cause, and which causes would be taken for each other."""
-    from cdpr_struct.diagnosis.diagnose import BUDGETS, prepare
+    """Smallest detectable size of each cause, which causes look alike, and which measurement would separate them."""
+    from cdpr_struct.diagnosis.planned_campaign import planned
     from cdpr_struct.measurement.campaign_file import load_campaign
     from cdpr_struct.reports.diagnosis_plan import plan_json, plan_text
 
-    planned = load_campaign(campaign)
-    prepared = prepare(planned, BUDGETS["small"])
-    result = with_extensions(plan_json(prepared.ground, prepared.not_testable), planned.robot, NAME)
+    entered = load_campaign(campaign)
+    result = with_extensions(plan_json(planned(entered)), entered.robot, NAME)
     emit(result, json, lambda: print(plan_text(result)))
     if out is not None:
         write_files(out, {"result.json": result_json(result)})

@@ -26,5 +26,9 @@
 | diagnose.py            | all of the above in order                                                          |
 | extended_robot.py      | the robot object that a world means                                                |
 | extended_model.py      | the robot with its causes, for every other command                                 |
-| plan.py                | before measuring: what can be detected, what be confused, what to measure next     |
+| plan.py                | before measuring: what can be detected, what be confused                           |
+| planned_campaign.py    | the whole plan: detectable, confusable, what to measure next                       |
+| planned_states.py      | states that could be measured next, with the model's own readings                  |
+| planned_checks.py      | things that could be measured without the robot: weighing, calipers, a thermometer |
+| planned_gain.py        | how much better than now would they tell causes apart?                             |
 """

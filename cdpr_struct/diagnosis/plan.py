@@ -1,5 +1,6 @@
 """Before measuring: the smallest sizes that would be detected, and what would be confused."""
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ from cdpr_struct.diagnosis.evidence import Candidate, Choice, choices
 from cdpr_struct.diagnosis.refit import Ground
 
 ALPHA, POWER = 1e-3, 0.8
+WIDE = 2.5  # prior sigmas that a rival's size may have
 SAME = 3.0  # nats: expected evidence below which two causes are one class
 
 
@@ -19,7 +21,7 @@ def minimum_detectable(candidates: list[Candidate]) -> dict[str, dict[str, Any]]
     """
     table = {}
     for candidate in candidates:
-        choice = _plainest(candidate)
+        choice = plainest(candidate)
         d = choice.signature.shape[1]
         needed = noncentrality(d)
         strength = float((choice.signature**2).sum())
@@ -33,6 +35,7 @@ def minimum_detectable(candidates: list[Candidate]) -> dict[str, dict[str, Any]]
     return table
 
 
+@cache
 def noncentrality(d: int) -> float:
     """Noncentrality at which a chi^2 test of d degrees of freedom has the wanted power."""
     limit, low, high = chi2.isf(ALPHA, d), 0.0, 400.0
@@ -42,7 +45,7 @@ def noncentrality(d: int) -> float:
     return high
 
 
-def _plainest(candidate: Candidate) -> Choice:
+def plainest(candidate: Candidate) -> Choice:
     """All cables alike if there is such a pattern, else everything, at the typical scale."""
     typical = [c for c in choices(candidate) if c.scale == 1.0]
     alike = [c for c in typical if c.pattern.label == "all alike"]
@@ -55,7 +58,7 @@ def confusable(ground: Ground) -> list[dict[str, Any]]:
     For a cause of signature g, the best that rival k leaves is g' (1 + G_k G_k')^-1 g / 2.
     """
     pairs = []
-    options = {c.name: _plainest(c) for c in ground.candidates}
+    options = {c.name: plainest(c) for c in ground.candidates}
     for name, choice in options.items():
         d = choice.signature.shape[1]
         weight = float(np.sqrt((choice.signature**2).sum()))
@@ -66,7 +69,7 @@ def confusable(ground: Ground) -> list[dict[str, Any]]:
         g = g * 2.0 * np.sqrt(noncentrality(1)) / max(float(np.linalg.norm(g)), 1e-300)
         for other, rival in options.items():
             if other != name:
-                nats = left_over(g, 2.5 * rival.signature)
+                nats = left_over(g, WIDE * rival.signature)
                 if nats < SAME:
                     pairs.append({"cause": name, "taken_for": other, "nats": nats})
     return sorted(pairs, key=lambda p: p["nats"])

@@ -3,27 +3,37 @@
 from collections.abc import Mapping
 from typing import Any
 
-from cdpr_struct.diagnosis.plan import SAME, confusable, minimum_detectable
-from cdpr_struct.diagnosis.refit import Ground
+from cdpr_struct.diagnosis.planned_campaign import Plan
+from cdpr_struct.diagnosis.planned_gain import Gain
 from cdpr_struct.reports.text import paragraphs, plain_table
 
+SHOWN = 8
+MANY = 50.0  # nats beyond which the number says nothing more
 
-def plan_json(ground: Ground, not_testable: Mapping[str, str]) -> dict[str, Any]:
+
+def plan_json(plan: Plan) -> dict[str, Any]:
     """result.json of `plan`."""
-    found = minimum_detectable([c for c in ground.candidates if c.name not in not_testable])
-    pairs = confusable(ground)
-    hints = {c.name: c.cause.separated_by for c in ground.candidates}
-    following: dict[str, float] = {}
-    for pair in pairs:
-        hint = hints.get(pair["cause"], "")
-        if hint:
-            following[hint] = max(following.get(hint, 0.0), SAME - pair["nats"])
     return {
-        "detectable": [{"cause": n, "minimum_detectable": v} for n, v in found.items()],
-        "confusable": [[p["cause"], p["taken_for"]] for p in pairs],
-        "confusable_nats": [p["nats"] for p in pairs],
-        "next": [{"measurement": m, "gain_nats": g} for m, g in sorted(following.items(), key=lambda x: -x[1])[:8]],
-        "not_testable": dict(not_testable),
+        "detectable": [{"cause": n, "minimum_detectable": v} for n, v in plan.detectable.items()],
+        "confusable": [[p["cause"], p["taken_for"]] for p in plan.confusable],
+        "confusable_nats": [p["nats"] for p in plan.confusable],
+        "next": [_next(gain) for gain in plan.gains],
+        "not_testable": dict(plan.not_testable),
+    }
+
+
+def _next(gain: Gain) -> dict[str, Any]:
+    first = gain.separations[0]
+    size = f"{first.after:.0f}" if first.after < MANY else f"more than {MANY:.0f}"
+    return {
+        "measurement": gain.measurement,
+        "gain_nats": gain.nats,
+        "sentence": f"{gain.measurement}: separates {first.cause} from {first.rival}, expected {size} nats",
+        "separates": [
+            {"cause": s.cause, "from": s.rival, "nats_before": s.before, "nats_after": s.after}
+            for s in gain.separations
+            if s.after > s.before + 0.1
+        ],
     }
 
 
@@ -38,5 +48,5 @@ def plan_text(result: Mapping[str, Any]) -> str:
     blocks = [plain_table("Smallest size found 4 times out of 5", ["cause", "size", "unit", "pattern"], sizes)]
     if pairs:
         blocks.append(plain_table("Would be taken for each other", ["cause", "for"], pairs))
-    blocks += [f"Would help: {row['measurement']}." for row in result["next"][:3]]
+    blocks += [f"Would help, {row['gain_nats']:.1f} nats in all: {row['sentence']}." for row in result["next"][:SHOWN]]
     return paragraphs(*blocks)

@@ -44,8 +44,8 @@ _REDUCTION_NOTE = (
 _STATIC_NOTE = (
     "Minimum-norm forces of sagging cables at the platform for a hanging mass of 118.5 kg, which is not in the thesis "
     "but follows from its simulated forces. The first two poses meet the thesis's own simulation within 3 %. At the "
-    "corner y = -2.930 m is used, whose sign the print misses; there ours are nearer to the measurement (rms 17 N) "
-    "than the thesis's (rms 54 N). At the inclined pose the printed simulated forces are no equilibrium: they leave "
+    "corner y = -2.930 m is used, whose sign the print misses; there ours are nearer to the measurement (rms 21 N) "
+    "than the thesis's (rms 55 N). At the inclined pose the printed simulated forces are no equilibrium: they leave "
     "over 100 N m unbalanced, about whichever axis the platform is turned."
 )
 

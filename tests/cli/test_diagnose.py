@@ -49,8 +49,27 @@ def test_inclined_pose_contradicts_its_own_forces(capsys):
     assert "inclined centre" in result["verdict"]["location"]
 
 
-def test_plan_lists_sizes_and_confusions(capsys):
-    assert run(["plan", LEVEL, "--json"]) == 0
-    result = json.loads(capsys.readouterr().out)
+@pytest.fixture(scope="module")
+def plan(tmp_path_factory):
+    out = tmp_path_factory.mktemp("plan")
+    assert run(["plan", LEVEL, "--out", str(out)]) == 0
+    return json.loads((out / "result.json").read_text())
+
+
+def test_plan_lists_sizes_and_confusions(plan):
+    result = plan
     assert {"detectable", "confusable", "next"} <= result.keys()
     assert {"cause", "minimum_detectable"} <= result["detectable"][0].keys()
+    assert "pulley_friction" in result["not_testable"]  # nobody said from which side the poses were approached
+    assert "pulley_friction" not in {row["cause"] for row in result["detectable"]}
+
+
+def test_plan_says_what_to_measure_next(plan):
+    following = plan["next"]
+    assert {"measurement", "gain_nats", "sentence", "separates"} <= following[0].keys()
+    assert [row["gain_nats"] for row in following] == sorted((row["gain_nats"] for row in following), reverse=True)
+    (weighing,) = [row for row in following if row["measurement"] == "weigh the platform (+-0.1 kg)"]
+    told_apart = {(s["cause"], s["from"]): s for s in weighing["separates"]}
+    assert told_apart["joint_mass", "platform_mass"]["nats_after"] > 5.0
+    assert "separates" in weighing["sentence"]
+    assert weighing["sentence"].endswith("nats")

@@ -1,0 +1,92 @@
+"""What does the diagnosis say about the thesis's own measurements, and how much of it hangs on assumed sigmas?
+
+    python -m benchmarks.thesis_campaigns                 all tables, to the screen (about two minutes)
+    python -m benchmarks.thesis_campaigns verdicts modes  some of them
+    python -m benchmarks.thesis_campaigns --write         puts them into docs/thesis_measurements.md, with figures
+
+Every table of that page stands between `<!-- name -->` and `<!-- end -->` and comes from here.
+"""
+
+import os
+import sys
+from pathlib import Path
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+from benchmarks import thesis_findings as findings
+from cdpr_struct.diagnosis.diagnose import diagnose
+from cdpr_struct.reports.diagnosis_page import diagnosis_files
+from cdpr_struct.reports.diagnosis_result import diagnosis_json
+
+FIGURES = {"table-4-4/level": "level", "tables-4-5-4-6/campaign": "frequencies"}
+PAGE = Path(__file__).parents[1] / "docs" / "thesis_measurements.md"
+CAMPAIGNS = (
+    "table-4-4/campaign",
+    "table-4-4/level",
+    "tables-4-5-4-6/campaign",
+    "tables-4-5-4-6/with-shaker",
+    "section-4-3-3/campaign",
+    "section-4-3-3/simulated",
+)
+
+
+def verdict_row(name: str) -> list[str]:
+    """Name, verdict and evidence, place."""
+    result = diagnosis_json(diagnose(findings.example(name)))
+    return [name, *findings.verdict_cells(result), result["verdict"]["location"] or "-"]
+
+
+def verdicts() -> str:
+    """One line a campaign."""
+    return findings.table(["campaign", *findings.VERDICT_HEAD, "place"], [verdict_row(name) for name in CAMPAIGNS])
+
+
+TABLES = {
+    "verdicts": verdicts,
+    "forces": findings.where_table_4_4_fails,
+    "internal": findings.internal_force_share,
+    "sensitivity": lambda: findings.sensitivity("table-4-4/level"),
+    "sensitivity-frequencies": lambda: findings.sensitivity("tables-4-5-4-6/campaign"),
+    "tensions": findings.tensions_that_frequencies_mean,
+    "modes": findings.platform_modes,
+    "weight": findings.weight_of_tables_2,
+}
+
+
+def draw() -> None:
+    """The residuals of two campaigns, as `diagnose --out` draws them, beside the page."""
+    for name, short in FIGURES.items():
+        found = diagnose(findings.example(name))
+        drawn = diagnosis_files(found, diagnosis_json(found))["residuals.svg"]
+        text = drawn if isinstance(drawn, str) else drawn.decode("utf-8")
+        PAGE.with_name(f"{PAGE.stem}_{short}.svg").write_text(text, "utf-8")
+
+
+def put(page: str, name: str, text: str) -> str:
+    """The page with the table between its two comments replaced."""
+    before, mark, rest = page.partition(f"<!-- {name} -->")
+    if not mark:
+        raise ValueError(f"{PAGE} has no <!-- {name} -->")
+    return f"{before}{mark}\n{text}\n<!-- end -->{rest.partition('<!-- end -->')[2]}"
+
+
+def main(arguments: list[str]) -> int:
+    """Print the chosen tables; with --write also put them into the page."""
+    chosen = [a for a in arguments if not a.startswith("-")] or list(TABLES)
+    unknown = sorted(set(chosen) - TABLES.keys())
+    if unknown:
+        print(f"unknown table {unknown[0]}; there are {', '.join(TABLES)}", file=sys.stderr)
+        return 2
+    for name in chosen:
+        text = TABLES[name]()
+        print(f"\n{name}\n{text}", flush=True)
+        if "--write" in arguments:
+            PAGE.write_text(put(PAGE.read_text("utf-8"), name, text), "utf-8")
+    if "--write" in arguments:
+        draw()
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))

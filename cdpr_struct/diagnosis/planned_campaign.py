@@ -1,0 +1,46 @@
+"""Before measuring: what a campaign can find, what it would confuse, and what to measure next."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.diagnosis.diagnose import BUDGETS, prepare
+from cdpr_struct.diagnosis.plan import confusable, minimum_detectable
+from cdpr_struct.diagnosis.planned_gain import Gain, next_measurements
+from cdpr_struct.diagnosis.planned_states import one_sided
+from cdpr_struct.measurement.campaign import Campaign
+
+_FRICTION = "pulley_friction"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plan:
+    """A campaign's promise.
+
+    detectable   : per testable cause its smallest detectable size
+    confusable   : pairs of causes that it does not tell apart, with their expected evidence
+    gains        : measurements that would, best first
+    not_testable : why not, per cause
+    """
+
+    detectable: dict[str, dict[str, Any]]
+    confusable: list[dict[str, Any]]
+    gains: list[Gain]
+    not_testable: dict[str, str]
+
+
+def planned(campaign: Campaign) -> Plan:
+    """What a campaign promises; its readings may be those of a simulation.
+
+    Raises
+    ------
+    InputError : the campaign holds nothing that can be diagnosed.
+    """
+    prepared = prepare(one_sided(campaign), BUDGETS["small"])
+    ground, not_testable = prepared.ground, prepared.not_testable
+    if not np.isfinite(campaign.states.approach).any() and _FRICTION in {c.name for c in ground.candidates}:
+        not_testable[_FRICTION] = "needs a column approach (+1 or -1)"
+    pairs = confusable(ground)
+    found = minimum_detectable([c for c in ground.candidates if c.name not in not_testable])
+    return Plan(found, pairs, next_measurements(ground, [(p["cause"], p["taken_for"]) for p in pairs]), not_testable)
