@@ -8,7 +8,7 @@ import pytest
 from cdpr_struct.diagnosis.causes.registry import LIBRARY
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.evidence import candidates, choices
-from cdpr_struct.diagnosis.null_model import null_model
+from cdpr_struct.diagnosis.null_model import null_model, tolerance_count
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.refit import Ground, refit
 from cdpr_struct.diagnosis.selection import Search
@@ -44,7 +44,8 @@ def ground_of(campaign, names) -> Ground:
     world, readings = World.of(campaign.robot, len(campaign.states.names)), Readings.of(campaign.states)
     null = null_model(setting, world, readings)
     library = candidates(setting, world, readings, null, [LIBRARY[n] for n in names])
-    return Ground(setting, world, readings, null, library, 3, null.level, np.zeros(len(null.r)))
+    likeliest, nothing = np.zeros(tolerance_count(setting)), np.zeros(len(null.r))
+    return Ground(setting, world, readings, null, library, 3, null.level, nothing, likeliest, nothing, world)
 
 
 @pytest.mark.parametrize(("name", "label", "size"), HIDDEN, ids=[h[0] for h in HIDDEN])
