@@ -1,0 +1,63 @@
+"""Unlabelled peaks and modes: shared tolerances sharpen the pairing, competing pairings raise the doubt."""
+
+import numpy as np
+
+from cdpr_struct.diagnosis.mode_pairing import Modes, paired
+
+HERTZ = np.array([1.0, 1.06, 1.5, 1.9, 2.02, 3.0])
+
+
+def modes(energy=None):
+    count = len(HERTZ)
+    share = np.ones(count) if energy is None else np.asarray(energy)
+    return Modes(np.zeros(count, dtype=int), HERTZ, np.zeros((count, 6)), share)
+
+
+def given(peaks, modes, covariance):
+    """Pairing of peaks of one state, noise 0.3 %, shapes not measured."""
+    count = len(peaks)
+    unlike = np.zeros((count, len(HERTZ)))
+    return paired(np.zeros(count, dtype=int), np.asarray(peaks), np.full(count, 0.003), modes, covariance, unlike)
+
+
+def pairing(chosen, shift, covariance):
+    peaks = HERTZ[chosen] * np.exp(shift)
+    return given(peaks, modes(), covariance)
+
+
+def test_a_common_shift_is_learned_from_the_clear_peaks():
+    """All modes 5 % higher, tolerances shared: every peak finds its mode though a neighbour is nearer to two of them."""
+    chosen = [0, 2, 3, 5]
+    shared = 0.03**2 + 1e-5 * np.eye(len(HERTZ))
+    found = pairing(chosen, 0.05, shared)
+    assert found.chosen.tolist() == chosen
+    assert found.doubt.max() < 0.01
+
+
+def test_without_the_shared_tolerance_the_same_peaks_go_astray():
+    alone = 0.03**2 * np.eye(len(HERTZ))
+    assert pairing([0, 2, 3, 5], 0.05, alone).chosen.tolist() != [0, 2, 3, 5]
+
+
+def test_two_partners_alike_mean_doubt_of_half_their_distance():
+    covariance = 0.04**2 * np.eye(len(HERTZ))
+    peak = np.sqrt(HERTZ[0] * HERTZ[1])
+    found = given([peak], modes(), covariance)
+    between = abs(np.log(HERTZ[1] / HERTZ[0]))
+    assert found.chosen[0] in (0, 1)
+    assert 0.5 * between < found.doubt[0] < between
+
+
+def test_a_mode_without_platform_motion_is_left_to_others():
+    """Of two modes equally far the one in which the platform moves is taken."""
+    covariance = 0.04**2 * np.eye(len(HERTZ))
+    peak = np.sqrt(HERTZ[0] * HERTZ[1])
+    share = [0.05, 1.0, 1.0, 1.0, 1.0, 1.0]
+    found = given([peak], modes(share), covariance)
+    assert found.chosen[0] == 1
+
+
+def test_a_stray_peak_is_in_doubt():
+    covariance = 0.001**2 * np.eye(len(HERTZ))
+    found = given([2.5], modes(), covariance)
+    assert found.doubt[0] > 0.2
