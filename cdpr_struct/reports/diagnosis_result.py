@@ -2,6 +2,8 @@
 
 from typing import Any
 
+import numpy as np
+
 from cdpr_struct.diagnosis.diagnose import SIGNIFICANT, Diagnosis
 from cdpr_struct.diagnosis.plan import minimum_detectable
 from cdpr_struct.diagnosis.simulation_error import simulation_error
@@ -26,6 +28,7 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
             "sentence": said.sentence,
         },
         "candidates": candidate_rows(found),
+        "outside_library": {"law": found.outside.left_words, "log_evidence_gain": _number(found.outside.left)},
         "gain": _gain(found),
         "extended_model": "extended_robot.toml" if said.causes else None,
         "not_testable": sorted(found.not_testable),
@@ -38,6 +41,10 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
         "not_used": sorted({s.kind for s in found.campaign.series}),
     }  # fmt: skip
     return with_signals(result, found.campaign)
+
+
+def _number(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
 
 
 def _gain(found: Diagnosis) -> dict[str, Any]:

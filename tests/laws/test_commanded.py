@@ -14,7 +14,6 @@ from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
 from tests.laws.crime_campaign import NO_CABLES, clean_campaign
 
-
 BOUND = 150.0  # N
 
 
@@ -54,7 +53,7 @@ def internal(campaign, world):
 
 
 def test_the_true_world_explains_the_internal_force():
-    """2 mm of misplaced anchors: as entered a millimetre of cable is left along the null space, in the true world none."""
+    """2 mm of misplaced anchors: as entered a millimetre of internal force is left, in the true world nothing."""
     wrong = 0.002 * np.random.default_rng(2).standard_normal((8, 3))
     campaign = sent_to(wrong)
     world = World.of(campaign.robot, len(campaign.states.names))

@@ -26,7 +26,7 @@ def pairing(chosen, shift, covariance):
 
 
 def test_a_common_shift_is_learned_from_the_clear_peaks():
-    """All modes 5 % higher, tolerances shared: every peak finds its mode though a neighbour is nearer to two of them."""
+    """All modes 5 % higher, tolerances shared: every peak finds its mode though neighbours are nearer."""
     chosen = [0, 2, 3, 5]
     shared = 0.03**2 + 1e-5 * np.eye(len(HERTZ))
     found = pairing(chosen, 0.05, shared)
