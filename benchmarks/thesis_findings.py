@@ -12,7 +12,8 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.stats import chi2
 
-from cdpr_struct.diagnosis.diagnose import BUDGETS, diagnose, prepare
+from cdpr_struct.diagnosis.diagnose import diagnose
+from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.residuals import residuals

@@ -15,6 +15,7 @@
 | null_model.py          | tolerances and sensor noise as standard normal numbers, and their covariance       |
 | causes/                | the library: what may be wrong, with parameters, priors and one function each      |
 | evidence.py            | how much better than the null does a cause predict the residuals?                  |
+| prepared.py            | everything before the first hypothesis, and whether anything is significant        |
 | refit.py               | sizes of a set of causes through the nonlinear residuals, and the evidence there   |
 | selection.py           | one cause, several causes, or nothing: forward selection with exchange             |
 | remainder.py           | is what is left over still structured? laws outside the library                    |

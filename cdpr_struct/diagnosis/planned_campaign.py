@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from cdpr_struct.diagnosis.diagnose import BUDGETS, prepare
 from cdpr_struct.diagnosis.plan import confusable, minimum_detectable
 from cdpr_struct.diagnosis.planned_gain import Gain, next_measurements
 from cdpr_struct.diagnosis.planned_states import one_sided
+from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
 from cdpr_struct.measurement.campaign import Campaign
 
 _FRICTION = "pulley_friction"

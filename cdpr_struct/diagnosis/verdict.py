@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from cdpr_struct.diagnosis.diagnose import ADEQUATE, NAMED, SIGNIFICANT, Diagnosis
+from cdpr_struct.diagnosis.diagnose import ADEQUATE, NAMED, Diagnosis
 from cdpr_struct.diagnosis.evidence import Choice
+from cdpr_struct.diagnosis.prepared import SIGNIFICANT
 from cdpr_struct.diagnosis.refit import Fit
 from cdpr_struct.diagnosis.residuals import KIND_OF_BLOCK, UNITS
 

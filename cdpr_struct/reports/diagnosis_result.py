@@ -4,8 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from cdpr_struct.diagnosis.diagnose import SIGNIFICANT, Diagnosis
+from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.plan import minimum_detectable
+from cdpr_struct.diagnosis.prepared import SIGNIFICANT
 from cdpr_struct.diagnosis.simulation_error import simulation_error
 from cdpr_struct.diagnosis.verdict import candidate_rows, verdict
 from cdpr_struct.reports.diagnosis_signals import with_signals

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from cdpr_struct.diagnosis.diagnose import NAMED, SIGNIFICANT, Budget, prepare
+from cdpr_struct.diagnosis.diagnose import NAMED
 from cdpr_struct.diagnosis.evidence import largest_gains
 from cdpr_struct.diagnosis.null_model import drawn_campaigns, null_model
+from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, prepare
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import residuals
 from cdpr_struct.diagnosis.setting import make_setting

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from cdpr_struct.diagnosis import planned_gain
-from cdpr_struct.diagnosis.diagnose import BUDGETS, prepare
 from cdpr_struct.diagnosis.plan import WIDE, left_over, plainest
 from cdpr_struct.diagnosis.planned_checks import CHECKS, Check
 from cdpr_struct.diagnosis.planned_gain import next_measurements, size_of
 from cdpr_struct.diagnosis.planned_states import one_sided, proposals
+from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
 from cdpr_struct.measurement.campaign import CableFrequencies, Campaign, RobotFrequencies
 from tests.laws.crime_campaign import clean_campaign
 

@@ -1,0 +1,123 @@
+"""Everything before the first hypothesis: residuals, null, signatures of causes and channels, significance."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.stats import chi2
+
+from cdpr_struct.diagnosis.causes.registry import causes_for
+from cdpr_struct.diagnosis.evidence import Candidate, candidates, choices, largest_gains
+from cdpr_struct.diagnosis.null_model import (
+    NullModel,
+    likeliest_tolerances,
+    null_model,
+    null_with_bending,
+    relinearised,
+    tolerated,
+)
+from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.refit import Ground
+from cdpr_struct.diagnosis.remainder import channels
+from cdpr_struct.diagnosis.residuals import Setting
+from cdpr_struct.diagnosis.setting import anchored, make_setting, with_equilibria
+from cdpr_struct.diagnosis.world import World
+from cdpr_struct.errors import InputError
+from cdpr_struct.measurement.campaign import Campaign
+
+SIGNIFICANT = 0.04
+SEED = 20240229
+DRAWS = 1000
+OUTSIDE = -2.0  # ln prior of a law outside the library, beside that of a cause
+_TAIL_SHARE = 0.75  # of the false alarms that may come from the largest evidence; the rest from chi^2
+_VISIBLE = 2.0  # sigmas: a cause whose typical size changes nothing by more is not testable
+
+
+@dataclass(frozen=True, slots=True)
+class Budget:
+    """Random draws of the null, how many causes are refitted at each step, and at most taken."""
+
+    draws: int
+    refits: int
+    causes: int = 2
+
+
+BUDGETS = {"small": Budget(24, 3), "full": Budget(200, 6, 3)}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Prepared:
+    """Ground for hypotheses, null paired as if the entered world were right, channels, largest gains of null draws."""
+
+    ground: Ground
+    fine: NullModel
+    channels: list[Candidate]
+    gains: np.ndarray
+    p_value: float
+    not_testable: dict[str, str]
+
+
+def prepare(campaign: Campaign, plan: Budget) -> Prepared:
+    """Everything before the first hypothesis."""
+    if not len(campaign.states.names):
+        kinds = ", ".join(campaign.kinds())
+        raise InputError(campaign.source, "measurement", kinds, "also static states, loaded poses or frequencies")
+    setting, near = make_setting(campaign)
+    world, readings = World.of(campaign.robot, len(campaign.states.names)), Readings.of(setting.campaign.states)
+    first, extra = null_with_bending(setting, world, readings, plan.draws, SEED)
+    fine = first if near is setting else null_model(near, world, readings, extra)
+    ground = _ground(setting, near, world, fine, extra, plan.refits)
+    causes, not_testable = causes_for(setting)
+    library = candidates(ground.setting, ground.world, readings, ground.null, causes)
+    hidden = "at its typical size it hides in noise and tolerances"
+    not_testable |= {candidate.name: hidden for candidate in library if _strength(candidate) < _VISIBLE}
+    outside = channels(ground.setting, ground.world, readings, ground.null)
+    return _judged(replace(ground, candidates=library), fine, outside, not_testable)
+
+
+def _ground(setting: Setting, near: Setting, world: World, fine: NullModel, extra: np.ndarray, budget: int) -> Ground:
+    """The ground about the likeliest tolerances, no candidates yet."""
+    readings = Readings.of(setting.campaign.states)
+    u = likeliest_tolerances(near, fine)
+    likeliest = tolerated(setting, world, u)
+    setting = with_equilibria(setting, likeliest)
+    null, offset = relinearised(setting, likeliest, readings, extra, u)
+    level = null.level
+    if setting.campaign.robot_frequencies.hertz.size:
+        level = relinearised(anchored(near, likeliest), likeliest, readings, extra, u)[0].level
+    return Ground(setting, likeliest, readings, null, [], budget, level, extra, u, offset, world)
+
+
+def _judged(ground: Ground, fine: NullModel, outside: list[Candidate], not_testable: dict[str, str]) -> Prepared:
+    draws = np.random.default_rng(SEED).standard_normal((len(ground.null.r), DRAWS))
+    gains = _most(ground.candidates, outside, draws)
+    return Prepared(ground, fine, outside, gains, _significance(ground, outside, gains), not_testable)
+
+
+def _most(library: list[Candidate], outside: list[Candidate], draws: np.ndarray) -> np.ndarray:
+    """(k,) largest evidence of any cause or channel for residuals (n, k)."""
+    gains = largest_gains(library, draws)
+    return np.maximum(gains, largest_gains(outside, draws) + OUTSIDE) if outside else gains
+
+
+def _strength(candidate: Candidate) -> float:
+    """Largest whitened size of a typical occurrence, in standard deviations."""
+    best = 0.0
+    for choice in choices(candidate):
+        if choice.scale == 1.0:
+            best = max(best, float(np.linalg.norm(choice.signature, axis=0).max()))
+    return best
+
+
+def p_of_noise(null: NullModel) -> float:
+    """Probability of a chi^2 at least as large as that of the null's residuals."""
+    z = null.white(null.r)
+    return float(chi2.sf(float(z @ z), len(z)))
+
+
+def _significance(ground: Ground, outside: list[Candidate], gains: np.ndarray) -> float:
+    """p-value of the null: the largest evidence of any law beside that of draws from the null, and its chi^2."""
+    best = float(_most(ground.candidates, outside, ground.z[:, None])[0])
+    tail = (1.0 + float((gains >= best).sum())) / (len(gains) + 1.0)
+    if best > float(gains.max()):
+        tail = min(tail, len(ground.candidates) * float(np.exp(-best)))
+    return min(1.0, tail / _TAIL_SHARE, p_of_noise(ground.null) / (1.0 - _TAIL_SHARE))
