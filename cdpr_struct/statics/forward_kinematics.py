@@ -107,9 +107,10 @@ def forward(
     ValueError : a length that is not positive, or shapes that do not fit.
     """
     arrays = RobotArrays.of(robot, None if mass is None else np.asarray(mass, dtype=float))
-    length = arrays.paid_out(np.asarray(lengths, dtype=float))
-    if length.shape[-1:] != (arrays.cable_count,) or not (length > 0.0).all():
-        raise ValueError(f"lengths must be (..., {arrays.cable_count}) and > 0, got {length.tolist()!s:.200}")
+    reading = np.asarray(lengths, dtype=float)
+    length = arrays.paid_out(reading) if reading.shape[-1:] == (arrays.cable_count,) else reading[..., :0]
+    if not length.size or not (length > 0.0).all():
+        raise ValueError(f"lengths must be (..., {arrays.cable_count}) and > 0, got {reading.tolist()!s:.200}")
     wrench = np.zeros(6) if external_wrench is None else np.asarray(external_wrench, dtype=float)
     start = starting_position(arrays, length) if position is None else np.asarray(position, dtype=float)
     turn = np.eye(3) if rotation is None else np.asarray(rotation, dtype=float)
