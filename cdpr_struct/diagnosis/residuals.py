@@ -233,7 +233,9 @@ def _internal(setting: Setting, world: World, states: States, readings: Readings
 def _robot_block(setting: Setting, world: World, state: Conditioned, small: bool) -> np.ndarray:
     rows = setting.robot_rows
     dynamics = robot_pitch.Dynamics.at(world, state, setting.known, rows.state, setting.massless, setting.geometric)
-    log = np.log(rows.omega) + robot_pitch.first_order(dynamics, rows, setting.entered, setting.entered_rate)
-    if not small:
-        log = np.log(robot_pitch.follow(dynamics, rows, np.exp(log)))
+    move = robot_pitch.first_order(dynamics, rows, setting.entered, setting.entered_rate)
+    log = np.log(rows.omega) + move
+    if not small:  # absurd worlds may send the first guess anywhere
+        near = np.log(rows.omega) + np.clip(np.nan_to_num(move), -1.0, 1.0)
+        log = np.log(robot_pitch.follow(dynamics, rows, np.exp(near)))
     return setting.robot_log - log - setting.robot_gap

@@ -1,12 +1,9 @@
 """Hide an effect, require finding it: twelve campaigns, and no wrong name said with confidence."""
 
-import pytest
-
 from tests.blind.__main__ import main
 from tests.blind.scoring import case_rows, figures, scored_cases
 
 
-@pytest.mark.slow
 def test_no_wrong_confident_name_in_the_mini_suite(tmp_path):
     out = tmp_path / "ci"
     assert main(["make", "--set", "ci", "--out", str(out)]) == 0
