@@ -47,7 +47,7 @@ def commanded(campaign: Campaign, held: np.ndarray) -> Commanded:
             continue
         null = null_space(robot, states.position[i], turn[i])
         reference = reference if reference.any() else null
-        solution = _held(campaign, int(i), states.position[i], turn[i])
+        solution = simulated(campaign, int(i), states.position[i], turn[i])
         found.lengths[k] = solution.lengths
         slope, bend = _pose_slope(campaign, int(i), states.position[i], turn[i])
         taut = solution.tensions > _TAUT * robot.linear_density * robot.gravity * solution.lengths
@@ -59,11 +59,10 @@ def commanded(campaign: Campaign, held: np.ndarray) -> Commanded:
     return found
 
 
-def _held(campaign: Campaign, state: int, position: np.ndarray, rotation: np.ndarray) -> InverseSolution:
+def simulated(campaign: Campaign, state: int, position: np.ndarray, rotation: np.ndarray) -> InverseSolution:
     """The simulation's lengths and tensions at poses (...) with a state's payload."""
     robot = campaign.robot.with_load(float(campaign.states.payload[state]))
-    model = "spring" if campaign.model == "spring" else "sagging"
-    return inverse(robot, position, rotation, model, lower_bound=campaign.lower_bound, allow_unheld=True)
+    return inverse(robot, position, rotation, campaign.cable_model, lower_bound=campaign.lower_bound, allow_unheld=True)
 
 
 def _pose_slope(
@@ -71,7 +70,7 @@ def _pose_slope(
 ) -> tuple[np.ndarray, np.ndarray]:
     """(m, 6) change of the commanded lengths with the pose, and by how much (m, 6) it bends within `_REACH`."""
     steps = np.concatenate([np.zeros((1, 6)), *(s * np.eye(6) for s in (_STEP, -_STEP, _REACH, -_REACH))])
-    lengths = _held(campaign, state, position + steps[:, :3], rotation_from_vector(steps[:, 3:]) @ rotation).lengths
+    lengths = simulated(campaign, state, position + steps[:, :3], rotation_from_vector(steps[:, 3:]) @ rotation).lengths
     middle, up, down, far, back = lengths[:1], *np.split(lengths[1:], 4)
     return (up - down).T / (2.0 * _STEP), (far + back - 2.0 * middle).T
 

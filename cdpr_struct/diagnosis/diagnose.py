@@ -14,7 +14,6 @@ from cdpr_struct.diagnosis.null_model import NullModel
 from cdpr_struct.diagnosis.prepared import (
     BUDGETS,
     DRAWS,
-    OUTSIDE,
     SEED,
     SIGNIFICANT,
     Budget,
@@ -38,21 +37,19 @@ _MOST_CORRECTIONS = 2
 class Diagnosis:
     """Everything found.
 
-    ground, fine : what hypotheses were judged on, and the null as entered with all frequencies counted
+    entered      : the null as entered with all frequencies counted;  ground : what hypotheses were judged on
     corrections  : handling errors and shortcuts found, in the order of their discovery, with their log evidence
     selection    : physical causes on top of them;  p_value of the null as entered, p_value_left after corrections,
                    p_adequate of what was chosen
     weakest      : (causes,) nats that each keeps with the group left out that it needs most
     held, fudge  : held-out residuals of the choice and of a generic fit (common EA and load cell gain)
-    null_gains   : (draws,) largest evidence of any cause or channel when nothing is wrong
-    outside      : laws outside the library: their best evidence alone, and on top of the chosen causes
+    outside      : laws outside the library, on top of the chosen causes
     """
 
     campaign: Campaign
     entered: NullModel
     entered_setting: Setting
     ground: Ground
-    fine: NullModel
     corrections: list[tuple[Correction, float]]
     selection: Selection
     p_value: float
@@ -62,24 +59,20 @@ class Diagnosis:
     held: Held | None
     fudge: Held | None
     transfer: dict[str, float]
-    null_gains: np.ndarray
     outside: "Outside"
     not_testable: dict[str, str]
 
 
 @dataclass(frozen=True, slots=True)
 class Outside:
-    """Evidence of laws outside the library.
+    """The best law outside the library, by the channel through which it acts.
 
-    words, alone : the best channel by itself, and its log evidence against the null
-    left_words, left : the best channel on top of the chosen causes, and what it adds
+    words, gain : the channel, and what it adds to the log evidence of the chosen causes, or of the null without any
     limit : what channels add to noise in one case of forty
     """
 
     words: str
-    alone: float
-    left_words: str
-    left: float
+    gain: float
     limit: float
 
 
@@ -109,12 +102,12 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
     before = prepared.fine.r
     return Diagnosis(
         campaign=campaign, entered=entered.fine, entered_setting=entered.ground.setting, ground=ground,
-        fine=prepared.fine, corrections=found, selection=selection, p_value=entered.p_value,
+        corrections=found, selection=selection, p_value=entered.p_value,
         p_value_left=prepared.p_value,
         p_adequate=float(chi2.sf(fit.adequacy(), len(fit.white))) if fit else p_of_noise(ground.null),
         weakest=weakest(fit, groups) if fit else np.zeros(0), held=left_out(fit, before, groups) if fit else None,
         fudge=_fudge(prepared, groups) if fit else None, transfer=transfer(fit, before) if fit else {},
-        null_gains=prepared.gains, outside=_outside(prepared, fit), not_testable=prepared.not_testable,
+        outside=_outside(prepared, fit), not_testable=prepared.not_testable,
     )  # fmt: skip
 
 
@@ -129,18 +122,18 @@ def _selected(prepared: Prepared, plan: Budget, corrected: bool) -> Selection:
 
 
 def _outside(prepared: Prepared, fit: Fit | None) -> Outside:
-    """Evidence of laws outside the library, alone and on top of the chosen causes."""
+    """The best law outside the library on top of the chosen causes."""
     ground = prepared.ground
     if not prepared.channels:
-        return Outside("", -np.inf, "", -np.inf, np.inf)
-    alone = screen(prepared.channels, ground.z)[0]
+        return Outside("", -np.inf, np.inf)
     draws = np.random.default_rng(SEED + 1).standard_normal((len(ground.z), DRAWS))
     limit = float(np.quantile(largest_gains(prepared.channels, draws), 0.975))
-    left = alone
-    if fit is not None:
+    if fit is None:
+        best = screen(prepared.channels, ground.z)[0]
+    else:
         there = channels(fit.ground.setting, fit.world, ground.readings, fit.ground.null)
-        left = screen(there, fit.white + fit.signature @ fit.theta, fit.signature)[0]
-    return Outside(alone.candidate.cause.title, alone.gain + OUTSIDE, left.candidate.cause.title, left.gain, limit)
+        best = screen(there, fit.white + fit.signature @ fit.theta, fit.signature)[0]
+    return Outside(best.candidate.cause.title, best.gain, limit)
 
 
 def _fudge(prepared: Prepared, groups: np.ndarray) -> Held:

@@ -123,9 +123,8 @@ def _static(
 
 
 def _held(campaign: Campaign, place: np.ndarray, angles: np.ndarray, load: float) -> InverseSolution | None:
-    model = "spring" if campaign.model == "spring" else "sagging"
     try:
-        held = inverse(campaign.robot.with_load(load), place, rotation(*angles), model)
+        held = inverse(campaign.robot.with_load(load), place, rotation(*angles), campaign.cable_model)
     except CdprError:
         return None
     weight = campaign.robot.platform.mass * campaign.robot.gravity
@@ -166,8 +165,9 @@ def _locked(campaign: Campaign, home: int) -> Iterator[Proposal]:
     if held is None or len(robot.cables) < 6:
         return
     loads = np.array([_rounded(share * robot.platform.mass) for share in LOADS])
-    model = "spring" if campaign.model == "spring" else "sagging"
-    hangs = [forward(robot.with_load(float(w)), held.lengths, place, rotation(*angles), model) for w in loads]
+    hangs = [
+        forward(robot.with_load(float(w)), held.lengths, place, rotation(*angles), campaign.cable_model) for w in loads
+    ]
     count, m = len(loads), len(robot.cables)
     length = np.tile(held.lengths, (count, 1))
     plain = _states(campaign, place[None], angles[None], loads[:1], held.tensions[None], length[:1])

@@ -186,12 +186,13 @@ def follow(dynamics: Dynamics, rows: Rows, start: np.ndarray | None = None) -> n
 
     Where neighbours veer and the steps would leave the neighbourhood of the start, the start is kept.
     """
-    batch = dynamics.matrix(rows.omega**2).shape[:-2]
-    first = np.broadcast_to(rows.omega**2 if start is None else start**2, batch)
+    first = rows.omega**2 if start is None else start**2
+    here = dynamics.matrix(first)
+    batch = here.shape[:-2]
+    first = np.broadcast_to(first, batch)
     square, shape = first.copy(), np.broadcast_to(rows.shape, (*batch, 6))
     scale = np.sqrt(np.abs(np.diagonal(dynamics.mass, axis1=-2, axis2=-1)))
     for _ in range(_ITERATIONS):
-        here = dynamics.matrix(square)
         values, vectors = np.linalg.eigh(here / scale[..., :, None] / scale[..., None, :])
         overlap = np.abs(np.einsum("...i,...ij->...j", shape * scale, vectors))
         choice = overlap.argmax(axis=-1)[..., None]
@@ -203,5 +204,6 @@ def follow(dynamics: Dynamics, rows: Rows, start: np.ndarray | None = None) -> n
         square = square + step
         if (np.abs(step) < _SETTLED * square).all():
             break
+        here = dynamics.matrix(square)
     moved, expected = np.abs(np.log(square / first)), np.abs(np.log(first / rows.omega**2))
     return np.sqrt(np.where(moved > _LARGEST_MOVE + 0.25 * expected, first, square))

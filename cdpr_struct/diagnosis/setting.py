@@ -20,7 +20,9 @@ from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.robot.extensions import Extensions, masts_of
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.energy_descent import arm_scale
 from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.robot_arrays import RobotArrays
 
 
 def make_setting(campaign: Campaign) -> tuple[Setting, Setting]:
@@ -39,8 +41,7 @@ def make_setting(campaign: Campaign) -> tuple[Setting, Setting]:
     states = campaign.states
     held = np.flatnonzero(states.has_tension)
     locked = np.flatnonzero(~states.has_tension & states.has_length)
-    anchors = campaign.robot.platform_anchors
-    radius = float(max(np.sqrt((anchors**2).sum(axis=1).mean()), 1e-3))
+    radius = arm_scale(RobotArrays.of(campaign.robot))
     blank = np.zeros(0)
     setting = Setting(
         campaign, circumstances(campaign), held, locked, states.has_length[held], commanded(campaign, held), radius,
@@ -91,8 +92,7 @@ def _with_tensions(campaign: Campaign) -> Campaign:
     for i in blind:
         turn = Readings.of(states).rotation[i]
         robot = campaign.robot.with_load(float(states.payload[i]))
-        model = "spring" if campaign.model == "spring" else "sagging"
-        held = inverse(robot, states.position[i], turn, model)
+        held = inverse(robot, states.position[i], turn, campaign.cable_model)
         turns = exit_turns(robot, states.position[i], turn)
         computed = cell_reading(robot, held.tensions, states.approach[i], turns)
         known = np.isfinite(tension[i])

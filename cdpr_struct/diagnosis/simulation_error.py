@@ -4,11 +4,11 @@ from typing import Any
 
 import numpy as np
 
+from cdpr_struct.diagnosis.commanded import simulated
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.null_model import NullModel
 from cdpr_struct.diagnosis.readings import Readings, cell_reading, exit_turns
 from cdpr_struct.diagnosis.residuals import Setting
-from cdpr_struct.statics.inverse_kinematics import inverse
 
 UNIT = {"static_state": "N", "loaded_pose": "mm", "cable_frequency": "Hz", "robot_frequency": "Hz"}
 
@@ -17,17 +17,9 @@ def tension_errors(setting: Setting) -> np.ndarray:
     """(S, m) measured tensions minus those of the simulation's distribution at the measured pose [N]; nan if none."""
     campaign = setting.campaign
     readings, errors = Readings.of(campaign.states), np.full(campaign.states.tension.shape, np.nan)
-    model = "spring" if campaign.model == "spring" else "sagging"
     for i in np.flatnonzero(campaign.states.has_tension & campaign.states.static):
         robot = campaign.robot.with_load(float(campaign.states.payload[i]))
-        held = inverse(
-            robot,
-            readings.position[i],
-            readings.rotation[i],
-            model,
-            lower_bound=campaign.lower_bound,
-            allow_unheld=True,
-        )
+        held = simulated(campaign, int(i), readings.position[i], readings.rotation[i])
         turns = exit_turns(robot, readings.position[i], readings.rotation[i])
         said = cell_reading(robot, held.tensions, campaign.states.approach[i], turns)
         errors[i] = campaign.states.tension[i] - said

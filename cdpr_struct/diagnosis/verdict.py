@@ -8,9 +8,8 @@ import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import ADEQUATE, NAMED, Diagnosis
 from cdpr_struct.diagnosis.evidence import Choice
-from cdpr_struct.diagnosis.prepared import SIGNIFICANT
+from cdpr_struct.diagnosis.prepared import OUTSIDE, SIGNIFICANT
 from cdpr_struct.diagnosis.refit import Fit
-from cdpr_struct.diagnosis.residuals import KIND_OF_BLOCK, UNITS
 
 LARGEST_CLASS = 4
 TEMPER = 0.7  # of the evidence between causes: the model of noise and tolerances is a model too
@@ -68,7 +67,7 @@ def is_unknown(found: Diagnosis) -> bool:
     if fit is None:
         return not found.corrections or found.p_value_left < ADEQUATE
     outside = found.outside
-    structured = outside.left > max(outside.limit, _LEFT)
+    structured = outside.gain > max(outside.limit, _LEFT)
     return found.p_adequate < ADEQUATE or structured
 
 
@@ -77,8 +76,8 @@ def _unknown_sentence(found: Diagnosis, place: str) -> str:
     text = f"Something is wrong in {place}, and no cause in the library explains it."
     if fit:
         text += f" The best candidate, {' with '.join(fit.names).replace('_', ' ')}, leaves a structured remainder."
-    words = outside.left_words if fit else outside.words
-    return text + (f" It looks like {words}." if (outside.left if fit else outside.alone) > _LEFT else "")
+    clear = outside.gain + (0.0 if fit else OUTSIDE) > _LEFT
+    return text + (f" It looks like {outside.words}." if clear else "")
 
 
 def _confirmed(found: Diagnosis) -> bool:
@@ -130,7 +129,7 @@ def _probability(found: Diagnosis) -> float:
     for row in found.selection.rivals:
         for rival in row:
             gains.setdefault(rival.names, rival.gain)
-    beyond = fit.gain + outside.left + _PRIOR_OUTSIDE
+    beyond = fit.gain + outside.gain + _PRIOR_OUTSIDE
     classes = [_class(found, i) for i in range(len(fit.names))]
     answer = [gain for names, gain in gains.items() if _within(names, classes)]
     logs = np.array([0.0, beyond, *gains.values()])
@@ -224,6 +223,3 @@ def _fit_rows(found: Diagnosis, fit: Fit) -> list[dict[str, Any]]:
         }
         for choice, theta, sigma in zip(fit.choices, fit.parts(), sigmas, strict=True)
     ]  # fmt: skip
-
-
-__all__ = ["KIND_OF_BLOCK", "UNITS", "Verdict", "candidate_rows", "location", "verdict"]

@@ -179,6 +179,11 @@ class Campaign:
     tension_distribution: str = "minimum_norm"
     lower_bound: float = 0.0
 
+    @property
+    def cable_model(self) -> str:
+        """How the simulation under test sees cables at rest: "spring" or "sagging"."""
+        return "spring" if self.model == "spring" else "sagging"
+
     def kinds(self) -> list[str]:
         """Kinds of data that the campaign holds, in the fixed order."""
         found = {s.kind for s in self.series}

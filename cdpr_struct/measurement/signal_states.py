@@ -16,6 +16,8 @@ from cdpr_struct.measurement.response_modes import response_modes
 from cdpr_struct.measurement.signal_records import MOTION, SignalRecord, records
 from cdpr_struct.measurement.state_modes import StateModes, state_modes
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.energy_descent import arm_scale
+from cdpr_struct.statics.robot_arrays import RobotArrays
 
 VISIBLE = 0.15  # share of the kinetic energy in the platform from which on a mode counts as the robot's
 CLEAR = 10.0  # amplitude over its sigma
@@ -155,6 +157,4 @@ def channel_weight(state: StateModes, record: SignalRecord) -> np.ndarray:
     """(c,) factors that make channels comparable: turns count by what they do at the radius of the anchors."""
     if record.kind != "platform_motion":
         return np.ones(len(record.channels))
-    anchors = state.point.robot.platform_anchors
-    radius = max(float(np.sqrt((anchors**2).sum(axis=1).mean())), 1e-3)
-    return np.array([1.0] * 3 + [radius] * 3)
+    return np.array([1.0] * 3 + [arm_scale(RobotArrays.of(state.point.robot))] * 3)

@@ -29,7 +29,7 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
             "sentence": said.sentence,
         },
         "candidates": candidate_rows(found),
-        "outside_library": {"law": found.outside.left_words, "log_evidence_gain": _number(found.outside.left)},
+        "outside_library": {"law": found.outside.words, "log_evidence_gain": _number(found.outside.gain)},
         "gain": _gain(found),
         "extended_model": "extended_robot.toml" if said.causes else None,
         "not_testable": sorted(found.not_testable),
