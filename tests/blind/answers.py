@@ -13,6 +13,7 @@ from tests.blind.running import RECORD, RESULT
 CONFIDENT = 0.9
 LARGEST_CLASS = 3
 LARGEST_AMBIGUOUS_CLASS = 4
+ANY_SIZE = 1000
 
 
 @dataclass(frozen=True)

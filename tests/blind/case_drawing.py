@@ -16,6 +16,7 @@ from tests.blind.catalogue import (
     STATICS_ONLY,
     Effect,
     drawn_pattern,
+    unknowns,
 )
 from tests.blind.detectability import reference_size, sigmas_left
 from tests.blind.deviations import Deviations, drawn_tolerances
@@ -133,7 +134,7 @@ def _sized(
     if effect.name == "internal_force" and robot.name not in SUSPENDED:
         raise RejectedDrawError
     shape, pattern = drawn_pattern(effect, robot.cables, rng)
-    reference = reference_size(robot.name, seen_as, pattern)
+    reference = reference_size(robot.name, seen_as, pattern, unknowns(shape, pattern))
     if reference is None:
         raise RejectedDrawError
     size = min(multiple * reference, effect.largest)

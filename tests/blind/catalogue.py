@@ -95,6 +95,11 @@ def drawn_pattern(effect: Effect, cables: int, rng: np.random.Generator) -> tupl
     return shape, sign * pattern
 
 
+def unknowns(shape: str, pattern: np.ndarray) -> int:
+    """Numbers that somebody who knows the shape, but not the pattern, would have to find."""
+    return 1 if shape == "common" else int(np.count_nonzero(pattern))
+
+
 def _shaped(shape: str, size: int, rng: np.random.Generator) -> np.ndarray:
     """Unit pattern (size,): ones, one entry, or numbers of unit norm or unit rms."""
     pattern = np.zeros(size)

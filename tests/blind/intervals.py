@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 from scipy.stats import beta
 
 from tests.blind.deviations import NUMBERS_PER_CABLE
@@ -46,13 +48,18 @@ def log_score(probabilities: np.ndarray, right: np.ndarray) -> float | None:
 
 
 LOGARITHMIC = ("axial_stiffness", "cable_linear_density", "platform_inertia")
-SIGN_FREE = ("tracker_frame", "gravity_tilt")  # whether the frame or the sensor is turned is a matter of words
+OTHER_BASIS = ("internal_force",)  # stated along other directions of the null space: the length alone compares
 RATIO = ("drum_scale", "load_cell_gain")
 
 
 def true_parameters(effect: dict[str, Any], robot_mass: float = 1.0) -> np.ndarray:
     """Total change of the parameters as the interface wants it: scales as ratios, offsets in SI."""
     total = np.array(effect["total"], dtype=float)
+    if effect["cause"] == "gravity_tilt":  # gravity turned about x and y; stated is its horizontal share along x and y
+        return np.array([-total[1], total[0]])
+    if effect["cause"] == "tracker_frame":  # what the tracker shows; stated is the way back
+        back = Rotation.from_rotvec(-total[3:])
+        return np.concatenate([-back.apply(total[:3]), -total[3:]])
     if effect["cause"] == "platform_mass":
         return 1.0 + total / robot_mass
     if effect["cause"] in LOGARITHMIC:
@@ -60,31 +67,60 @@ def true_parameters(effect: dict[str, Any], robot_mass: float = 1.0) -> np.ndarr
     return 1.0 + total if effect["cause"] in RATIO else total
 
 
-def interval_flags(
-    effect: dict[str, Any], parameters: dict[str, dict[str, Any]], robot_mass: float = 1.0
-) -> list[tuple[bool, float]]:
-    """(covered, relative error) of each stated parameter that the truth has a number for.
+@dataclass(frozen=True)
+class Compared:
+    """A stated number beside the true one; `neutral` is the number that means no effect."""
+
+    value: float
+    sigma: float
+    truth: float
+    neutral: float
+
+    @property
+    def covered(self) -> bool:
+        """Whether the 95 per cent interval holds the truth."""
+        return bool(abs(self.value - self.truth) <= NORMAL_95 * self.sigma)
+
+
+def compared(effect: dict[str, Any], parameters: dict[str, dict[str, Any]], robot_mass: float = 1.0) -> list[Compared]:
+    """Each stated parameter that the truth has a number for.
 
     Entries `.._3` are those of cable 3; a lone entry is the mean over the cables. Vector parameters are matched in
     the order x, y, z of their keys. What cannot be matched is left out rather than guessed.
     """
     truth, kept = true_parameters(effect, robot_mass), sorted(parameters, key=_natural)
+    if effect["cause"] in OTHER_BASIS:
+        return [_lengths(truth, [parameters[key] for key in kept])] if kept else []
     if len(kept) == 1 and effect.get("shape") == "common":
         pairs = [(kept[0], float(truth.mean()))]
     elif len(kept) == len(truth):
         pairs = list(zip(kept, truth, strict=True))
+    elif len(truth) == 1 and effect["cause"] in parameters:
+        pairs = [(effect["cause"], float(truth[0]))]
     else:
         entries = [(key, _entry(key, effect["cause"])) for key in kept]
         pairs = [(key, float(truth[n])) for key, n in entries if 0 <= n < len(truth)]
-    signs = (1.0, -1.0) if effect["cause"] in SIGN_FREE else (1.0,)
-    judged = [[_judged(parameters[key], sign * value) for key, value in pairs] for sign in signs]
-    return max(judged, key=lambda flags: sum(covered for covered, _ in flags))
+    return [_beside(parameters[key], value) for key, value in pairs]
 
 
-def _judged(stated: dict[str, Any], truth: float) -> tuple[bool, float]:
-    miss = abs(float(stated["value"]) - truth)
+def relative_error(numbers: list[Compared]) -> float:
+    """Length of the miss over that of the true change, of all the parameters of one effect."""
+    miss = np.linalg.norm([number.value - number.truth for number in numbers])
+    return float(miss / max(np.linalg.norm([number.truth - number.neutral for number in numbers]), 1e-12))
+
+
+def _beside(stated: dict[str, Any], truth: float) -> Compared:
     neutral = 1.0 if abs(truth - 1.0) < abs(truth) and "ratio" in str(stated.get("unit", "")) else 0.0
-    return bool(miss <= NORMAL_95 * float(stated["sigma"])), miss / max(abs(truth - neutral), 1e-12)
+    return Compared(float(stated["value"]), float(stated["sigma"]), truth, neutral)
+
+
+def _lengths(truth: np.ndarray, stated: list[dict[str, Any]]) -> Compared:
+    """Lengths of the stated and of the true vector; sigma of a length is that along the vector."""
+    value = np.array([float(number["value"]) for number in stated])
+    sigma = np.array([float(number["sigma"]) for number in stated])
+    length = float(np.linalg.norm(value))
+    along = value / max(length, 1e-12)
+    return Compared(length, float(np.linalg.norm(along * sigma)), float(np.linalg.norm(truth)), 0.0)
 
 
 def _entry(key: str, cause: str) -> int:
@@ -92,6 +128,8 @@ def _entry(key: str, cause: str) -> int:
     number, axis = _number(key), re.search(r"_([xyz])(?:_|$)", key)
     if NUMBERS_PER_CABLE.get(cause) == 3:
         return 3 * (number - 1) + "xyz".index(axis.group(1)) if number and axis else -1
+    if cause == "tracker_frame" and axis:
+        return "xyz".index(axis.group(1)) + 3 * key.startswith("turn")
     return number - 1
 
 

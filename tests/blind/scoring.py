@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from tests.blind.answers import (
+    ANY_SIZE,
     LARGEST_AMBIGUOUS_CLASS,
     Answer,
     names_in_truth,
@@ -26,7 +27,7 @@ from tests.blind.answers import (
 from tests.blind.campaign_files import opened_truth
 from tests.blind.detectability import typical_size
 from tests.blind.entered_robot import entered_robot
-from tests.blind.intervals import expected_calibration_error, interval_flags, log_score, share
+from tests.blind.intervals import compared, expected_calibration_error, log_score, relative_error, share
 from tests.blind.running import RECORD
 
 CLEARLY = 2.0  # multiple of the smallest detectable size from which a name is owed
@@ -177,9 +178,10 @@ def _interval_figures(cases: list[Scored]) -> dict[str, Any]:
             continue
         for effect in case.truth["effects"]:
             mass = entered_robot(str(case.truth["robot"])).mass
-            flags = interval_flags(effect, _parameters(case.answer, effect["cause"]), mass)
-            covered += [flag for flag, _ in flags]
-            errors += [error for _, error in flags if effect["multiple"] >= 0.95 * CLEARLY]
+            numbers = compared(effect, _parameters(case.answer, effect["cause"]), mass)
+            covered += [number.covered for number in numbers]
+            if numbers and effect["multiple"] >= 0.95 * CLEARLY:
+                errors.append(relative_error(numbers))
     return {
         "interval_coverage": share(covered),
         "median_relative_error": float(np.median(errors)) if errors else None,
@@ -203,10 +205,13 @@ def _gain_figures(cases: list[Scored]) -> dict[str, Any]:
 
 
 def _probability_figures(cases: list[Scored]) -> dict[str, Any]:
-    """Of answers that name something: that nothing was found is no claim about small effects."""
+    """Of answers that name something: that nothing was found is no claim about small effects.
+
+    A stated probability is that the class holds what was hidden, however large the class is.
+    """
     stated = [c for c in cases if said_class(c.answer) and not math.isnan(c.answer.probability)]
     chances = np.array([c.answer.probability for c in stated])
-    right = np.array([right_answer(c.answer, c.truth) for c in stated], dtype=float)
+    right = np.array([right_class(c.answer, c.hidden, ANY_SIZE) for c in stated], dtype=float)
     return {
         "calibration_error": expected_calibration_error(chances, right),
         "log_score": log_score(chances, right.astype(bool)),

@@ -17,7 +17,7 @@ from tests.blind.answers import (
 )
 from tests.blind.campaign_files import write_case
 from tests.blind.case_drawing import CaseKind, drawn_case
-from tests.blind.intervals import band, expected_calibration_error, interval_flags
+from tests.blind.intervals import band, compared, expected_calibration_error, relative_error
 from tests.blind.measuring_plan import PlanSize
 from tests.blind.scoring import Scored, figures
 
@@ -106,16 +106,42 @@ def test_binomial_band_is_the_exact_one():
 def test_intervals_are_compared_as_ratios_and_offsets():
     effect = {"cause": "axial_stiffness", "shape": "common", "total": [0.0953, 0.0953]}
     stated = {"axial_stiffness": {"value": 1.09, "sigma": 0.01, "unit": "ratio"}}
-    ((covered, error),) = interval_flags(effect, stated)
-    assert covered
-    assert error == pytest.approx(0.1, abs=0.01)
+    (number,) = numbers = compared(effect, stated)
+    assert number.covered
+    assert relative_error(numbers) == pytest.approx(0.1, abs=0.01)
     stated["axial_stiffness"]["sigma"] = 0.001
-    assert not interval_flags(effect, stated)[0][0]
+    assert not compared(effect, stated)[0].covered
     one = {"cause": "load_cell_bias", "shape": "one", "total": [0.0, 0.0, 5.0]}
-    assert interval_flags(one, {"load_cell_bias_3": {"value": 5.5, "sigma": 0.5, "unit": "N"}})[0] == (
-        True,
-        pytest.approx(0.1),
-    )
+    numbers = compared(one, {"load_cell_bias_3": {"value": 5.5, "sigma": 0.5, "unit": "N"}})
+    assert numbers[0].covered
+    assert relative_error(numbers) == pytest.approx(0.1)
+
+
+def test_turned_gravity_is_compared_by_its_horizontal_share():
+    """Gravity turned by a about x points towards y: (0, sin a, -cos a)."""
+    effect = {"cause": "gravity_tilt", "shape": "direction", "total": [0.02, 0.0]}
+    stated = {axis: {"value": value, "sigma": 1e-4, "unit": "rad"} for axis, value in (("tilt_x", 0), ("tilt_y", 0.02))}
+    assert [number.covered for number in compared(effect, stated)] == [True, True]
+    stated["tilt_y"]["value"] = -0.02
+    assert [number.covered for number in compared(effect, stated)] == [True, False]
+
+
+def test_tracker_is_compared_by_the_way_back_from_what_it_shows():
+    effect = {"cause": "tracker_frame", "shape": "direction", "total": [0.01, 0.0, 0.0, 0.0, 0.0, 0.02]}
+    names = ("shift_x", "shift_y", "shift_z", "turn_x", "turn_y", "turn_z")
+    values = (-0.01, 0.0002, 0.0, 0.0, 0.0, -0.02)
+    stated = {name: {"value": v, "sigma": 1e-5, "unit": "m"} for name, v in zip(names, values, strict=True)}
+    assert all(number.covered for number in compared(effect, stated))
+
+
+def test_internal_force_is_compared_by_its_length():
+    """Directions of a null space are anybody's choice."""
+    effect = {"cause": "internal_force", "shape": "direction", "total": [30.0, 40.0]}
+    stated = {"internal_force_1": {"value": 0.0, "sigma": 9.0, "unit": "N"}}
+    stated["internal_force_2"] = {"value": -52.0, "sigma": 2.0, "unit": "N"}
+    (number,) = compared(effect, stated)
+    assert (number.value, number.truth, number.sigma) == pytest.approx((52.0, 50.0, 2.0))
+    assert number.covered
 
 
 def test_a_calibrated_teller_has_no_calibration_error():
