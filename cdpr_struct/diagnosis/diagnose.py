@@ -25,6 +25,7 @@ from cdpr_struct.diagnosis.refit import Fit, Ground
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.selection import Selection, select
+from cdpr_struct.diagnosis.stray_peaks import p_of_strays
 from cdpr_struct.measurement.campaign import Campaign
 
 FURTHER = 6.0  # nats that each further cause must bring
@@ -104,11 +105,17 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
         campaign=campaign, entered=entered.fine, entered_setting=entered.ground.setting, ground=ground,
         corrections=found, selection=selection, p_value=entered.p_value,
         p_value_left=prepared.p_value,
-        p_adequate=float(chi2.sf(fit.adequacy(), len(fit.white))) if fit else p_of_noise(ground.null),
+        p_adequate=_p_adequate(ground, fit),
         weakest=weakest(fit, groups) if fit else np.zeros(0), held=left_out(fit, before, groups) if fit else None,
         fudge=_fudge(prepared, groups) if fit else None, transfer=transfer(fit, before) if fit else {},
         outside=_outside(prepared, fit), not_testable=prepared.not_testable,
     )  # fmt: skip
+
+
+def _p_adequate(ground: Ground, fit: Fit | None) -> float:
+    """Of what is left: its chi^2, and peaks of the robot that no mode explains."""
+    noise = float(chi2.sf(fit.adequacy(), len(fit.white))) if fit else p_of_noise(ground.null)
+    return min(noise, p_of_strays((fit.ground if fit else ground).strays, len(ground.setting.robot_log)))
 
 
 def _selected(prepared: Prepared, plan: Budget, corrected: bool) -> Selection:

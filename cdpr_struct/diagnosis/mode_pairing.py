@@ -10,8 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 _BEAM = 48
-_STRAY = -6.0  # ln density of a peak that belongs to no mode
-_STRAY_DOUBT = 0.3  # of ln f
+STRAY = -6.0  # ln density of a peak that belongs to no mode
+STRAY_DOUBT = 0.3  # of ln f
+STRAY_NATS = -STRAY - float(np.log(STRAY_DOUBT * np.sqrt(2.0 * np.pi)))
+"""What a stray costs a world in log evidence, beyond the density of a residual with this doubt."""
 _SHAPE = 6.0  # ln density lost by a shape that is orthogonal to the mode's
 _SEEN = (0.05, 0.75)  # probability that a mode without and with platform motion is picked
 _PLATFORM = (0.1, 0.4)  # of the kinetic energy in the platform: between these the probability rises
@@ -36,10 +38,14 @@ class Modes:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pairing:
-    """chosen (r,) mode of each peak;  doubt (r,) one sigma of ln f from pairings that compete."""
+    """chosen (r,) mode of each peak;  doubt (r,) one sigma of ln f from pairings that compete.
+
+    strays : expected number of peaks that belong to no mode
+    """
 
     chosen: np.ndarray
     doubt: np.ndarray
+    strays: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,8 +83,8 @@ def paired(
         grown.sort(key=lambda new: -new[0])
         paths = [_taken(path, j, weight, np.log(hertz[i]), noise[i]) for weight, j, path in grown[:_BEAM]]
     chosen, doubt = np.zeros(len(order), dtype=int), np.zeros(len(order))
-    chosen[order], doubt[order] = _agreed(paths, state[order], hertz[order], modes)
-    return Pairing(chosen, doubt)
+    chosen[order], doubt[order], strays = _agreed(paths, state[order], hertz[order], modes)
+    return Pairing(chosen, doubt, strays)
 
 
 def _log_odds(energy: np.ndarray) -> np.ndarray:
@@ -98,7 +104,7 @@ def _grown(
     gap = log - path.mean[free]
     logs = path.weight + odds[free] - 0.5 * (gap**2 / variance + np.log(2.0 * np.pi * variance))
     found = [(float(weight), int(j), path) for weight, j in zip(logs, free, strict=True)]
-    return [*found, (path.weight + _STRAY, -1, path)]
+    return [*found, (path.weight + STRAY, -1, path)]
 
 
 def _taken(path: _Path, j: int, weight: float, log: float, noise: float) -> _Path:
@@ -110,8 +116,10 @@ def _taken(path: _Path, j: int, weight: float, log: float, noise: float) -> _Pat
     return _Path(weight, (*path.chosen, j), mean, path.covariance - np.outer(gain, column))
 
 
-def _agreed(paths: list[_Path], state: np.ndarray, hertz: np.ndarray, modes: Modes) -> tuple[np.ndarray, np.ndarray]:
-    """The best path, and how far the others are from it."""
+def _agreed(
+    paths: list[_Path], state: np.ndarray, hertz: np.ndarray, modes: Modes
+) -> tuple[np.ndarray, np.ndarray, float]:
+    """The best path, how far the others are from it, and the expected number of strays."""
     table = np.array([path.chosen for path in paths])
     logs = np.array([path.weight for path in paths])
     weight = np.exp(logs - logs.max())
@@ -119,8 +127,8 @@ def _agreed(paths: list[_Path], state: np.ndarray, hertz: np.ndarray, modes: Mod
     near = np.array([_nearest(s, f, modes) for s, f in zip(state, hertz, strict=True)])
     best = np.where(table[0] >= 0, table[0], near)
     log = np.log(modes.hertz)
-    apart = np.where(table >= 0, np.abs(log[table] - log[best]), _STRAY_DOUBT)
-    return best, np.sqrt((weight[:, None] * apart**2).sum(axis=0))
+    apart = np.where(table >= 0, np.abs(log[table] - log[best]), STRAY_DOUBT)
+    return best, np.sqrt((weight[:, None] * apart**2).sum(axis=0)), float(weight @ (table < 0).sum(axis=1))
 
 
 def _nearest(state: int, hertz: float, modes: Modes) -> int:

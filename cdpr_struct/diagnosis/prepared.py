@@ -7,6 +7,7 @@ from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.causes.registry import causes_for
 from cdpr_struct.diagnosis.evidence import Candidate, candidates, choices, largest_gains
+from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
 from cdpr_struct.diagnosis.null_model import (
     NullModel,
     likeliest_tolerances,
@@ -20,6 +21,7 @@ from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.setting import anchored, make_setting, with_equilibria
+from cdpr_struct.diagnosis.stray_peaks import p_of_strays
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
@@ -28,7 +30,7 @@ SIGNIFICANT = 0.04
 SEED = 20240229
 DRAWS = 1000
 OUTSIDE = -2.0  # ln prior of a law outside the library, beside that of a cause
-_TAIL_SHARE = 0.75  # of the false alarms that may come from the largest evidence; the rest from chi^2
+_TAIL_SHARE, _NOISE_SHARE, _STRAY_SHARE = 0.75, 0.2, 0.05  # of the false alarms: largest evidence, chi^2, strays
 _VISIBLE = 2.0  # sigmas: a cause whose typical size changes nothing by more is not testable
 
 
@@ -81,10 +83,12 @@ def _ground(setting: Setting, near: Setting, world: World, fine: NullModel, extr
     likeliest = tolerated(setting, world, u)
     setting = with_equilibria(setting, likeliest)
     null, offset = relinearised(setting, likeliest, readings, extra, u)
-    level = null.level
+    level, strays = null.level, 0.0
     if setting.campaign.robot_frequencies.hertz.size:
-        level = relinearised(anchored(near, likeliest), likeliest, readings, extra, u)[0].level
-    return Ground(setting, likeliest, readings, null, [], budget, level, extra, u, offset, world)
+        own = anchored(near, likeliest)
+        level, strays = relinearised(own, likeliest, readings, extra, u)[0].level, own.strays
+        level += STRAY_NATS * strays
+    return Ground(setting, likeliest, readings, null, [], budget, level, extra, u, offset, world, strays)
 
 
 def _judged(ground: Ground, fine: NullModel, outside: list[Candidate], not_testable: dict[str, str]) -> Prepared:
@@ -115,9 +119,10 @@ def p_of_noise(null: NullModel) -> float:
 
 
 def _significance(ground: Ground, outside: list[Candidate], gains: np.ndarray) -> float:
-    """p-value of the null: the largest evidence of any law beside that of draws from the null, and its chi^2."""
+    """p-value of the null: largest evidence of any law beside that of draws from the null, its chi^2, stray peaks."""
     best = float(_most(ground.candidates, outside, ground.z[:, None])[0])
     tail = (1.0 + float((gains >= best).sum())) / (len(gains) + 1.0)
     if best > float(gains.max()):
         tail = min(tail, len(ground.candidates) * float(np.exp(-best)))
-    return min(1.0, tail / _TAIL_SHARE, p_of_noise(ground.null) / (1.0 - _TAIL_SHARE))
+    strays = p_of_strays(ground.strays, len(ground.setting.robot_log))
+    return min(1.0, tail / _TAIL_SHARE, p_of_noise(ground.null) / _NOISE_SHARE, strays / _STRAY_SHARE)

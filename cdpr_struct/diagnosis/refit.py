@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.diagnosis.evidence import Candidate, Choice
+from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
 from cdpr_struct.diagnosis.null_model import NullModel, relinearised
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, residuals
@@ -26,6 +27,7 @@ class Ground:
     world : as entered but for the likeliest tolerances (t,);  offset : (n,) what these did to the residuals, undone
     level : minus the log evidence of the null, so that gains compare;  extra : (n,) noise of bending
     entered : world as entered, where that is not `world`
+    strays : expected number of robot frequencies that belong to no mode of the world it is about
     """
 
     setting: Setting
@@ -39,6 +41,7 @@ class Ground:
     likeliest: np.ndarray
     offset: np.ndarray
     entered: World
+    strays: float = 0.0
 
     @property
     def z(self) -> np.ndarray:
@@ -63,6 +66,12 @@ class Fit:
     signature: np.ndarray
     ground: "Ground"
     spread: float = 0.0
+
+    @classmethod
+    def guessed(cls, ground: Ground, choices: tuple[Choice, ...], theta: np.ndarray, spread: float) -> "Fit":
+        """Causes at sizes to start from."""
+        blank = np.zeros((len(ground.null.r), len(theta)))
+        return cls(choices, theta, np.eye(len(theta)), -np.inf, ground.z, blank, ground, spread)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -136,16 +145,16 @@ def refit(ground: Ground, picked: tuple[Choice, ...], start: np.ndarray | None =
 
 
 def settled(ground: Ground, fit: Fit) -> Fit:
-    """The fit again, with frequencies paired in its own world and the null linearised there."""
+    """The fit again, with frequencies paired in its own world and the null linearised there; strays cost evidence."""
     world = world_with(ground.world, fit.choices, fit.theta)
     try:
         setting = anchored(ground.setting, world)
     except ValueError:  # a body or a cable that cannot exist
         return replace(fit, gain=-np.inf)
     null, offset = relinearised(setting, world, ground.readings, ground.extra, ground.likeliest)
-    there = replace(ground, setting=setting, null=null, offset=offset)
+    there = replace(ground, setting=setting, null=null, offset=offset, strays=setting.strays)
     again = refit(there, fit.choices, fit.theta)
-    return replace(again, gain=again.gain + fit.spread, spread=fit.spread)
+    return replace(again, gain=again.gain + fit.spread - STRAY_NATS * setting.strays, spread=fit.spread)
 
 
 def _residuals(ground: Ground, picked: tuple[Choice, ...], theta: np.ndarray) -> np.ndarray:

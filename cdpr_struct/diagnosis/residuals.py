@@ -61,6 +61,7 @@ class Setting:
     cable_rows, robot_rows : measured frequencies, and the gaps ln(exact / closed form) at the world as entered
     robot_doubt : extra noise of each robot frequency [%]
     locked_at : equilibria of the `locked` states in the world that this setting is about
+    strays : expected number of robot frequencies that belong to no mode of that world
     """
 
     campaign: Campaign
@@ -82,6 +83,7 @@ class Setting:
     massless: bool = False
     geometric: bool = True
     locked_at: Reference | None = None
+    strays: float = 0.0
 
 
 def residuals(setting: Setting, world: World, readings: Readings, small: bool = False) -> np.ndarray:

@@ -9,6 +9,7 @@ from cdpr_struct.diagnosis.evidence import Choice, Screened, choices, screen
 from cdpr_struct.diagnosis.heldout import groups_of, weakest
 from cdpr_struct.diagnosis.refit import Fit, Ground, refit, settled
 from cdpr_struct.diagnosis.residuals import residuals
+from cdpr_struct.diagnosis.stray_peaks import SEVERAL, catching
 
 NEAR = 12.0  # nats from the best at screening: refitted
 _ADEQUATE = 1e-3
@@ -16,9 +17,10 @@ _LARGE = 150.0  # chi^2 beyond its mean from which small steps do not tell enoug
 _LARGE_STEPS = np.array([-2.5, -1.0, 1.0, 2.5])  # prior sigmas
 _SETTLED = 4.0  # nats from the best refit: frequencies are paired again in its own world
 _SETTLED_SHARE = 0.5  # of the best gain: large effects move frequencies past each other, and gains with them
-_HOPELESS = 1.0  # nats at screening below which a further cause is not refitted
+_HOPELESS = 2.0  # nats at screening below which a further cause is not refitted
 _HOLDS = 1.0  # nats that a further cause keeps whichever group of states is left out
 _BETTER = 0.5  # nats that make an exchange worth while
+_FEWER = 0.5  # stray peaks that make settling again worth while
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,20 +42,27 @@ class Search:
     def __init__(self, ground: Ground) -> None:
         self.ground = ground
         self._known: dict[tuple[tuple[str, str, float], ...], list[Fit]] = {}
+        self._fits: dict[tuple[tuple[str, str, float], ...], Fit] = {}
 
     def rank(self, accepted: tuple[Choice, ...] = ()) -> list[Fit]:
         """Refits of accepted causes plus one more, best first; causes far from the best at screening are left out."""
-        key = tuple(sorted((c.candidate.name, c.pattern.label, c.scale) for c in accepted))
+        key = _key(accepted)
         if key not in self._known:
-            self._known[key] = _ranked(self.ground, accepted)
+            self._known[key] = _ranked(self.ground, accepted, self._fits.get(key))
+            self._fits |= {_key(fit.choices): fit for fit in self._known[key]}
         return self._known[key]
 
 
-def _ranked(ground: Ground, accepted: tuple[Choice, ...]) -> list[Fit]:
+def _key(choices_: tuple[Choice, ...]) -> tuple[tuple[str, str, float], ...]:
+    return tuple(sorted((c.candidate.name, c.pattern.label, c.scale) for c in choices_))
+
+
+def _ranked(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None) -> list[Fit]:
     taken = {c.candidate.name for c in accepted}
     others = np.hstack([c.signature for c in accepted]) if accepted else None
     rows = screen([c for c in ground.candidates if c.name not in taken], ground.z, others)
-    if accepted and rows[0].gain < _HOPELESS:
+    caught = _caught(ground, accepted, before, rows)
+    if accepted and rows[0].gain < _HOPELESS and not caught:
         return []
     near = [row for row in rows if row.gain > rows[0].gain - NEAR]
     # What looks far off at first sight may come near when refitted: the best few always get their chance.
@@ -66,11 +75,26 @@ def _ranked(ground: Ground, accepted: tuple[Choice, ...]) -> list[Fit]:
             fit = refit(ground, (*accepted, choice))
             fits.append(replace(fit, gain=fit.gain + row.spread, spread=row.spread))
     if ground.level != ground.null.level:
-        fits = _settled(ground, sorted(fits, key=lambda fit: -fit.gain))
+        fits = caught + _settled(ground, sorted(fits, key=lambda fit: -fit.gain))
     alone: dict[tuple[str, ...], Fit] = {}
     for fit in sorted(fits, key=lambda fit: -fit.gain):
         alone.setdefault(fit.names, fit)
     return list(alone.values())
+
+
+def _caught(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None, rows: list[Screened]) -> list[Fit]:
+    """Fits of causes whose large changes explain peaks that no mode explains yet."""
+    if (ground if before is None else before.ground).strays < SEVERAL or (accepted and before is None):
+        return []
+    spread = {row.candidate.name: row.spread for row in rows}
+    start = before.theta if before is not None else np.zeros(0)
+    fits = []
+    for picked, theta in catching(ground, before, ground.budget):
+        first = Fit.guessed(ground, (*accepted, picked), np.concatenate([start, theta]), spread[picked.candidate.name])
+        fits.append(settled(ground, first))
+        while (again := settled(ground, fits[-1])).ground.strays < fits[-1].ground.strays - _FEWER:
+            fits.append(again)
+    return fits
 
 
 def _settled(ground: Ground, fits: list[Fit]) -> list[Fit]:
@@ -121,7 +145,7 @@ def select(ground: Ground, further: float, most: int) -> Selection:
     search = Search(ground)
     first = search.rank()
     best = first[0]
-    while len(best.choices) < most and not _is_noise(best):
+    while len(best.choices) < most:
         more = [fit for fit in search.rank(best.choices) if fit.gain > best.gain + further and _holds(fit)]
         if not more:
             break
@@ -136,10 +160,6 @@ def select(ground: Ground, further: float, most: int) -> Selection:
 def _holds(fit: Fit) -> bool:
     """Whether the last cause of a fit does not hang on one group of states."""
     return bool(weakest(fit, groups_of(fit.ground.setting))[-1] > _HOLDS)
-
-
-def _is_noise(fit: Fit) -> bool:
-    return float(chi2.sf(fit.adequacy(), len(fit.white))) > 0.5
 
 
 def _exchanged(search: Search, fit: Fit) -> Fit:

@@ -112,7 +112,11 @@ def _cable_gap(setting: Setting, world: World) -> np.ndarray:
 
 def anchored(setting: Setting, world: World) -> Setting:
     """The same residuals about a given world: its locked poses, and robot frequencies paired with its exact modes."""
-    setting = with_equilibria(setting, world)
+    return paired_with(with_equilibria(setting, world), world)
+
+
+def paired_with(setting: Setting, world: World) -> Setting:
+    """The same residuals with robot frequencies paired with the exact modes of a world."""
     states = setting.campaign.robot_frequencies.state
     if not states.size:
         return setting

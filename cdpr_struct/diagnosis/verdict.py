@@ -10,6 +10,7 @@ from cdpr_struct.diagnosis.diagnose import ADEQUATE, NAMED, Diagnosis
 from cdpr_struct.diagnosis.evidence import Choice
 from cdpr_struct.diagnosis.prepared import OUTSIDE, SIGNIFICANT
 from cdpr_struct.diagnosis.refit import Fit
+from cdpr_struct.diagnosis.stray_peaks import SEVERAL
 
 LARGEST_CLASS = 4
 TEMPER = 0.7  # of the evidence between causes: the model of noise and tolerances is a model too
@@ -76,6 +77,9 @@ def _unknown_sentence(found: Diagnosis, place: str) -> str:
     text = f"Something is wrong in {place}, and no cause in the library explains it."
     if fit:
         text += f" The best candidate, {' with '.join(fit.names).replace('_', ' ')}, leaves a structured remainder."
+    strays = (fit.ground if fit else found.ground).strays
+    if strays > SEVERAL:
+        text += f" {strays:.0f} of the robot's measured frequencies are none of the model's."
     clear = outside.gain + (0.0 if fit else OUTSIDE) > _LEFT
     return text + (f" It looks like {outside.words}." if clear else "")
 

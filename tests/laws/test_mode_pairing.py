@@ -1,8 +1,10 @@
 """Unlabelled peaks and modes: shared tolerances sharpen the pairing, competing pairings raise the doubt."""
 
 import numpy as np
+import pytest
 
 from cdpr_struct.diagnosis.mode_pairing import Modes, paired
+from cdpr_struct.diagnosis.stray_peaks import p_of_strays
 
 HERTZ = np.array([1.0, 1.06, 1.5, 1.9, 2.02, 3.0])
 
@@ -61,3 +63,17 @@ def test_a_stray_peak_is_in_doubt():
     covariance = 0.001**2 * np.eye(len(HERTZ))
     found = given([2.5], modes(), covariance)
     assert found.doubt[0] > 0.2
+
+
+def test_strays_are_counted():
+    covariance = 0.001**2 * np.eye(len(HERTZ))
+    assert given([1.0, 1.5], modes(), covariance).strays < 0.01
+    assert given([1.0, 2.5], modes(), covariance).strays > 0.99
+
+
+def test_one_stray_is_nothing_and_several_are_significant():
+    """Of 15 peaks, each a stray with e^-6: two or more with 6.3e-4."""
+    assert p_of_strays(1.0, 15) == 1.0
+    chance = np.exp(-6.0)
+    assert p_of_strays(2.0, 15) == pytest.approx(1.0 - (1 - chance) ** 15 - 15 * chance * (1 - chance) ** 14)
+    assert p_of_strays(3.0, 15) < 1e-4

@@ -1,0 +1,99 @@
+"""Peaks of the robot that no mode of the model explains, and large changes of the model that would explain them.
+
+How far a peak is from a mode that it does not belong to says nothing; that it is there at all does. A stray peak so
+costs any world the same in log evidence, and several of them are significant whatever the other residuals say. Small
+changes never catch a stray, so causes that move modes are tried by large ones.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import binom
+
+from cdpr_struct.diagnosis.evidence import Candidate, Choice, choice
+from cdpr_struct.diagnosis.mode_pairing import STRAY
+from cdpr_struct.diagnosis.refit import Fit, Ground
+from cdpr_struct.diagnosis.setting import paired_with
+from cdpr_struct.diagnosis.world import World
+
+SEVERAL = 1.5  # expected strays from which large changes are tried
+_STEPS = (-2.5, -1.0, 1.0, 2.5)  # prior sigmas
+_MOVES = 4.0  # [%] by which the largest step must move a peak
+_SCALE = 2.5  # of the prior
+_FEWER = 0.5  # strays, by which a change must be better
+_MOST_NUMBERS = 3  # that are tried one by one
+
+
+def p_of_strays(strays: float, peaks: int) -> float:
+    """Probability of at least so many stray peaks if the model is right; 1 for less than two."""
+    count = int(strays + 0.5)
+    return float(binom.sf(count - 1, peaks, np.exp(STRAY))) if count > 1 else 1.0
+
+
+def catching(ground: Ground, before: Fit | None, most: int) -> list[tuple[Choice, np.ndarray]]:
+    """Sizes of single causes that explain strays on top of a fit, of the so many causes that explain most."""
+    world = ground.world if before is None else before.world
+    taken = () if before is None else before.names
+    found = []
+    for candidate in ground.candidates:
+        if candidate.name not in taken and _moves_modes(ground, candidate):
+            picked = choice(candidate, candidate.patterns[0], _SCALE)
+            found.append([_best_along(ground, world, picked, direction) for direction in _directions(picked)])
+    left = (ground if before is None else before.ground).strays
+    first = sorted(found, key=lambda trials: min(map(_fewest, trials)))[:most]
+    return [(one.picked, one.theta) for trials in first for one in trials if one.strays < left - _FEWER]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Trial:
+    """A cause of size theta (d,), in sigmas of its wide prior, and the stray peaks that it leaves."""
+
+    picked: Choice
+    theta: np.ndarray
+    strays: float
+
+
+def _fewest(trial: _Trial) -> float:
+    """Strays; among equals the smaller change."""
+    return trial.strays + 0.01 * float(np.abs(trial.theta).max())
+
+
+def _directions(picked: Choice) -> list[np.ndarray]:
+    """All numbers of a cause together, and each."""
+    d = len(picked.prior)
+    return [np.ones(d), *(np.eye(d) if 1 < d <= _MOST_NUMBERS else [])]
+
+
+def _best_along(ground: Ground, world: World, picked: Choice, direction: np.ndarray) -> _Trial:
+    """The best large size along a direction, and from there by steps that each leave fewer strays."""
+    sizes = [step / _SCALE * direction for step in _STEPS]
+    best = min((_trial(ground, world, picked, theta) for theta in sizes), key=_fewest)
+    while SEVERAL < best.strays < np.inf:
+        steps = [0.4 * best.theta, -0.3 * best.theta]
+        if 1 < len(best.theta) <= _MOST_NUMBERS:
+            steps += [sign * row / _SCALE for row in np.eye(len(best.theta)) for sign in (1.0, -1.0)]
+        near = min((_trial(ground, world, picked, best.theta + step) for step in steps), key=_fewest)
+        if near.strays > best.strays - _FEWER:
+            break
+        best = near
+    return best
+
+
+def _moves_modes(ground: Ground, candidate: Candidate) -> bool:
+    rows = ground.setting.labels.block == "RF"
+    if "RF" not in candidate.cause.seen_in or not rows.any():
+        return False
+    pattern = candidate.patterns[0]
+    moved = (ground.null.lower @ candidate.signature)[rows] @ (pattern.basis * pattern.prior)
+    return float(np.abs(moved).max()) * max(_STEPS) > _MOVES
+
+
+def _trial(ground: Ground, world: World, picked: Choice, theta: np.ndarray) -> _Trial:
+    """Strays are infinite if there is no such world."""
+    if (theta < picked.pattern.lowest).any():
+        return _Trial(picked, theta, np.inf)
+    try:
+        changed = picked.candidate.cause.apply(world, (theta * picked.prior) @ picked.pattern.basis.T)
+        return _Trial(picked, theta, paired_with(ground.setting, changed).strays)
+    except ValueError:  # a body or a cable that cannot exist
+        return _Trial(picked, theta, np.inf)

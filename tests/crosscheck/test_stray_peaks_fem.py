@@ -1,0 +1,63 @@
+"""Peaks of the FEM where the model has no mode: a body turned lighter is found by them, the right one has none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import fem_reference as fem
+from cdpr_struct.crosscheck.fem_robot import solve_in_fem
+from cdpr_struct.diagnosis.diagnose import diagnose
+from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
+from cdpr_struct.diagnosis.verdict import verdict
+from cdpr_struct.measurement.campaign_file import load_campaign
+from tests.conftest import at_rest
+
+POSES = np.array([[0.4, 0.3, 0.6], [-0.8, 0.5, 1.0], [0.9, -0.7, 0.8]])
+CAMPAIGN = """robot = "thesis-3-1"
+model = "dsm"
+[[measurement]]
+kind = "static_state"
+file = "states.csv"
+sigma = { tension_N = 2.0, position_m = 0.0003, rotation_deg = 0.01, length_m = 0.0001 }
+[[measurement]]
+kind = "robot_frequency"
+file = "peaks.csv"
+sigma = { frequency_hz = 0.02 }
+"""
+
+
+def written(folder, inertia):
+    """Campaign of states that balance exactly, and of the frequencies of a body with so much of its inertia."""
+    states, peaks = [], []
+    for number, pose in enumerate(POSES):
+        point = at_rest("thesis-3-1", pose)
+        body = replace(point.robot.platform, inertia=inertia * point.robot.platform.inertia)
+        lighter = replace(point, robot=replace(point.robot, platform=body))
+        modes = fem.robot_modes(solve_in_fem(lighter, 20), 80)
+        place = {"case": f"s{number}", **dict(zip(("x_m", "y_m", "z_m"), pose, strict=True))}
+        cables = zip(point.cables.tension_at_platform, point.cables.total_length, strict=True)
+        states += [place | {"cable": i + 1, "tension_N": t, "length_m": n} for i, (t, n) in enumerate(cables)]
+        seen = modes.frequencies_hz[modes.platform_energy > 0.3]
+        peaks += [place | {"frequency_hz": f} for f in seen]
+    pd.DataFrame(states).to_csv(folder / "states.csv", index=False)
+    pd.DataFrame(peaks).to_csv(folder / "peaks.csv", index=False)
+    (folder / "campaign.toml").write_text(CAMPAIGN)
+    return load_campaign(folder / "campaign.toml")
+
+
+def test_no_peak_of_the_right_body_is_stray(tmp_path):
+    prepared = prepare(written(tmp_path, 1.0), BUDGETS["small"])
+    assert prepared.ground.strays < 0.2
+    assert prepared.p_value > 0.04
+
+
+def test_the_inertia_is_found_by_peaks_that_no_mode_explains(tmp_path):
+    found = diagnose(written(tmp_path, 0.5))
+    said = verdict(found)
+    assert found.ground.strays > 1.5
+    assert said.causes == ("platform_inertia",)
+    sizes = np.exp(found.selection.fit.theta * found.selection.fit.choices[0].prior)
+    assert np.abs(np.log(sizes / 0.5)).min() < 0.1
+    assert found.selection.fit.ground.strays == pytest.approx(0.0, abs=0.2)
