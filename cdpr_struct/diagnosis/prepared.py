@@ -31,6 +31,7 @@ SEED = 20240229
 DRAWS = 1000
 OUTSIDE = -2.0  # ln prior of a law outside the library, beside that of a cause
 _TAIL_SHARE, _NOISE_SHARE, _STRAY_SHARE = 0.75, 0.2, 0.05  # of the false alarms: largest evidence, chi^2, strays
+_NO_STRAY, _IMPROBABLE, _PROBABLE = 0.5, 1e-3, 0.05  # strays; p of robot frequencies paired freely, and as entered
 _VISIBLE = 2.0  # sigmas: a cause whose typical size changes nothing by more is not testable
 
 
@@ -67,6 +68,8 @@ def prepare(campaign: Campaign, plan: Budget) -> Prepared:
     world, readings = World.of(campaign.robot, len(campaign.states.names)), Readings.of(setting.campaign.states)
     first, extra = null_with_bending(setting, world, readings, plan.draws, SEED)
     fine = first if near is setting else null_model(near, world, readings, extra)
+    if _paired_as_entered(near, first, fine):
+        setting = near
     ground = _ground(setting, near, world, fine, extra, plan.refits)
     causes, not_testable = causes_for(setting)
     library = candidates(ground.setting, ground.world, readings, ground.null, causes)
@@ -74,6 +77,15 @@ def prepare(campaign: Campaign, plan: Budget) -> Prepared:
     not_testable |= {candidate.name: hidden for candidate in library if _strength(candidate) < _VISIBLE}
     outside = channels(ground.setting, ground.world, readings, ground.null)
     return _judged(replace(ground, candidates=library), fine, outside, not_testable)
+
+
+def _paired_as_entered(near: Setting, first: NullModel, fine: NullModel) -> bool:
+    """Whether robot frequencies are those of the entered world, while a freer pairing finds them wrong."""
+    rows = near.labels.block == "RF"
+    if not rows.any() or near.strays > _NO_STRAY:
+        return False
+    far, own = (p_of_noise(null, rows) for null in (first, fine))
+    return far < _IMPROBABLE and own > _PROBABLE
 
 
 def _ground(setting: Setting, near: Setting, world: World, fine: NullModel, extra: np.ndarray, budget: int) -> Ground:
@@ -112,9 +124,12 @@ def _strength(candidate: Candidate) -> float:
     return best
 
 
-def p_of_noise(null: NullModel) -> float:
-    """Probability of a chi^2 at least as large as that of the null's residuals."""
-    z = null.white(null.r)
+def p_of_noise(null: NullModel, rows: np.ndarray | None = None) -> float:
+    """Probability of a chi^2 at least as large as that of the null's residuals, or of some of their rows."""
+    if rows is None:
+        z = null.white(null.r)
+    else:
+        z = np.linalg.solve(np.linalg.cholesky(null.covariance[np.ix_(rows, rows)]), null.r[rows])
     return float(chi2.sf(float(z @ z), len(z)))
 
 

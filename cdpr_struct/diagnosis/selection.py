@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import chi2
 
-from cdpr_struct.diagnosis.evidence import Choice, Screened, choices, screen
+from cdpr_struct.diagnosis.evidence import Choice, Screened, candidates, choices, screen
 from cdpr_struct.diagnosis.heldout import groups_of, weakest
 from cdpr_struct.diagnosis.refit import Fit, Ground, refit, settled
 from cdpr_struct.diagnosis.residuals import residuals
@@ -58,21 +58,15 @@ def _key(choices_: tuple[Choice, ...]) -> tuple[tuple[str, str, float], ...]:
 
 
 def _ranked(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None) -> list[Fit]:
-    taken = {c.candidate.name for c in accepted}
-    others = np.hstack([c.signature for c in accepted]) if accepted else None
-    rows = screen([c for c in ground.candidates if c.name not in taken], ground.z, others)
+    """Refits of accepted causes, fitted `before`, and one more; best first."""
+    rows = _screened(ground, accepted, before)
     caught = _caught(ground, accepted, before, rows)
     if accepted and rows[0].gain < _HOPELESS and not caught:
         return []
-    near = [row for row in rows if row.gain > rows[0].gain - NEAR]
-    # What looks far off at first sight may come near when refitted: the best few always get their chance.
-    chosen = {row.candidate.name: row for row in [*rows[: ground.budget], *near[: 2 * ground.budget]]}
-    if not accepted and float(ground.z @ ground.z) > len(ground.z) + _LARGE:
-        chosen |= {row.candidate.name: row for row in _by_large_steps(ground, rows)[: ground.budget]}
     fits = []
-    for row in chosen.values():
+    for row in _promising(ground, rows, bool(accepted)):
         for choice in _worth_trying(row):
-            fit = refit(ground, (*accepted, choice))
+            fit = _with_one_more(ground, accepted, before, choice)
             fits.append(replace(fit, gain=fit.gain + row.spread, spread=row.spread))
     if ground.level != ground.null.level:
         fits = caught + _settled(ground, sorted(fits, key=lambda fit: -fit.gain))
@@ -82,16 +76,42 @@ def _ranked(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None) ->
     return list(alone.values())
 
 
+def _screened(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None) -> list[Screened]:
+    """Gains of further causes on top of accepted ones; linearised where these are, if they are large."""
+    taken = {c.candidate.name for c in accepted}
+    left = [c for c in ground.candidates if c.name not in taken]
+    if before is None or before.gain < _LARGE:
+        return screen(left, ground.z, np.hstack([c.signature for c in accepted]) if accepted else None)
+    there = before.ground
+    found = candidates(there.setting, before.world, there.readings, there.null, [c.cause for c in left])
+    return screen(found, before.white + before.signature @ before.theta, before.signature)
+
+
+def _with_one_more(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None, more: Choice) -> Fit:
+    if before is None or before.gain < _LARGE:
+        return refit(ground, (*accepted, more))
+    return refit(before.ground, (*before.choices, more), np.concatenate([before.theta, np.zeros(len(more.prior))]))
+
+
+def _promising(ground: Ground, rows: list[Screened], further: bool) -> list[Screened]:
+    """Near the best, and the best few: what looks far off at first sight may come near when refitted."""
+    near = [row for row in rows if row.gain > rows[0].gain - NEAR]
+    chosen = {row.candidate.name: row for row in [*rows[: ground.budget], *near[: 2 * ground.budget]]}
+    if not further and float(ground.z @ ground.z) > len(ground.z) + _LARGE:
+        chosen |= {row.candidate.name: row for row in _by_large_steps(ground, rows)[: ground.budget]}
+    return list(chosen.values())
+
+
 def _caught(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None, rows: list[Screened]) -> list[Fit]:
     """Fits of causes whose large changes explain peaks that no mode explains yet."""
     if (ground if before is None else before.ground).strays < SEVERAL or (accepted and before is None):
         return []
     spread = {row.candidate.name: row.spread for row in rows}
-    start = before.theta if before is not None else np.zeros(0)
+    first, start = ((), np.zeros(0)) if before is None else (before.choices, before.theta)
     fits = []
     for picked, theta in catching(ground, before, ground.budget):
-        first = Fit.guessed(ground, (*accepted, picked), np.concatenate([start, theta]), spread[picked.candidate.name])
-        fits.append(settled(ground, first))
+        guess = Fit.guessed(ground, (*first, picked), np.concatenate([start, theta]), spread[picked.candidate.name])
+        fits.append(settled(ground, guess))
         while (again := settled(ground, fits[-1])).ground.strays < fits[-1].ground.strays - _FEWER:
             fits.append(again)
     return fits
