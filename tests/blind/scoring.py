@@ -176,8 +176,8 @@ def _interval_figures(cases: list[Scored]) -> dict[str, Any]:
         if not right_name(case.answer, case.hidden):
             continue
         for effect in case.truth["effects"]:
-            mass = entered_robot(str(case.truth["robot"])).mass
-            flags = interval_flags(effect, _parameters(case.answer, effect["cause"]), mass)
+            robot = entered_robot(str(case.truth["robot"]))
+            flags = interval_flags(effect, _parameters(case.answer, effect["cause"]), robot.mass, robot.masts)
             covered += [flag for flag, _ in flags]
             errors += [error for _, error in flags if effect["multiple"] >= 0.95 * CLEARLY]
     return {

@@ -4,6 +4,7 @@ import json
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tests.blind.__main__ import main
@@ -118,9 +119,27 @@ def test_intervals_are_compared_as_ratios_and_offsets():
     )
 
 
-def test_a_calibrated_teller_has_no_calibration_error():
-    import numpy as np
+def test_intervals_of_masts_are_those_of_their_cables():
+    """Cables 1 and 5 hang on the truth's second mast; the answer names masts by cables, in its own order."""
+    masts = np.array([1, 0, 2, 3, 1, 0, 2, 3])
+    one = {"cause": "frame_compliance", "shape": "one", "total": [0.0, 4e-6, 0.0, 1e-6]}
 
+    def stated(**values: float) -> dict:
+        return {name: {"value": v, "sigma": 1e-7, "unit": "m/N"} for name, v in values.items()}
+
+    alone = stated(compliance_mast_of_1_5=4.1e-6)
+    assert interval_flags(one, alone, masts=masts) == [(True, pytest.approx(0.025))]
+    assert not interval_flags(one, stated(compliance_mast_of_2_6=4.1e-6), masts=masts)[0][0]
+    own = stated(
+        compliance_mast_of_1_5=4e-6, compliance_mast_of_2_6=0, compliance_mast_of_3_7=0, compliance_mast_of_4_8=1e-6
+    )
+    assert [covered for covered, _ in interval_flags(one, own, masts=masts)] == [True] * 4
+    common = {"cause": "frame_compliance", "shape": "common", "total": [4e-6] * 4}
+    assert interval_flags(common, stated(compliance=4.1e-6), masts=masts)[0][0]
+    assert interval_flags(one, stated(compliance=4.1e-6), masts=masts) == []
+
+
+def test_a_calibrated_teller_has_no_calibration_error():
     right = np.array([1.0] * 9 + [0.0])
     assert expected_calibration_error(np.full(10, 0.9), right) == pytest.approx(0.0)
     assert expected_calibration_error(np.full(10, 0.5), right) == pytest.approx(0.4)

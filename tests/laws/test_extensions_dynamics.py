@@ -28,6 +28,7 @@ def at_rest(given: dict) -> OperatingPoint:
 SOFT = [
     {"series_compliance": 5e-5},
     {"frame_compliance": 5e-5},
+    {"frame_compliance": [0.0, 5e-5, 2e-5, 0.0, 0.0, 5e-5, 2e-5, 0.0]},
     {"series_compliance": 2e-5, "frame_compliance": 2e-5},
     {"hose": 500.0},
 ]
