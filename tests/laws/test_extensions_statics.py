@@ -64,7 +64,7 @@ def test_every_extension_changes_lengths_or_tensions(given):
 
 @pytest.mark.parametrize("model", ["sagging", "spring"])
 @pytest.mark.parametrize(
-    "robot", [*(("thesis-3-1", g) for g in ALONE[:5]), *SOFT], ids=lambda r: f"{r[0]}, {[*r[1]][0]}"
+    "robot", [*(("thesis-3-1", g) for g in ALONE[:5]), *SOFT], ids=lambda r: f"{r[0]}, {next(iter(r[1]))}"
 )
 def test_stiffness_is_the_derivative_of_the_wrench(robot, model):
     robot = extended(*robot)
