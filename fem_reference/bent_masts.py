@@ -37,12 +37,12 @@ def bend(
         pulls = chains.tension_vectors[:, 0] + 0.5 * batch.element_weight
         rates = np.linalg.inv(chains.flexibility)
         largest, energy = 0.0, 0.0
-        for number, mast in enumerate(around.bending):
+        for number, (mast, give) in enumerate(zip(around.bending, around.bending_compliance, strict=True)):
             carried = list(mast)
             pull = pulls[carried].sum(axis=0)
-            energy += 0.5 * around.mast_compliance * float(pull @ pull)
-            miss = around.mast_compliance * pull - moved[number]
-            slope = np.eye(3) + around.mast_compliance * rates[carried].sum(axis=0)
+            energy += 0.5 * give * float(pull @ pull)
+            miss = give * pull - moved[number]
+            slope = np.eye(3) + give * rates[carried].sum(axis=0)
             step = np.linalg.solve(slope, miss)
             moved[number] += step
             largest = max(largest, float(np.abs(step).max()))
@@ -68,8 +68,8 @@ def softened(
     count = 3 * len(around.bending)
     own = np.zeros((*platform.shape[:-2], count, count), dtype=platform.dtype)
     coupling = np.zeros((*platform.shape[:-2], count, 6), dtype=platform.dtype)
-    for number, mast in enumerate(around.bending):
+    for number, (mast, give) in enumerate(zip(around.bending, around.bending_compliance, strict=True)):
         rows, carried = slice(3 * number, 3 * number + 3), list(mast)
-        own[..., rows, rows] = starts[..., carried, :, :].sum(axis=-3) + np.eye(3) / around.mast_compliance
+        own[..., rows, rows] = starts[..., carried, :, :].sum(axis=-3) + np.eye(3) / give
         coupling[..., rows, :] = (between[..., carried, :, :] @ motion[carried]).sum(axis=-3)
     return platform - np.swapaxes(coupling, -1, -2) @ np.linalg.solve(own, coupling), own

@@ -69,17 +69,17 @@ def robot_matrices(equilibrium: RobotEquilibrium, mass: MassModel = "lumped") ->
     )
     if not robot.surroundings.bending:
         return stiffness, inertia
-    spring = 1.0 / robot.surroundings.mast_compliance
+    springs = 1.0 / np.array(robot.surroundings.bending_compliance)
     return (
-        _with_masts(equilibrium, stiffness, elements[0], spring),
-        _with_masts(equilibrium, inertia, elements[1], 0.0),
+        _with_masts(equilibrium, stiffness, elements[0], springs),
+        _with_masts(equilibrium, inertia, elements[1], np.zeros_like(springs)),
     )
 
 
 def _with_masts(
-    equilibrium: RobotEquilibrium, matrix: csc_array, element_matrices: np.ndarray, spring: float
+    equilibrium: RobotEquilibrium, matrix: csc_array, element_matrices: np.ndarray, springs: np.ndarray
 ) -> csc_array:
-    """The matrix with the unknowns of the masts before the platform's: first bars of their cables, and a spring."""
+    """The matrix with the unknowns of the masts before the platform's: first bars of their cables, and springs (k,)."""
     masts, interior = equilibrium.robot.surroundings.bending, 3 * (equilibrium.elements - 1)
     cables, count = matrix.shape[0] - 6, 3 * len(masts)
     full = lil_array((matrix.shape[0] + count, matrix.shape[0] + count))
@@ -88,7 +88,7 @@ def _with_masts(
     full[keep[coo.row], keep[coo.col]] = coo.data
     for number, mast in enumerate(masts):
         own = slice(cables + 3 * number, cables + 3 * number + 3)
-        full[own, own] = element_matrices[list(mast), 0, :3, :3].sum(axis=0) + spring * np.eye(3)
+        full[own, own] = element_matrices[list(mast), 0, :3, :3].sum(axis=0) + springs[number] * np.eye(3)
         for cable in mast:
             node = slice(cable * interior, cable * interior + 3)
             full[own, node] = element_matrices[cable, 0, :3, 3:]

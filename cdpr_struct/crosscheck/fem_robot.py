@@ -6,7 +6,7 @@ import fem_reference as fem
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.masts import carriers
+from cdpr_struct.statics.masts import carriers, of_each_mast
 
 NOT_IN_FEM = ("bending_stiffness", "added_mass")
 """Extensions that the referee does not have: its bars neither bend nor carry masses."""
@@ -33,10 +33,10 @@ def to_fem(robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None
 
 def _surroundings(robot: Robot) -> fem.SurroundingsData:
     more, tilted = robot.extensions, np.append(robot.extensions.tilt, -1.0) * robot.gravity
-    masts = tuple(tuple(np.flatnonzero(column).tolist()) for column in carriers(masts_of(robot.frame_anchors)).T)
-    return fem.SurroundingsData(
-        masts, more.frame_compliance, more.hose, np.array(more.hose_center), tilted if more.tilt.any() else None
-    )
+    shared = masts_of(robot.frame_anchors)
+    masts = tuple(tuple(np.flatnonzero(column).tolist()) for column in carriers(shared).T)
+    give = tuple(of_each_mast(shared, more.frame_compliance).tolist())
+    return fem.SurroundingsData(masts, give, more.hose, np.array(more.hose_center), tilted if more.tilt.any() else None)
 
 
 def push_of(robot: Robot) -> fem.PointForce | None:

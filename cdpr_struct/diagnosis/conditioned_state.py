@@ -25,7 +25,7 @@ _SAME_DIRECTION = 1e-8  # of the exit: below it lengths change by less than a te
 class Circumstances:
     """What is known of each state without error.
 
-    payload (S,), approach (S, m), hours (S,), center (3,) mean position; masts (m, m) 1 where cables share a mast;
+    payload (S,), approach (S, m), hours (S,), center (3,) mean position;
     wrap (S, m) : right angles that a cable turns at its exit;  mean_tension [N]
     sagging : whether cables have weight in this simulation
     """
@@ -35,7 +35,6 @@ class Circumstances:
     wrap: np.ndarray
     hours: np.ndarray
     center: np.ndarray
-    masts: np.ndarray
     mean_tension: float
     sagging: bool = True
 
@@ -97,15 +96,15 @@ def condition(world: World, readings: Readings, known: Circumstances) -> Conditi
     cables = hold(world, points, tension, known, world.frame_anchors)
     if np.any(world.frame_compliance):
         for _ in range(3):
-            moved = moved_anchors(world, cables, known)
+            moved = moved_anchors(world, cables)
             cables = hold(world, points, tension, known, moved)
     return Conditioned(position, rotation, arms, tension, cables)
 
 
-def moved_anchors(world: World, cables: CableStates, known: Circumstances) -> np.ndarray:
+def moved_anchors(world: World, cables: CableStates) -> np.ndarray:
     """Frame anchors (..., S, m, 3) under the pull of all the cables of their masts."""
-    pull = np.einsum("ij,...jk->...ik", known.masts, cables.force_at_frame)
-    return world.frame_anchors + world.frame_compliance[..., None, None] * pull
+    pull = np.einsum("ij,...jk->...ik", world.masts, cables.force_at_frame)
+    return world.frame_anchors + world.frame_compliance[..., None] * pull
 
 
 def hold(

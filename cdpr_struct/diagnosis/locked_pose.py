@@ -59,7 +59,7 @@ def locked_pose(world: World, readings: Readings, known: Circumstances) -> tuple
         if i == _MAST_ITERATIONS - 1:
             break
         if moving:
-            anchors = moved_anchors(world, found.cables, known)
+            anchors = moved_anchors(world, found.cables)
         stiff = series_stiffness(world, length, np.maximum(found.tensions, 1.0), known)
         start = found.position, found.rotation
     return found, stiff
@@ -99,7 +99,7 @@ class Nearby:
 def reference(world: World, readings: Readings, known: Circumstances) -> Reference:
     """Equilibria of a world without batch axes."""
     found, stiff = locked_pose(world, readings, known)
-    arrays = robot_arrays(world, stiff, moved_anchors(world, found.cables, known), known)
+    arrays = robot_arrays(world, stiff, moved_anchors(world, found.cables), known)
     arms = PlatformArms.at(arrays, found.position, found.rotation)
     tangent = tangent_stiffness(arrays, found.cables, arms)
     return Reference(found.position, found.rotation, np.linalg.inv(tangent), found.cables)
@@ -117,7 +117,7 @@ def nearby_pose(world: World, readings: Readings, known: Circumstances, about: R
     stiff = series_stiffness(world, length, np.maximum(tension, 1.0), known)
     anchors = world.frame_anchors
     if np.any(world.frame_compliance):
-        anchors = moved_anchors(world, about.cables, known)
+        anchors = moved_anchors(world, about.cables)
     arrays = robot_arrays(world, stiff, anchors, known)
     model = cable_model("sagging" if known.sagging else "spring")
     shape = np.broadcast_shapes(

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.statics.masts import of_each_mast
 
 Reads = Callable[[World], np.ndarray]
 
@@ -65,7 +66,7 @@ CHECKS = (
     Check("caliper on the pulleys (+-0.1 mm)", 1e-4, lambda w: w.pulley_radius),
     Check("spring balance on hoses and wires (+-1 N/m)", 1.0, lambda w: w.hose[..., None]),
     Check("spring balance on the free platform (+-1 N)", 1.0, lambda w: w.force),
-    Check("dial gauge on a mast (+-0.1 um/N)", 1e-7, lambda w: w.frame_compliance[..., None]),
+    Check("dial gauge on every mast (+-0.1 um/N)", 1e-7, lambda w: of_each_mast(w.masts, w.frame_compliance)),
     Check("dial gauge across the joints (+-0.1 um/N)", 1e-7, cause="joint_compliance"),
     Check("clamp the cables at the pulleys (+-0.2 m)", 0.2, cause="dead_length"),
     Check("thermometer (+-1 K)", 1.0, cause="temperature"),

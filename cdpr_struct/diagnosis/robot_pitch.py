@@ -69,7 +69,7 @@ class Dynamics:
         fixed = _fixed_stiffness(world, cables, rotation, arms, geometric)
         return cls(
             cables, world.linear_density, arms, fixed, mass,
-            world.frame_compliance, known.masts, massless,
+            world.frame_compliance, world.masts, massless,
         )  # fmt: skip
 
     def matrix(self, omega_squared: np.ndarray) -> np.ndarray:
@@ -96,7 +96,7 @@ class Dynamics:
         for i in range(m):
             block[..., i, :, i, :] = ends[..., i, :, :]
         stiff = block.reshape((*ends.shape[:-3], 3 * m, 3 * m))
-        give = self.frame_compliance[..., None, None] * np.kron(self.masts, np.eye(3))
+        give = np.repeat(self.frame_compliance, 3, axis=-1)[..., None] * np.kron(self.masts, np.eye(3))
         result: np.ndarray = stiff @ np.linalg.inv(np.eye(3 * m) + give @ stiff)
         return result
 

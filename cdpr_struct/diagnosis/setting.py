@@ -17,7 +17,7 @@ from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
-from cdpr_struct.robot.extensions import Extensions, masts_of
+from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.energy_descent import arm_scale
@@ -76,7 +76,6 @@ def circumstances(campaign: Campaign) -> Circumstances:
         approach=np.where(np.isfinite(states.approach), states.approach, 0.0),
         hours=np.where(np.isfinite(hours), hours, 0.0),
         center=more.hose_center if more.hose else states.position.mean(axis=0),
-        masts=masts_of(campaign.robot.frame_anchors),
         mean_tension=mean,
         sagging=campaign.model != "spring",
     )

@@ -4,16 +4,16 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from cdpr_struct.robot.extensions import KEYS
+from cdpr_struct.robot.extensions import KEYS, masts_of
 from cdpr_struct.robot.robot import Robot
 
 _CORE = {
     "platform_anchors": 2, "frame_anchors": 2, "axial_stiffness": 1, "linear_density": 1, "pulley_radius": 1,
     "pulley_axis": 2, "mass": 0, "center_of_mass": 1, "inertia": 2, "gravity": 0, "length_offset": 1,
-    "length_scale": 1, "series_compliance": 1, "frame_compliance": 0, "joint_mass": 1, "cell_gain": 1,
+    "length_scale": 1, "series_compliance": 1, "frame_compliance": 1, "joint_mass": 1, "cell_gain": 1,
     "cell_bias": 1, "friction": 1, "force": 1, "hose": 0, "tracker": 1, "tilt": 1, "bending_stiffness": 1,
     "added_mass": 1, "nonlinearity": 0, "creep": 0, "slip": 1, "internal": 1, "internal_force": 1,
-    "pose_offset": 1,
+    "pose_offset": 1, "masts": 2,
 }  # fmt: skip
 
 EXTENSIONS = tuple(name for name in KEYS if name in _CORE)
@@ -28,7 +28,8 @@ class World:
     pulley_axis (..., m, 3); mass, gravity (...); center_of_mass (..., 3); inertia (..., 3, 3)
     length_offset, length_scale (..., m) : paid out = reading * scale + offset
     series_compliance (..., m) : of what is in line with a cable, joint or cable behind the pulley [m/N]
-    frame_compliance (...) : of a mast, the same in all directions [m/N]
+    frame_compliance (..., m) : of each cable's mast, alike in all directions [m/N]
+    masts (m, m) : 1 where cables share a mast
     joint_mass (..., m) : at the platform anchors [kg]
     cell_gain, cell_bias (..., m) : reading = gain * tension + bias
     friction (..., m) : reading = tension * exp(friction * sign of the last motion * right angles at the exit)
@@ -72,6 +73,7 @@ class World:
     internal: np.ndarray
     internal_force: np.ndarray
     pose_offset: np.ndarray
+    masts: np.ndarray
 
     @classmethod
     def of(cls, robot: Robot, states: int = 0) -> "World":
@@ -87,7 +89,7 @@ class World:
             inertia=robot.platform.inertia, gravity=np.asarray(robot.gravity),
             joint_mass=np.zeros(m), **{name: np.asarray(getattr(more, name)) for name in EXTENSIONS},
             internal=np.zeros(states * max(m - 6, 0)), internal_force=np.zeros(max(m - 6, 0)),
-            pose_offset=np.zeros(states * 6),
+            pose_offset=np.zeros(states * 6), masts=masts_of(robot.frame_anchors),
         )  # fmt: skip
 
     @property

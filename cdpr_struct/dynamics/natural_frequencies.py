@@ -57,8 +57,8 @@ def count_below(
     dynamic = stiffness - (omega**2)[..., None] * platform_mass_matrix(point.robot, point.rotation)
     negative = (np.linalg.eigvalsh(dynamic) < 0.0).sum(axis=-1)
     robot = point.robot
-    if robot.extensions.frame_compliance:
-        compliance = np.asarray(robot.extensions.frame_compliance)
+    compliance = robot.extensions.frame_compliance
+    if compliance.any():
         ends, masts = cables.stiffness(omega**2), masts_of(robot.frame_anchors)
         negative = negative + negative_junctions(ends, masts, compliance, cables.mast_stiffness(omega**2))
     return negative + cables.clamped_count(omega).sum(axis=-1)

@@ -9,7 +9,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, assemble, attachment, platform_mass_matrix
 from cdpr_struct.errors import CdprError
 from cdpr_struct.robot.extensions import masts_of
-from cdpr_struct.statics.masts import carriers
+from cdpr_struct.statics.masts import carriers, of_each_mast
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -87,9 +87,10 @@ def ritz_modes(
 def _with_masts(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
     """Motion (..., m, 3, n) of the cable ends against their masts, and of these, per motion of platform and masts."""
     ends = attachment(point)
-    if not point.robot.extensions.frame_compliance:
+    give, masts = point.robot.extensions.frame_compliance, masts_of(point.robot.frame_anchors)
+    if not give.any():
         return ends, np.zeros_like(ends)
-    carried = carriers(masts_of(point.robot.frame_anchors))
+    carried = carriers(masts)[:, of_each_mast(masts, give) > 0.0]
     own = np.einsum("mq,ab->maqb", carried, np.eye(3)).reshape(len(carried), 3, -1)
     own = np.broadcast_to(own, (*ends.shape[:-1], own.shape[-1]))
     return np.concatenate([ends, -own], axis=-1), np.concatenate([np.zeros_like(ends), own], axis=-1)
@@ -105,7 +106,8 @@ def _unit_stiffness(
     if n > 6:
         body, stiffness = stiffness, np.einsum("...mai,...mab,...mbj->...ij", ends, cables, ends, optimize=True)
         stiffness[..., :6, :6] += body
-        stiffness[..., range(6, n), range(6, n)] += 1.0 / point.robot.extensions.frame_compliance
+        give = of_each_mast(masts_of(point.robot.frame_anchors), point.robot.extensions.frame_compliance)
+        stiffness[..., range(6, n), range(6, n)] += np.repeat(1.0 / give[give > 0.0], 3)
     try:
         lower = np.linalg.cholesky(stiffness)
     except np.linalg.LinAlgError as error:

@@ -49,8 +49,7 @@ def assemble(
     -------
     (..., 6, 6), world axes, rotations about the platform origin [N/m, N, N m].
     """
-    compliance = np.asarray(point.robot.extensions.frame_compliance)
-    masts = masts_of(point.robot.frame_anchors)
+    compliance, masts = point.robot.extensions.frame_compliance, masts_of(point.robot.frame_anchors)
     stiffness = behind_masts(cable_stiffness, attachment(point), masts, compliance, mast_inertia)
     stiffness[..., :3, :3] += point.robot.extensions.hose * np.eye(3)
     if assembly == "thesis":
@@ -84,7 +83,7 @@ def platform_dynamic_stiffness(
 
     omega_squared : broadcasts against (..., m) [rad^2/s^2]; complex for damped cables, see `damped`
     """
-    inertia = cables.mast_stiffness(omega_squared) if point.robot.extensions.frame_compliance else None
+    inertia = cables.mast_stiffness(omega_squared) if point.robot.extensions.frame_compliance.any() else None
     return assemble(point, cables.stiffness(omega_squared), assembly, inertia)
 
 

@@ -64,7 +64,7 @@ def swept_dynamic_stiffness(
     assembly: Assembly = "consistent",
 ) -> np.ndarray:
     """As `dynamic_stiffness`, to `RELATIVE_TOLERANCE` of the largest entries, for an ascending sweep (f,)."""
-    if point.robot.extensions.frame_compliance:  # masts move the poles
+    if point.robot.extensions.frame_compliance.any():  # masts move the poles
         return dynamic_stiffness(point, cables, law, omega, assembly)
     poles = _poles(point, cables, float(omega[-1]))
     inside = int((np.sqrt(poles.omega_squared) < omega[-1]).sum())
@@ -217,7 +217,7 @@ def _cable_part(
     first = cables.first_frequency
     inertia, elasticity = law.inertia(omega[:, None], first), law.elasticity(omega[:, None], first)
     stiffness = elasticity[..., None, None] * cables.stiffness(inertia / elasticity)
-    if not point.robot.extensions.frame_compliance:
+    if not point.robot.extensions.frame_compliance.any():
         return assemble(point, stiffness, assembly)
     ends, own = (elasticity[..., None, None] * part for part in cables.mast_stiffness(inertia / elasticity))
     return assemble(point, stiffness, assembly, (ends, own))

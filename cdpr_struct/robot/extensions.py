@@ -30,7 +30,7 @@ class Key:
 
 KEYS: dict[str, Key] = {
     "series_compliance": Key("cables", 0.0, "m/N", "elastic element in line with the cable, behind its frame end", 0.0),
-    "frame_compliance": Key(0, 0.0, "m/N", "of a mast, the same in all directions; cables of one mast share it", 0.0),
+    "frame_compliance": Key("cables", 0.0, "m/N", "of the cable's mast, alike in all directions; one a mast", 0.0),
     "hose": Key(0, 0.0, "N/m", "stiffness that holds the platform origin to hose_center", 0.0),
     "hose_center": Key(3, 0.0, "m", "where the hose is relaxed, world frame"),
     "force": Key(3, 0.0, "N", "constant force on the platform origin, world frame"),
@@ -63,7 +63,7 @@ class Extensions:
     """
 
     series_compliance: np.ndarray
-    frame_compliance: float
+    frame_compliance: np.ndarray
     hose: float
     hose_center: np.ndarray
     force: np.ndarray
@@ -129,7 +129,21 @@ class Extensions:
 
 
 def masts_of(frame_anchors: np.ndarray) -> np.ndarray:
-    """(m, m) 1 where two cables share a mast, their frame anchors (m, 3) being close to each other in plan."""
+    """(m, m) 1 where two cables share a mast, their frame anchors (m, 3) being close to each other in plan.
+
+    Neighbours of neighbours are neighbours.
+    """
     plan = frame_anchors[:, :2]
     distance = np.linalg.norm(plan[:, None] - plan[None], axis=-1)
-    return np.asarray(distance <= MAST * max(float(distance.max()), 1e-9), dtype=float)
+    shared = distance <= MAST * max(float(distance.max()), 1e-9)
+    for _ in range(len(shared)):
+        shared = shared | (shared.astype(int) @ shared.astype(int) > 0)
+    return np.asarray(shared, dtype=float)
+
+
+def divided_mast(frame_anchors: np.ndarray, frame_compliance: np.ndarray) -> tuple[int, ...]:
+    """Cables, from 0, of the first mast whose compliance (m,) is not one number; empty if there is none."""
+    for together in masts_of(frame_anchors) > 0.0:
+        if np.ptp(frame_compliance[together]) > 0.0:
+            return tuple(np.flatnonzero(together).tolist())
+    return ()

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.robot.cable import Cable, Pulley
-from cdpr_struct.robot.extensions import KEYS, Extensions
+from cdpr_struct.robot.extensions import KEYS, Extensions, divided_mast
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
@@ -168,7 +168,13 @@ def _extensions(table: RobotTable, source: str) -> Extensions:
             known = ", ".join(["causes", "joint_mass", *KEYS])
             raise InputError(source, f"extensions.{name}", value, f"no such key is known here; known: {known}")
         _check_extension(name, value, len(table.cables), source)
-    return Extensions.of(len(table.cables), given, tuple(causes))
+    made = Extensions.of(len(table.cables), given, tuple(causes))
+    anchors = np.array([entry.frame_anchor for entry in table.cables])
+    if divided := divided_mast(anchors, made.frame_compliance):
+        carried = ", ".join(str(i + 1) for i in divided)
+        expected = f"cables {carried} hang on one mast: give equal numbers for them, that of their mast in m/N"
+        raise InputError(source, "extensions.frame_compliance", given["frame_compliance"], expected)
+    return made
 
 
 def _check_extension(name: str, value: Any, cables: int, source: str) -> None:

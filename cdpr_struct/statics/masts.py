@@ -1,10 +1,12 @@
 """Masts that give way: the frame anchors of a mast move with the pull of all its cables, alike in all directions.
 
-With U the motion of the cable ends per mast and c its compliance, cables of stiffness K at held frame ends are
+With U the motion of the cable ends per mast and C = R R the masts' compliances, cables of stiffness K at held frame
+ends are
 
-    K - K U (1 / c + U^T K U)^-1 U^T K
+    K - K U R (1 + R U^T K U R)^-1 R U^T K
 
-behind masts. In vibration the cables' inertia adds to both blocks that the masts take part in.
+behind masts; a rigid mast (zero in C) changes nothing. In vibration the cables' inertia adds to both blocks that the
+masts take part in.
 """
 
 from collections.abc import Callable
@@ -22,16 +24,16 @@ _SETTLED = 1e-15  # of the largest coordinate
 
 def carriers(masts: np.ndarray) -> np.ndarray:
     """(m, n) 1 where a cable hangs on one of n masts; `masts` (m, m) 1 where two cables share one."""
-    _, first = np.unique(_linked(masts).argmax(axis=1), return_index=True)
-    return np.asarray(_linked(masts)[:, first], dtype=float)
+    return np.asarray(masts[:, _first_cables(masts)], dtype=float)
 
 
-def _linked(masts: np.ndarray) -> np.ndarray:
-    """Neighbours of neighbours are neighbours."""
-    linked = masts > 0.0
-    for _ in range(len(masts)):
-        linked = linked | (linked.astype(int) @ linked.astype(int) > 0)
-    return linked
+def of_each_mast(masts: np.ndarray, of_cables: np.ndarray) -> np.ndarray:
+    """(..., n) what the cables of each of n masts have in common, from (..., m)."""
+    return np.asarray(of_cables[..., _first_cables(masts)])
+
+
+def _first_cables(masts: np.ndarray) -> np.ndarray:
+    return np.unique(masts.argmax(axis=1))
 
 
 def pull_on_masts(arrays: RobotArrays, states: CableStates) -> np.ndarray:
@@ -52,8 +54,7 @@ def with_settled_masts(
     """
     if not arrays.has_masts:
         return solve(arrays), arrays
-    together = _linked(arrays.masts).astype(float)
-    give = arrays.frame_compliance[..., None, None]
+    together, give = arrays.masts, arrays.frame_compliance[..., None]
     moved = arrays
     for _ in range(_ITERATIONS):
         states = solve(moved)
@@ -68,7 +69,7 @@ def with_settled_masts(
 def _newton_step(arrays: RobotArrays, states: CableStates, together: np.ndarray, miss: np.ndarray) -> np.ndarray:
     ends = end_stiffness(arrays, states)
     m = ends.shape[-3]
-    give = arrays.frame_compliance[..., None, None, None, None]
+    give = arrays.frame_compliance[..., None, None, None]
     matrix = give * together[:, None, :, None] * np.moveaxis(ends, -3, -2)[..., None, :, :, :]
     matrix = matrix.reshape((*matrix.shape[:-4], 3 * m, 3 * m)) + np.eye(3 * m)
     return np.linalg.solve(matrix, miss.reshape((*miss.shape[:-2], 3 * m, 1))).reshape(miss.shape)
@@ -91,7 +92,7 @@ def behind_masts(
     ----------
     stiffness : (..., m, 3, 3) of the cables' platform ends with held frame ends, world [N/m]
     cable_ends : (..., m, 3, n) their motion per motion of the body
-    masts, compliance : (m, m) and (...) [m/N] of `RobotArrays`
+    masts, compliance : (m, m) and (..., m) [m/N] of `RobotArrays`
     inertia : in vibration; None at rest
     """
     own = np.einsum("...mai,...mab,...mbj->...ij", cable_ends, stiffness, cable_ends, optimize=True)
@@ -120,17 +121,17 @@ def _mast_blocks(
     compliance: np.ndarray,
     inertia: Inertia | None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """U^T K A (..., 3 n, k) and 1 / c + U^T K U (..., 3 n, 3 n)."""
-    carried = carriers(masts)
+    """R U^T K A (..., 3 n, k) and 1 + R U^T K U R (..., 3 n, 3 n)."""
+    carried, root = carriers(masts), np.sqrt(of_each_mast(masts, compliance))[..., None, None]
     count = carried.shape[1]
     across, own_stiffness = stiffness, stiffness
     if inertia is not None:
         back = np.swapaxes(inertia[0], -1, -2)
         across, own_stiffness = stiffness - back, stiffness - inertia[0] - back + inertia[1]
-    on_mast = np.einsum("mq,...mak->...qak", carried, across @ cable_ends)
-    own = np.einsum("mq,...mab->...qab", carried, own_stiffness)
+    on_mast = root * np.einsum("mq,...mak->...qak", carried, across @ cable_ends)
+    own = root**2 * np.einsum("mq,...mab->...qab", carried, own_stiffness)
     junction = np.zeros((*own.shape[:-3], count, 3, count, 3), dtype=own.dtype)
     for q in range(count):
-        junction[..., q, :, q, :] = own[..., q, :, :] + np.eye(3) / compliance[..., None, None]
+        junction[..., q, :, q, :] = np.eye(3) + own[..., q, :, :]
     flat = junction.reshape((*own.shape[:-3], 3 * count, 3 * count))
     return on_mast.reshape((*on_mast.shape[:-3], 3 * count, on_mast.shape[-1])), flat

@@ -22,8 +22,8 @@ class RobotArrays:
     gravity         : (...) g [m/s^2]
 
     Extensions (`robot/extensions.py` says what they mean), neutral unless given:
-    series_compliance, length_offset, length_scale : (..., m) [m/N], [m], [-];  frame_compliance : (...) [m/N]
-    masts           : (m, m) 1 where cables share a mast
+    series_compliance, length_offset, length_scale : (..., m) [m/N], [m], [-]
+    frame_compliance : (..., m) [m/N] of each cable's mast;  masts : (m, m) 1 where cables share one
     hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  tilt : (..., 2) [rad]
     nonlinearity    : (...) k with reference_tension (...) [N]
     """
@@ -40,7 +40,7 @@ class RobotArrays:
     series_compliance: np.ndarray = field(default_factory=lambda: np.zeros(1))
     length_offset: np.ndarray = field(default_factory=lambda: np.zeros(1))
     length_scale: np.ndarray = field(default_factory=lambda: np.ones(1))
-    frame_compliance: np.ndarray = field(default_factory=lambda: np.zeros(()))
+    frame_compliance: np.ndarray = field(default_factory=lambda: np.zeros(1))
     masts: np.ndarray = field(default_factory=lambda: np.eye(1))
     hose: np.ndarray = field(default_factory=lambda: np.zeros(()))
     hose_center: np.ndarray = field(default_factory=lambda: np.zeros(3))
@@ -104,8 +104,8 @@ class RobotArrays:
 
     def with_rigid_ends(self) -> "RobotArrays":
         """Nothing elastic but the cables themselves, and these alike at all tensions."""
-        rigid = np.zeros(())
-        return replace(self, series_compliance=np.zeros(1), frame_compliance=rigid, nonlinearity=rigid)
+        rigid = np.zeros(1)
+        return replace(self, series_compliance=rigid, frame_compliance=rigid, nonlinearity=np.zeros(()))
 
     def stiffened(self, factor: float) -> "RobotArrays":
         """Cables, what is in line with them, and masts all `factor` times stiffer."""
@@ -152,7 +152,7 @@ _CORE_AXES = {
     "series_compliance": 1,
     "length_offset": 1,
     "length_scale": 1,
-    "frame_compliance": 0,
+    "frame_compliance": 1,
     "masts": 2,
     "hose": 0,
     "hose_center": 1,

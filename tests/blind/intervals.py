@@ -82,17 +82,25 @@ class Compared:
         return bool(abs(self.value - self.truth) <= NORMAL_95 * self.sigma)
 
 
-def compared(effect: dict[str, Any], parameters: dict[str, dict[str, Any]], robot_mass: float = 1.0) -> list[Compared]:
+def compared(
+    effect: dict[str, Any],
+    parameters: dict[str, dict[str, Any]],
+    robot_mass: float = 1.0,
+    masts: np.ndarray | None = None,
+) -> list[Compared]:
     """Each stated parameter that the truth has a number for.
 
-    Entries `.._3` are those of cable 3; a lone entry is the mean over the cables. Vector parameters are matched in
-    the order x, y, z of their keys. What cannot be matched is left out rather than guessed.
+    Entries `.._3` are those of cable 3; a lone entry is the mean over the cables. Of masts, entry `.._3_7` is that of
+    the mast of cables 3 and 7; masts (m,) are the numbers of the cables' masts in the truth. Vector parameters are
+    matched in the order x, y, z of their keys. What cannot be matched is left out rather than guessed.
     """
     truth, kept = true_parameters(effect, robot_mass), sorted(parameters, key=_natural)
     if effect["cause"] in OTHER_BASIS:
         return [_lengths(truth, [parameters[key] for key in kept])] if kept else []
     if len(kept) == 1 and effect.get("shape") == "common":
         pairs = [(kept[0], float(truth.mean()))]
+    elif effect["cause"] == "frame_compliance" and masts is not None:
+        pairs = [(key, float(truth[masts[n - 1]])) for key in kept if 0 < (n := _number(key)) <= len(masts)]
     elif len(kept) == len(truth):
         pairs = list(zip(kept, truth, strict=True))
     elif len(truth) == 1 and effect["cause"] in parameters:

@@ -177,8 +177,8 @@ def _interval_figures(cases: list[Scored]) -> dict[str, Any]:
         if not right_name(case.answer, case.hidden):
             continue
         for effect in case.truth["effects"]:
-            mass = entered_robot(str(case.truth["robot"])).mass
-            numbers = compared(effect, _parameters(case.answer, effect["cause"]), mass)
+            robot = entered_robot(str(case.truth["robot"]))
+            numbers = compared(effect, _parameters(case.answer, effect["cause"]), robot.mass, robot.masts)
             covered += [number.covered for number in numbers]
             if numbers and effect["multiple"] >= 0.95 * CLEARLY:
                 errors.append(relative_error(numbers))

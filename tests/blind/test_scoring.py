@@ -4,6 +4,7 @@ import json
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tests.blind.__main__ import main
@@ -144,9 +145,29 @@ def test_internal_force_is_compared_by_its_length():
     assert number.covered
 
 
-def test_a_calibrated_teller_has_no_calibration_error():
-    import numpy as np
+def test_intervals_of_masts_are_those_of_their_cables():
+    """Cables 1 and 5 hang on the truth's second mast; the answer names masts by cables, in its own order."""
+    masts = np.array([1, 0, 2, 3, 1, 0, 2, 3])
+    one = {"cause": "frame_compliance", "shape": "one", "total": [0.0, 4e-6, 0.0, 1e-6]}
 
+    def stated(**values: float) -> dict:
+        return {name: {"value": v, "sigma": 1e-7, "unit": "m/N"} for name, v in values.items()}
+
+    alone = stated(compliance_mast_of_1_5=4.1e-6)
+    (number,) = numbers = compared(one, alone, masts=masts)
+    assert number.covered
+    assert relative_error(numbers) == pytest.approx(0.025)
+    assert not compared(one, stated(compliance_mast_of_2_6=4.1e-6), masts=masts)[0].covered
+    own = stated(
+        compliance_mast_of_1_5=4e-6, compliance_mast_of_2_6=0, compliance_mast_of_3_7=0, compliance_mast_of_4_8=1e-6
+    )
+    assert [number.covered for number in compared(one, own, masts=masts)] == [True] * 4
+    common = {"cause": "frame_compliance", "shape": "common", "total": [4e-6] * 4}
+    assert compared(common, stated(compliance=4.1e-6), masts=masts)[0].covered
+    assert compared(one, stated(compliance=4.1e-6), masts=masts) == []
+
+
+def test_a_calibrated_teller_has_no_calibration_error():
     right = np.array([1.0] * 9 + [0.0])
     assert expected_calibration_error(np.full(10, 0.9), right) == pytest.approx(0.0)
     assert expected_calibration_error(np.full(10, 0.5), right) == pytest.approx(0.4)

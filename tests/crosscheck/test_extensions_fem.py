@@ -24,6 +24,8 @@ MODES = 20
 CASES = {
     "in line": {"series_compliance": 5e-5},
     "masts": {"frame_compliance": 5e-5},
+    "one mast": {"frame_compliance": [0.0, 5e-5, 0.0, 0.0, 0.0, 5e-5, 0.0, 0.0]},
+    "masts, each its own": {"frame_compliance": [5e-5, 2e-5, 0.0, 1e-5, 5e-5, 2e-5, 0.0, 1e-5]},
     "both": {"series_compliance": 2e-5, "frame_compliance": 2e-5},
     "hose, tilt, force": {"hose": 500.0, "hose_center": [0.0, 0.0, 1.0], "tilt": [0.02, 0.01], "force": [9.0, 5.0, 3]},
     "modulus": {"nonlinearity": 0.3, "reference_tension": 100.0},
@@ -70,7 +72,7 @@ def test_the_referee_vibrates_alike(trial):
     assert np.abs(exact / hertz - 1.0).max() < FREQUENCY
 
 
-@pytest.mark.parametrize("name", ["in line", "masts", "hose, tilt, force", "modulus"])
+@pytest.mark.parametrize("name", ["in line", "masts", "one mast", "hose, tilt, force", "modulus"])
 def test_a_wrong_extension_is_found_out(name):
     """Twin: every number of the model 5 % larger than the referee's; at the pose that the referee is given."""
     point = at_rest(CASES[name])
@@ -80,9 +82,10 @@ def test_a_wrong_extension_is_found_out(name):
     assert np.abs(exact / referee(point)[2] - 1.0).max() > 5.0 * FREQUENCY
 
 
-def test_the_referee_s_dynamic_stiffness_is_ours():
+@pytest.mark.parametrize("name", ["masts", "one mast"])
+def test_the_referee_s_dynamic_stiffness_is_ours(name):
     """K(omega) - omega^2 M between the poles, cables on masts condensed there, masts eliminated here."""
-    point = at_rest(CASES["masts"])
+    point = at_rest(CASES[name])
     omega = 2.0 * np.pi * np.array([1.0, 3.5])
     cables = cable_dynamics(point, "exact", omega[-1])
     mass = platform_mass_matrix(point.robot, point.rotation)
@@ -91,6 +94,15 @@ def test_the_referee_s_dynamic_stiffness_is_ours():
     assert np.abs(ours - theirs).max() < 2e-4 * np.abs(theirs).max()  # measured 9.8e-5, a quarter of that of 40 bars
     rigid = fem.platform_dynamic_stiffness(solve_in_fem(at_rest({}), 80), omega)
     assert np.abs(ours - rigid).max() > 0.1 * np.abs(rigid).max()  # twin
+
+
+def test_the_soft_mast_is_the_one_that_is_named():
+    """Twin: the same compliance at another mast is another robot."""
+    point, other = (at_rest({"frame_compliance": np.tile(5e-5 * np.eye(4)[i], 2)}) for i in (1, 2))
+    place, _, hertz = referee(point)
+    assert np.abs(place - point.position).max() < 1e-9
+    exact = certified_modes(other, "exact", MODES).frequencies.hertz
+    assert np.abs(exact / hertz - 1.0).max() > 5.0 * FREQUENCY
 
 
 def test_cable_inertia_matters_on_masts():
@@ -122,5 +134,9 @@ def test_the_referee_refuses_what_it_cannot_do():
         fem.integrate(solve_in_fem(at_rest(CASES["masts"]), 8), 0.1, 0.01)
     with pytest.raises(ValueError, match="pulleys go neither"):
         replace(robot, pulleys=tuple(fem.PulleyData(0.05, np.array([0.0, 0.0, 1.0])) for _ in range(8)))
+    with pytest.raises(ValueError, match="2 masts, got"):
+        fem.SurroundingsData(((0, 1), (2, 3)), (1e-5,))
+    with pytest.raises(ValueError, match="mast_compliance must be zero or more"):
+        fem.SurroundingsData(((0, 1), (2, 3)), (1e-5, -1e-5))
     with pytest.raises(ValueError, match="no cable twice"):
         fem.SurroundingsData(((0, 1), (1, 2)), 1e-5)

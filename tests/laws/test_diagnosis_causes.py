@@ -21,7 +21,8 @@ from tests.laws.crime_campaign import clean_campaign, hidden
 HIDDEN = [
     ("axial_stiffness", "all alike", -0.2),
     ("joint_compliance", "all alike", 1e-5),
-    ("frame_compliance", "", 6e-6),
+    ("frame_compliance", "all alike", 6e-6),
+    ("frame_compliance", "mast of cables 3, 4 alone", 8e-6),
     ("unstrained_length_offset", "cable 3 alone", 0.012),
     ("drum_scale", "all alike", 1.5e-3),
     ("pulley_radius", "all alike", 0.02),
@@ -36,6 +37,7 @@ HIDDEN = [
     ("frame_anchor_position", "cable 4 alone", 0.015),
     ("platform_anchor_position", "cable 6 alone", 0.012),
 ]
+OCTAGON = np.array([[np.cos(a), np.sin(a)] for a in np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False)])
 
 
 def ground_of(campaign, names) -> Ground:
@@ -62,6 +64,31 @@ def test_hidden_size_is_recovered(name, label, size):
     sigma = np.sqrt(np.diagonal(fit.covariance)) * fit.choices[0].prior
     assert fit.gain > 3.0
     assert np.all(np.abs(found - theta) < 2.0 * sigma + 0.02 * abs(size)), (found, theta, sigma)
+
+
+@pytest.mark.parametrize(
+    ("plan", "labels", "names"),
+    [
+        (None, ["all alike", "each its own", "mast of cables 1, 2 alone"], ["compliance_mast_of_1_2"]),
+        (np.zeros((8, 2)), [""], ["compliance"]),
+        (OCTAGON, ["all alike", "each its own", "mast of cable 1 alone"],
+         ["compliance_mast_of_1", "compliance_mast_of_2"]),
+    ],
+    ids=["two cables a mast", "one mast", "a mast each"],
+)  # fmt: skip
+def test_a_parameter_of_each_mast_is_named_by_its_cables(plan, labels, names):
+    campaign = clean_campaign(count=2)
+    setting, anchors = make_setting(campaign)[0], campaign.robot.frame_anchors.copy()
+    if plan is not None:
+        anchors[:, :2] = plan
+        robot = replace(campaign.robot, frame_anchors=anchors)
+        setting = replace(setting, campaign=replace(campaign, robot=robot))
+    patterns = LIBRARY["frame_compliance"].patterns(setting)
+    assert [p.label for p in patterns][: len(labels)] == labels
+    own = patterns[min(1, len(patterns) - 1)].parameters
+    assert [p.name for p in own][: len(names)] == names
+    assert sum(p.weight for p in patterns) == pytest.approx(1.0)
+    assert len(patterns) == (1 if len(own) == 1 else 2 + len(own))
 
 
 def test_a_wrong_name_does_not_win():

@@ -15,11 +15,13 @@ from cdpr_struct.diagnosis.world import World
 from cdpr_struct.reports.diagnosis_result import diagnosis_json
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.masts import carriers
 from tests.laws.crime_campaign import clean_campaign, hidden
 
 HIDDEN = {
     "series_compliance": lambda w: w.plus(series_compliance=np.full(8, 8e-6)),
     "nonlinearity": lambda w: w.plus(nonlinearity=np.array(0.5)),
+    "frame_compliance": lambda w: w.plus(frame_compliance=8e-6 * carriers(w.masts)[:, 1]),
     "cell_gain": lambda w: w.times(cell_gain=np.full(8, 1.06)),
 }
 
@@ -41,9 +43,10 @@ def test_a_campaign_is_adequate_for_its_own_extended_robot(name, tmp_path):
 def everything(world: World) -> World:
     """A world in which every extension is at work."""
     each = np.linspace(0.5, 1.5, 8)
+    masts = 2e-6 * np.linspace(0.0, 1.5, 4) @ carriers(world.masts).T  # one of them rigid
     return replace(
         world, length_offset=0.002 * each, length_scale=1.0 + 0.001 * each, series_compliance=2e-6 * each,
-        frame_compliance=np.array(2e-6), joint_mass=0.1 * each, cell_gain=1.0 + 0.01 * each, cell_bias=2.0 * each,
+        frame_compliance=masts, joint_mass=0.1 * each, cell_gain=1.0 + 0.01 * each, cell_bias=2.0 * each,
         friction=0.02 * each, force=np.array([5.0, -3.0, 2.0]), hose=np.array(30.0), tilt=np.array([0.002, -0.001]),
         tracker=np.array([0.001, 0.0, 0.002, 0.0, 0.001, 0.0]), nonlinearity=np.array(0.1), creep=np.array(0.05),
         slip=1e-4 * each,

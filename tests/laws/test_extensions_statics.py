@@ -21,6 +21,8 @@ ALL = {
     "force": [5.0, -3.0, 4.0], "tilt": [0.01, -0.01], "nonlinearity": 0.1, "reference_tension": 200.0,
     "length_offset": 0.003, "length_scale": 1.001,
 }  # fmt: skip
+ONE_MAST = {"cogiro": [0.0, 0.0, 5e-5, 5e-5, 0, 0, 0, 0], "thesis-3-1": [5e-5, 0.0, 0, 0, 5e-5, 0, 0, 0]}
+SOFT = [(name, {"frame_compliance": give}) for name, give in ONE_MAST.items()]
 ALONE = [
     {"series_compliance": 5e-5},
     {"frame_compliance": 5e-5},
@@ -61,9 +63,11 @@ def test_every_extension_changes_lengths_or_tensions(given):
 
 
 @pytest.mark.parametrize("model", ["sagging", "spring"])
-@pytest.mark.parametrize("given", ALONE[:5], ids=lambda g: next(iter(g)))
-def test_stiffness_is_the_derivative_of_the_wrench(given, model):
-    robot = extended("thesis-3-1", given)
+@pytest.mark.parametrize(
+    "robot", [*(("thesis-3-1", g) for g in ALONE[:5]), *SOFT], ids=lambda r: f"{r[0]}, {next(iter(r[1]))}"
+)
+def test_stiffness_is_the_derivative_of_the_wrench(robot, model):
+    robot = extended(*robot)
     place = robot.home.position + SHIFT
     arrays, held = RobotArrays.of(robot), inverse(robot, place, np.eye(3), model)
     matrix = static_stiffness(robot, place, np.eye(3), held.cables).matrix
@@ -99,6 +103,48 @@ def test_cables_of_one_mast_share_its_compliance():
     together = masts_of(robot.frame_anchors) > 0.0
     assert (together.sum(axis=1) == 2).all()
     np.testing.assert_allclose(moved, give * (together @ held.cables.force_at_frame), atol=1e-13)
+
+
+@pytest.mark.parametrize("name", ONE_MAST)
+def test_one_soft_mast_moves_alone(name):
+    """Round trip of statics with rigid masts beside a soft one, and where these stand."""
+    given = {"frame_compliance": ONE_MAST[name]}
+    test_lengths_that_inverse_gives_lead_forward_to_the_pose(name, given, "sagging")
+    robot = extended(name, given)
+    held = inverse(robot, robot.home.position + SHIFT, np.eye(3))
+    moved = robot.home.position + SHIFT + robot.platform_anchors - held.cables.offset - robot.frame_anchors
+    soft = robot.extensions.frame_compliance > 0.0
+    assert np.abs(moved[soft]).max() > 1e-3
+    assert np.abs(moved[~soft]).max() < 1e-13
+
+
+@pytest.mark.parametrize("name", ONE_MAST)
+def test_equal_numbers_are_the_one_number(name):
+    place = load_robot(name).home.position + SHIFT
+    one, all_ = (extended(name, {"frame_compliance": give}) for give in (3e-5, [3e-5] * 8))
+    first, second = (inverse(robot, place, np.eye(3)) for robot in (one, all_))
+    np.testing.assert_array_equal(first.lengths, second.lengths)
+    stiffness = [static_stiffness(r, place, np.eye(3), first.cables).matrix for r in (one, all_)]
+    np.testing.assert_array_equal(*stiffness)
+
+
+def test_a_batch_of_mast_compliances_is_each_of_them():
+    """Rigid, one soft, all soft: inverse and forward kinematics and stiffness, one by one and together."""
+    give = np.array([[0.0] * 8, ONE_MAST["cogiro"], [2e-5] * 8])
+    robot = load_robot("cogiro")
+    place = robot.home.position + SHIFT
+    arrays = replace(RobotArrays.of(robot), frame_compliance=give)
+    together = inverse(arrays, place, np.eye(3))
+    alone = [inverse(replace(arrays, frame_compliance=g), place, np.eye(3)) for g in give]
+    np.testing.assert_allclose(together.lengths, [a.lengths for a in alone], rtol=1e-12)
+    matrices = [
+        static_stiffness(replace(arrays, frame_compliance=g), place, np.eye(3), a.cables).matrix
+        for g, a in zip(give, alone, strict=True)
+    ]
+    found = static_stiffness(arrays, place, np.eye(3), together.cables).matrix
+    np.testing.assert_allclose(found, matrices, rtol=1e-9, atol=1e-6)
+    back = forward(arrays, together.lengths, place + 0.01, np.eye(3))
+    np.testing.assert_allclose(back.position, np.broadcast_to(place, (3, 3)), atol=1e-9)
 
 
 def test_modulus_is_that_at_the_tension():

@@ -70,6 +70,8 @@ class Cause:
 
     per_cable : parameters of one cable (`axes` of them each); the cause occurs in all cables alike, in one, or in
                 each differently;  otherwise the parameters belong to the robot as a whole
+    groups    : of cables that share parameters, as masts do, in place of single cables: ending of the parameter's name
+                and words for each
     apply     : world with basic parameters theta0 (..., d0) put in
     seen_in   : blocks of residuals it shows in
     shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
@@ -82,6 +84,7 @@ class Cause:
     parameters: tuple[Parameter, ...]
     apply: Callable[[World, np.ndarray], World]
     per_cable: bool = False
+    groups: Callable[[Setting], dict[str, str]] | None = None
     common: bool = True
     seen_in: tuple[str, ...] = ()
     needs: Callable[[Setting], str] = always
@@ -94,48 +97,42 @@ class Cause:
     def basic(self, setting: Setting) -> tuple[Parameter, ...]:
         """Basic parameters of the cause for this campaign."""
         if self.count is not None:
-            return tuple(
-                Parameter(f"{p.name}_{i}", p.unit, p.prior, p.ratio, p.squared, p.positive)
-                for i in range(1, self.count(setting) + 1)
-                for p in self.parameters
-            )
-        if not self.per_cable:
+            endings = [str(i) for i in range(1, self.count(setting) + 1)]
+        elif self.per_cable:
+            endings = list(self._carriers(setting))
+        else:
             return self.parameters
-        m = len(setting.campaign.robot.cables)
         return tuple(
-            Parameter(f"{p.name}_{i}", p.unit, p.prior, p.ratio, p.squared, p.positive)
-            for i in range(1, m + 1)
+            Parameter(f"{p.name}_{ending}", p.unit, p.prior, p.ratio, p.squared, p.positive)
+            for ending in endings
             for p in self.parameters
         )
 
+    def _carriers(self, setting: Setting) -> dict[str, str]:
+        """Ending of the parameter's name and words for each cable, or each group of cables."""
+        if self.groups is not None:
+            return self.groups(setting)
+        return {str(i): f"cable {i}" for i in range(1, len(setting.campaign.robot.cables) + 1)}
+
     def patterns(self, setting: Setting) -> list[Pattern]:
-        """Patterns of occurrence: all cables alike, each differently, one alone; or the only one."""
-        basic = self.basic(setting)
+        """Patterns of occurrence: all cables (or groups) alike, each differently, one alone; or the only one."""
+        basic, axes = self.basic(setting), len(self.parameters)
         every = np.eye(len(basic))
         if self.shapes:
             return [Pattern(label, every[:, own], basic[own], weight) for label, own, weight in self.shapes]
+        parts = [slice(axes * i, axes * (i + 1)) for i in range(len(basic) // axes)]
         if self.count is not None:
-            size = len(self.parameters)
-            return [
-                Pattern(
-                    f"one, {i + 1}",
-                    every[:, size * i : size * (i + 1)],
-                    basic[size * i : size * (i + 1)],
-                    size / len(basic),
-                )
-                for i in range(len(basic) // size)
-            ]
-        if not self.per_cable:
-            return [Pattern("", every, basic, 1.0)]
-        axes, m = len(self.parameters), len(basic) // len(self.parameters)
-        alike = np.tile(np.eye(axes), (m, 1))
+            n = len(parts)
+            return [Pattern(f"one, {i}", every[:, own], basic[own], 1.0 / n) for i, own in enumerate(parts, 1)]
+        if len(parts) < 2:
+            return [Pattern("", every, self.parameters, 1.0)]
+        alike = np.tile(np.eye(axes), (len(parts), 1))
         shared = 0.4 if self.common else 0.0
         rest = 1.0 - shared
         found = [Pattern("all alike", alike, self.parameters, shared)] if self.common else []
         found.append(Pattern("each its own", every, basic, 0.5 * rest))
-        for i in range(m):
-            own = slice(axes * i, axes * (i + 1))
-            found.append(Pattern(f"cable {i + 1} alone", every[:, own], basic[own], 0.5 * rest / m))
+        for word, own in zip(self._carriers(setting).values(), parts, strict=True):
+            found.append(Pattern(f"{word} alone", every[:, own], basic[own], 0.5 * rest / len(parts)))
         return found
 
 

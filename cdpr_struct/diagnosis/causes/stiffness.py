@@ -5,6 +5,8 @@ import numpy as np
 from cdpr_struct.diagnosis.causes.cause import Cause, Parameter
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.robot.extensions import masts_of
+from cdpr_struct.statics.masts import carriers
 
 
 def _axial(world: World, theta: np.ndarray) -> World:
@@ -20,7 +22,7 @@ def _dead(world: World, theta: np.ndarray) -> World:
 
 
 def _frame(world: World, theta: np.ndarray) -> World:
-    return world.plus(frame_compliance=theta[..., 0])
+    return world.plus(frame_compliance=theta @ carriers(world.masts).T)
 
 
 def _nonlinear(world: World, theta: np.ndarray) -> World:
@@ -29,6 +31,13 @@ def _nonlinear(world: World, theta: np.ndarray) -> World:
 
 def _creep(world: World, theta: np.ndarray) -> World:
     return world.plus(creep=theta[..., 0])
+
+
+def _masts(setting: Setting) -> dict[str, str]:
+    """Names of the masts, by the cables that they carry."""
+    carried = carriers(masts_of(setting.campaign.robot.frame_anchors))
+    cables = [[str(i + 1) for i in np.flatnonzero(column)] for column in carried.T]
+    return {"_".join(["mast_of", *own]): f"mast of cable{'s' * (len(own) > 1)} {', '.join(own)}" for own in cables}
 
 
 def _times(setting: Setting) -> str:
@@ -75,6 +84,8 @@ CAUSES = (
         "the masts bend",
         (Parameter("compliance", "m/N", 2e-6, positive=True),),
         _frame,
+        True,
+        groups=_masts,
         seen_in=("CO", "LP", "RF"),
         sentence="the masts give way by {value} m/N",
         separated_by="a dial gauge on a mast; pulling one cable and watching its neighbour",
