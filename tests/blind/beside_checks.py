@@ -46,7 +46,7 @@ def survey(robot: EnteredRobot, deviations: Deviations, rng: np.random.Generator
 
 
 def gauge(robot: EnteredRobot, deviations: Deviations, rng: np.random.Generator) -> BesideCheck:
-    """A dial gauge across joint and load cell of every cable under known force; what lies behind the exit is not in it."""
+    """A dial gauge across joint and load cell of every cable; what lies behind the exit is not in it."""
     if "[extensions]" in robot.text:
         raise ValueError(f"{robot.name}: the robot file has extensions already")
     seen = np.maximum(deviations["joint_compliance"] + GAUGE * rng.standard_normal(robot.cables), 0.0)

@@ -29,7 +29,7 @@ def test_a_check_of_no_cause_is_refused():
 
 def test_of_two_causes_that_look_alike_the_one_that_was_not_checked_is_left():
     """A dead length and a compliance in line are the same to the model, until a dial gauge has seen no compliance."""
-    campaign = hidden(lambda world: world.plus(series_compliance=np.full(world.cables, 3e-5)))
+    campaign = hidden(lambda world: world.plus(series_compliance=np.full(world.cables, 1.2e-5)))
     pair, gains = ("dead_length", "joint_compliance"), {}
     for checked in ({}, {"joint_compliance": 1e-7}):
         prepared = prepare(replace(campaign, checked=checked), BUDGETS["small"])
