@@ -15,7 +15,7 @@ from cdpr_struct.diagnosis.evidence import Choice
 from cdpr_struct.diagnosis.planned_checks import CHECKS
 from cdpr_struct.diagnosis.planned_gain import ENOUGH, Judge, NewRows, checked, simulated
 from cdpr_struct.diagnosis.planned_series import series
-from cdpr_struct.diagnosis.planned_states import proposals_beside_poses
+from cdpr_struct.diagnosis.planned_states import of_lacking_kinds
 from cdpr_struct.diagnosis.refit import Fit, Ground
 from cdpr_struct.errors import CdprError
 
@@ -94,12 +94,15 @@ def _sized(fits: Sequence[Fit]) -> dict[str, tuple[Choice, np.ndarray]]:
 
 
 def _measurements(ground: Ground, asked: Sequence[Question]) -> list[tuple[str, bool, NewRows]]:
-    """Candidates with their rows: checks beside the robot first, then states."""
+    """Candidates with their rows: checks beside the robot that were not made yet first, then states."""
     named = {name for q in asked for name in (*q.sized, *(c.candidate.name for c in q.beside))}
     ground = replace(ground, candidates=[c for c in ground.candidates if c.name in named])
-    found = [(check.text, True, checked(ground, check)) for check in CHECKS]
     campaign = ground.setting.campaign
-    for proposal in chain(proposals_beside_poses(campaign), series(campaign)):
+    rows = [(check.text, True, checked(ground, check)) for check in CHECKS]
+    found = [row for row in rows if not any(np.any(row[2].signature.get(name, 0.0)) for name in campaign.checked)]
+    for proposal in chain(of_lacking_kinds(campaign), series(campaign)):
+        if proposal.acts and not named & set(proposal.acts):
+            continue  # nothing in question acts otherwise there
         try:
             found.append((proposal.text, False, simulated(ground, proposal)))
         except (CdprError, np.linalg.LinAlgError):

@@ -45,15 +45,17 @@ def proposals(campaign: Campaign) -> list[Proposal]:
     """All states that the robot can hold among those that could be added to a campaign; new states only."""
     home = home_of(campaign)
     found = []
-    for make in (_other_poses, _tilts, _payload):
+    for make in (_other_poses, _tilts, _payload, _encoders, locked, _cables, _robot, _other_side):
         found += list(make(campaign, home))
-    return found + proposals_beside_poses(campaign)
+    return found
 
 
-def proposals_beside_poses(campaign: Campaign) -> list[Proposal]:
-    """Those of other kinds than the campaign's static states."""
-    home = home_of(campaign)
-    return [proposal for make in (_encoders, locked, _cables, _robot, _other_side) for proposal in make(campaign, home)]
+def of_lacking_kinds(campaign: Campaign) -> list[Proposal]:
+    """Those of kinds of data that the campaign has nothing of."""
+    kinds, home = campaign.kinds(), home_of(campaign)
+    makers = {"loaded_pose": locked, "cable_frequency": _cables, "robot_frequency": _robot}
+    lacking = [_encoders, *(make for kind, make in makers.items() if kind not in kinds)]
+    return [proposal for make in lacking for proposal in make(campaign, home)]
 
 
 def one_sided(campaign: Campaign) -> Campaign:

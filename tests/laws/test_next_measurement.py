@@ -70,3 +70,12 @@ def test_a_second_measurement_is_for_what_the_first_leaves_open(found):
     assert scales.on(pairs) == pytest.approx(following.ENOUGH + 0.1)
     assert following._words(scales, pairs) == "scales: expected to separate a from b by 14 nats"
     assert following._words(tilts, pairs) == "tilts: expected to separate a from c by 6 nats"
+
+
+def test_what_was_checked_is_not_proposed_again(found, question):
+    """Weighing the joints, once they have been weighed; the platform still may be."""
+    campaign = replace(found.ground.setting.campaign, checked={"joint_mass": 0.01})
+    ground = replace(found.ground, setting=replace(found.ground.setting, campaign=campaign))
+    texts = {text for text, _, _ in following._measurements(ground, [question])}
+    assert "weigh the platform (+-0.1 kg)" in texts
+    assert "weigh the joints (+-0.01 kg)" not in texts
