@@ -30,6 +30,8 @@
 | plan.py                | before measuring: what can be detected, what be confused                           |
 | planned_campaign.py    | the whole plan: detectable, confusable, what to measure next                       |
 | planned_states.py      | states that could be measured next, with the model's own readings                  |
+| planned_series.py      | several such states in one go, on clamped cables too                               |
 | planned_checks.py      | things that could be measured without the robot: weighing, calipers, a thermometer |
 | planned_gain.py        | how much better than now would they tell causes apart?                             |
+| next_measurement.py    | after measuring: which of these tells apart the causes that are left open?         |
 """

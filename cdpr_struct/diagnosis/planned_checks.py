@@ -68,7 +68,6 @@ CHECKS = (
     Check("spring balance on the free platform (+-1 N)", 1.0, lambda w: w.force),
     Check("dial gauge on every mast (+-0.1 um/N)", 1e-7, lambda w: of_each_mast(w.masts, w.frame_compliance)),
     Check("dial gauge across the joints (+-0.1 um/N)", 1e-7, cause="joint_compliance"),
-    Check("clamp the cables at the pulleys (+-0.2 m)", 0.2, cause="dead_length"),
     Check("thermometer (+-1 K)", 1.0, cause="temperature"),
     Check("encoder count over a measured metre (+-0.2 mm)", 2e-4, cause="drum_scale"),
 )

@@ -5,21 +5,23 @@ Rows of new residuals are stacked on those at hand. All are linear in tolerances
 evidence of a cause of given size against a rival of any size is then `left_over`, in nats.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
-from cdpr_struct.diagnosis.causes.sensors import internal_force
+from cdpr_struct.diagnosis.causes.sensors import COMMON, internal_force
 from cdpr_struct.diagnosis.evidence import Choice
 from cdpr_struct.diagnosis.null_model import null_with_bending, reading_count, tolerance_count, tolerated
 from cdpr_struct.diagnosis.plan import WIDE, left_over, noncentrality, plainest
 from cdpr_struct.diagnosis.planned_checks import CHECKS, Check
+from cdpr_struct.diagnosis.planned_series import series
 from cdpr_struct.diagnosis.planned_states import Proposal, proposals
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.residuals import Setting, residuals
-from cdpr_struct.diagnosis.setting import make_setting
+from cdpr_struct.diagnosis.setting import make_setting, with_equilibria
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import CdprError
 
@@ -68,11 +70,12 @@ def next_measurements(ground: Ground, pairs: list[tuple[str, str]]) -> list[Gain
         return []
     named = {name for pair in pairs for name in pair}
     ground = replace(ground, candidates=[c for c in ground.candidates if c.name in named])
-    judge = _Judge(ground, pairs)
-    found = [judge.gain(c.text, c.text, _checked(ground, c)) for c in CHECKS]
-    for proposal in proposals(ground.setting.campaign):
+    judge = Judge(ground, pairs)
+    found = [judge.gain(c.text, c.text, checked(ground, c)) for c in CHECKS]
+    campaign = ground.setting.campaign
+    for proposal in chain(proposals(campaign), series(campaign)):
         try:
-            rows = _simulated(ground, proposal)
+            rows = simulated(ground, proposal)
         except (CdprError, np.linalg.LinAlgError):
             continue  # a state that the model cannot compute is not proposed
         found.append(judge.gain(proposal.text, proposal.family, rows))
@@ -82,51 +85,73 @@ def next_measurements(ground: Ground, pairs: list[tuple[str, str]]) -> list[Gain
     return [gain for gain in best.values() if gain.nats > 0.1]
 
 
-class _Judge:
-    """Pairs of causes with their sizes, and what is known of them before any new measurement."""
+class Judge:
+    """Pairs of causes with their sizes, and what is known of them before any new measurement.
 
-    def __init__(self, ground: Ground, pairs: list[tuple[str, str]]) -> None:
-        self.pairs, self.lower = pairs, ground.null.lower
+    sized  : pattern and size theta (d,) of each cause, in prior sigmas; by default the plainest at twice detectable
+    beside : causes that are there whichever of a pair is true, of any size
+    """
+
+    def __init__(
+        self,
+        ground: Ground,
+        pairs: list[tuple[str, str]],
+        sized: Mapping[str, tuple[Choice, np.ndarray]] | None = None,
+        beside: Sequence[Choice] = (),
+    ) -> None:
+        self.pairs, self.lower, self.beside = pairs, ground.null.lower, beside
         named = {name for pair in pairs for name in pair}
-        self.choices = {c.name: plainest(c) for c in ground.candidates if c.name in named}
+        self.wide = dict.fromkeys(named, WIDE)
+        if sized is None:
+            plain = [plainest(c) for c in ground.candidates if c.name in named]
+            sized = {choice.candidate.name: (choice, size_of(choice)) for choice in plain}
+        else:
+            self.wide = {name: max(WIDE, 2.0 * float(np.abs(theta).max())) for name, (_, theta) in sized.items()}
+        self.choices = {name: choice for name, (choice, _) in sized.items()}
+        self.theta = {name: theta for name, (_, theta) in sized.items()}
         start = reading_count(ground.setting)
         self.tolerance = ground.null.columns[:, start : start + tolerance_count(ground.setting)]
         self.covariance = ground.null.covariance
-        self.theta = {name: size_of(choice) for name, choice in self.choices.items()}
         blank = np.zeros((0, self.tolerance.shape[1]))
-        self.before = self._nats(NewRows(blank, np.zeros((0, 0)), {}, np.zeros((0, 0))))
+        self.before = self.nats(NewRows(blank, np.zeros((0, 0)), {}, np.zeros((0, 0))))
 
     def gain(self, text: str, family: str, rows: NewRows) -> Gain:
         """What the rows are worth."""
-        after = self._nats(rows)
+        after = self.nats(rows)
         useful = np.minimum(after, ENOUGH) - np.minimum(self.before, ENOUGH)
         order = np.argsort(-(after - self.before))
         rows_of = zip(self.pairs, self.before.tolist(), after.tolist(), strict=True)
         found = [Separation(cause, rival, before, now) for (cause, rival), before, now in rows_of]
         return Gain(text, family, float(np.maximum(useful, 0.0).sum()), tuple(found[i] for i in order))
 
-    def _nats(self, rows: NewRows) -> np.ndarray:
+    def nats(self, rows: NewRows) -> np.ndarray:
         """(pairs,) expected log evidence with the rows added."""
         cross = self.tolerance @ rows.tolerance.T
         own = rows.tolerance @ rows.tolerance.T + rows.noise @ rows.noise.T
         lower = np.linalg.cholesky(np.block([[self.covariance, cross], [cross.T, own]]))
-        white = {name: np.linalg.solve(lower, self._signature(name, rows)) for name in self.choices}
+        white = {name: np.linalg.solve(lower, self._signature(choice, rows)) for name, choice in self.choices.items()}
+        always = [WIDE * np.linalg.solve(lower, self._signature(choice, rows)) for choice in self.beside]
         fresh = np.vstack([np.zeros((len(self.lower), rows.fresh.shape[1])), rows.fresh])
         inner = np.linalg.solve(lower, fresh) if fresh.size else np.zeros((len(lower), 0))
         nats = []
         for cause, rival in self.pairs:
-            other = np.hstack([white[rival], inner]) if rival == _INTERNAL else white[rival]
-            nats.append(left_over(white[cause] @ self.theta[cause], WIDE * other))
+            free = _own_of_states([self.choices[rival], *self.beside])
+            other = [self.wide[rival] * white[rival], *always] + ([WIDE * inner] if free else [])
+            nats.append(left_over(white[cause] @ self.theta[cause], np.hstack(other)))
         return np.array(nats)
 
-    def _signature(self, name: str, rows: NewRows) -> np.ndarray:
+    def _signature(self, choice: Choice, rows: NewRows) -> np.ndarray:
         """(n, d) effect of a cause's parameters, in prior sigmas, on old and new rows."""
-        choice = self.choices[name]
         old = self.lower @ choice.signature
-        new = rows.signature.get(name)
+        new = rows.signature.get(choice.candidate.name)
         if new is None:
             return np.vstack([old, np.zeros((len(rows.tolerance), old.shape[1]))])
         return np.vstack([old, (new @ choice.pattern.basis) * choice.prior])
+
+
+def _own_of_states(picked: list[Choice]) -> bool:
+    """Whether an internal force is among the causes that is another one in every state, new ones too."""
+    return any(c.candidate.name == _INTERNAL and c.pattern.label != COMMON for c in picked)
 
 
 def size_of(choice: Choice) -> np.ndarray:
@@ -137,7 +162,7 @@ def size_of(choice: Choice) -> np.ndarray:
     return np.full(d, size / np.sqrt(d))
 
 
-def _checked(ground: Ground, check: Check) -> NewRows:
+def checked(ground: Ground, check: Check) -> NewRows:
     """Rows of a direct reading."""
     world, t = ground.world, tolerance_count(ground.setting)
     basics = {c.name: np.array([p.prior for p in c.cause.basic(ground.setting)]) for c in ground.candidates}
@@ -162,27 +187,32 @@ def _checked(ground: Ground, check: Check) -> NewRows:
     return NewRows(tolerance, check.sigma * np.eye(k), signature, np.zeros((k, 0)))
 
 
-def _simulated(ground: Ground, proposal: Proposal) -> NewRows:
+def simulated(ground: Ground, proposal: Proposal) -> NewRows:
     """Rows of new states; what refers to the campaign as a whole (mean pose and tension) stays the campaign's."""
     setting, _ = make_setting(proposal.campaign)
     old = ground.setting.known
     setting = replace(setting, known=replace(setting.known, center=old.center, mean_tension=old.mean_tension))
     states = setting.campaign.states
-    world, readings = World.of(proposal.campaign.robot, len(states.names)), Readings.of(states)
+    entered, readings = World.of(proposal.campaign.robot, len(states.names)), Readings.of(states)
+    world = tolerated(setting, entered, ground.likeliest)
+    setting = with_equilibria(setting, world)
     null, _ = null_with_bending(setting, world, readings, _DRAWS, _SEED)
     start, t = reading_count(setting), tolerance_count(setting)
     noise = np.delete(null.columns, np.s_[start : start + t], axis=1)
     effect = _effects(setting, world, readings)
     signature = {
-        c.name: effect(c.cause.apply, np.array([p.prior for p in c.cause.basic(setting)]))
+        c.name: effect(proposal.acts.get(c.name, c.cause.apply), np.array([p.prior for p in c.cause.basic(setting)]))
         for c in ground.candidates
         if c.cause.count is None and c.name != _INTERNAL
     }
     fresh = np.zeros((len(null.r), 0))
-    if setting.sent.null_space.any() and _INTERNAL in {c.name for c in ground.candidates}:
-        own, common = internal_force(setting), world.internal_force.shape[-1]
-        prior = np.array([p.prior for p in own.parameters])
-        fresh = (effect(own.apply, prior) * prior)[:, common:]
+    internal = [c for c in ground.candidates if c.name == _INTERNAL]
+    if setting.sent.null_space.any() and internal:
+        force, common = internal_force(setting), world.internal_force.shape[-1]
+        moved = effect(force.apply, np.array([p.prior for p in force.parameters]))
+        elsewhere = np.zeros((len(null.r), len(internal[0].patterns[0].basis) - common))
+        signature[_INTERNAL] = np.hstack([moved[:, :common], elsewhere])
+        fresh = moved[:, common:] * [p.prior for p in force.parameters[common:]]
     return NewRows(null.columns[:, start : start + t], noise, signature, fresh)
 
 

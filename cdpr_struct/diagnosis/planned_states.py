@@ -1,7 +1,7 @@
 """States that could be measured next, with the model's own noise-free readings, as small campaigns of their own."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -24,26 +24,38 @@ STEP_LOAD = 0.25
 CABLE_MODES = 4
 _SHARE = 0.003  # relative sigma of a frequency
 _LEAST = 0.02  # of the platform's weight: tension that every cable must have at a proposed pose
-_NO_CABLES = CableFrequencies(*(np.zeros(0, dtype=t) for t in (int, int, int, bool, float, float)))
-_NO_ROBOT = RobotFrequencies(*(np.zeros(0, dtype=t) for t in (int, float, float)))
+NO_CABLES = CableFrequencies(*(np.zeros(0, dtype=t) for t in (int, int, int, bool, float, float)))
+NO_ROBOT = RobotFrequencies(*(np.zeros(0, dtype=t) for t in (int, float, float)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Proposal:
-    """Something to measure: its family (of which the best is shown), words for a person, the states with readings."""
+    """Something to measure: its family (of which the best is shown), words for a person, the states with readings.
+
+    acts : what causes do there, if not what they do elsewhere
+    """
 
     family: str
     text: str
     campaign: Campaign
+    acts: Mapping[str, Callable[[World, np.ndarray], World]] = field(default_factory=dict)
 
 
 def proposals(campaign: Campaign) -> list[Proposal]:
     """All states that the robot can hold among those that could be added to a campaign; new states only."""
-    home = _home(campaign)
+    home = home_of(campaign)
     found = []
-    for make in (_other_poses, _tilts, _payload, _encoders, _locked, _cables, _robot, _other_side):
+    for make in (_other_poses, _tilts, _payload, _encoders, locked, _cables, _robot, _other_side):
         found += list(make(campaign, home))
     return found
+
+
+def of_lacking_kinds(campaign: Campaign) -> list[Proposal]:
+    """Those of kinds of data that the campaign has nothing of."""
+    kinds, home = campaign.kinds(), home_of(campaign)
+    makers = {"loaded_pose": locked, "cable_frequency": _cables, "robot_frequency": _robot}
+    lacking = [_encoders, *(make for kind, make in makers.items() if kind not in kinds)]
+    return [proposal for make in lacking for proposal in make(campaign, home)]
 
 
 def one_sided(campaign: Campaign) -> Campaign:
@@ -54,7 +66,7 @@ def one_sided(campaign: Campaign) -> Campaign:
     return replace(campaign, states=replace(campaign.states, approach=np.ones_like(approach)))
 
 
-def _home(campaign: Campaign) -> int:
+def home_of(campaign: Campaign) -> int:
     """The state nearest to the mean position."""
     position = campaign.states.position
     return int(np.linalg.norm(position - position.mean(axis=0), axis=1).argmin())
@@ -82,7 +94,7 @@ def _tilts(campaign: Campaign, home: int) -> Iterator[Proposal]:
 
 
 def _payload(campaign: Campaign, home: int) -> Iterator[Proposal]:
-    load = _rounded(STEP_LOAD * campaign.robot.platform.mass)
+    load = rounded(STEP_LOAD * campaign.robot.platform.mass)
     words = f"static state with a payload of {load:g} kg at {{place}}"
     states = campaign.states
     yield from _static(campaign, "payload", states.position[home], states.angles[home], load, words)
@@ -103,7 +115,7 @@ def _encoders(campaign: Campaign, home: int) -> Iterator[Proposal]:
         return
     words = f"the state at {{place}} again with encoder lengths to {1e3 * usual.length_m:g} mm"
     for own in _static(campaign, "encoders", states.position[home], states.angles[home], 0.0, words):
-        held = _held(campaign, states.position[home], states.angles[home], 0.0)
+        held = held_at(campaign, states.position[home], states.angles[home], 0.0)
         if held is not None:
             new = replace(own.campaign.states, length=held.lengths[None], lock=np.zeros(1, dtype=int))
             yield replace(own, campaign=replace(own.campaign, states=new))
@@ -113,25 +125,26 @@ def _static(
     campaign: Campaign, family: str, place: np.ndarray, angles: np.ndarray, load: float, words: str
 ) -> Iterator[Proposal]:
     """One state with the kinds of reading that the campaign has, if the robot holds it with all cables taut."""
-    held = _held(campaign, place, angles, load)
+    held = held_at(campaign, place, angles, load)
     if held is None:
         return
-    states = _states(campaign, place[None], angles[None], np.array([load]), held.tensions[None], held.lengths[None])
+    states = new_states(campaign, place[None], angles[None], np.array([load]), held.tensions[None], held.lengths[None])
     where = f"({', '.join(f'{v:.2f}' for v in place)}) m"
-    new = replace(campaign, states=states, cable_frequencies=_NO_CABLES, robot_frequencies=_NO_ROBOT, series=())
+    new = replace(campaign, states=states, cable_frequencies=NO_CABLES, robot_frequencies=NO_ROBOT, series=())
     yield Proposal(family, words.format(place=where), new)
 
 
-def _held(campaign: Campaign, place: np.ndarray, angles: np.ndarray, load: float) -> InverseSolution | None:
+def held_at(campaign: Campaign, place: np.ndarray, angles: np.ndarray, load: float) -> InverseSolution | None:
     try:
-        held = inverse(campaign.robot.with_load(load), place, rotation(*angles), campaign.cable_model)
+        robot, turn = campaign.robot.with_load(load), rotation(*angles)
+        held = inverse(robot, place, turn, campaign.cable_model, lower_bound=campaign.lower_bound)
     except CdprError:
         return None
     weight = campaign.robot.platform.mass * campaign.robot.gravity
     return held if float(held.tensions.min()) > _LEAST * weight else None
 
 
-def _states(
+def new_states(
     campaign: Campaign, place: np.ndarray, angles: np.ndarray, load: np.ndarray, tension: np.ndarray, length: np.ndarray
 ) -> States:
     """S new static states; sigmas are the medians of the campaign's own, else those of good sensors."""
@@ -157,20 +170,20 @@ def _middle(values: np.ndarray, default: float) -> float:
     return float(np.median(known)) if known.size else default
 
 
-def _locked(campaign: Campaign, home: int) -> Iterator[Proposal]:
+def locked(campaign: Campaign, home: int) -> Iterator[Proposal]:
     """Poses at locked lengths under three payloads, tracked and read as well as good sensors can."""
     states, robot, usual = campaign.states, campaign.robot, Sigmas()
     place, angles = states.position[home], states.angles[home]
-    held = _held(campaign, place, angles, 0.0)
+    held = held_at(campaign, place, angles, 0.0)
     if held is None or len(robot.cables) < 6:
         return
-    loads = np.array([_rounded(share * robot.platform.mass) for share in LOADS])
+    loads = np.array([rounded(share * robot.platform.mass) for share in LOADS])
     hangs = [
         forward(robot.with_load(float(w)), held.lengths, place, rotation(*angles), campaign.cable_model) for w in loads
     ]
     count, m = len(loads), len(robot.cables)
     length = np.tile(held.lengths, (count, 1))
-    plain = _states(campaign, place[None], angles[None], loads[:1], held.tensions[None], length[:1])
+    plain = new_states(campaign, place[None], angles[None], loads[:1], held.tensions[None], length[:1])
     new = replace(
         plain, names=tuple(f"proposed {i + 1}" for i in range(count)),
         position=np.array([h.position for h in hangs]), angles=np.array([_angles(h.rotation) for h in hangs]),
@@ -182,7 +195,7 @@ def _locked(campaign: Campaign, home: int) -> Iterator[Proposal]:
     )  # fmt: skip
     shown = ", ".join(f"{w:g}" for w in loads)
     text = f"poses at locked lengths with {shown} kg, tracked to {1e3 * usual.position_m:g} mm"
-    bare = replace(campaign, states=new, cable_frequencies=_NO_CABLES, robot_frequencies=_NO_ROBOT, series=())
+    bare = replace(campaign, states=new, cable_frequencies=NO_CABLES, robot_frequencies=NO_ROBOT, series=())
     yield Proposal("locked", text, bare)
 
 
@@ -237,6 +250,6 @@ def _tuned(campaign: Campaign) -> Campaign:
     )
 
 
-def _rounded(load: float) -> float:
+def rounded(load: float) -> float:
     """A payload that a person would choose: two digits."""
     return float(f"{load:.2g}")

@@ -21,7 +21,7 @@ from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.setting import anchored, make_setting, with_equilibria
-from cdpr_struct.diagnosis.stray_peaks import p_of_strays
+from cdpr_struct.diagnosis.stray_peaks import SEVERAL, p_of_strays
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
@@ -80,12 +80,14 @@ def prepare(campaign: Campaign, plan: Budget) -> Prepared:
 
 
 def _paired_as_entered(near: Setting, first: NullModel, fine: NullModel) -> bool:
-    """Whether robot frequencies are those of the entered world, while a freer pairing finds them wrong."""
+    """Whether robot frequencies are those of the entered world, while a freer pairing finds them wrong.
+
+    Where a peak is stray, all the rest must be noise too.
+    """
     rows = near.labels.block == "RF"
-    if not rows.any() or near.strays > _NO_STRAY:
+    if not rows.any() or near.strays > SEVERAL or p_of_noise(first, rows) > _IMPROBABLE:
         return False
-    far, own = (p_of_noise(null, rows) for null in (first, fine))
-    return far < _IMPROBABLE and own > _PROBABLE
+    return p_of_noise(fine, rows if near.strays < _NO_STRAY else None) > _PROBABLE
 
 
 def _ground(setting: Setting, near: Setting, world: World, fine: NullModel, extra: np.ndarray, budget: int) -> Ground:

@@ -8,6 +8,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import ADEQUATE, NAMED, Diagnosis
 from cdpr_struct.diagnosis.evidence import Choice
+from cdpr_struct.diagnosis.next_measurement import next_measurement
 from cdpr_struct.diagnosis.prepared import OUTSIDE, SIGNIFICANT
 from cdpr_struct.diagnosis.refit import Fit
 from cdpr_struct.diagnosis.stray_peaks import SEVERAL
@@ -48,8 +49,8 @@ def verdict(found: Diagnosis) -> Verdict:
     fit, corrected = found.selection.fit, [c for c, _ in found.corrections]
     place = location(found)
     if is_unknown(found):
-        return Verdict("unknown", (), (), _probability(found), place, "repeat the worst state; see location",
-                       _unknown_sentence(found, place))  # fmt: skip
+        repeat = "; ".join(filter(None, ("repeat the worst state; see location", next_measurement(found, ()))))
+        return Verdict("unknown", (), (), _probability(found), place, repeat, _unknown_sentence(found, place))
     names = tuple(c.cause for c in corrected) + (fit.names if fit else ())
     classes = tuple((c.cause,) for c in corrected) + tuple(
         _class(found, i) for i in range(len(fit.names) if fit else 0)
@@ -58,8 +59,10 @@ def verdict(found: Diagnosis) -> Verdict:
     status = "named" if separable and _confirmed(found) else "class"
     if any(len(c) > LARGEST_CLASS for c in classes):
         text = f"Something is wrong in {place}; these data leave more than {LARGEST_CLASS} causes open."
-        return Verdict("class", names, classes, _probability(found), place, _next(found, classes), text)
-    return Verdict(status, names, classes, _probability(found), place, _next(found, classes), _sentence(found, classes))
+        return Verdict("class", names, classes, _probability(found), place, next_measurement(found, classes), text)
+    return Verdict(
+        status, names, classes, _probability(found), place, next_measurement(found, classes), _sentence(found, classes)
+    )
 
 
 def is_unknown(found: Diagnosis) -> bool:
@@ -149,16 +152,6 @@ def _within(names: tuple[str, ...], classes: list[tuple[str, ...]]) -> bool:
     return len(names) == len(classes) and any(
         all(name in group for name, group in zip(order, classes, strict=True)) for order in permutations(names)
     )
-
-
-def _next(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
-    """What would separate the causes of the first class, or confirm a single one."""
-    library = {c.name: c.cause for c in found.ground.candidates}
-    for names in classes:
-        hints = [library[n].separated_by for n in names if n in library and library[n].separated_by]
-        if hints and (len(names) > 1 or names is classes[-1]):
-            return hints[0]
-    return ""
 
 
 def _sentence(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:

@@ -1,5 +1,6 @@
 """What was measured on a robot: states, readings, how sure they are, and the simulation they are held against."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -161,6 +162,7 @@ class Campaign:
 
     model : static, dsm, exact or spring
     stated : names of the tolerances that the file gives; the others are defaults
+    checked : causes that a check beside the robot has bounded, with one sigma of what they may still be
     identified : modes found in the signals of `series`; those used are among `robot_frequencies`
     """
 
@@ -178,6 +180,7 @@ class Campaign:
     assembly: str = "consistent"
     tension_distribution: str = "minimum_norm"
     lower_bound: float = 0.0
+    checked: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def cable_model(self) -> str:

@@ -73,6 +73,7 @@ class CampaignTable(_Table):
     lower_bound_N: NonNegativeFloat = 0.0
     nominal: NominalTable = NominalTable()
     tolerances: TolerancesTable = TolerancesTable()
+    checked: dict[str, PositiveFloat] = {}
     measurement: Annotated[list[MeasurementTable], Field(min_length=1)]
 
 
@@ -113,6 +114,7 @@ def load_campaign(path: str | Path) -> Campaign:
         assembly=table.nominal.assembly,
         tension_distribution=table.tension_distribution,
         lower_bound=table.lower_bound_N,
+        checked=table.checked,
     )
 
 

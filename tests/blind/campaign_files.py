@@ -24,8 +24,9 @@ def write_case(case: Case, name: str, seed: tuple[int, ...], campaigns: Path, se
     folder = campaigns / name
     folder.mkdir(parents=True, exist_ok=True)
     sealed.mkdir(parents=True, exist_ok=True)
-    if case.robot.pulley_radius is not None:
-        (folder / "robot.toml").write_text(case.robot.text, "utf-8")
+    text = robot_text(case)
+    if text is not None:
+        (folder / "robot.toml").write_text(text, "utf-8")
     for kind, table in case.tables.items():
         table.to_csv(folder / f"{kind}.csv", index=False, float_format="%.9g", lineterminator="\n")
     (folder / "campaign.toml").write_text(campaign_text(case), "utf-8")
@@ -56,10 +57,17 @@ def opened_truth(name: str, campaigns: Path, sealed: Path) -> dict[str, Any]:
     return dict(record["truth"])
 
 
+def robot_text(case: Case) -> str | None:
+    """The robot file that belongs to the campaign; None if it is one of the program's own."""
+    if case.check is not None and case.check.robot_text is not None:
+        return case.check.robot_text
+    return None if case.robot.pulley_radius is None else case.robot.text
+
+
 def campaign_text(case: Case) -> str:
     """The campaign file (TOML)."""
     pulleys = case.robot.pulley_radius is not None
-    file = "robot.toml" if pulleys else case.robot.name
+    file = case.robot.name if robot_text(case) is None else "robot.toml"
     lines = [f'robot = "{file}"', f'model = "{MODEL}"', 'tension_distribution = "minimum_norm"']
     lines += [f"lower_bound_N = {lower_bound(case.robot)}", ""]
     tolerances = {key: value for key, value in TOLERANCES.items() if pulleys or key != "pulley_radius_m"}
@@ -67,6 +75,8 @@ def campaign_text(case: Case) -> str:
         lines += ["[nominal]", f"platform_mass = {case.weighed}", ""]
         tolerances["platform_mass_kg"] = SCALE
     lines += ["[tolerances]", *(f"{key} = {value}" for key, value in tolerances.items())]
+    if case.check is not None:
+        lines += ["", "[checked]", *(f"{cause} = {sigma:g}" for cause, sigma in case.check.left.items())]
     for kind, table in case.tables.items():
         lines += ["", "[[measurement]]", *measurement_lines(kind, table)]
     return "\n".join(lines) + "\n"

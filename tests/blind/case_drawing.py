@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from fem_reference import FemError
+from tests.blind.beside_checks import CHECKED, BesideCheck
 from tests.blind.catalogue import (
     EQUIVALENT,
     LIBRARY,
@@ -54,12 +55,16 @@ class CaseKind:
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """A drawn case: what is handed out (robot, tables, the platform's mass if weighed) and what is sealed (truth)."""
+    """A drawn case: what is handed out and what is sealed (truth).
+
+    weighed : the platform's mass [kg];  check : what else was measured beside the robot
+    """
 
     robot: EnteredRobot
     tables: Tables
     truth: dict[str, Any]
     weighed: float | None = None
+    check: BesideCheck | None = None
 
 
 class RejectedDrawError(Exception):
@@ -77,8 +82,8 @@ def drawn_case(kind: CaseKind, seed: tuple[int, ...]) -> Case:
 
 
 def _attempt(kind: CaseKind, seed: tuple[int, ...], attempt: int) -> Case:
-    streams = np.random.SeedSequence([*seed, attempt]).spawn(5)
-    choice, workshop, hidden, route, sensor = (np.random.default_rng(stream) for stream in streams)
+    streams = np.random.SeedSequence([*seed, attempt]).spawn(6)
+    choice, workshop, hidden, route, sensor, beside = (np.random.default_rng(stream) for stream in streams)
     robot = entered_robot(str(choice.choice(ROBOTS, p=SHARES)))
     tolerances, names = drawn_tolerances(robot.cables, workshop), [name for name, _ in kind.effects]
     if robot.pulley_radius is None:
@@ -100,7 +105,11 @@ def _attempt(kind: CaseKind, seed: tuple[int, ...], attempt: int) -> Case:
     if kind.kind == "handling":
         effects = [{"cause": names[0], "multiple": None, "variant": spoiled(names[0], tables, hidden)}]
     truth = _truth(kind, robot, effects, deviations) | ({} if weighed is None else {"weighed_kg": weighed})
-    return Case(robot, tables, truth, weighed)
+    check = None
+    if kind.separated and names[0] in CHECKED:
+        check = CHECKED[names[0]](robot, deviations, beside)
+        truth |= {"measured": list(check.measured)}
+    return Case(robot, tables, truth, weighed, check)
 
 
 def _hidden(
@@ -167,7 +176,7 @@ def _truth(
 
 def can_be_separated(kind: CaseKind) -> bool:
     """Whether more measurements of the same robot would tell the names of an ambiguous case apart."""
-    return kind.kind == "ambiguous" and kind.effects[0][0] in (*ONE_SIDED, *STATICS_ONLY)
+    return kind.kind == "ambiguous" and kind.effects[0][0] in (*ONE_SIDED, *STATICS_ONLY, *CHECKED)
 
 
 def without_effect(kind: CaseKind) -> CaseKind:

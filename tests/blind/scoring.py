@@ -130,8 +130,10 @@ def _confidence_figures(cases: list[Scored]) -> dict[str, Any]:
 
 
 def _resolved(case: Scored) -> bool:
-    """The name alone; or nothing left, once the weighed mass was entered."""
-    return right_name(case.answer, case.hidden) or ("weighed_kg" in case.truth and case.answer.status == "adequate")
+    """The name alone; or nothing left, once what was hidden has been measured itself and entered."""
+    measured = {"platform_mass"} if "weighed_kg" in case.truth else set(case.truth.get("measured", ()))
+    entered = set(case.hidden) <= measured and case.answer.status == "adequate"
+    return right_name(case.answer, case.hidden) or entered
 
 
 def _separable(case: Scored) -> bool:

@@ -71,6 +71,17 @@ def test_right_answers_without_a_name(kind, status, right):
     assert right_answer(said(status, ["drum_scale"]), truth(kind, *effects)) is right
 
 
+@pytest.mark.parametrize(
+    ("measured", "status", "resolved"),
+    [("joint_compliance", "adequate", 1), ("frame_anchor_position", "adequate", 0), ("dead_length", "named", 1)],
+)
+def test_nothing_left_resolves_only_what_was_itself_measured(measured, status, resolved):
+    """Where the rival was measured, nothing left would mean that the effect was lost."""
+    sealed = truth("ambiguous", ("joint_compliance", 4.0)) | {"measured": [measured]}
+    served = [Scored("c1", sealed, said(status, ["joint_compliance"] * (status == "named")))]
+    assert figures(served, served)["resolved_by_more_measurements"]["successes"] == resolved
+
+
 def test_figures_of_a_small_set():
     cases = [
         Scored("c1", truth("null"), said("adequate")),

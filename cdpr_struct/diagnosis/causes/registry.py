@@ -1,8 +1,13 @@
 """All causes by name."""
 
+import math
+from dataclasses import replace
+
 from cdpr_struct.diagnosis.causes import cables, geometry, platform, sensors, stiffness
 from cdpr_struct.diagnosis.causes.cause import Cause
 from cdpr_struct.diagnosis.residuals import Setting
+from cdpr_struct.errors import InputError
+from cdpr_struct.measurement.campaign import Campaign
 
 LIBRARY: dict[str, Cause] = {
     cause.name: cause for family in (stiffness, geometry, platform, cables, sensors) for cause in family.CAUSES
@@ -19,10 +24,25 @@ NEEDS_SIGNALS = {
 }
 
 
+def _as_checked(campaign: Campaign, causes: list[Cause]) -> list[Cause]:
+    """The causes with priors no wider than what a check beside the robot has left of them."""
+    names = {cause.name for cause in causes}
+    for name in campaign.checked:
+        if name not in names:
+            raise InputError(campaign.source, f"checked.{name}", "no such cause", f"one of {', '.join(sorted(names))}")
+    return [_bounded(cause, campaign.checked.get(cause.name, math.inf)) for cause in causes]
+
+
+def _bounded(cause: Cause, sigma: float) -> Cause:
+    """sigma : of each parameter, in its unit."""
+    parameters = [replace(p, prior=min(p.prior, math.sqrt(sigma) if p.squared else sigma)) for p in cause.parameters]
+    return replace(cause, parameters=tuple(parameters))
+
+
 def causes_for(setting: Setting) -> tuple[list[Cause], dict[str, str]]:
     """Causes that the campaign's data can show in principle, and why not the others."""
     testable, not_testable = [], {}
-    for cause in (*LIBRARY.values(), sensors.internal_force(setting)):
+    for cause in _as_checked(setting.campaign, [*LIBRARY.values(), sensors.internal_force(setting)]):
         reason = cause.needs(setting)
         if not reason and not set(cause.seen_in) & set(setting.labels.block.tolist()):
             reason = "not seen in these kinds of data"

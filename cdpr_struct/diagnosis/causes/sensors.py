@@ -6,6 +6,8 @@ from cdpr_struct.diagnosis.causes.cause import Cause, Parameter
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.world import World
 
+COMMON = "the same everywhere"  # of internal force, not another one in each state
+
 
 def _gain(world: World, theta: np.ndarray) -> World:
     return world.times(cell_gain=np.exp(theta))
@@ -106,5 +108,5 @@ def internal_force(setting: Setting) -> Cause:
         needs=_null_space,
         sentence="the cables pull against each other differently from the simulation, by {rms} {unit} in the mean",
         separated_by="reading the encoders; measuring the anchors",
-        shapes=(("the same everywhere", slice(0, q), 0.5), ("each state its own", slice(q, None), 0.5)),
+        shapes=((COMMON, slice(0, q), 0.5), ("each state its own", slice(q, None), 0.5)),
     )
