@@ -19,7 +19,7 @@ from rich.progress import track
 from benchmarks.diagnosis_baselines.evidence_methods import linear_evidence, noise_evidence
 from benchmarks.diagnosis_baselines.material import Material, kept_material, write_whole
 from benchmarks.diagnosis_baselines.parameter_methods import largest_drop, lasso, matching_pursuit, ridge
-from benchmarks.diagnosis_baselines.stepwise_bic import stepwise_bic
+from benchmarks.diagnosis_baselines.stepwise_bic import stepwise_bic, stepwise_extended_bic
 from tests.blind.running import RECORD, RESULT
 
 METHODS: dict[str, Callable[[Material], tuple[str, ...]]] = {
@@ -28,6 +28,7 @@ METHODS: dict[str, Callable[[Material], tuple[str, ...]]] = {
     "lasso": lasso,
     "matching_pursuit": matching_pursuit,
     "stepwise_bic": stepwise_bic,
+    "stepwise_extended_bic": stepwise_extended_bic,
     "noise_evidence": noise_evidence,
     "linear_evidence": linear_evidence,
 }

@@ -19,6 +19,7 @@ TITLES = {
     "lasso": "LASSO (BIC)",
     "matching_pursuit": "matching pursuit",
     "stepwise_bic": "stepwise BIC",
+    "stepwise_extended_bic": "stepwise extended BIC",
     "noise_evidence": "evidence, noise only",
     "linear_evidence": "evidence, linear",
     TOOL_WITHOUT_CLASSES: "diagnosis, no classes",

@@ -19,12 +19,26 @@ _START = 0.1  # prior sigmas, for sizes that are bounded
 
 def stepwise_bic(material: Material) -> tuple[str, ...]:
     """The causes that lower the BIC, in the order taken."""
-    options = [choice(c, pattern, 1.0) for c in material.visible for pattern in c.patterns]
+    return _forward(_options(material), material.z, 0.0)
+
+
+def stepwise_extended_bic(material: Material) -> tuple[str, ...]:
+    """The same by the extended criterion: each cause also pays for the number of options it was chosen from."""
+    options = _options(material)
+    return _forward(options, material.z, 2.0 * float(np.log(len(options))))
+
+
+def _options(material: Material) -> list[Choice]:
+    return [choice(candidate, pattern, 1.0) for candidate in material.visible for pattern in candidate.patterns]
+
+
+def _forward(options: list[Choice], z: np.ndarray, price: float) -> tuple[str, ...]:
+    """Names taken while each lowers the BIC by more than `price`."""
     taken: tuple[Choice, ...] = ()
-    level = _bic(float(material.z @ material.z), len(material.z), 0)
+    level = _bic(float(z @ z), len(z), 0)
     while len(taken) < MOST:
         names = {c.candidate.name for c in taken}
-        found = _best(taken, [c for c in options if c.candidate.name not in names], material.z, level)
+        found = _best(taken, [c for c in options if c.candidate.name not in names], z, level - price)
         if found is None:
             break
         taken, level = (*taken, found[0]), found[1]
