@@ -112,13 +112,24 @@ def test_noise_and_tolerances_make_the_covariance(one_case):
     np.testing.assert_allclose(whole, ground.null.covariance, rtol=1e-8, atol=1e-9)
 
 
+def test_real_material_can_be_kept(one_case, tmp_path):
+    """Signatures and patterns survive the file, and the causes in it can no longer be applied."""
+    campaign, file = one_case[0] / "c001" / "campaign.toml", tmp_path / "c001.pickle"
+    first, again = (kept_material(campaign, file) for _ in range(2))
+    assert noise_evidence(first) == noise_evidence(again)
+    np.testing.assert_array_equal(
+        single_parameters(first.visible).signature, single_parameters(again.visible).signature
+    )
+    with pytest.raises(NotImplementedError, match="linearised"):
+        again.candidates[0].cause.apply(None, None)
+
+
 def test_material_is_prepared_once_and_anew_for_another_campaign(one_case, tmp_path, monkeypatch):
     folder, calls = tmp_path / "c001", []
     folder.mkdir()
     for file in (one_case[0] / "c001").iterdir():
         (folder / file.name).write_bytes(file.read_bytes())
-    real = material_module.material_of
-    monkeypatch.setattr(material_module, "material_of", lambda path: calls.append(path) or real(path))
+    monkeypatch.setattr(material_module, "material_of", lambda path: calls.append(path) or material({}))
     first, again = (kept_material(folder / "campaign.toml", tmp_path / "kept" / "c001.pickle") for _ in range(2))
     assert len(calls) == 1
     np.testing.assert_array_equal(first.z, again.z)
@@ -142,7 +153,7 @@ def test_answers_come_first_and_are_kept(one_case, tmp_path, capsys):
     tool = tmp_path / "answers" / "ridge"
     assert main([*words, "--sealed", str(sealed), "--answers", str(tool)]) == 0
     assert [record.stat().st_mtime_ns for record in records] == before
-    rows = list(csv.DictReader((tmp_path / "figures.csv").open(encoding="utf-8")))
+    rows = list(csv.DictReader((tmp_path / "figures.csv").read_text("utf-8").splitlines()))
     assert {row["method"] for row in rows} == {*TITLES}
     assert all(row["cases"] == "1" for row in rows if row["figure"] == "false_alarms")
     assert all(row["successes"] == "0" for row in rows if row["figure"] == "failed_runs")
