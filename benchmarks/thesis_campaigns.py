@@ -15,6 +15,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from benchmarks import thesis_findings as findings
+from benchmarks.markdown_page import put, table
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.reports.diagnosis_page import diagnosis_files
 from cdpr_struct.reports.diagnosis_result import diagnosis_json
@@ -39,7 +40,7 @@ def verdict_row(name: str) -> list[str]:
 
 def verdicts() -> str:
     """One line a campaign."""
-    return findings.table(["campaign", *findings.VERDICT_HEAD, "place"], [verdict_row(name) for name in CAMPAIGNS])
+    return table(["campaign", *findings.VERDICT_HEAD, "place"], [verdict_row(name) for name in CAMPAIGNS])
 
 
 TABLES = {
@@ -61,14 +62,6 @@ def draw() -> None:
         drawn = diagnosis_files(found, diagnosis_json(found))["residuals.svg"]
         text = drawn if isinstance(drawn, str) else drawn.decode("utf-8")
         PAGE.with_name(f"{PAGE.stem}_{short}.svg").write_text(text, "utf-8")
-
-
-def put(page: str, name: str, text: str) -> str:
-    """The page with the table between its two comments replaced."""
-    before, mark, rest = page.partition(f"<!-- {name} -->")
-    if not mark:
-        raise ValueError(f"{PAGE} has no <!-- {name} -->")
-    return f"{before}{mark}\n{text}\n<!-- end -->{rest.partition('<!-- end -->')[2]}"
 
 
 def main(arguments: list[str]) -> int:

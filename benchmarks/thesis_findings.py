@@ -12,6 +12,7 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.stats import chi2
 
+from benchmarks.markdown_page import table
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
 from cdpr_struct.diagnosis.readings import Readings
@@ -31,12 +32,6 @@ from cdpr_struct.thesis.reproduction import printed_table
 EXAMPLES = Path(__file__).parents[1] / "examples"
 FACTORS = (0.5, 1.0, 2.0)
 STATIC = (("EQ", "balance"), ("NS", "internal force"))
-
-
-def table(head: list[str], rows: list[list[str]]) -> str:
-    """Markdown."""
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
 def example(name: str) -> Campaign:
