@@ -96,17 +96,19 @@ def _confirmed(found: Diagnosis) -> bool:
 
 
 def location(found: Diagnosis) -> str:
-    """Where the entered model's residuals sit: block, state, cable."""
-    null, labels = found.entered, found.entered_setting.labels
+    """Where the error sits, block, state, cable: what the chosen causes take away, or what exceeds noise."""
+    null, labels, fit = found.entered, found.entered_setting.labels, found.selection.fit
+    explained = fit is not None and not found.corrections and not is_unknown(found)
+    after = fit.ground.null.lower @ fit.white if fit is not None and explained else np.zeros_like(null.r)
     score = {}
     for block in dict.fromkeys(labels.block.tolist()):
         rows = labels.block == block
         lower = np.linalg.cholesky(null.covariance[np.ix_(rows, rows)])
-        z = np.linalg.solve(lower, null.r[rows])
-        score[block] = (float(z @ z) - len(z)) / np.sqrt(2.0 * len(z))
+        before, left = (float(z @ z) for z in np.linalg.solve(lower, np.stack([null.r, after])[:, rows].T).T)
+        score[block] = (before - (left if after.any() else rows.sum())) / np.sqrt(2.0 * rows.sum())
     worst = max(score, key=lambda b: score[b])
     rows = np.flatnonzero(labels.block == worst)
-    size = np.abs(null.r[rows]) / np.sqrt(np.diagonal(null.covariance)[rows])
+    size = (np.abs(null.r) - np.abs(after))[rows] / np.sqrt(np.diagonal(null.covariance)[rows])
     top = rows[size.argmax()]
     where = f"case {found.campaign.states.names[labels.state[top]]}"
     if labels.cable[top] >= 0:
