@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.diagnosis import robot_pitch
+from cdpr_struct.diagnosis.modal_constants import log_constants, unit_modal_mass
 from cdpr_struct.diagnosis.mode_pairing import Modes, Pairing, paired
 from cdpr_struct.diagnosis.null_model import STEP, misread, reading_steps, tolerance_count, tolerated
 from cdpr_struct.diagnosis.readings import Readings
@@ -23,6 +24,8 @@ _LEAST_SHARE = 0.08  # of the kinetic energy in the platform: a mode with less i
 _MARGINS = (1.35, 2.5, 6.0)  # times the highest peak: how far modes are looked for, until there are enough
 _MOST_GAP = 0.05  # of ln f between the closed form and the exact model; beyond it they are different modes
 _CABLES_SHARE = 0.004  # of ln f: what the closed form may miss of a mode that is all cables
+_MOST_CONSTANT_GAP, _MOST_DOUBT = 0.2, 1.0  # of ln of a modal constant
+_UNSURE = 50.0  # doubt of a modal constant per doubt of ln f: another mode has another constant
 _ELSEWHERE = (0.05, 0.02)  # of ln f: in a world that may be wrong all modes may be off together, and each on its own
 
 
@@ -71,11 +74,28 @@ def with_robot_rows(setting: Setting, model: ModelModes, wary: bool) -> Setting:
     pairing: Pairing = paired(peaks.state, peaks.hertz, peaks.sigma / peaks.hertz, modes, covariance, unlike)
     pick = pairing.chosen
     rows = robot_pitch.Rows(peaks.state, followed.rows.omega[pick], followed.rows.shape[pick])
-    return replace(
+    setting = replace(
         setting, robot_rows=rows, robot_gap=followed.gap[pick], robot_log=np.log(2.0 * np.pi * peaks.hertz),
         robot_doubt=100.0 * np.sqrt(pairing.doubt**2 + np.diagonal(own)[pick]),
         entered=followed.matrix[pick], entered_rate=followed.rate[pick],
     )  # fmt: skip
+    if not len(setting.constants):
+        return setting
+    gap, doubt = _constant_gap(setting, model, pick)
+    unsure = np.minimum(_MOST_DOUBT, _UNSURE * pairing.doubt[setting.constants.peak])
+    return replace(setting, constant_gap=gap, constant_doubt=100.0 * np.hypot(doubt, unsure))
+
+
+def _constant_gap(setting: Setting, model: ModelModes, pick: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(a,) ln(exact / closed form) of the modal constants of the paired modes, and (a,) how far that may be off.
+
+    Where the two differ much the mode shares its motion with a cable, and neither is to be trusted.
+    """
+    exact = log_constants(setting.constants, model.modes.shape[pick])
+    closed = unit_modal_mass(model.followed.rows.shape, model.followed.rate)
+    gap = exact - log_constants(setting.constants, closed[pick])
+    off = np.abs(gap) > _MOST_CONSTANT_GAP
+    return np.where(off, 0.0, gap), np.where(off, _MOST_DOUBT, 0.3 * np.abs(gap))
 
 
 def _modes_at(setting: Setting, points: dict[int, OperatingPoint]) -> Modes:
