@@ -47,16 +47,12 @@ class Constants:
 
 def measured_constants(campaign: Campaign) -> Constants:
     """Modal constants of all FRFs whose modes are among the campaign's robot frequencies."""
-    peaks, names = campaign.robot_frequencies, list(campaign.states.names)
+    peaks = campaign.robot_frequencies
     table: list[np.ndarray] = []
-    for item in campaign.identified:
-        if item.record.kind != "frf" or item.record.case not in names:
-            continue
-        here = peaks.state == names.index(item.record.case)
-        for i in np.flatnonzero(item.used):
-            own = np.flatnonzero(here & (peaks.hertz == item.modes.hertz[i]))
-            if own.size and _apart(item, int(i)):
-                table += [np.concatenate([[own[0]], row]) for row in _of_mode(item, int(i))]
+    for peak, (record, mode) in enumerate(peaks.origin.tolist()):
+        item = campaign.identified[record] if record >= 0 else None
+        if item is not None and item.record.kind == "frf" and _apart(item, mode):
+            table += [np.concatenate([[peak], row]) for row in _of_mode(item, mode)]
     rows = np.array(table).reshape((-1, 16))
     return Constants(rows[:, 0].astype(int), rows[:, 1:7], rows[:, 7:13], *rows[:, 13:].T)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.diagnosis import robot_pitch
-from cdpr_struct.diagnosis.modal_constants import log_constants, unit_modal_mass
+from cdpr_struct.diagnosis.modal_constants import log_constants, modelled_constants, unit_modal_mass
 from cdpr_struct.diagnosis.mode_pairing import Modes, Pairing, paired
 from cdpr_struct.diagnosis.null_model import STEP, misread, reading_steps, tolerance_count, tolerated
 from cdpr_struct.diagnosis.readings import Readings
@@ -25,6 +25,7 @@ _MARGINS = (1.35, 2.5, 6.0)  # times the highest peak: how far modes are looked 
 _MOST_GAP = 0.05  # of ln f between the closed form and the exact model; beyond it they are different modes
 _CABLES_SHARE = 0.004  # of ln f: what the closed form may miss of a mode that is all cables
 _MOST_CONSTANT_GAP, _MOST_DOUBT = 0.2, 1.0  # of ln of a modal constant
+_BEND = 1.0  # times the square of its spread: ln |1 + x| = x - x^2 / 2 where a mode turns by x towards another
 _UNSURE = 50.0  # doubt of a modal constant per doubt of ln f: another mode has another constant
 _ELSEWHERE = (0.05, 0.02)  # of ln f: in a world that may be wrong all modes may be off together, and each on its own
 
@@ -46,6 +47,7 @@ class ModelModes:
     modes: Modes
     followed: _Followed
     covariance: np.ndarray
+    world: World
 
 
 def model_modes(setting: Setting, world: World, points: dict[int, OperatingPoint]) -> ModelModes:
@@ -57,7 +59,7 @@ def model_modes(setting: Setting, world: World, points: dict[int, OperatingPoint
     """
     modes = _modes_at(setting, points)
     followed = _followed(setting, world, modes)
-    return ModelModes(modes, followed, _covariance(setting, world, followed))
+    return ModelModes(modes, followed, _covariance(setting, world, followed), world)
 
 
 def with_robot_rows(setting: Setting, model: ModelModes, wary: bool) -> Setting:
@@ -83,7 +85,23 @@ def with_robot_rows(setting: Setting, model: ModelModes, wary: bool) -> Setting:
         return setting
     gap, doubt = _constant_gap(setting, model, pick)
     unsure = np.minimum(_MOST_DOUBT, _UNSURE * pairing.doubt[setting.constants.peak])
-    return replace(setting, constant_gap=gap, constant_doubt=100.0 * np.hypot(doubt, unsure))
+    bend = _BEND * _constant_spread(setting, model.world) ** 2
+    return replace(setting, constant_gap=gap, constant_doubt=100.0 * np.sqrt(doubt**2 + unsure**2 + bend**2))
+
+
+def _constant_spread(setting: Setting, world: World) -> np.ndarray:
+    """(a,) one sigma of the model's ln |A| by tolerances and readings: large where modes share their motion."""
+    readings, rows, parts = Readings.of(setting.campaign.states), setting.robot_rows, []
+    off = tolerated(setting, world, STEP * np.eye(tolerance_count(setting)))
+    noisy = misread(setting, readings, reading_steps(setting))
+    for moved, read in ((world, readings), (off, readings), (world, noisy)):
+        dynamics = _dynamics(setting, moved, read, rows.state)
+        move = robot_pitch.first_order(dynamics, rows, setting.entered, setting.entered_rate)
+        parts.append(modelled_constants(setting.constants, dynamics, rows, rows.omega * np.exp(move)))
+    base, by_tolerance, by_reading = parts
+    change = np.concatenate([by_tolerance - base, by_reading - base]) / STEP
+    spread: np.ndarray = np.sqrt((change**2).sum(axis=0))
+    return spread
 
 
 def _constant_gap(setting: Setting, model: ModelModes, pick: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
