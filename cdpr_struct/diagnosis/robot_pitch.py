@@ -65,7 +65,7 @@ class Dynamics:
         """At the states (r,) of the rows; `world` per state."""
         cables = CableStates(*(_pick(getattr(state.cables, n), rows, _CORE.get(n, 1)) for n in CableStates.__slots__))
         rotation, arms = _pick(state.rotation, rows, 2), _pick(state.arms, rows, 2)
-        mass = _mass_matrix(world, rotation, arms, known.payload[rows] + world.sensor_mass)
+        mass = _mass_matrix(world, rotation, arms, known.payload[rows])
         fixed = _fixed_stiffness(world, cables, rotation, arms, geometric)
         return cls(
             cables, world.linear_density, arms, fixed, mass,
@@ -109,7 +109,7 @@ def _pick(value: np.ndarray, rows: np.ndarray, core: int) -> np.ndarray:
 
 
 def _mass_matrix(world: World, rotation: np.ndarray, arms: np.ndarray, payload: np.ndarray) -> np.ndarray:
-    """(..., r, 6, 6) about the platform origin, at which payload and sensors (..., r) are [kg]."""
+    """(..., r, 6, 6) about the platform origin, at which the payload (..., r) is [kg]."""
     center = (rotation @ world.center_of_mass[..., None])[..., 0]
     inertia = rotation @ world.inertia @ np.swapaxes(rotation, -1, -2)
     body = platform.mass_matrix(world.mass, *_parts(center), *_inertia_parts(inertia))

@@ -142,8 +142,7 @@ def _points(setting: Setting, world: World, states: np.ndarray) -> dict[int, Ope
     if any(np.any(value) for value in given.values()):
         more = Extensions.of(world.cables, {**given, "hose_center": setting.known.center})
         robot = replace(robot, extensions=more)
-    moving = campaign.states.payload + world.sensor_mass  # pose and cables are given: of weight only the mass counts
-    return {int(i): _point(robot, state, int(i), moving[i]) for i in np.unique(states)}
+    return {int(i): _point(robot, state, int(i), campaign.states.payload[i]) for i in np.unique(states)}
 
 
 def _point(robot: Robot, state: Conditioned, i: int, payload: float) -> OperatingPoint:

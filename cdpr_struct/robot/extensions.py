@@ -47,10 +47,9 @@ KEYS: dict[str, Key] = {
     "tracker": Key(6, 0.0, "m, rad", "true pose = tracker's pose, turned and shifted by this"),
     "creep": Key(0, 0.0, "1", "share of the elastic strain per decade of time after 1 min"),
     "slip": Key("cables", 0.0, "m/h", "of the winch"),
-    "sensor_mass": Key(0, 0.0, "kg", "of accelerometers at the platform origin while vibration is measured", 0.0),
     "accelerometer_gain": Key(6, 1.0, "1", "accelerometer reading = gain * acceleration, x to rz", above=0.0),
 }  # fmt: skip
-SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "sensor_mass", "accelerometer_gain")
+SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain")
 """Act only where readings are compared: they describe sensors, or need the time of a reading."""
 AUXILIARY = {"hose_center": "hose", "reference_tension": "nonlinearity"}
 """Mean something only with the other key."""
@@ -83,7 +82,6 @@ class Extensions:
     tracker: np.ndarray
     creep: float
     slip: np.ndarray
-    sensor_mass: float
     accelerometer_gain: np.ndarray
     causes: tuple[str, ...] = ()
 

@@ -45,16 +45,15 @@ sigma = {{ tension_N = 2.0, position_m = 5e-4, rotation_deg = 0.02, length_m = 5
 
 @dataclass(frozen=True)
 class Shaken:
-    """What the FRFs hold: gain of the sensors along x, y, z, and their mass [kg]."""
+    """What the FRFs hold: gain of the sensors along x, y, z."""
 
     gain: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    sensor_mass: float = 0.0
 
 
-def equilibrium(robot: Robot, position: np.ndarray, payload: float = 0.0) -> fem.RobotEquilibrium:
-    """The robot in the FEM at the lengths that hold an unloaded pose, with a payload."""
+def equilibrium(robot: Robot, position: np.ndarray) -> fem.RobotEquilibrium:
+    """The robot in the FEM at the lengths that hold a pose."""
     held = inverse(robot, position, np.eye(3))
-    return solve_in_fem(OperatingPoint(robot.with_load(payload), position, np.eye(3), held.cables), ELEMENTS)
+    return solve_in_fem(OperatingPoint(robot, position, np.eye(3), held.cables), ELEMENTS)
 
 
 def states_table(robot: Robot, seed: int) -> pd.DataFrame:
@@ -75,7 +74,7 @@ def states_table(robot: Robot, seed: int) -> pd.DataFrame:
 
 def identified(robot: Robot, number: int, made: Shaken, generator: np.random.Generator) -> Identified:
     """Modes of one FRF at a pose, x, y, z over forces along x and z."""
-    found = fem.robot_modes(equilibrium(robot, POSES[number], made.sensor_mass), MODES)
+    found = fem.robot_modes(equilibrium(robot, POSES[number]), MODES)
     keep = (found.platform_energy > SHARE) & (found.frequencies_hz < HIGHEST)
     hertz, shapes = found.frequencies_hz[keep], found.platform_shapes[keep]
     constant = shapes[:, :3, None] * np.array(made.gain)[:, None] * shapes[:, None, [0, 2]]

@@ -12,8 +12,8 @@ NEEDS_SIGNALS = {
     "viscous_damping": "needs free decays or FRFs",
     "hysteretic_damping": "needs decays at several amplitudes",
     "coulomb_damping": "needs decays at several amplitudes",
-    "accelerometer_mass": "no law: a known mass is entered as sensor_mass, an unknown one is not looked for",
-    "flexible_platform": "no law: a peak without partner is listed, not explained; files have no places of sensors",
+    "accelerometer_mass": "its weight raises the tensions while vibration is measured, which no law here follows yet",
+    "flexible_platform": "a peak without partner is listed, not explained; files have no places of sensors",
 }
 
 
