@@ -10,6 +10,7 @@
 | robot_pitch.py         | natural frequencies of the robot at the measured state, followed mode by mode      |
 | mode_pairing.py        | which mode of the model is which measured peak?                                    |
 | robot_rows.py          | measured robot frequencies beside the exact model's modes                          |
+| modal_constants.py     | sizes of measured frequency responses, and of the model's                          |
 | commanded.py           | what the simulation commands where no encoder was read                             |
 | residuals.py           | all residuals of a campaign for a batch of worlds and readings                     |
 | null_model.py          | tolerances and sensor noise as standard normal numbers, and their covariance       |

@@ -48,7 +48,7 @@ class Held:
 
 _NAMES = {
     "EQ": "static_state (wrench balance)", "CO": "static_state (cable lengths)", "NS": "static_state (internal force)",
-    "LP": "loaded_pose", "CF": "cable_frequency", "RF": "robot_frequency",
+    "LP": "loaded_pose", "CF": "cable_frequency", "RF": "robot_frequency", "FA": "frf (modal constants)",
 }  # fmt: skip
 
 

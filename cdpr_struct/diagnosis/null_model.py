@@ -16,7 +16,9 @@ from cdpr_struct.diagnosis.world import World
 STEP = 0.1  # of a sigma
 _WILD = 5.0  # times the median miss
 _FARTHEST = 2.5  # sigmas
-FLOOR = {"EQ": 0.05, "CO": 0.02, "NS": 0.1, "LP": 0.02, "CF": 0.03, "RF": 0.05}  # what the model itself may miss
+FLOOR = {  # what the model itself may miss
+    "EQ": 0.05, "CO": 0.02, "NS": 0.1, "LP": 0.02, "CF": 0.03, "RF": 0.05, "FA": 0.5,
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -157,6 +159,7 @@ def _own_noise(setting: Setting) -> np.ndarray:
     labels = setting.labels
     size = np.array([FLOOR[b] for b in labels.block])
     size[labels.block == "RF"] = np.hypot(size[labels.block == "RF"], setting.robot_doubt)
+    size[labels.block == "FA"] = np.hypot(size[labels.block == "FA"], setting.constant_doubt)
     floor = np.diag(size)
     rows = setting.campaign
     relative = [
@@ -169,7 +172,19 @@ def _own_noise(setting: Setting) -> np.ndarray:
         block = np.zeros((len(labels), mine.size))
         block[mine, np.arange(mine.size)] = 100.0 * sigma
         own = np.concatenate([own, block], axis=1)
+    if len(setting.constants):
+        own = np.concatenate([own, _constant_noise(setting)], axis=1)
     return np.concatenate([own, floor], axis=1)
+
+
+def _constant_noise(setting: Setting) -> np.ndarray:
+    """(n, .) noise of modal constants, each on its own, and by the damping that channels of a mode share."""
+    constants, mine = setting.constants, np.flatnonzero(setting.labels.block == "FA")
+    modes, number = np.unique(constants.peak, return_inverse=True)
+    block = np.zeros((len(setting.labels), len(mine) + len(modes)))
+    block[mine, np.arange(len(mine))] = 100.0 * constants.sigma
+    block[mine, len(mine) + number] = 100.0 * constants.common
+    return block
 
 
 def null_with_bending(

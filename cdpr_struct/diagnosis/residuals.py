@@ -8,6 +8,7 @@
 | LP    | 6, turns times the platform's radius  | mm   | the pose at locked lengths is the measured one |
 | CF    | one a cable frequency                 | %    | ln of measured over computed frequency at that state |
 | RF    | one a robot frequency                 | %    | same |
+| FA    | one a mode and channel of an FRF      | %    | ln of measured over computed modal constant |
 """
 
 from dataclasses import dataclass, replace
@@ -19,17 +20,18 @@ from cdpr_struct.diagnosis.cable_pitch import cable_log_frequencies
 from cdpr_struct.diagnosis.commanded import Commanded
 from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned, condition, incompatible, unbalanced
 from cdpr_struct.diagnosis.locked_pose import Nearby, Reference, locked_pose, missed_pose, nearby_pose
+from cdpr_struct.diagnosis.modal_constants import Constants, log_gain, modelled_constants
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.measurement.campaign import CableFrequencies, Campaign
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.forward_kinematics import ForwardSolution
 
-BLOCKS = ("EQ", "CO", "NS", "LP", "CF", "RF")
-UNITS = {"EQ": "N", "CO": "mm", "NS": "mm", "LP": "mm", "CF": "%", "RF": "%"}
+BLOCKS = ("EQ", "CO", "NS", "LP", "CF", "RF", "FA")
+UNITS = {"EQ": "N", "CO": "mm", "NS": "mm", "LP": "mm", "CF": "%", "RF": "%", "FA": "%"}
 KIND_OF_BLOCK = {
     "EQ": "static_state", "CO": "static_state", "NS": "static_state", "LP": "loaded_pose", "CF": "cable_frequency",
-    "RF": "robot_frequency",
+    "RF": "robot_frequency", "FA": "frf",
 }  # fmt: skip
 
 
@@ -60,6 +62,7 @@ class Setting:
     radius : of the platform [m]
     cable_rows, robot_rows : measured frequencies, and the gaps ln(exact / closed form) at the world as entered
     robot_doubt : extra noise of each robot frequency [%]
+    constants, constant_gap, constant_doubt : modal constants of FRFs, ln(exact / closed form), extra noise [%]
     locked_at : equilibria of the `locked` states in the world that this setting is about
     strays : expected number of robot frequencies that belong to no mode of that world
     """
@@ -80,6 +83,9 @@ class Setting:
     robot_doubt: np.ndarray
     entered: np.ndarray
     entered_rate: np.ndarray
+    constants: Constants
+    constant_gap: np.ndarray
+    constant_doubt: np.ndarray
     massless: bool = False
     geometric: bool = True
     locked_at: Reference | None = None
@@ -104,7 +110,7 @@ def residuals(setting: Setting, world: World, readings: Readings, small: bool = 
         model = cable_log_frequencies(wide, states.all.cables, setting.cable_rows) + setting.cable_gap
         rows.append(100.0 * (np.log(setting.cable_rows.hertz) - model))
     if setting.robot_rows.omega.size:
-        rows.append(100.0 * _robot_block(setting, wide, states.all, small))
+        rows += [100.0 * block for block in _robot_blocks(setting, wide, states.all, small)]
     flat += [np.broadcast_to(r, (*batch, r.shape[-1])) for r in rows]
     return np.concatenate(flat, axis=-1)
 
@@ -232,7 +238,8 @@ def _internal(setting: Setting, world: World, states: States, readings: Readings
     return seen + apart + common
 
 
-def _robot_block(setting: Setting, world: World, state: Conditioned, small: bool) -> np.ndarray:
+def _robot_blocks(setting: Setting, world: World, state: Conditioned, small: bool) -> list[np.ndarray]:
+    """Robot frequencies, and modal constants where any were measured."""
     rows = setting.robot_rows
     dynamics = robot_pitch.Dynamics.at(world, state, setting.known, rows.state, setting.massless, setting.geometric)
     move = robot_pitch.first_order(dynamics, rows, setting.entered, setting.entered_rate)
@@ -240,4 +247,9 @@ def _robot_block(setting: Setting, world: World, state: Conditioned, small: bool
     if not small:  # absurd worlds may send the first guess anywhere
         near = np.log(rows.omega) + np.clip(np.nan_to_num(move), -1.0, 1.0)
         log = np.log(robot_pitch.follow(dynamics, rows, np.exp(near)))
-    return setting.robot_log - log - setting.robot_gap
+    frequencies = setting.robot_log - log - setting.robot_gap
+    constants = setting.constants
+    if not len(constants):
+        return [frequencies]
+    model = modelled_constants(constants, dynamics, rows, np.exp(log)) + log_gain(constants, world)
+    return [frequencies, constants.log - model - setting.constant_gap]

@@ -109,6 +109,7 @@ def _pick(value: np.ndarray, rows: np.ndarray, core: int) -> np.ndarray:
 
 
 def _mass_matrix(world: World, rotation: np.ndarray, arms: np.ndarray, payload: np.ndarray) -> np.ndarray:
+    """(..., r, 6, 6) about the platform origin, at which the payload (..., r) is [kg]."""
     center = (rotation @ world.center_of_mass[..., None])[..., 0]
     inertia = rotation @ world.inertia @ np.swapaxes(rotation, -1, -2)
     body = platform.mass_matrix(world.mass, *_parts(center), *_inertia_parts(inertia))
@@ -178,6 +179,15 @@ def _condensed(change: np.ndarray, rows: Rows, entered: np.ndarray, entered_rate
     own = np.einsum("rik,...rij,rjl->...rkl", modes, change, modes)
     own = own + np.eye(6) * np.where(stiff, values, 1.0)[:, None, :]
     result: np.ndarray = (pull * np.linalg.solve(own, pull[..., None])[..., 0]).sum(axis=-1)
+    return result
+
+
+def shape_of(matrix: np.ndarray, mass: np.ndarray, near: np.ndarray) -> np.ndarray:
+    """(..., r, 6) eigenvector of D (..., r, 6, 6) that is most like a shape `near` (r, 6), in the metric of masses."""
+    scale = np.sqrt(np.abs(np.diagonal(mass, axis1=-2, axis2=-1)))
+    _, vectors = np.linalg.eigh(matrix / scale[..., :, None] / scale[..., None, :])
+    choice = np.abs(np.einsum("...i,...ij->...j", near * scale, vectors)).argmax(axis=-1)[..., None, None]
+    result: np.ndarray = np.take_along_axis(vectors, choice, axis=-1)[..., 0] / scale
     return result
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.diagnosis import robot_pitch
+from cdpr_struct.diagnosis.modal_constants import log_constants, modelled_constants, unit_modal_mass
 from cdpr_struct.diagnosis.mode_pairing import Modes, Pairing, paired
 from cdpr_struct.diagnosis.null_model import STEP, misread, reading_steps, tolerance_count, tolerated
 from cdpr_struct.diagnosis.readings import Readings
@@ -23,6 +24,9 @@ _LEAST_SHARE = 0.08  # of the kinetic energy in the platform: a mode with less i
 _MARGINS = (1.35, 2.5, 6.0)  # times the highest peak: how far modes are looked for, until there are enough
 _MOST_GAP = 0.05  # of ln f between the closed form and the exact model; beyond it they are different modes
 _CABLES_SHARE = 0.004  # of ln f: what the closed form may miss of a mode that is all cables
+_MOST_CONSTANT_GAP, _MOST_DOUBT = 0.2, 1.0  # of ln of a modal constant
+_BEND = 1.0  # times the square of its spread: ln |1 + x| = x - x^2 / 2 where a mode turns by x towards another
+_UNSURE = 50.0  # doubt of a modal constant per doubt of ln f: another mode has another constant
 _ELSEWHERE = (0.05, 0.02)  # of ln f: in a world that may be wrong all modes may be off together, and each on its own
 
 
@@ -43,6 +47,7 @@ class ModelModes:
     modes: Modes
     followed: _Followed
     covariance: np.ndarray
+    world: World
 
 
 def model_modes(setting: Setting, world: World, points: dict[int, OperatingPoint]) -> ModelModes:
@@ -54,7 +59,7 @@ def model_modes(setting: Setting, world: World, points: dict[int, OperatingPoint
     """
     modes = _modes_at(setting, points)
     followed = _followed(setting, world, modes)
-    return ModelModes(modes, followed, _covariance(setting, world, followed))
+    return ModelModes(modes, followed, _covariance(setting, world, followed), world)
 
 
 def with_robot_rows(setting: Setting, model: ModelModes, wary: bool) -> Setting:
@@ -71,11 +76,44 @@ def with_robot_rows(setting: Setting, model: ModelModes, wary: bool) -> Setting:
     pairing: Pairing = paired(peaks.state, peaks.hertz, peaks.sigma / peaks.hertz, modes, covariance, unlike)
     pick = pairing.chosen
     rows = robot_pitch.Rows(peaks.state, followed.rows.omega[pick], followed.rows.shape[pick])
-    return replace(
+    setting = replace(
         setting, robot_rows=rows, robot_gap=followed.gap[pick], robot_log=np.log(2.0 * np.pi * peaks.hertz),
         robot_doubt=100.0 * np.sqrt(pairing.doubt**2 + np.diagonal(own)[pick]),
         entered=followed.matrix[pick], entered_rate=followed.rate[pick], strays=pairing.strays,
     )  # fmt: skip
+    if not len(setting.constants):
+        return setting
+    gap, doubt = _constant_gap(setting, model, pick)
+    unsure = np.minimum(_MOST_DOUBT, _UNSURE * pairing.doubt[setting.constants.peak])
+    bend = _BEND * _constant_spread(setting, model.world) ** 2
+    return replace(setting, constant_gap=gap, constant_doubt=100.0 * np.sqrt(doubt**2 + unsure**2 + bend**2))
+
+
+def _constant_spread(setting: Setting, world: World) -> np.ndarray:
+    """(a,) one sigma of the model's ln |A| by tolerances and readings: large where modes share their motion."""
+    readings, rows, parts = Readings.of(setting.campaign.states), setting.robot_rows, []
+    off = tolerated(setting, world, STEP * np.eye(tolerance_count(setting)))
+    noisy = misread(setting, readings, reading_steps(setting))
+    for moved, read in ((world, readings), (off, readings), (world, noisy)):
+        dynamics = _dynamics(setting, moved, read, rows.state)
+        move = robot_pitch.first_order(dynamics, rows, setting.entered, setting.entered_rate)
+        parts.append(modelled_constants(setting.constants, dynamics, rows, rows.omega * np.exp(move)))
+    base, by_tolerance, by_reading = parts
+    change = np.concatenate([by_tolerance - base, by_reading - base]) / STEP
+    spread: np.ndarray = np.sqrt((change**2).sum(axis=0))
+    return spread
+
+
+def _constant_gap(setting: Setting, model: ModelModes, pick: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(a,) ln(exact / closed form) of the modal constants of the paired modes, and (a,) how far that may be off.
+
+    Where the two differ much the mode shares its motion with a cable, and neither is to be trusted.
+    """
+    exact = log_constants(setting.constants, model.modes.shape[pick])
+    closed = unit_modal_mass(model.followed.rows.shape, model.followed.rate)
+    gap = exact - log_constants(setting.constants, closed[pick])
+    off = np.abs(gap) > _MOST_CONSTANT_GAP
+    return np.where(off, 0.0, gap), np.where(off, _MOST_DOUBT, 0.3 * np.abs(gap))
 
 
 def _modes_at(setting: Setting, points: dict[int, OperatingPoint]) -> Modes:

@@ -136,7 +136,7 @@ def _by_large_steps(ground: Ground, rows: list[Screened]) -> list[Screened]:
 
     Robot frequencies are left out if that is better: they may be paired wrongly as entered.
     """
-    clear = ground.setting.labels.block != "RF"
+    clear = ~np.isin(ground.setting.labels.block, ("RF", "FA"))
     gains = []
     for row in rows:
         best = -np.inf

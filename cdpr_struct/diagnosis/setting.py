@@ -10,6 +10,7 @@ from cdpr_struct.diagnosis.commanded import commanded
 from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned
 from cdpr_struct.diagnosis.extended_robot import robot_of
 from cdpr_struct.diagnosis.locked_pose import reference
+from cdpr_struct.diagnosis.modal_constants import measured_constants
 from cdpr_struct.diagnosis.readings import Readings, cell_reading, exit_turns
 from cdpr_struct.diagnosis.residuals import Labels, Setting, States, at_states, readings_of_states, world_of_states
 from cdpr_struct.diagnosis.robot_rows import model_modes, with_robot_rows
@@ -42,11 +43,12 @@ def make_setting(campaign: Campaign) -> tuple[Setting, Setting]:
     held = np.flatnonzero(states.has_tension)
     locked = np.flatnonzero(~states.has_tension & states.has_length)
     radius = arm_scale(RobotArrays.of(campaign.robot))
-    blank = np.zeros(0)
+    blank, constants = np.zeros(0), measured_constants(campaign)
     setting = Setting(
         campaign, circumstances(campaign), held, locked, states.has_length[held], commanded(campaign, held), radius,
         Labels(blank, blank, blank), campaign.cable_frequencies, np.zeros(campaign.cable_frequencies.hertz.size),
         robot_pitch.Rows(np.zeros(0, dtype=int), blank, np.zeros((0, 6))), blank, blank, blank, blank, blank,
+        constants, np.zeros(len(constants)), np.zeros(len(constants)),
         campaign.model == "static", campaign.assembly == "consistent",
     )  # fmt: skip
     setting = replace(setting, labels=_labels(setting))
@@ -171,4 +173,5 @@ def _labels(setting: Setting) -> Labels:
         add("CF", np.array([i]), [int(c)])
     for i in setting.campaign.robot_frequencies.state:
         add("RF", np.array([i]), [-1])
+    add("FA", setting.campaign.robot_frequencies.state[setting.constants.peak], [-1])
     return Labels(np.array(block, dtype=object), np.array(state, dtype=int), np.array(cable, dtype=int))

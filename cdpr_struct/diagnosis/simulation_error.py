@@ -10,7 +10,7 @@ from cdpr_struct.diagnosis.null_model import NullModel
 from cdpr_struct.diagnosis.readings import Readings, cell_reading, exit_turns
 from cdpr_struct.diagnosis.residuals import Setting
 
-UNIT = {"static_state": "N", "loaded_pose": "mm", "cable_frequency": "Hz", "robot_frequency": "Hz"}
+UNIT = {"static_state": "N", "loaded_pose": "mm", "cable_frequency": "Hz", "robot_frequency": "Hz", "frf": "%"}
 
 
 def tension_errors(setting: Setting) -> np.ndarray:
@@ -49,7 +49,7 @@ def _in_units(kind: str, setting: Setting, null: NullModel, own: np.ndarray) -> 
             return errors, {"case": names[state], "cable": int(cable) + 1}
         return null.r[own], {"case": names[labels.state[own[np.abs(null.r[own]).argmax()]]]}
     values = null.r[own]
-    if kind != "loaded_pose":
+    if kind.endswith("_frequency"):
         campaign = setting.campaign
         rows = campaign.cable_frequencies if kind == "cable_frequency" else campaign.robot_frequencies
         values = rows.hertz * -np.expm1(-values / 100.0)

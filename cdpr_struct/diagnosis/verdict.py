@@ -24,6 +24,7 @@ _PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
     "NS": "the null space of the structure matrix (internal force)", "LP": "the poses at locked lengths",
     "CF": "the cable frequencies", "RF": "the robot frequencies",
+    "FA": "the modal constants of the FRFs",
 }  # fmt: skip
 
 

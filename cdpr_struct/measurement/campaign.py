@@ -120,12 +120,14 @@ class RobotFrequencies:
 
     shape : (r, 6) complex, motion of the platform that signals show in each mode, any scale [m, rad], nan where not
             seen; or (0, 6)
+    origin : (r, 2) number of the record in `identified` and of its mode, -1 for peaks of a list; or (0, 2)
     """
 
     state: np.ndarray
     hertz: np.ndarray
     sigma: np.ndarray
     shape: np.ndarray = field(default_factory=lambda: np.zeros((0, 6), dtype=complex))
+    origin: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), dtype=int))
 
     def unlike(self, rows: np.ndarray, model: np.ndarray, radius: float) -> np.ndarray:
         """(r, k) 1 - modal assurance of rows against the model's platform shapes (k, 6); nan without a measured shape.

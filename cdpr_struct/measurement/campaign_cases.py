@@ -39,6 +39,7 @@ class Gathering:
     robot_rows: list[tuple[int, float, float]] = field(default_factory=list)
     series: list[tuple[Series, Sigmas]] = field(default_factory=list)
     shapes: dict[int, np.ndarray] = field(default_factory=dict)
+    origins: dict[int, tuple[int, int]] = field(default_factory=dict)
 
     def add(self, rows: Rows, sigmas: Sigmas) -> None:
         """Take in the rows of one file.
@@ -87,9 +88,9 @@ class Gathering:
 
     def add_frequencies(
         self, case: str, pose: np.ndarray, payload: float, lengths: np.ndarray, sigmas: Sigmas,
-        frequencies: list[tuple[float, float, np.ndarray]],
+        frequencies: list[tuple[float, float, np.ndarray, tuple[int, int]]],
     ) -> None:  # fmt: skip
-        """Robot frequencies (Hz, sigma, shape) that signals of a case gave; the case becomes a state if it is none yet.
+        """Robot frequencies (Hz, sigma, shape, origin) that signals of a case gave; the case becomes a state.
 
         pose : (6,) [m, deg];  lengths : (m,) [m], nan if not read
         """
@@ -98,7 +99,8 @@ class Gathering:
             state = self._new(case, pose, payload, sigmas)
             state.length, state.length_sigma = lengths, np.full(self.m, sigmas.length_m)
         place = list(self.known).index(case)
-        for hertz, sigma, shape in frequencies:
+        for hertz, sigma, shape, origin in frequencies:
+            self.origins[len(self.robot_rows)] = origin
             self.shapes[len(self.robot_rows)] = shape
             self.robot_rows.append((place, hertz, sigma))
 
@@ -192,7 +194,10 @@ class Gathering:
         shape = np.full((len(table), 6), np.nan, dtype=complex)
         for row, seen in self.shapes.items():
             shape[row] = seen
-        return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2], shape)
+        origin = np.full((len(table), 2), -1)
+        for row, made in self.origins.items():
+            origin[row] = made
+        return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2], shape, origin)
 
 
 def _locks(length: np.ndarray) -> np.ndarray:

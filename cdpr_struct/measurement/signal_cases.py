@@ -24,12 +24,14 @@ def join_signals(gathering: Gathering, robot: Robot, model: str) -> tuple[Identi
     found: list[Identified] = []
     for series, sigmas in gathering.series:
         for item in identify(series, robot, model, sigmas, poses):
+            number = len(found)
             found.append(item)
             _check_pose(item, poses)
             record = item.record
             rows = [
-                (float(item.modes.hertz[i]), float(item.sigma[i]), platform_shape(record, item.modes.shape[i]))
-                for i in np.flatnonzero(item.used)
+                (float(item.modes.hertz[i]), float(item.sigma[i]), platform_shape(record, shape), (number, i))
+                for i, shape in enumerate(item.modes.shape)
+                if item.used[i]
             ]
             if rows:
                 pose = np.concatenate([record.position, np.degrees(record.angles)])

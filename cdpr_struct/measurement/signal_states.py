@@ -122,7 +122,7 @@ def model_shapes(state: StateModes, record: SignalRecord) -> np.ndarray:
         return platform * channel_weight(state, record)
     columns = []
     for name in record.channels:
-        respond, excite = (_direction(part) for part in name.split("/", 1))
+        respond, excite = (direction(part) for part in name.split("/", 1))
         columns.append((platform @ respond) * (platform @ excite))
     return np.stack(columns, axis=1)
 
@@ -136,14 +136,14 @@ def platform_shape(record: SignalRecord, shape: np.ndarray) -> np.ndarray:
     source = record.channels[0].split("/", 1)[1]
     for name, value in zip(record.channels, shape, strict=True):
         respond, excite = name.split("/", 1)
-        along = _direction(respond)
+        along = direction(respond)
         if excite == source and along.any():
             axis = int(np.abs(along).argmax())
             seen[axis] = value * along[axis]
     return seen
 
 
-def _direction(name: str) -> np.ndarray:
+def direction(name: str) -> np.ndarray:
     """(6,) unit platform motion that a channel's name means: x .. rz, fx .. mz; zeros for any other."""
     sign, text = (-1.0 if name.strip().startswith("-") else 1.0), name.strip().lower().removeprefix("-")
     text = "r" + text[1:] if text.startswith("m") else text.removeprefix("f")

@@ -5,7 +5,7 @@ from cdpr_struct.diagnosis.causes.registry import LIBRARY
 
 BLOCKS = {
     "EQ": "wrench balance", "CO": "cable lengths", "NS": "internal force", "LP": "poses at locked lengths",
-    "CF": "cable frequencies", "RF": "robot frequencies",
+    "CF": "cable frequencies", "RF": "robot frequencies", "FA": "modal constants of FRFs",
 }  # fmt: skip
 
 

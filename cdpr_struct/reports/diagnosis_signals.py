@@ -22,7 +22,6 @@ def with_signals(result: dict[str, Any], campaign: Campaign) -> dict[str, Any]:
         return result | {"signals": [], "damping": None}
     finding = damping_finding(damping_rows(campaign.identified), campaign.tolerances.damping)
     why = {k: v for k, v in result["why_not_testable"].items() if k not in _LAWS} | _untestable(finding)
-    why |= _sensors(campaign)
     more = {
         "signals": [_signal(item) for item in campaign.identified],
         "damping": _damping(finding),
@@ -42,15 +41,6 @@ def _untestable(finding: DampingFinding) -> dict[str, str]:
     if not np.isfinite(finding.rows.amplitude).all():
         return {"coulomb_damping": "needs decays at two or more amplitudes; FRFs have none"}
     return {}
-
-
-def _sensors(campaign: Campaign) -> dict[str, str]:
-    """Why the causes of accelerometers cannot be judged although FRFs were measured."""
-    if not any(item.record.kind == "frf" for item in campaign.identified):
-        return {}
-    constants = "FRFs are read for frequencies, damping and shapes; the size of modal constants is not judged"
-    places = "the file has no places of accelerometers, so that no rigid body can be checked"
-    return {"accelerometer_gain": constants, "accelerometer_mass": constants, "flexible_platform": places}
 
 
 def _signal(item: Identified) -> dict[str, Any]:

@@ -47,8 +47,9 @@ KEYS: dict[str, Key] = {
     "tracker": Key(6, 0.0, "m, rad", "true pose = tracker's pose, turned and shifted by this"),
     "creep": Key(0, 0.0, "1", "share of the elastic strain per decade of time after 1 min"),
     "slip": Key("cables", 0.0, "m/h", "of the winch"),
+    "accelerometer_gain": Key(6, 1.0, "1", "accelerometer reading = gain * acceleration, x to rz", above=0.0),
 }  # fmt: skip
-SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "creep", "slip")
+SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain")
 """Act only where readings are compared: they describe sensors, or need the time of a reading."""
 AUXILIARY = {"hose_center": "hose", "reference_tension": "nonlinearity"}
 """Mean something only with the other key."""
@@ -58,7 +59,8 @@ AUXILIARY = {"hose_center": "hose", "reference_tension": "nonlinearity"}
 class Extensions:
     """Extensions of a robot with m cables, SI; `KEYS` says what each field means and what its neutral value is.
 
-    Per-cable fields are (m,), force and hose_center (3,), tilt (2,), tracker (6,), the others single numbers.
+    Per-cable fields are (m,), force and hose_center (3,), tilt (2,), tracker and accelerometer_gain (6,), the others
+    single numbers.
     causes : names of the diagnosed causes that they stand for
     """
 
@@ -80,6 +82,7 @@ class Extensions:
     tracker: np.ndarray
     creep: float
     slip: np.ndarray
+    accelerometer_gain: np.ndarray
     causes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

@@ -8,6 +8,7 @@
 | platform.py  | what hangs on the cables: mass, joints, centre, inertia, forces, hoses                 |
 | cables.py    | what a cable is besides stiff: heavy, bending, carrying a sensor                       |
 | sensors.py   | what the readings do: gains, biases, friction, slip, internal force                    |
+| accelerometers.py | what they do to the size of a vibration                                          |
 | handling.py  | what people do to data and models: units, signs, swaps, wrong poses, shortcuts         |
 | registry.py  | all of them by name, those that these data kinds can never show included               |
 """

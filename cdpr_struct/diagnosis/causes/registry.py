@@ -3,24 +3,22 @@
 import math
 from dataclasses import replace
 
-from cdpr_struct.diagnosis.causes import cables, geometry, platform, sensors, stiffness
+from cdpr_struct.diagnosis.causes import accelerometers, cables, geometry, platform, sensors, stiffness
 from cdpr_struct.diagnosis.causes.cause import Cause
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
 
-LIBRARY: dict[str, Cause] = {
-    cause.name: cause for family in (stiffness, geometry, platform, cables, sensors) for cause in family.CAUSES
-}
+FAMILIES = (stiffness, geometry, platform, cables, sensors, accelerometers)
+LIBRARY: dict[str, Cause] = {cause.name: cause for family in FAMILIES for cause in family.CAUSES}
 HANDLING = ("unit_error", "sign_error", "swapped_channels")
 SHORTCUTS = ("cable_sag", "cable_dynamics", "attachment_geometric_stiffness")
 NEEDS_SIGNALS = {
     "viscous_damping": "needs free decays or FRFs",
     "hysteretic_damping": "needs decays at several amplitudes",
     "coulomb_damping": "needs decays at several amplitudes",
-    "accelerometer_gain": "needs FRFs",
-    "accelerometer_mass": "needs FRFs",
-    "flexible_platform": "needs FRFs of three or more accelerometers",
+    "accelerometer_mass": "its weight raises the tensions while vibration is measured, which no law here follows yet",
+    "flexible_platform": "a peak without partner is listed, not explained; files have no places of sensors",
 }
 
 

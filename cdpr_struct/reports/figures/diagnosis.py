@@ -19,6 +19,7 @@ _WORDS = {
     "LP": "locked poses",
     "CF": "cable frequencies",
     "RF": "robot frequencies",
+    "FA": "modal constants",
 }
 
 
