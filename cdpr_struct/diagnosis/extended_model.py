@@ -15,7 +15,19 @@ from cdpr_struct.robot.robot import Robot
 def extended_world(found: Diagnosis) -> World:
     """The world with the chosen causes."""
     fit = found.selection.fit
-    return found.ground.entered if fit is None else world_with(found.ground.entered, fit.choices, fit.theta)
+    return found.ground.entered if fit is None else _embodied(world_with(found.ground.entered, fit.choices, fit.theta))
+
+
+def _embodied(world: World) -> World:
+    """The world with the nearest inertia that a rigid body can have: no principal moment above the sum of the others.
+
+    Of a moment that the data do not show a fit says little, so it may end up beyond.
+    """
+    if world.bodies_exist():
+        return world
+    moments, axes = np.linalg.eigh(world.inertia)
+    moments[2] = min(moments[2], moments[:2].sum())
+    return replace(world, inertia=(axes * moments) @ axes.T)
 
 
 def extended_robot(found: Diagnosis) -> Robot:

@@ -105,7 +105,7 @@ def _measurements(ground: Ground, asked: Sequence[Question]) -> list[tuple[str, 
             continue  # nothing in question acts otherwise there
         try:
             found.append((proposal.text, False, simulated(ground, proposal)))
-        except (CdprError, np.linalg.LinAlgError):
+        except (CdprError, ValueError):
             continue  # a state that the model cannot compute is not proposed
     return found
 

@@ -76,7 +76,7 @@ def next_measurements(ground: Ground, pairs: list[tuple[str, str]]) -> list[Gain
     for proposal in chain(proposals(campaign), series(campaign)):
         try:
             rows = simulated(ground, proposal)
-        except (CdprError, np.linalg.LinAlgError):
+        except (CdprError, ValueError):
             continue  # a state that the model cannot compute is not proposed
         found.append(judge.gain(proposal.text, proposal.family, rows))
     best: dict[str, Gain] = {}

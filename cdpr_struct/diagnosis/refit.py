@@ -128,7 +128,8 @@ def refit(ground: Ground, picked: tuple[Choice, ...], start: np.ndarray | None =
         trials = theta + np.array([1.0, 0.5, 0.2])[:, None] * (np.maximum(target, lowest) - theta)
         whites = ground.null.white(_residuals(ground, picked, trials).T).T
         costs = (whites**2).sum(axis=1) + (trials**2).sum(axis=1)
-        costs = np.where(np.isfinite(costs), costs, np.inf)
+        possible = world_with(ground.world, picked, trials).bodies_exist()
+        costs = np.where(np.isfinite(costs) & possible, costs, np.inf)
         best = int(costs.argmin())
         if costs[best] > cost - 1e-3:
             break

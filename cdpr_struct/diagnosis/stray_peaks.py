@@ -37,8 +37,9 @@ def catching(ground: Ground, before: Fit | None, most: int) -> list[tuple[Choice
     found = []
     for candidate in ground.candidates:
         if candidate.name not in taken and _moves_modes(ground, candidate):
-            picked = choice(candidate, candidate.patterns[0], _SCALE)
-            found.append([_best_along(ground, world, picked, direction) for direction in _directions(picked)])
+            tried = [choice(candidate, pattern, _SCALE) for pattern in candidate.patterns[:2]]
+            trials = [_best_along(ground, world, picked, d) for picked in tried for d in _directions(picked)]
+            found += [trials] if trials else []
     left = (ground if before is None else before.ground).strays
     first = sorted(found, key=lambda trials: min(map(_fewest, trials)))[:most]
     return [(one.picked, one.theta) for trials in first for one in trials if one.strays < left - _FEWER]
@@ -59,9 +60,9 @@ def _fewest(trial: _Trial) -> float:
 
 
 def _directions(picked: Choice) -> list[np.ndarray]:
-    """All numbers of a cause together, and each."""
+    """Each number of a pattern that has few."""
     d = len(picked.prior)
-    return [np.ones(d), *(np.eye(d) if 1 < d <= _MOST_NUMBERS else [])]
+    return list(np.eye(d)) if d <= _MOST_NUMBERS else []
 
 
 def _best_along(ground: Ground, world: World, picked: Choice, direction: np.ndarray) -> _Trial:

@@ -121,6 +121,12 @@ class World:
         picked = {f.name: getattr(self, f.name)[index] for f in fields(self) if self.is_batched(f.name)}
         return replace(self, **picked) if picked else self
 
+    def bodies_exist(self) -> np.ndarray:
+        """(...) whether there is a rigid body with this inertia: no principal moment above the sum of the others."""
+        moments = np.linalg.eigvalsh(self.inertia)
+        result: np.ndarray = (moments[..., 0] > 0.0) & (moments[..., 0] + moments[..., 1] >= moments[..., 2])
+        return result
+
     def is_batched(self, name: str) -> bool:
         """Whether the named field carries a batch axis."""
         return bool(getattr(self, name).ndim > _CORE[name])

@@ -11,12 +11,9 @@ BLOCKS = {
 
 def cause_page(cause: Cause) -> str:
     """One cause as Markdown."""
-    kind = "per cable (all alike, one alone, or each its own)" if cause.per_cable else "of the robot as a whole"
-    if cause.groups is not None:
-        first = f"`{cause.parameters[0].name}_mast_of_1_2`"
-        kind = f"per mast (all alike, one alone, or each its own; {first} is that of the mast of cables 1 and 2)"
-    if cause.count is not None:
-        kind = "of one state"
+    kind = "of one state" if cause.count is not None else "of the robot as a whole"
+    if cause.per_cable:
+        kind = f"per {cause.carrier} (all alike, one alone, or each its own)"
     rows = [f"| {p.name} | {'ratio' if p.ratio else p.unit} | {p.prior:g} |" for p in cause.parameters]
     lines = [
         f"# {cause.name}", "", f"{cause.title[:1].upper()}{cause.title[1:]}. Parameters are {kind}.", "",

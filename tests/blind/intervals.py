@@ -138,6 +138,8 @@ def _entry(key: str, cause: str) -> int:
         return 3 * (number - 1) + "xyz".index(axis.group(1)) if number and axis else -1
     if cause == "tracker_frame" and axis:
         return "xyz".index(axis.group(1)) + 3 * key.startswith("turn")
+    if cause == "platform_inertia" and axis:
+        return "xyz".index(axis.group(1))
     return number - 1
 
 

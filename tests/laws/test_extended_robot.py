@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from cdpr_struct.diagnosis.diagnose import diagnose
-from cdpr_struct.diagnosis.extended_model import extended_robot_toml, robot_toml
+from cdpr_struct.diagnosis.extended_model import _embodied, extended_robot_toml, robot_toml
 from cdpr_struct.diagnosis.extended_robot import extensions_of, robot_of
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import residuals
@@ -96,3 +97,12 @@ def test_statics_of_the_extended_robot_are_those_of_the_diagnosis(tmp_path):
     assert np.abs(residuals(setting, quiet, seen)[static]).max() < 0.05  # N, mm
     plain = World.of(campaign.robot, 2)
     assert np.abs(residuals(setting, plain, seen)[static]).max() > 5.0
+
+
+def test_an_inertia_that_no_body_has_becomes_the_nearest_that_one_has():
+    """Principal moments 1, 2, 4: the largest becomes 3, along the same axes."""
+    world = World.of(load_robot("cogiro"))
+    turn = Rotation.from_rotvec([0.3, -0.2, 0.5]).as_matrix()
+    flat = _embodied(replace(world, inertia=turn @ np.diag([1.0, 2.0, 4.0]) @ turn.T))
+    assert flat.inertia == pytest.approx(turn @ np.diag([1.0, 2.0, 3.0]) @ turn.T)
+    assert _embodied(world) is world

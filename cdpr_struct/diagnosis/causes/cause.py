@@ -70,8 +70,8 @@ class Cause:
 
     per_cable : parameters of one cable (`axes` of them each); the cause occurs in all cables alike, in one, or in
                 each differently;  otherwise the parameters belong to the robot as a whole
-    groups    : of cables that share parameters, as masts do, in place of single cables: ending of the parameter's name
-                and words for each
+    groups    : in place of single cables what has parameters of its own, cables of a mast or axes of the platform:
+                ending of the parameter's name and words for each;  carrier : what they are, for the docs
     apply     : world with basic parameters theta0 (..., d0) put in
     seen_in   : blocks of residuals it shows in
     shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
@@ -85,6 +85,7 @@ class Cause:
     apply: Callable[[World, np.ndarray], World]
     per_cable: bool = False
     groups: Callable[[Setting], dict[str, str]] | None = None
+    carrier: str = "cable"
     common: bool = True
     seen_in: tuple[str, ...] = ()
     needs: Callable[[Setting], str] = always

@@ -3,6 +3,7 @@
 import numpy as np
 
 from cdpr_struct.diagnosis.causes.cause import Cause, Parameter
+from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.world import World
 
 _XYZ = ("x", "y", "z")
@@ -23,6 +24,10 @@ def _center(world: World, theta: np.ndarray) -> World:
 def _inertia(world: World, theta: np.ndarray) -> World:
     half = np.exp(0.5 * theta)
     return world.times(inertia=half[..., :, None] * half[..., None, :])
+
+
+def _axes(setting: Setting) -> dict[str, str]:
+    return {axis: f"axis {axis}" for axis in _XYZ}
 
 
 def _force(world: World, theta: np.ndarray) -> World:
@@ -69,8 +74,11 @@ CAUSES = (
     Cause(
         "platform_inertia",
         "inertia of the platform",
-        tuple(Parameter(f"inertia_{a}", "ratio", 0.2, True) for a in _XYZ),
+        (Parameter("inertia", "ratio", 0.2, True),),
         _inertia,
+        per_cable=True,
+        groups=_axes,
+        carrier="axis of the platform",
         seen_in=("RF",),
         sentence="the platform's inertia is {percent} of what was entered",
         separated_by="rotational frequencies; a bifilar pendulum",

@@ -86,6 +86,7 @@ CAUSES = (
         _frame,
         True,
         groups=_masts,
+        carrier="mast, named by its cables as in `compliance_mast_of_1_2`",
         seen_in=("CO", "LP", "RF"),
         sentence="the masts give way by {value} m/N",
         separated_by="a dial gauge on a mast; pulling one cable and watching its neighbour",
