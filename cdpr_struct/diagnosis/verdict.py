@@ -17,7 +17,7 @@ LARGEST_CLASS = 4
 TEMPER = 0.7  # of the evidence between causes: the model of noise and tolerances is a model too
 CREDIBLE = 0.95  # probability that a class holds together
 CONFIRMED = 1.0  # nats that a cause keeps whichever group of states is left out, or it is not named
-UNCONFIRMED = 0.5  # largest probability of a cause that hangs on one group of states
+UNCONFIRMED = 0.6  # largest probability of a cause that hangs on one group of states
 _LEFT = 4.0  # nats that a law outside the library must add to them
 _PRIOR_OUTSIDE = -4.6  # ln prior of the best channel, one in fourteen of one in seven, beside that of no further cause
 _PLACES = {
@@ -83,7 +83,8 @@ def _unknown_sentence(found: Diagnosis, place: str) -> str:
         text += f" The best candidate, {' with '.join(fit.names).replace('_', ' ')}, leaves a structured remainder."
     strays = (fit.ground if fit else found.ground).strays
     if strays > SEVERAL:
-        text += f" {strays:.0f} of the robot's measured frequencies are none of the model's."
+        text += f" {strays:.0f} of the robot's measured frequencies are none of the model's:"
+        text += " a platform that flexes, a mode of the frame or false peaks would do that."
     clear = outside.gain + (0.0 if fit else OUTSIDE) > _LEFT
     return text + (f" It looks like {outside.words}." if clear else "")
 
