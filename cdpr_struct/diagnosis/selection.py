@@ -53,8 +53,8 @@ class Search:
         return self._known[key]
 
 
-def _key(choices_: tuple[Choice, ...]) -> tuple[tuple[str, str, float], ...]:
-    return tuple(sorted((c.candidate.name, c.pattern.label, c.scale) for c in choices_))
+def _key(picked: tuple[Choice, ...]) -> tuple[tuple[str, str, float], ...]:
+    return tuple(sorted((c.candidate.name, c.pattern.label, c.scale) for c in picked))
 
 
 def _ranked(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None) -> list[Fit]:
