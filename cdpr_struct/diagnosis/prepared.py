@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import chi2
 
-from cdpr_struct.diagnosis.causes.registry import causes_for
+from cdpr_struct.diagnosis.causes.registry import causes_for, require_known
 from cdpr_struct.diagnosis.evidence import Candidate, candidates, choices, largest_gains
 from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
 from cdpr_struct.diagnosis.null_model import (
@@ -61,6 +61,7 @@ class Prepared:
 
 def prepare(campaign: Campaign, plan: Budget) -> Prepared:
     """Everything before the first hypothesis."""
+    require_known(campaign)
     if not len(campaign.states.names):
         kinds = ", ".join(campaign.kinds())
         raise InputError(campaign.source, "measurement", kinds, "also static states, loaded poses or frequencies")

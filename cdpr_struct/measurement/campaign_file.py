@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, NonNegativeFloat, PositiveFloat, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign, Sigmas, Tolerances
@@ -15,12 +15,12 @@ from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.signal_cases import join_signals
 from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.robot.robot_file import builtin_names, input_error, load_robot
+from cdpr_struct.robot.robot_file import LARGEST, Matrix, Positive, Vector, builtin_names, input_error, load_robot
 
 Kind = Literal[
     "static_state", "loaded_pose", "cable_frequency", "robot_frequency", "frf", "free_decay", "platform_motion"
 ]
-Positive = PositiveFloat | None
+NotNegative = Annotated[float, Field(strict=True, ge=0.0, le=LARGEST)]
 
 
 class _Table(BaseModel):
@@ -28,12 +28,12 @@ class _Table(BaseModel):
 
 
 class SigmaTable(_Table):
-    tension_N: Positive = None
-    position_m: Positive = None
-    rotation_deg: Positive = None
-    length_m: Positive = None
-    frequency_hz: Positive = None
-    acceleration: Positive = None
+    tension_N: Positive | None = None
+    position_m: Positive | None = None
+    rotation_deg: Positive | None = None
+    length_m: Positive | None = None
+    frequency_hz: Positive | None = None
+    acceleration: Positive | None = None
 
 
 class MeasurementTable(_Table):
@@ -43,37 +43,37 @@ class MeasurementTable(_Table):
 
 
 class NominalTable(_Table):
-    platform_mass: Positive = None
-    center_of_mass: Annotated[list[float], Field(min_length=3, max_length=3)] | None = None
-    platform_inertia: Annotated[list[list[float]], Field(min_length=3, max_length=3)] | None = None
-    axial_stiffness: Positive = None
-    linear_density: Positive = None
-    gravity: Positive = None
+    platform_mass: Positive | None = None
+    center_of_mass: Vector | None = None
+    platform_inertia: Matrix | None = None
+    axial_stiffness: Positive | None = None
+    linear_density: Positive | None = None
+    gravity: Positive | None = None
     assembly: Literal["consistent", "thesis"] = "consistent"
 
 
 class TolerancesTable(_Table):
-    anchor_m: NonNegativeFloat | None = None
-    length_m: NonNegativeFloat | None = None
-    axial_stiffness: NonNegativeFloat | None = None
-    linear_density: NonNegativeFloat | None = None
-    platform_mass_kg: NonNegativeFloat | None = None
-    center_of_mass_m: NonNegativeFloat | None = None
-    platform_inertia: NonNegativeFloat | None = None
-    load_cell_gain: NonNegativeFloat | None = None
-    load_cell_bias_N: NonNegativeFloat | None = None
-    damping: NonNegativeFloat | None = None
-    pulley_radius_m: NonNegativeFloat | None = None
+    anchor_m: NotNegative | None = None
+    length_m: NotNegative | None = None
+    axial_stiffness: NotNegative | None = None
+    linear_density: NotNegative | None = None
+    platform_mass_kg: NotNegative | None = None
+    center_of_mass_m: NotNegative | None = None
+    platform_inertia: NotNegative | None = None
+    load_cell_gain: NotNegative | None = None
+    load_cell_bias_N: NotNegative | None = None
+    damping: NotNegative | None = None
+    pulley_radius_m: NotNegative | None = None
 
 
 class CampaignTable(_Table):
     robot: str
     model: Literal["static", "dsm", "exact", "spring"] = "dsm"
     tension_distribution: Literal["minimum_norm"] = "minimum_norm"
-    lower_bound_N: NonNegativeFloat = 0.0
+    lower_bound_N: NotNegative = 0.0
     nominal: NominalTable = NominalTable()
     tolerances: TolerancesTable = TolerancesTable()
-    checked: dict[str, PositiveFloat] = {}
+    checked: dict[str, Positive] = {}
     measurement: Annotated[list[MeasurementTable], Field(min_length=1)]
 
 
@@ -85,18 +85,11 @@ def load_campaign(path: str | Path) -> Campaign:
     InputError : a file, field, row or value that cannot be used, and what would be right.
     """
     source = Path(path)
-    try:
-        table = CampaignTable.model_validate(tomllib.loads(source.read_text("utf-8")))
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError("CAMPAIGN", "", str(path), "a campaign file (TOML) that can be read") from error
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(str(path), "", str(error), "a TOML file") from error
-    except ValidationError as error:
-        raise input_error(str(path), error) from error
+    table = _table(source)
     robot = _nominal(_robot(table.robot, source), table.nominal, source)
     gathering = Gathering(len(robot.cables))
-    for entry in table.measurement:
-        gathering.add(_rows(entry, source, len(robot.cables)), _sigmas(entry))
+    for number, entry in enumerate(table.measurement, start=1):
+        gathering.add(_rows(entry, source, number, len(robot.cables)), _sigmas(entry))
     identified = join_signals(gathering, robot, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(
@@ -118,14 +111,34 @@ def load_campaign(path: str | Path) -> Campaign:
     )
 
 
+def _table(source: Path) -> CampaignTable:
+    try:
+        text = source.read_text("utf-8")
+    except (OSError, ValueError) as error:
+        raise InputError("CAMPAIGN", "", str(source), "a campaign file (TOML) that can be read") from error
+    try:
+        return CampaignTable.model_validate(tomllib.loads(text))
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(str(source), "", str(error), "a TOML file, each key and table given once") from error
+    except ValidationError as error:
+        raise input_error(str(source), error) from error
+
+
 def _robot(name: str, source: Path) -> Robot:
     if name in builtin_names():
         return load_robot(name)
-    return load_robot(source.parent / name if not Path(name).is_absolute() else name)
+    if not (source.parent / name).is_file():
+        known = ", ".join(builtin_names())
+        raise InputError(str(source), "robot", name, f"a robot file, its path as seen from here, or one of: {known}")
+    return load_robot(source.parent / name)
 
 
-def _rows(entry: MeasurementTable, source: Path, cables: int) -> Rows:
-    return read_rows(entry.kind, source.parent / entry.file, cables)
+def _rows(entry: MeasurementTable, source: Path, number: int, cables: int) -> Rows:
+    path = source.parent / entry.file
+    if not path.is_file():
+        expected = "a data file, its path as seen from the campaign file"
+        raise InputError(str(source), f"measurement[{number}].file", entry.file, expected)
+    return read_rows(entry.kind, path, cables)
 
 
 def _sigmas(entry: MeasurementTable) -> Sigmas:
@@ -144,7 +157,7 @@ def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:
     try:
         body = replace(body, **{k: v for k, v in changes.items() if v is not None})
     except ValueError as error:
-        raise InputError(str(source), "nominal", "values given", str(error)) from error
+        raise InputError(str(source), "nominal.platform_inertia", table.platform_inertia, str(error)) from error
     cables = tuple(
         Cable(table.axial_stiffness or c.axial_stiffness, table.linear_density or c.linear_density, c.damping_ratio)
         for c in cables

@@ -8,6 +8,7 @@ import pandas as pd
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.universal_rows import is_universal, universal_columns
+from cdpr_struct.robot.robot_file import LARGEST
 
 POSE = ("x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg")
 _NEEDED: dict[str, tuple[str, ...]] = {
@@ -26,6 +27,7 @@ _ALSO: dict[str, tuple[str, ...]] = {
 _ALWAYS = ("case", *POSE, "payload_kg", "sigma", "temperature_K", "approach", "time_s")
 _WORDS = ("case", "respond", "excite", "plane")
 _POSITIVE = ("tension_N", "length_m", "frequency_hz", "sigma", "temperature_K", "mode", "cable")
+HIGHEST = 1e3  # of any frequency [Hz]
 _BLANK_ALLOWED = ("sigma", "temperature_K", "approach", "tension_N", "length_m", "time_s")
 
 
@@ -39,7 +41,7 @@ class Rows:
     words: dict[str, list[str]]
 
     def __len__(self) -> int:
-        return len(self.words["case"])
+        return len(next(iter(self.numbers.values())))
 
     def get(self, column: str, default: float = np.nan) -> np.ndarray:
         """Column (n,), or the default throughout."""
@@ -62,6 +64,11 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
         raise InputError(str(path), "", path.name, "a CSV file that can be read") from error
     except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
         raise InputError(str(path), "", str(error).strip(), "a CSV file with a header line") from error
+    if not isinstance(table.index, pd.RangeIndex):
+        row = ", ".join([str(table.index[0]), *table.iloc[0]])
+        raise InputError(
+            str(path), "row 1", row, f"{len(table.columns)} values as in the header, decimals with a point"
+        )
     _check_columns(kind, str(path), list(table.columns), cables)
     if not len(table):
         raise InputError(str(path), "", "no rows", "at least one row of data")
@@ -80,7 +87,9 @@ def _universal(kind: str, path: Path) -> Rows:
     if kind != "frf":
         raise InputError(str(path), "kind", kind, "frf: universal files are read for FRFs only")
     numbers, words = universal_columns(path)
-    return Rows(kind, str(path), numbers, words)
+    rows = Rows(kind, str(path), numbers, words)
+    _check_frequencies(rows)
+    return rows
 
 
 def length_columns(cables: int) -> list[str]:
@@ -117,6 +126,8 @@ def _numbers(source: str, name: str, column: pd.Series) -> np.ndarray:
             raise InputError(source, place, text, "a number") from error
         if not np.isfinite(values[i]):
             raise InputError(source, place, text, "a finite number")
+        if abs(values[i]) > LARGEST:
+            raise InputError(source, place, text, f"a number not above {LARGEST:g}")
         if (name in _POSITIVE or name.startswith("length_")) and not values[i] > 0.0:
             raise InputError(source, place, text, "a number above zero")
         if name == "payload_kg" and values[i] < 0.0:
@@ -124,7 +135,16 @@ def _numbers(source: str, name: str, column: pd.Series) -> np.ndarray:
     return values
 
 
+def _check_frequencies(rows: Rows) -> None:
+    """The model's modes are computed up to the highest peak: at 1e9 Hz there are more than fit into memory."""
+    for i, hertz in enumerate(rows.get("frequency_hz", 0.0)):
+        if hertz > HIGHEST:
+            expected = f"a frequency in Hz, not above {HIGHEST:g}; leave out what lies higher"
+            raise InputError(rows.file, f"row {i + 1}, column frequency_hz", hertz, expected)
+
+
 def _check_values(rows: Rows, cables: int) -> None:
+    _check_frequencies(rows)
     for name, last in (("cable", cables), ("mode", 50)):
         for i, value in enumerate(rows.numbers.get(name, ())):
             if value != int(value) or not 1 <= value <= last:
@@ -135,9 +155,9 @@ def _check_values(rows: Rows, cables: int) -> None:
     for i, sign in enumerate(rows.numbers.get("approach", ())):
         if np.isfinite(sign) and abs(sign) > 1.0:
             raise InputError(rows.file, f"row {i + 1}, column approach", sign, "+1 or -1 (0 if neither)")
-    for i, case in enumerate(rows.words.get("case", ())):
-        if not case:
-            raise InputError(rows.file, f"row {i + 1}, column case", "nothing", "a name")
+    for name, words in rows.words.items():
+        if name != "plane" and "" in words:
+            raise InputError(rows.file, f"row {words.index('') + 1}, column {name}", "nothing", "a name")
 
 
 def _cases_from_poses(rows: Rows) -> list[str]:

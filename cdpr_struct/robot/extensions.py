@@ -22,15 +22,23 @@ class Key:
     meaning: str
     least: float = -np.inf
     above: float = -np.inf
+    most: float = np.inf
 
     def entries(self, cables: int) -> int:
         """Numbers in the field; 0 for a single number."""
         return cables if isinstance(self.shape, str) else self.shape
 
+    @property
+    def range(self) -> str:
+        """What values may be, as the end of a sentence; "" if all may."""
+        lowest = f", above {self.above:g}" if np.isfinite(self.above) else ""
+        lowest = lowest or (f", not below {self.least:g}" if np.isfinite(self.least) else "")
+        return lowest + (f", not above {self.most:g}" if np.isfinite(self.most) else "")
+
 
 KEYS: dict[str, Key] = {
-    "series_compliance": Key("cables", 0.0, "m/N", "elastic element in line with the cable, behind its frame end", 0.0),
-    "frame_compliance": Key("cables", 0.0, "m/N", "of the cable's mast, alike in all directions; one a mast", 0.0),
+    "series_compliance": Key("cables", 0.0, "m/N", "spring in line with the cable, at its frame end", 0.0, most=0.1),
+    "frame_compliance": Key("cables", 0.0, "m/N", "of the mast, alike in all directions; one a mast", 0.0, most=0.1),
     "hose": Key(0, 0.0, "N/m", "stiffness that holds the platform origin to hose_center", 0.0),
     "hose_center": Key(3, 0.0, "m", "where the hose is relaxed, world frame"),
     "force": Key(3, 0.0, "N", "constant force on the platform origin, world frame"),
@@ -90,9 +98,8 @@ class Extensions:
         for name, key in KEYS.items():
             shape = (key.entries(m),) if key.entries(m) else ()
             value = frozen_array(getattr(self, name), shape, f"Extensions.{name}")
-            if (value < key.least).any() or (value <= key.above).any():
-                bound = f"> {key.above:g}" if np.isfinite(key.above) else f">= {key.least:g}"
-                raise ValueError(f"Extensions.{name} must be {bound} {key.unit}, got {value.tolist()}")
+            if (value < key.least).any() or (value <= key.above).any() or (value > key.most).any():
+                raise ValueError(f"Extensions.{name} must be in {key.unit}{key.range}, got {value.tolist()}")
             object.__setattr__(self, name, value if shape else float(value))
 
     @classmethod

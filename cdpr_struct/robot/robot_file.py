@@ -99,6 +99,8 @@ _EXPECTED = {
     "finite_number": "give a finite number",
     "float_type": "give a number, without quotes",
     "model_type": "give a table with keys of its own",
+    "dict_type": "give a table with keys of its own",
+    "string_type": "give a text in quotes",
     "list_type": "give a list in square brackets",
     "too_short": "give at least {min_length} entries, not {actual_length}",
     "too_long": "give at most {max_length} entries, not {actual_length}",
@@ -181,12 +183,13 @@ def _check_extension(name: str, value: Any, cables: int, source: str) -> None:
     key = KEYS[name]
     count = key.entries(cables)
     single = "one number" if not count else f"{count} numbers in square brackets, or one for all"
-    expected = f"give {single} in {key.unit}"
+    unit = "" if key.unit == "1" else f" in {key.unit}"
+    expected = f"give {single}{unit}{key.range}"
     _require_numbers(f"extensions.{name}", value, count, expected, source)
     try:
         Extensions.of(cables, {name: value})
     except ValueError as error:
-        raise InputError(source, f"extensions.{name}", value, str(error)) from error
+        raise InputError(source, f"extensions.{name}", value, expected) from error
 
 
 def _require_numbers(field: str, value: Any, count: int, expected: str, source: str) -> None:

@@ -164,9 +164,9 @@ def test_ideal_cables_know_nothing_elastic():
 
 
 def test_values_are_checked_at_birth():
-    with pytest.raises(ValueError, match="series_compliance must be >= 0 m/N"):
+    with pytest.raises(ValueError, match="series_compliance must be in m/N, not below 0"):
         Extensions.of(8, {"series_compliance": -1e-6})
-    with pytest.raises(ValueError, match="length_scale must be > 0"):
+    with pytest.raises(ValueError, match="length_scale must be in 1, above 0"):
         Extensions.of(8, {"length_scale": 0.0})
     with pytest.raises(ValueError, match=r"no extension is called 'mast'; known: .*frame_compliance"):
         Extensions.of(8, {"mast": 1.0})

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from difflib import get_close_matches
 
 from cdpr_struct.diagnosis.causes import accelerometers, cables, geometry, platform, sensors, stiffness
 from cdpr_struct.diagnosis.causes.cause import Cause
@@ -22,12 +23,20 @@ NEEDS_SIGNALS = {
 }
 
 
+def require_known(campaign: Campaign) -> None:
+    """Raises `InputError` if [checked] names what is no cause."""
+    known = sorted({*LIBRARY, "internal_force"})
+    for name, sigma in campaign.checked.items():
+        if name not in known:
+            near = get_close_matches(name.lower(), known, 1)
+            meant = f"{near[0]} is perhaps meant; " if near else ""
+            expected = f"no such cause; {meant}known are {', '.join(known)}"
+            raise InputError(campaign.source, f"checked.{name}", sigma, expected)
+
+
 def _as_checked(campaign: Campaign, causes: list[Cause]) -> list[Cause]:
     """The causes with priors no wider than what a check beside the robot has left of them."""
-    names = {cause.name for cause in causes}
-    for name in campaign.checked:
-        if name not in names:
-            raise InputError(campaign.source, f"checked.{name}", "no such cause", f"one of {', '.join(sorted(names))}")
+    require_known(campaign)
     return [_bounded(cause, campaign.checked.get(cause.name, math.inf)) for cause in causes]
 
 
