@@ -96,3 +96,7 @@ def _complaint(error: TyperException) -> str:
 def _fail(code: int, message: str) -> int:
     print(f"cdpr-struct: {message}", file=sys.stderr)
     return code
+
+
+if __name__ == "__main__":
+    main()
