@@ -21,11 +21,11 @@ from cdpr_struct.diagnosis.prepared import (
     p_of_noise,
     prepare,
 )
-from cdpr_struct.diagnosis.refit import Fit, Ground
+from cdpr_struct.diagnosis.refit import Fit, Ground, screen_beyond
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.selection import Selection, select
-from cdpr_struct.diagnosis.stray_peaks import p_of_strays
+from cdpr_struct.diagnosis.stray_peaks import p_of_strays, strays_left
 from cdpr_struct.measurement.campaign import Campaign
 
 FURTHER = 6.0  # nats that each further cause must bring
@@ -115,7 +115,7 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
 def _p_adequate(ground: Ground, fit: Fit | None) -> float:
     """Of what is left: its chi^2, and peaks of the robot that no mode explains."""
     noise = float(chi2.sf(fit.adequacy(), len(fit.white))) if fit else p_of_noise(ground.null)
-    return min(noise, p_of_strays((fit.ground if fit else ground).strays, len(ground.setting.robot_log)))
+    return min(noise, p_of_strays(strays_left(ground, fit), len(ground.setting.robot_log)))
 
 
 def _selected(prepared: Prepared, plan: Budget, corrected: bool) -> Selection:
@@ -139,7 +139,7 @@ def _outside(prepared: Prepared, fit: Fit | None) -> Outside:
         best = screen(prepared.channels, ground.z)[0]
     else:
         there = channels(fit.ground.setting, fit.world, ground.readings, fit.ground.null)
-        best = screen(there, fit.white + fit.signature @ fit.theta, fit.signature)[0]
+        best = screen_beyond(fit, there)[0]
     return Outside(best.candidate.cause.title, best.gain, limit)
 
 

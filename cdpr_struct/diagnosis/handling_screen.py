@@ -1,7 +1,6 @@
 """Which handling error, if any, explains the residuals: hundreds of corrections at once on the static states."""
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from cdpr_struct.diagnosis.residuals import Setting, residuals
 from cdpr_struct.diagnosis.setting import make_setting
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import CdprError, InputError
-from cdpr_struct.measurement.campaign import CableFrequencies, Campaign, RobotFrequencies, States
+from cdpr_struct.measurement.campaign import Campaign, States
 
 MARGIN = 8.0  # nats that a correction must bring beyond the logarithm of the number of alternatives
 _WORTH = 20.0  # decrease of chi^2 on the static states that makes a correction worth the full computation
@@ -50,7 +49,7 @@ def _worthwhile(campaign: Campaign) -> list[Correction]:
     held = np.flatnonzero(states.has_tension)
     if not held.size or not shown:
         return always + [c for c in shown if c.campaign.states.payload is not states.payload]
-    part = replace(campaign, states=_some(states, held), **_NO_FREQUENCIES)
+    part = campaign.with_states_only(_some(states, held))
     setting, _ = make_setting(part)
     world, readings = World.of(campaign.robot, held.size), Readings.of(part.states)
     null = null_model(setting, world, readings)
@@ -72,12 +71,6 @@ def _chi2_of(
         loaded = replace(setting, known=replace(setting.known, payload=load))
         chi2[own] = (null.white(residuals(loaded, world, stacked).T) ** 2).sum(axis=0)
     return chi2
-
-
-_NO_FREQUENCIES: dict[str, Any] = {
-    "cable_frequencies": CableFrequencies(*(np.zeros(0, dtype=t) for t in (int, int, int, bool, float, float))),
-    "robot_frequencies": RobotFrequencies(*(np.zeros(0, dtype=t) for t in (int, float, float))),
-}
 
 
 def _some(states: States, index: np.ndarray) -> States:

@@ -8,8 +8,6 @@ import numpy as np
 from cdpr_struct.diagnosis.planned_states import (
     ASIDE,
     LOADS,
-    NO_CABLES,
-    NO_ROBOT,
     RAISED,
     TILT,
     Proposal,
@@ -81,8 +79,7 @@ def _static(campaign: Campaign, family: str, places: list[Place], words: str) ->
             found.append((*place, held.tensions, held.lengths))
     if len(found) > 1:
         states = new_states(campaign, *(np.array(column) for column in zip(*found, strict=True)))
-        new = replace(campaign, states=states, cable_frequencies=NO_CABLES, robot_frequencies=NO_ROBOT, series=())
-        yield Proposal(family, words.format(count=len(found)), new)
+        yield Proposal(family, words.format(count=len(found)), campaign.with_states_only(states))
 
 
 def _clamped(campaign: Campaign, home: int) -> Iterator[Proposal]:

@@ -24,8 +24,6 @@ STEP_LOAD = 0.25
 CABLE_MODES = 4
 _SHARE = 0.003  # relative sigma of a frequency
 _LEAST = 0.02  # of the platform's weight: tension that every cable must have at a proposed pose
-NO_CABLES = CableFrequencies(*(np.zeros(0, dtype=t) for t in (int, int, int, bool, float, float)))
-NO_ROBOT = RobotFrequencies(*(np.zeros(0, dtype=t) for t in (int, float, float)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -130,8 +128,7 @@ def _static(
         return
     states = new_states(campaign, place[None], angles[None], np.array([load]), held.tensions[None], held.lengths[None])
     where = f"({', '.join(f'{v:.2f}' for v in place)}) m"
-    new = replace(campaign, states=states, cable_frequencies=NO_CABLES, robot_frequencies=NO_ROBOT, series=())
-    yield Proposal(family, words.format(place=where), new)
+    yield Proposal(family, words.format(place=where), campaign.with_states_only(states))
 
 
 def held_at(campaign: Campaign, place: np.ndarray, angles: np.ndarray, load: float) -> InverseSolution | None:
@@ -195,8 +192,7 @@ def locked(campaign: Campaign, home: int) -> Iterator[Proposal]:
     )  # fmt: skip
     shown = ", ".join(f"{w:g}" for w in loads)
     text = f"poses at locked lengths with {shown} kg, tracked to {1e3 * usual.position_m:g} mm"
-    bare = replace(campaign, states=new, cable_frequencies=NO_CABLES, robot_frequencies=NO_ROBOT, series=())
-    yield Proposal("locked", text, bare)
+    yield Proposal("locked", text, campaign.with_states_only(new))
 
 
 def _angles(turn: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cdpr_struct.diagnosis.evidence import Candidate, Choice
+from cdpr_struct.diagnosis.evidence import Candidate, Choice, Screened, screen
 from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
 from cdpr_struct.diagnosis.null_model import NullModel, relinearised
 from cdpr_struct.diagnosis.readings import Readings
@@ -156,6 +156,11 @@ def settled(ground: Ground, fit: Fit) -> Fit:
     there = replace(ground, setting=setting, null=null, offset=offset, strays=setting.strays)
     again = refit(there, fit.choices, fit.theta)
     return replace(again, gain=again.gain + fit.spread - STRAY_NATS * setting.strays, spread=fit.spread)
+
+
+def screen_beyond(fit: Fit, found: list[Candidate]) -> list[Screened]:
+    """Gain of each cause, with its signature in the fit's world, on top of the fit's own; best first."""
+    return screen(found, fit.white + fit.signature @ fit.theta, fit.signature)
 
 
 def _residuals(ground: Ground, picked: tuple[Choice, ...], theta: np.ndarray) -> np.ndarray:

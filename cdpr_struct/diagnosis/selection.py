@@ -7,9 +7,9 @@ from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.evidence import Choice, Screened, candidates, choices, screen
 from cdpr_struct.diagnosis.heldout import groups_of, weakest
-from cdpr_struct.diagnosis.refit import Fit, Ground, refit, settled
+from cdpr_struct.diagnosis.refit import Fit, Ground, refit, screen_beyond, settled
 from cdpr_struct.diagnosis.residuals import residuals
-from cdpr_struct.diagnosis.stray_peaks import SEVERAL, catching
+from cdpr_struct.diagnosis.stray_peaks import FEWER, SEVERAL, catching, strays_left
 
 NEAR = 12.0  # nats from the best at screening: refitted
 _ADEQUATE = 1e-3
@@ -20,7 +20,6 @@ _SETTLED_SHARE = 0.5  # of the best gain: large effects move frequencies past ea
 _HOPELESS = 2.0  # nats at screening below which a further cause is not refitted
 _HOLDS = 1.0  # nats that a further cause keeps whichever group of states is left out
 _BETTER = 0.5  # nats that make an exchange worth while
-_FEWER = 0.5  # stray peaks that make settling again worth while
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,7 +83,7 @@ def _screened(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None) 
         return screen(left, ground.z, np.hstack([c.signature for c in accepted]) if accepted else None)
     there = before.ground
     found = candidates(there.setting, before.world, there.readings, there.null, [c.cause for c in left])
-    return screen(found, before.white + before.signature @ before.theta, before.signature)
+    return screen_beyond(before, found)
 
 
 def _with_one_more(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None, more: Choice) -> Fit:
@@ -104,7 +103,7 @@ def _promising(ground: Ground, rows: list[Screened], further: bool) -> list[Scre
 
 def _caught(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None, rows: list[Screened]) -> list[Fit]:
     """Fits of causes whose large changes explain peaks that no mode explains yet."""
-    if (ground if before is None else before.ground).strays < SEVERAL or (accepted and before is None):
+    if strays_left(ground, before) < SEVERAL or (accepted and before is None):
         return []
     spread = {row.candidate.name: row.spread for row in rows}
     first, start = ((), np.zeros(0)) if before is None else (before.choices, before.theta)
@@ -112,7 +111,7 @@ def _caught(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None, ro
     for picked, theta in catching(ground, before, ground.budget):
         guess = Fit.guessed(ground, (*first, picked), np.concatenate([start, theta]), spread[picked.candidate.name])
         fits.append(settled(ground, guess))
-        while (again := settled(ground, fits[-1])).ground.strays < fits[-1].ground.strays - _FEWER:
+        while (again := settled(ground, fits[-1])).ground.strays < fits[-1].ground.strays - FEWER:
             fits.append(again)
     return fits
 

@@ -20,8 +20,13 @@ SEVERAL = 1.5  # expected strays from which large changes are tried
 _STEPS = (-2.5, -1.0, 1.0, 2.5)  # prior sigmas
 _MOVES = 4.0  # [%] by which the largest step must move a peak
 _SCALE = 2.5  # of the prior
-_FEWER = 0.5  # strays, by which a change must be better
+FEWER = 0.5  # strays, by which a change must be better
 _MOST_NUMBERS = 3  # that are tried one by one
+
+
+def strays_left(ground: Ground, fit: Fit | None) -> float:
+    """Expected number of stray peaks in the world of a fit, or of the null."""
+    return (ground if fit is None else fit.ground).strays
 
 
 def p_of_strays(strays: float, peaks: int) -> float:
@@ -40,9 +45,9 @@ def catching(ground: Ground, before: Fit | None, most: int) -> list[tuple[Choice
             tried = [choice(candidate, pattern, _SCALE) for pattern in candidate.patterns[:2]]
             trials = [_best_along(ground, world, picked, d) for picked in tried for d in _directions(picked)]
             found += [trials] if trials else []
-    left = (ground if before is None else before.ground).strays
+    left = strays_left(ground, before)
     first = sorted(found, key=lambda trials: min(map(_fewest, trials)))[:most]
-    return [(one.picked, one.theta) for trials in first for one in trials if one.strays < left - _FEWER]
+    return [(one.picked, one.theta) for trials in first for one in trials if one.strays < left - FEWER]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,7 +79,7 @@ def _best_along(ground: Ground, world: World, picked: Choice, direction: np.ndar
         if 1 < len(best.theta) <= _MOST_NUMBERS:
             steps += [sign * row / _SCALE for row in np.eye(len(best.theta)) for sign in (1.0, -1.0)]
         near = min((_trial(ground, world, picked, best.theta + step) for step in steps), key=_fewest)
-        if near.strays > best.strays - _FEWER:
+        if near.strays > best.strays - FEWER:
             break
         best = near
     return best

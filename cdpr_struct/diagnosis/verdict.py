@@ -11,7 +11,7 @@ from cdpr_struct.diagnosis.evidence import Choice
 from cdpr_struct.diagnosis.next_measurement import next_measurement
 from cdpr_struct.diagnosis.prepared import OUTSIDE, SIGNIFICANT
 from cdpr_struct.diagnosis.refit import Fit
-from cdpr_struct.diagnosis.stray_peaks import SEVERAL
+from cdpr_struct.diagnosis.stray_peaks import SEVERAL, strays_left
 
 LARGEST_CLASS = 4
 TEMPER = 0.7  # of the evidence between causes: the model of noise and tolerances is a model too
@@ -81,7 +81,7 @@ def _unknown_sentence(found: Diagnosis, place: str) -> str:
     text = f"Something is wrong in {place}, and no cause in the library explains it."
     if fit:
         text += f" The best candidate, {' with '.join(fit.names).replace('_', ' ')}, leaves a structured remainder."
-    strays = (fit.ground if fit else found.ground).strays
+    strays = strays_left(found.ground, fit)
     if strays > SEVERAL:
         text += f" {strays:.0f} of the robot's measured frequencies are none of the model's:"
         text += " a platform that flexes, a mode of the frame or false peaks would do that."
@@ -107,7 +107,7 @@ def location(found: Diagnosis) -> str:
         rows = labels.block == block
         lower = np.linalg.cholesky(null.covariance[np.ix_(rows, rows)])
         before, left = (float(z @ z) for z in np.linalg.solve(lower, np.stack([null.r, after])[:, rows].T).T)
-        score[block] = (before - (left if after.any() else rows.sum())) / np.sqrt(2.0 * rows.sum())
+        score[block] = (before - (left if explained else rows.sum())) / np.sqrt(2.0 * rows.sum())
     worst = max(score, key=lambda b: score[b])
     rows = np.flatnonzero(labels.block == worst)
     size = (np.abs(null.r) - np.abs(after))[rows] / np.sqrt(np.diagonal(null.covariance)[rows])

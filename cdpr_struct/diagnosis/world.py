@@ -5,6 +5,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from cdpr_struct.robot.extensions import KEYS, masts_of
+from cdpr_struct.robot.platform import is_inertia
 from cdpr_struct.robot.robot import Robot
 
 _CORE = {
@@ -122,10 +123,8 @@ class World:
         return replace(self, **picked) if picked else self
 
     def bodies_exist(self) -> np.ndarray:
-        """(...) whether there is a rigid body with this inertia: no principal moment above the sum of the others."""
-        moments = np.linalg.eigvalsh(self.inertia)
-        result: np.ndarray = (moments[..., 0] > 0.0) & (moments[..., 0] + moments[..., 1] >= moments[..., 2])
-        return result
+        """(...) whether there is a rigid body with this inertia."""
+        return is_inertia(np.linalg.eigvalsh(self.inertia))
 
     def is_batched(self, name: str) -> bool:
         """Whether the named field carries a batch axis."""

@@ -1,7 +1,7 @@
 """What was measured on a robot: states, readings, how sure they are, and the simulation they are held against."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -188,6 +188,12 @@ class Campaign:
     def cable_model(self) -> str:
         """How the simulation under test sees cables at rest: "spring" or "sagging"."""
         return "spring" if self.model == "spring" else "sagging"
+
+    def with_states_only(self, states: States) -> "Campaign":
+        """The same campaign of these states, without frequencies and signals."""
+        cables = CableFrequencies(*(np.zeros(0, dtype=t) for t in (int, int, int, bool, float, float)))
+        peaks = RobotFrequencies(*(np.zeros(0, dtype=t) for t in (int, float, float)))
+        return replace(self, states=states, cable_frequencies=cables, robot_frequencies=peaks, series=(), identified=())
 
     def kinds(self) -> list[str]:
         """Kinds of data that the campaign holds, in the fixed order."""

@@ -52,13 +52,19 @@ class Platform:
         return replace(self, mass=mass)
 
 
+def is_inertia(moments: np.ndarray) -> np.ndarray:
+    """(...) whether principal moments (..., 3), ascending, are those of a body: none above the sum of the others."""
+    enough = moments[..., 0] + moments[..., 1] >= moments[..., 2] * (1.0 - 1e-9)
+    return np.asarray(enough & (moments[..., 0] > 0.0))
+
+
 def _check_inertia(inertia: np.ndarray) -> None:
     if not np.allclose(inertia, inertia.T, rtol=1e-9, atol=0.0):
         raise ValueError(f"Platform.inertia must be symmetric, got {inertia.tolist()}")
     principal = np.linalg.eigvalsh(inertia)
     if not principal[0] > 0.0:
         raise ValueError(f"Platform.inertia must be positive definite, principal moments are {principal.tolist()}")
-    if principal[0] + principal[1] < principal[2] * (1.0 - 1e-9):
+    if not is_inertia(principal):
         raise ValueError(
             "Platform.inertia breaks the triangle inequality of principal moments "
             f"(the two smaller must sum to at least the largest), they are {principal.tolist()}"

@@ -1,7 +1,7 @@
 """What a cause is: named parameters with priors, one function on worlds, and patterns of occurrence."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -103,11 +103,7 @@ class Cause:
             endings = list(self._carriers(setting))
         else:
             return self.parameters
-        return tuple(
-            Parameter(f"{p.name}_{ending}", p.unit, p.prior, p.ratio, p.squared, p.positive)
-            for ending in endings
-            for p in self.parameters
-        )
+        return tuple(replace(p, name=f"{p.name}_{ending}") for ending in endings for p in self.parameters)
 
     def _carriers(self, setting: Setting) -> dict[str, str]:
         """Ending of the parameter's name and words for each cable, or each group of cables."""
