@@ -22,6 +22,9 @@
 | remainder.py           | is what is left over still structured? laws outside the library                    |
 | setting.py             | from a campaign to the fixed part of its residuals                                 |
 | handling_screen.py     | which handling error, if any, explains the residuals?                              |
+| suspect_reading.py     | a single reading that contradicts all others, set aside                            |
+| wandering_noise.py     | noise of a sensor that is remembered from one reading to the next                  |
+| handled_data.py        | what is wrong with the data rather than the robot, in order                        |
 | heldout.py             | does the cause predict states and kinds of data that it was not fitted to?         |
 | simulation_error.py    | what the user sees: simulated minus measured, in his units                         |
 | verdict.py             | the sentence and the result                                                        |

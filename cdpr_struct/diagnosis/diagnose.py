@@ -1,37 +1,37 @@
 """The whole diagnosis of a campaign: significance, handling of the data, causes, held-out gain."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.causes.handling import Correction
-from cdpr_struct.diagnosis.evidence import choices, largest_gains, screen
-from cdpr_struct.diagnosis.handling_screen import best_correction
+from cdpr_struct.diagnosis.evidence import Screened, choices, largest_gains, screen
+from cdpr_struct.diagnosis.handled_data import handled
 from cdpr_struct.diagnosis.heldout import Held, groups_of, left_out, predicted, transfer, weakest
 from cdpr_struct.diagnosis.null_model import NullModel
 from cdpr_struct.diagnosis.prepared import (
     BUDGETS,
     DRAWS,
+    OUTSIDE,
     SEED,
     SIGNIFICANT,
     Budget,
     Prepared,
     p_of_noise,
-    prepare,
 )
 from cdpr_struct.diagnosis.refit import Fit, Ground, screen_beyond
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.selection import Selection, select
 from cdpr_struct.diagnosis.stray_peaks import p_of_strays, strays_left
+from cdpr_struct.diagnosis.suspect_reading import Suspect
 from cdpr_struct.measurement.campaign import Campaign
 
 FURTHER = 6.0  # nats that each further cause must bring
 NAMED = 5.0  # nats that a named cause must bring
 ADEQUATE = 1e-3
-_MOST_CORRECTIONS = 2
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,6 +40,7 @@ class Diagnosis:
 
     entered      : the null as entered with all frequencies counted;  ground : what hypotheses were judged on
     corrections  : handling errors and shortcuts found, in the order of their discovery, with their log evidence
+    aside        : single readings that contradict all others, their sigmas widened in all that follows
     selection    : physical causes on top of them;  p_value of the null as entered, p_value_left after corrections,
                    p_adequate of what was chosen
     weakest      : (causes,) nats that each keeps with the group left out that it needs most
@@ -52,6 +53,7 @@ class Diagnosis:
     entered_setting: Setting
     ground: Ground
     corrections: list[tuple[Correction, float]]
+    aside: list[Suspect]
     selection: Selection
     p_value: float
     p_value_left: float
@@ -70,11 +72,14 @@ class Outside:
 
     words, gain : the channel, and what it adds to the log evidence of the chosen causes, or of the null without any
     limit : what channels add to noise in one case of forty
+    one_law, instead : the law that stands best for several of the chosen causes, and its log evidence against them
     """
 
     words: str
     gain: float
     limit: float
+    one_law: str = ""
+    instead: float = -np.inf
 
 
 def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str], None] = lambda _: None) -> Diagnosis:
@@ -85,30 +90,21 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
     InputError : the campaign holds nothing that can be diagnosed.
     """
     plan = BUDGETS[budget]
-    progress("simulating what was measured")
-    entered = prepared = prepare(campaign, plan)
-    progress("checking units, signs and channels")
-    found: list[tuple[Correction, float]] = []
-    while prepared.p_value < SIGNIFICANT and len(found) < _MOST_CORRECTIONS:
-        better = best_correction(campaign, prepared.fine.level)
-        if better is None:
-            break
-        found.append(better)
-        campaign = better[0].campaign
-        prepared = prepare(campaign, plan)
+    data = handled(campaign, plan, progress)
+    prepared, entered, found = data.prepared, data.entered, data.corrections
     progress("fitting causes")
     selection = _selected(prepared, plan, bool(found))
     progress("predicting what was left out")
     ground, fit, groups = prepared.ground, selection.fit, groups_of(prepared.ground.setting)
     before = prepared.fine.r
     return Diagnosis(
-        campaign=campaign, entered=entered.fine, entered_setting=entered.ground.setting, ground=ground,
-        corrections=found, selection=selection, p_value=entered.p_value,
+        campaign=data.campaign, entered=entered.fine, entered_setting=entered.ground.setting, ground=ground,
+        corrections=found, aside=data.aside, selection=selection, p_value=entered.p_value,
         p_value_left=prepared.p_value,
         p_adequate=_p_adequate(ground, fit),
         weakest=weakest(fit, groups) if fit else np.zeros(0), held=left_out(fit, before, groups) if fit else None,
         fudge=_fudge(prepared, groups) if fit else None, transfer=transfer(fit, before) if fit else {},
-        outside=_outside(prepared, fit), not_testable=prepared.not_testable,
+        outside=_outside(prepared, selection), not_testable=prepared.not_testable,
     )  # fmt: skip
 
 
@@ -128,19 +124,30 @@ def _selected(prepared: Prepared, plan: Budget, corrected: bool) -> Selection:
     return selection
 
 
-def _outside(prepared: Prepared, fit: Fit | None) -> Outside:
-    """The best law outside the library on top of the chosen causes."""
-    ground = prepared.ground
+def _outside(prepared: Prepared, selection: Selection) -> Outside:
+    """The best law outside the library on top of the chosen causes, and instead of all or all but one of them."""
+    ground, fit = prepared.ground, selection.fit
     if not prepared.channels:
         return Outside("", -np.inf, np.inf)
     draws = np.random.default_rng(SEED + 1).standard_normal((len(ground.z), DRAWS))
     limit = float(np.quantile(largest_gains(prepared.channels, draws), 0.975))
+    alone = screen(prepared.channels, ground.z)[0]
     if fit is None:
-        best = screen(prepared.channels, ground.z)[0]
-    else:
-        there = channels(fit.ground.setting, fit.world, ground.readings, fit.ground.null)
-        best = screen_beyond(fit, there)[0]
-    return Outside(best.candidate.cause.title, best.gain, limit)
+        return Outside(alone.candidate.cause.title, alone.gain, limit)
+    best = _beyond(fit)
+    on_top = Outside(best.candidate.cause.title, best.gain, limit)
+    if len(fit.names) == 1:
+        return on_top
+    others = [(alone, FURTHER)]
+    others += [(_beyond(one), one.gain) for one in selection.first if one.names[0] in fit.names]
+    law, kept = max(others, key=lambda other: other[0].gain + other[1])
+    return replace(on_top, instead=law.gain + kept + OUTSIDE - fit.gain, one_law=law.candidate.cause.title)
+
+
+def _beyond(fit: Fit) -> Screened:
+    """The best law outside the library on top of a fit."""
+    ground = fit.ground
+    return screen_beyond(fit, channels(ground.setting, fit.world, ground.readings, ground.null))[0]
 
 
 def _fudge(prepared: Prepared, groups: np.ndarray) -> Held:

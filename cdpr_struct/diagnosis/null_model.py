@@ -11,6 +11,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, residuals
+from cdpr_struct.diagnosis.wandering_noise import remembered, runs
 from cdpr_struct.diagnosis.world import World
 
 STEP = 0.1  # of a sigma
@@ -120,7 +121,19 @@ def null_model(setting: Setting, world: World, readings: Readings, extra: np.nda
     tolerance = (moved - base).T / STEP
     more = np.zeros((len(base), 0)) if extra is None else np.diag(extra)
     columns = np.concatenate([noise, tolerance, _own_noise(setting), more], axis=1)
-    return NullModel(r, columns, np.linalg.cholesky(columns @ columns.T))
+    return NullModel(r, columns, _lower(setting, columns))
+
+
+def _lower(setting: Setting, columns: np.ndarray) -> np.ndarray:
+    """(n, n) Cholesky factor of the covariance, the memory of the sensors' noise included."""
+    mixed = remembered(columns, sensors(setting), setting.campaign.memory)
+    return np.linalg.cholesky(mixed @ mixed.T)
+
+
+def sensors(setting: Setting) -> list[np.ndarray]:
+    """Numbers of the columns of a null that are readings of one sensor, in order."""
+    start = reading_count(setting) + tolerance_count(setting)
+    return runs(setting.campaign.states, setting.campaign.cable_frequencies, start)
 
 
 def _reading_columns(setting: Setting, world: World, readings: Readings, base: np.ndarray) -> np.ndarray:
@@ -203,7 +216,7 @@ def null_with_bending(
     missed = np.abs(moved - u @ null.columns[:, : noise + tolerance].T)
     extra = np.sqrt((np.minimum(missed, _WILD * np.median(missed, axis=0)) ** 2).mean(axis=0))
     columns = np.concatenate([null.columns, np.diag(extra)], axis=1)
-    return NullModel(null.r, columns, np.linalg.cholesky(columns @ columns.T)), extra
+    return NullModel(null.r, columns, _lower(setting, columns)), extra
 
 
 def likeliest_tolerances(setting: Setting, null: NullModel) -> np.ndarray:

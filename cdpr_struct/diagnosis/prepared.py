@@ -20,13 +20,13 @@ from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
-from cdpr_struct.diagnosis.setting import anchored, make_setting, with_equilibria
+from cdpr_struct.diagnosis.setting import anchored, make_setting, paired_with, with_equilibria
 from cdpr_struct.diagnosis.stray_peaks import SEVERAL, p_of_strays
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
 
-SIGNIFICANT = 0.04
+SIGNIFICANT = 0.02
 SEED = 20240229
 DRAWS = 1000
 OUTSIDE = -2.0  # ln prior of a law outside the library, beside that of a cause
@@ -96,7 +96,7 @@ def _ground(setting: Setting, near: Setting, world: World, fine: NullModel, extr
     readings = Readings.of(setting.campaign.states)
     u = likeliest_tolerances(near, fine)
     likeliest = tolerated(setting, world, u)
-    setting = with_equilibria(setting, likeliest)
+    setting = paired_with(with_equilibria(setting, likeliest), likeliest, wary=setting is not near)
     null, offset = relinearised(setting, likeliest, readings, extra, u)
     level, strays = null.level, 0.0
     if setting.campaign.robot_frequencies.hertz.size:

@@ -143,9 +143,10 @@ def _of_tensions(parts: _Parts) -> Iterator[Channel]:
     bent = [np.einsum("nsm,sm->n", effect, parts.pull**p)[:, None] for p in (2, 3)]
     own = [np.einsum("nsm,sm->nm", effect, parts.pull**p) for p in (2, 3)]
     cross = np.einsum("nsm,sj->nmj", effect, parts.pull + 1.0)
+    curved = [np.einsum("nsm,sm->n", effect, (parts.pull + 1.0) ** p)[:, None] for p in (2, 3)]  # right at zero
     others = ~np.eye(parts.m, dtype=bool)
     ring = [np.einsum("nsm,sm->n", effect, np.roll(parts.pull + 1.0, k, axis=1))[:, None] for k in (1, -1)]
-    found = [np.hstack(bent), np.hstack(own), cross[:, others], *ring]
+    found = [np.hstack(bent), np.hstack(own), cross[:, others], *ring, *curved]
     yield Channel("tension_law", "the load cells: a law other than gain and zero", found)
     if np.any(parts.approach):
         signed = np.einsum("nsm,sm->nm", effect, parts.approach)

@@ -12,6 +12,7 @@ from cdpr_struct.diagnosis.residuals import residuals
 from cdpr_struct.diagnosis.stray_peaks import FEWER, SEVERAL, catching, strays_left
 
 NEAR = 12.0  # nats from the best at screening: refitted
+_NEAR_SHARE = 0.2  # of the best gain, which screening misjudges by a share where effects are large
 _ADEQUATE = 1e-3
 _LARGE = 150.0  # chi^2 beyond its mean from which small steps do not tell enough
 _LARGE_STEPS = np.array([-2.5, -1.0, 1.0, 2.5])  # prior sigmas
@@ -47,25 +48,31 @@ class Search:
         """Refits of accepted causes plus one more, best first; causes far from the best at screening are left out."""
         key = _key(accepted)
         if key not in self._known:
-            self._known[key] = _ranked(self.ground, accepted, self._fits.get(key))
+            self._known[key] = _ranked(self.ground, self._fitted(accepted))
             self._fits |= {_key(fit.choices): fit for fit in self._known[key]}
         return self._known[key]
+
+    def _fitted(self, accepted: tuple[Choice, ...]) -> Fit | None:
+        key = _key(accepted)
+        if accepted and key not in self._fits:
+            self._fits[key] = settled(self.ground, refit(self.ground, accepted))
+        return self._fits.get(key)
 
 
 def _key(picked: tuple[Choice, ...]) -> tuple[tuple[str, str, float], ...]:
     return tuple(sorted((c.candidate.name, c.pattern.label, c.scale) for c in picked))
 
 
-def _ranked(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None) -> list[Fit]:
-    """Refits of accepted causes, fitted `before`, and one more; best first."""
-    rows = _screened(ground, accepted, before)
-    caught = _caught(ground, accepted, before, rows)
-    if accepted and rows[0].gain < _HOPELESS and not caught:
+def _ranked(ground: Ground, before: Fit | None) -> list[Fit]:
+    """Refits of the causes of a fit and one more, or of one alone; best first."""
+    rows = _screened(ground, before)
+    caught = _caught(ground, before, rows)
+    if before is not None and rows[0].gain < _HOPELESS and not caught:
         return []
     fits = []
-    for row in _promising(ground, rows, bool(accepted)):
+    for row in _promising(ground, rows, before is not None):
         for choice in _worth_trying(row):
-            fit = _with_one_more(ground, accepted, before, choice)
+            fit = refit(ground, (choice,)) if before is None else _with_one_more(before, choice)
             fits.append(replace(fit, gain=fit.gain + row.spread, spread=row.spread))
     if ground.level != ground.null.level:
         fits = caught + _settled(ground, sorted(fits, key=lambda fit: -fit.gain))
@@ -75,35 +82,33 @@ def _ranked(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None) ->
     return list(alone.values())
 
 
-def _screened(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None) -> list[Screened]:
-    """Gains of further causes on top of accepted ones; linearised where these are, if they are large."""
-    taken = {c.candidate.name for c in accepted}
-    left = [c for c in ground.candidates if c.name not in taken]
-    if before is None or before.gain < _LARGE:
-        return screen(left, ground.z, np.hstack([c.signature for c in accepted]) if accepted else None)
-    there = before.ground
-    found = candidates(there.setting, before.world, there.readings, there.null, [c.cause for c in left])
-    return screen_beyond(before, found)
+def _screened(ground: Ground, before: Fit | None) -> list[Screened]:
+    """Gains of causes; of further ones in the world of the fit.
+
+    Seen from the world as entered, peaks that the fitted causes move past others look like further causes.
+    """
+    if before is None:
+        return screen(ground.candidates, ground.z)
+    left, there = [c.cause for c in ground.candidates if c.name not in before.names], before.ground
+    return screen_beyond(before, candidates(there.setting, before.world, there.readings, there.null, left))
 
 
-def _with_one_more(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None, more: Choice) -> Fit:
-    if before is None or before.gain < _LARGE:
-        return refit(ground, (*accepted, more))
+def _with_one_more(before: Fit, more: Choice) -> Fit:
     return refit(before.ground, (*before.choices, more), np.concatenate([before.theta, np.zeros(len(more.prior))]))
 
 
 def _promising(ground: Ground, rows: list[Screened], further: bool) -> list[Screened]:
     """Near the best, and the best few: what looks far off at first sight may come near when refitted."""
-    near = [row for row in rows if row.gain > rows[0].gain - NEAR]
+    near = [row for row in rows if row.gain > rows[0].gain - max(NEAR, _NEAR_SHARE * rows[0].gain)]
     chosen = {row.candidate.name: row for row in [*rows[: ground.budget], *near[: 2 * ground.budget]]}
     if not further and float(ground.z @ ground.z) > len(ground.z) + _LARGE:
         chosen |= {row.candidate.name: row for row in _by_large_steps(ground, rows)[: ground.budget]}
     return list(chosen.values())
 
 
-def _caught(ground: Ground, accepted: tuple[Choice, ...], before: Fit | None, rows: list[Screened]) -> list[Fit]:
+def _caught(ground: Ground, before: Fit | None, rows: list[Screened]) -> list[Fit]:
     """Fits of causes whose large changes explain peaks that no mode explains yet."""
-    if strays_left(ground, before) < SEVERAL or (accepted and before is None):
+    if strays_left(ground, before) < SEVERAL:
         return []
     spread = {row.candidate.name: row.spread for row in rows}
     first, start = ((), np.zeros(0)) if before is None else (before.choices, before.theta)

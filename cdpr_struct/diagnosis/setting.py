@@ -116,12 +116,12 @@ def anchored(setting: Setting, world: World) -> Setting:
     return paired_with(with_equilibria(setting, world), world)
 
 
-def paired_with(setting: Setting, world: World) -> Setting:
-    """The same residuals with robot frequencies paired with the exact modes of a world."""
+def paired_with(setting: Setting, world: World, wary: bool = False) -> Setting:
+    """The same residuals with robot frequencies paired with the exact modes of a world, which may be far from true."""
     states = setting.campaign.robot_frequencies.state
     if not states.size:
         return setting
-    return with_robot_rows(setting, model_modes(setting, world, _points(setting, world, states)), wary=False)
+    return with_robot_rows(setting, model_modes(setting, world, _points(setting, world, states)), wary)
 
 
 def with_equilibria(setting: Setting, world: World) -> Setting:
@@ -167,7 +167,8 @@ def _labels(setting: Setting) -> Labels:
 
     add("EQ", setting.held, [-1] * 6)
     add("CO", setting.held[setting.with_length], list(range(m)))
-    add("NS", setting.held[~setting.with_length], [-1] * setting.sent.null_space.shape[-1])
+    if setting.sent.null_space.any():
+        add("NS", setting.held[~setting.with_length], [-1] * setting.sent.null_space.shape[-1])
     add("LP", setting.locked, [-1] * 6)
     for i, c in zip(setting.cable_rows.state, setting.cable_rows.cable, strict=True):
         add("CF", np.array([i]), [int(c)])

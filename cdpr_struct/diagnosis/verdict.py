@@ -12,6 +12,7 @@ from cdpr_struct.diagnosis.next_measurement import next_measurement
 from cdpr_struct.diagnosis.prepared import OUTSIDE, SIGNIFICANT
 from cdpr_struct.diagnosis.refit import Fit
 from cdpr_struct.diagnosis.stray_peaks import SEVERAL, strays_left
+from cdpr_struct.diagnosis.suspect_reading import in_words
 
 LARGEST_CLASS = 4
 TEMPER = 0.7  # of the evidence between causes: the model of noise and tolerances is a model too
@@ -19,6 +20,7 @@ CREDIBLE = 0.95  # probability that a class holds together
 CONFIRMED = 1.0  # nats that a cause keeps whichever group of states is left out, or it is not named
 UNCONFIRMED = 0.6  # largest probability of a cause that hangs on one group of states
 _LEFT = 4.0  # nats that a law outside the library must add to them
+_INSTEAD = 3.0  # nats that one such law must bring more than several causes in its place
 _PRIOR_OUTSIDE = -4.6  # ln prior of the best channel, one in fourteen of one in seven, beside that of no further cause
 _PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
@@ -45,8 +47,9 @@ def verdict(found: Diagnosis) -> Verdict:
     """What to tell the user."""
     if found.p_value >= SIGNIFICANT:
         text = "Nothing significant: simulation and measurements agree within their uncertainty"
-        text += f" (p = {found.p_value:.2g})."
-        return Verdict("adequate", (), (), 0.99, "", "", text)
+        text += f" (p = {found.p_value:.2g})." + _aside(found)
+        again = "; ".join(f"read again {in_words(found.campaign, wrong)}" for wrong in found.aside)
+        return Verdict("adequate", (), (), 0.99, "", again, text)
     fit, corrected = found.selection.fit, [c for c, _ in found.corrections]
     place = location(found)
     if is_unknown(found):
@@ -73,12 +76,15 @@ def is_unknown(found: Diagnosis) -> bool:
         return not found.corrections or found.p_value_left < ADEQUATE
     outside = found.outside
     structured = outside.gain > max(outside.limit, _LEFT)
-    return found.p_adequate < ADEQUATE or structured
+    return found.p_adequate < ADEQUATE or structured or outside.instead > _INSTEAD
 
 
 def _unknown_sentence(found: Diagnosis, place: str) -> str:
     fit, outside = found.selection.fit, found.outside
     text = f"Something is wrong in {place}, and no cause in the library explains it."
+    if outside.instead > _INSTEAD:
+        together = " and ".join(fit.names).replace("_", " ") if fit else ""
+        return f"{text} One law explains it better than {together} together: {outside.one_law}." + _aside(found)
     if fit:
         text += f" The best candidate, {' with '.join(fit.names).replace('_', ' ')}, leaves a structured remainder."
     strays = strays_left(found.ground, fit)
@@ -86,7 +92,14 @@ def _unknown_sentence(found: Diagnosis, place: str) -> str:
         text += f" {strays:.0f} of the robot's measured frequencies are none of the model's:"
         text += " a platform that flexes, a mode of the frame or false peaks would do that."
     clear = outside.gain + (0.0 if fit else OUTSIDE) > _LEFT
-    return text + (f" It looks like {outside.words}." if clear else "")
+    return text + (f" It looks like {outside.words}." if clear else "") + _aside(found)
+
+
+def _aside(found: Diagnosis) -> str:
+    """Which readings contradict all others, and whether their noise wanders."""
+    places = [f"{in_words(found.campaign, wrong)} (off by {wrong.sigmas:.0f} sigma)" for wrong in found.aside]
+    text = f" Set aside because it contradicts all other readings: {'; '.join(places)}." if places else ""
+    return text + (" The noise of the sensors wanders from reading to reading." if found.campaign.memory else "")
 
 
 def _confirmed(found: Diagnosis) -> bool:
@@ -140,7 +153,7 @@ def _probability(found: Diagnosis) -> float:
     for row in found.selection.rivals:
         for rival in row:
             gains.setdefault(rival.names, rival.gain)
-    beyond = fit.gain + outside.gain + _PRIOR_OUTSIDE
+    beyond = fit.gain + max(outside.gain + _PRIOR_OUTSIDE, outside.instead)
     classes = [_class(found, i) for i in range(len(fit.names))]
     answer = [gain for names, gain in gains.items() if _within(names, classes)]
     logs = np.array([0.0, beyond, *gains.values()])
@@ -176,7 +189,7 @@ def _sentence(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
             ratio = found.held.ratio(found.held.concerned)
             text += f"; what it concerns is predicted {ratio:.1f} times better in states that were not fitted"
         text += "."
-    return text
+    return text + _aside(found)
 
 
 def described(choice: Choice, theta: np.ndarray) -> str:

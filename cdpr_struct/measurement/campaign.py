@@ -166,6 +166,7 @@ class Campaign:
     stated : names of the tolerances that the file gives; the others are defaults
     checked : causes that a check beside the robot has bounded, with one sigma of what they may still be
     identified : modes found in the signals of `series`; those used are among `robot_frequencies`
+    memory : correlation of a sensor's noise in one state with that in the next, 0 for independent noise
     """
 
     source: str
@@ -183,6 +184,7 @@ class Campaign:
     tension_distribution: str = "minimum_norm"
     lower_bound: float = 0.0
     checked: Mapping[str, float] = field(default_factory=dict)
+    memory: float = 0.0
 
     @property
     def cable_model(self) -> str:

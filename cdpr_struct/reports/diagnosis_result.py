@@ -28,6 +28,14 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
             "probability": said.probability, "location": said.location, "next_measurement": said.next_measurement,
             "sentence": said.sentence,
         },
+        "set_aside": [
+            {
+                "kind": wrong.kind, "case": found.campaign.states.names[wrong.state], "cable": wrong.cable + 1,
+                "off_sigmas": wrong.sigmas, "log_evidence_gain": wrong.gain,
+            }
+            for wrong in found.aside
+        ],
+        "noise_memory": found.campaign.memory,
         "candidates": candidate_rows(found),
         "outside_library": {"law": found.outside.words, "log_evidence_gain": _number(found.outside.gain)},
         "gain": _gain(found),

@@ -1,0 +1,78 @@
+"""What is wrong with the data rather than the robot, found before any cause: handling, single readings, noise."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from cdpr_struct.diagnosis.causes.handling import Correction
+from cdpr_struct.diagnosis.evidence import screen
+from cdpr_struct.diagnosis.handling_screen import best_correction
+from cdpr_struct.diagnosis.null_model import sensors
+from cdpr_struct.diagnosis.prepared import OUTSIDE, SIGNIFICANT, Budget, Prepared, prepare
+from cdpr_struct.diagnosis.suspect_reading import Suspect, set_aside, suspect
+from cdpr_struct.diagnosis.wandering_noise import CLEAR, likeliest_memory
+from cdpr_struct.measurement.campaign import Campaign
+
+_MOST_CORRECTIONS = 2
+_MOST_ASIDE = 2
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Handled:
+    """A campaign as it should have been filed, ready for causes.
+
+    entered     : the null before any correction, single readings set aside and noise as it is
+    corrections : handling errors and shortcuts, in the order of their discovery, with their log evidence
+    aside       : single readings that contradict all others, their sigmas widened
+    """
+
+    campaign: Campaign
+    prepared: Prepared
+    entered: Prepared
+    corrections: list[tuple[Correction, float]] = field(default_factory=list)
+    aside: list[Suspect] = field(default_factory=list)
+
+
+def handled(campaign: Campaign, plan: Budget, progress: Callable[[str], None]) -> Handled:
+    """The campaign after everything that data alone explain; as it is if nothing is significant."""
+    progress("simulating what was measured")
+    first = prepare(campaign, plan)
+    data, again = Handled(campaign, first, first), True
+    progress("checking units, signs, channels and single readings")
+    while again and data.prepared.p_value < SIGNIFICANT:
+        data, again = _next(data, plan)
+    return data
+
+
+def _next(data: Handled, plan: Budget) -> tuple[Handled, bool]:
+    """The data with one more explanation, and whether there was one."""
+    ground, rival = data.prepared.ground, _best_law(data.prepared)
+    better, wrong = None, None
+    if len(data.corrections) < _MOST_CORRECTIONS:
+        better = best_correction(data.campaign, data.prepared.fine.level)
+    if len(data.aside) < _MOST_ASIDE:
+        wrong = suspect(ground)
+    if wrong is not None and wrong.gain > max(rival, better[1] if better else -np.inf):
+        return _repeated(replace(data, aside=[*data.aside, wrong]), set_aside(data.campaign, wrong), plan), True
+    if better is not None:
+        own = better[0].campaign
+        found = [*data.corrections, better]
+        return replace(data, campaign=own, prepared=prepare(own, plan), corrections=found), True
+    memory, gain = likeliest_memory(ground.null.columns, ground.null.r, sensors(ground.setting))
+    if not data.campaign.memory and gain > max(CLEAR, rival):
+        return _repeated(data, replace(data.campaign, memory=memory), plan), True
+    return data, False
+
+
+def _best_law(prepared: Prepared) -> float:
+    """Log evidence of the best cause, or law outside the library, at first sight."""
+    z = prepared.ground.z
+    inside = max((row.gain for row in screen(prepared.ground.candidates, z)), default=-np.inf)
+    return max(inside, max((row.gain + OUTSIDE for row in screen(prepared.channels, z)), default=-np.inf))
+
+
+def _repeated(data: Handled, campaign: Campaign, plan: Budget) -> Handled:
+    """The data with other sigmas or noise: what was entered is judged by them too, unless it was corrected already."""
+    prepared = prepare(campaign, plan)
+    return replace(data, campaign=campaign, prepared=prepared, entered=data.entered if data.corrections else prepared)
