@@ -41,38 +41,57 @@ def commanded(campaign: Campaign, held: np.ndarray) -> Commanded:
     q = max(m - 6, 0)
     shapes = ((m, q), (m,), (q, q), (q, 6))
     found = Commanded(*(np.zeros((len(held), *shape)) for shape in shapes))
-    turn, reference = Readings.of(states).rotation, np.zeros((m, q))
-    for k, i in enumerate(held):
-        if states.has_length[i] or not q:
-            continue
-        null = null_space(robot, states.position[i], turn[i])
-        reference = reference if reference.any() else null
-        solution = simulated(campaign, int(i), states.position[i], turn[i])
-        found.lengths[k] = solution.lengths
-        slope, bend = _pose_slope(campaign, int(i), states.position[i], turn[i])
-        taut = solution.tensions > _TAUT * robot.linear_density * robot.gravity * solution.lengths
-        if taut.all() and np.abs(null.T @ bend).max() < _MOST_BEND:
-            left, _, right = np.linalg.svd(null @ null.T @ reference, full_matrices=False)
-            found.null_space[k] = null
-            found.rate[k] = null.T @ (length_rate(solution.cables)[:, None] * (left @ right)) * np.sqrt(m)
-            found.slope[k] = null.T @ slope
+    turn = Readings.of(states).rotation
+    free = np.flatnonzero(~states.has_length[held]) if q else np.zeros(0, dtype=int)
+    if free.size:
+        reference = null_space(robot, states.position[held[free[0]]], turn[held[free[0]]])
+    for load in np.unique(states.payload[held[free]]):
+        own = free[states.payload[held[free]] == load]
+        around = _around(campaign, load, states.position[held[own]], turn[held[own]])
+        for k, near in zip(own, around, strict=True):
+            null = null_space(robot, states.position[held[k]], turn[held[k]])
+            found.lengths[k] = near.lengths
+            taut = near.tensions > _TAUT * robot.linear_density * robot.gravity * near.lengths
+            if taut.all() and np.abs(null.T @ near.bend).max() < _MOST_BEND:
+                left, _, right = np.linalg.svd(null @ null.T @ reference, full_matrices=False)
+                found.null_space[k] = null
+                found.rate[k] = null.T @ (near.rate[:, None] * (left @ right)) * np.sqrt(m)
+                found.slope[k] = null.T @ near.slope
     return found
 
 
-def simulated(campaign: Campaign, state: int, position: np.ndarray, rotation: np.ndarray) -> InverseSolution:
-    """The simulation's lengths and tensions at poses (...) with a state's payload."""
-    robot = campaign.robot.with_load(float(campaign.states.payload[state]))
+def simulated(campaign: Campaign, payload: float, position: np.ndarray, rotation: np.ndarray) -> InverseSolution:
+    """The simulation's lengths and tensions at poses (...) with a payload."""
+    robot = campaign.robot.with_load(float(payload))
     return inverse(robot, position, rotation, campaign.cable_model, lower_bound=campaign.lower_bound, allow_unheld=True)
 
 
-def _pose_slope(
-    campaign: Campaign, state: int, position: np.ndarray, rotation: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """(m, 6) change of the commanded lengths with the pose, and by how much (m, 6) it bends within `_REACH`."""
+@dataclass(frozen=True, slots=True, eq=False)
+class _Near:
+    """Commands at a pose: lengths, tensions and `length_rate` (m,), and how the lengths change with the pose.
+
+    slope (m, 6) : per metre and radian;  bend (m, 6) : by how much they bend within `_REACH`
+    """
+
+    lengths: np.ndarray
+    tensions: np.ndarray
+    rate: np.ndarray
+    slope: np.ndarray
+    bend: np.ndarray
+
+
+def _around(campaign: Campaign, payload: float, position: np.ndarray, rotation: np.ndarray) -> list[_Near]:
+    """At poses (k, 3), (k, 3, 3) with one payload."""
     steps = np.concatenate([np.zeros((1, 6)), *(s * np.eye(6) for s in (_STEP, -_STEP, _REACH, -_REACH))])
-    lengths = simulated(campaign, state, position + steps[:, :3], rotation_from_vector(steps[:, 3:]) @ rotation).lengths
-    middle, up, down, far, back = lengths[:1], *np.split(lengths[1:], 4)
-    return (up - down).T / (2.0 * _STEP), (far + back - 2.0 * middle).T
+    turned = rotation_from_vector(steps[:, 3:]) @ rotation[:, None]
+    solution = simulated(campaign, payload, position[:, None] + steps[:, :3], turned)
+    rates = length_rate(solution.cables)
+    found = []
+    for lengths, tensions, rate in zip(solution.lengths, solution.tensions, rates, strict=True):
+        middle, up, down, far, back = lengths[:1], *np.split(lengths[1:], 4)
+        slope, bend = (up - down).T / (2.0 * _STEP), (far + back - 2.0 * middle).T
+        found.append(_Near(lengths[0], tensions[0], rate[0], slope, bend))
+    return found
 
 
 def null_space(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> np.ndarray:
@@ -86,7 +105,7 @@ def null_space(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> np.n
 
 
 def length_rate(cables: CableStates) -> np.ndarray:
-    """(m,) change of unstrained length a newton of tension between fixed ends, sag as a parabola [m/N]."""
+    """(..., m) change of unstrained length a newton of tension between fixed ends, sag as a parabola [m/N]."""
     across = cables.weight * np.cos(cables.inclination) * cables.chord
     result: np.ndarray = -cables.chord * (1.0 / cables.axial_stiffness + across**2 / (12.0 * cables.tension**3))
     return result

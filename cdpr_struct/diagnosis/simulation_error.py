@@ -19,7 +19,7 @@ def tension_errors(setting: Setting) -> np.ndarray:
     readings, errors = Readings.of(campaign.states), np.full(campaign.states.tension.shape, np.nan)
     for i in np.flatnonzero(campaign.states.has_tension & campaign.states.static):
         robot = campaign.robot.with_load(float(campaign.states.payload[i]))
-        held = simulated(campaign, int(i), readings.position[i], readings.rotation[i])
+        held = simulated(campaign, campaign.states.payload[i], readings.position[i], readings.rotation[i])
         turns = exit_turns(robot, readings.position[i], readings.rotation[i])
         said = cell_reading(robot, held.tensions, campaign.states.approach[i], turns)
         errors[i] = campaign.states.tension[i] - said
