@@ -40,7 +40,7 @@ class Diagnosis:
 
     entered      : the null as entered with all frequencies counted;  ground : what hypotheses were judged on
     corrections  : handling errors and shortcuts found, in the order of their discovery, with their log evidence
-    aside        : single readings that contradict all others, their sigmas widened in all that follows
+    aside        : single readings that contradict all others, their sigmas widened if anything was significant
     selection    : physical causes on top of them;  p_value of the null as entered, p_value_left after corrections,
                    p_adequate of what was chosen
     weakest      : (causes,) nats that each keeps with the group left out that it needs most

@@ -35,14 +35,15 @@ class Handled:
 
 
 def handled(campaign: Campaign, plan: Budget, progress: Callable[[str], None]) -> Handled:
-    """The campaign after everything that data alone explain; as it is if nothing is significant."""
+    """The campaign after everything that data alone explain; where nothing is significant, a wrong reading is told."""
     progress("simulating what was measured")
     first = prepare(campaign, plan)
     data, again = Handled(campaign, first, first), True
     progress("checking units, signs, channels and single readings")
     while again and data.prepared.p_value < SIGNIFICANT:
         data, again = _next(data, plan)
-    return data
+    wrong = suspect(data.prepared.ground) if data.prepared.p_value >= SIGNIFICANT and not data.aside else None
+    return data if wrong is None else replace(data, aside=[wrong])
 
 
 def _next(data: Handled, plan: Budget) -> tuple[Handled, bool]:

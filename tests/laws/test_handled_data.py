@@ -68,6 +68,13 @@ def test_one_wrong_tension_is_found_and_set_aside(sigmas):
     assert in_words(campaign, wrong) == "the tension of cable 4 in case s2"
 
 
+def test_a_wrong_reading_is_told_where_nothing_is_significant():
+    campaign = with_tension(noisy(seed=1), 2, 3, 16.0)
+    assert prepare(campaign, SMALL).p_value > 0.02
+    (wrong,) = handled(campaign, SMALL, quiet).aside
+    assert (wrong.kind, wrong.state, wrong.cable) == ("tension", 2, 3)
+
+
 def test_a_wrong_length_and_a_wrong_frequency_are_found():
     campaign = noisy()
     length, hertz = campaign.states.length.copy(), campaign.cable_frequencies.hertz.copy()
