@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cdpr_struct.diagnosis.causes.handling import corrections
 from cdpr_struct.diagnosis.causes.registry import LIBRARY
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.evidence import candidates, choices
@@ -110,6 +111,14 @@ def test_compliances_in_line_are_one_class():
     campaign = hidden(lambda world: world.plus(series_compliance=np.full(8, 1e-5)))
     first, second = Search(ground_of(campaign, ["joint_compliance", "dead_length"])).rank()
     assert abs(first.gain - second.gain) < 3.0
+
+
+def test_every_two_static_poses_are_tried_as_exchanged():
+    """28 states are 378 pairs; the last two of them are tried as well."""
+    campaign = clean_campaign(28)
+    said = [c.sentence for c in corrections(campaign) if c.cause == "pose_mismatch"]
+    assert len(said) == 378 + 2
+    assert "the poses of cases s26 and s27 are exchanged" in said
 
 
 @pytest.mark.slow

@@ -14,7 +14,7 @@ from cdpr_struct.measurement.campaign import Campaign, States
 
 TENSION_UNITS = {"kgf": 9.80665, "lbf": 4.4482216, "kN": 1000.0, "daN": 10.0}
 LENGTH_UNITS = {"mm": 1e-3, "ft": 0.3048}
-PAIRS_OF_STATES = 200
+PAIRS_OF_STATES = 2000  # static ones: all of 63
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -129,8 +129,7 @@ def _exchanged_poses(campaign: Campaign) -> Iterator[Correction]:
         new = _with(campaign, position=states.position[order], angles=states.angles[order])
         says = f"the poses of the static states are shifted by {'one' if step > 0 else 'minus one'} row"
         yield Correction("pose_mismatch", says, new, parameters={"rows": step})
-    pairs = list(combinations(range(len(states.names)), 2))
-    for i, j in pairs[:PAIRS_OF_STATES]:
+    for i, j in list(combinations(rows.tolist(), 2))[:PAIRS_OF_STATES]:
         order = np.arange(len(states.names))
         order[[i, j]] = j, i
         new = _with(campaign, position=states.position[order], angles=states.angles[order])
