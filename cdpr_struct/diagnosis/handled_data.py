@@ -6,10 +6,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from cdpr_struct.diagnosis.causes.handling import Correction
-from cdpr_struct.diagnosis.evidence import screen
 from cdpr_struct.diagnosis.handling_screen import best_correction
 from cdpr_struct.diagnosis.null_model import sensors
-from cdpr_struct.diagnosis.prepared import OUTSIDE, SIGNIFICANT, Budget, Prepared, prepare
+from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, Prepared, prepare
 from cdpr_struct.diagnosis.suspect_reading import Suspect, set_aside, suspect
 from cdpr_struct.diagnosis.wandering_noise import CLEAR, likeliest_memory
 from cdpr_struct.measurement.campaign import Campaign
@@ -48,7 +47,7 @@ def handled(campaign: Campaign, plan: Budget, progress: Callable[[str], None]) -
 
 def _next(data: Handled, plan: Budget) -> tuple[Handled, bool]:
     """The data with one more explanation, and whether there was one."""
-    ground, rival = data.prepared.ground, _best_law(data.prepared)
+    ground, rival = data.prepared.ground, data.prepared.best
     better, wrong = None, None
     if len(data.corrections) < _MOST_CORRECTIONS:
         better = best_correction(data.campaign, data.prepared.fine.level)
@@ -64,13 +63,6 @@ def _next(data: Handled, plan: Budget) -> tuple[Handled, bool]:
     if not data.campaign.memory and gain > max(CLEAR, rival):
         return _repeated(data, replace(data.campaign, memory=memory), plan), True
     return data, False
-
-
-def _best_law(prepared: Prepared) -> float:
-    """Log evidence of the best cause, or law outside the library, at first sight."""
-    z = prepared.ground.z
-    inside = max((row.gain for row in screen(prepared.ground.candidates, z)), default=-np.inf)
-    return max(inside, max((row.gain + OUTSIDE for row in screen(prepared.channels, z)), default=-np.inf))
 
 
 def _repeated(data: Handled, campaign: Campaign, plan: Budget) -> Handled:

@@ -49,12 +49,14 @@ BUDGETS = {"small": Budget(24, 3), "full": Budget(200, 6, 3)}
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Prepared:
-    """Ground for hypotheses, null paired as if the entered world were right, channels, largest gains of null draws."""
+    """Ground for hypotheses, null paired as if the entered world were right, channels, and the largest log evidence of
+    any law: for the residuals (`best`), and for draws from the null (`gains`)."""
 
     ground: Ground
     fine: NullModel
     channels: list[Candidate]
     gains: np.ndarray
+    best: float
     p_value: float
     not_testable: dict[str, str]
 
@@ -109,7 +111,8 @@ def _ground(setting: Setting, near: Setting, world: World, fine: NullModel, extr
 def _judged(ground: Ground, fine: NullModel, outside: list[Candidate], not_testable: dict[str, str]) -> Prepared:
     draws = np.random.default_rng(SEED).standard_normal((len(ground.null.r), DRAWS))
     gains = _most(ground.candidates, outside, draws)
-    return Prepared(ground, fine, outside, gains, _significance(ground, outside, gains), not_testable)
+    best = float(_most(ground.candidates, outside, ground.z[:, None])[0])
+    return Prepared(ground, fine, outside, gains, best, _significance(ground, best, gains), not_testable)
 
 
 def _most(library: list[Candidate], outside: list[Candidate], draws: np.ndarray) -> np.ndarray:
@@ -136,9 +139,8 @@ def p_of_noise(null: NullModel, rows: np.ndarray | None = None) -> float:
     return float(chi2.sf(float(z @ z), len(z)))
 
 
-def _significance(ground: Ground, outside: list[Candidate], gains: np.ndarray) -> float:
+def _significance(ground: Ground, best: float, gains: np.ndarray) -> float:
     """p-value of the null: largest evidence of any law beside that of draws from the null, its chi^2, stray peaks."""
-    best = float(_most(ground.candidates, outside, ground.z[:, None])[0])
     tail = (1.0 + float((gains >= best).sum())) / (len(gains) + 1.0)
     if best > float(gains.max()):
         tail = min(tail, len(ground.candidates) * float(np.exp(-best)))
