@@ -11,20 +11,12 @@ from cdpr_struct.diagnosis.evidence import Screened, choices, largest_gains, scr
 from cdpr_struct.diagnosis.handled_data import handled
 from cdpr_struct.diagnosis.heldout import Held, groups_of, left_out, predicted, transfer, weakest
 from cdpr_struct.diagnosis.null_model import NullModel
-from cdpr_struct.diagnosis.prepared import (
-    BUDGETS,
-    DRAWS,
-    OUTSIDE,
-    SEED,
-    SIGNIFICANT,
-    Budget,
-    Prepared,
-    p_of_noise,
-)
+from cdpr_struct.diagnosis.prepared import BUDGETS, SIGNIFICANT, Budget, Prepared
 from cdpr_struct.diagnosis.refit import Fit, Ground, screen_beyond
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.selection import Selection, select
+from cdpr_struct.diagnosis.significance import DRAWS, OUTSIDE, SEED, p_of_noise
 from cdpr_struct.diagnosis.stray_peaks import p_of_strays, strays_left
 from cdpr_struct.diagnosis.suspect_reading import Suspect
 from cdpr_struct.measurement.campaign import Campaign

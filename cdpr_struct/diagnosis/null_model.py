@@ -60,13 +60,13 @@ class NullModel:
 def tolerance_count(setting: Setting) -> int:
     """How many numbers describe the tolerances."""
     m = setting.campaign.robot.platform_anchors.shape[0]
-    return 6 * m + m + 2 * (m + 1) + 1 + 3 + 3 + 2 * m + 1
+    return 6 * m + m + 2 * (m + 1) + 1 + 3 + 3 + 3 * m
 
 
 def tolerated(setting: Setting, world: World, u: np.ndarray) -> World:
     """World whose tolerances are u (..., t) sigmas off."""
     tol, m = setting.campaign.tolerances, world.cables
-    sizes = (3 * m, 3 * m, m, m, 1, m, 1, 1, 3, 3, m, m, 1)
+    sizes = (3 * m, 3 * m, m, m, 1, m, 1, 1, 3, 3, m, m, m)
     parts = np.split(u, np.cumsum(sizes)[:-1], axis=-1)
     lead, half = u.shape[:-1], np.sqrt(0.5)
     body = np.sqrt(np.diagonal(setting.campaign.robot.platform.inertia))

@@ -3,7 +3,6 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.causes.registry import causes_for, require_known
 from cdpr_struct.diagnosis.evidence import Candidate, candidates, choices, largest_gains
@@ -21,16 +20,13 @@ from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.setting import anchored, make_setting, paired_with, with_equilibria
+from cdpr_struct.diagnosis.significance import OUTSIDE, SEED, p_of_noise, p_of_null
 from cdpr_struct.diagnosis.stray_peaks import SEVERAL, p_of_strays
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
 
-SIGNIFICANT = 0.02
-SEED = 20240229
-DRAWS = 1000
-OUTSIDE = -2.0  # ln prior of a law outside the library, beside that of a cause
-_TAIL_SHARE, _NOISE_SHARE, _STRAY_SHARE = 0.75, 0.2, 0.05  # of the false alarms: largest evidence, chi^2, strays
+SIGNIFICANT = 0.03
 _NO_STRAY, _IMPROBABLE, _PROBABLE = 0.5, 1e-3, 0.05  # strays; p of robot frequencies paired freely, and as entered
 _VISIBLE = 2.0  # sigmas: a cause whose typical size changes nothing by more is not testable
 
@@ -49,13 +45,12 @@ BUDGETS = {"small": Budget(24, 3), "full": Budget(200, 6, 3)}
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Prepared:
-    """Ground for hypotheses, null paired as if the entered world were right, channels, and the largest log evidence of
-    any law: for the residuals (`best`), and for draws from the null (`gains`)."""
+    """Ground for hypotheses, null paired as if the entered world were right, channels, largest log evidence of any
+    law (`best`), p-value of the null."""
 
     ground: Ground
     fine: NullModel
     channels: list[Candidate]
-    gains: np.ndarray
     best: float
     p_value: float
     not_testable: dict[str, str]
@@ -109,16 +104,12 @@ def _ground(setting: Setting, near: Setting, world: World, fine: NullModel, extr
 
 
 def _judged(ground: Ground, fine: NullModel, outside: list[Candidate], not_testable: dict[str, str]) -> Prepared:
-    draws = np.random.default_rng(SEED).standard_normal((len(ground.null.r), DRAWS))
-    gains = _most(ground.candidates, outside, draws)
-    best = float(_most(ground.candidates, outside, ground.z[:, None])[0])
-    return Prepared(ground, fine, outside, gains, best, _significance(ground, best, gains), not_testable)
-
-
-def _most(library: list[Candidate], outside: list[Candidate], draws: np.ndarray) -> np.ndarray:
-    """(k,) largest evidence of any cause or channel for residuals (n, k)."""
-    gains = largest_gains(library, draws)
-    return np.maximum(gains, largest_gains(outside, draws) + OUTSIDE) if outside else gains
+    best = float(largest_gains(ground.candidates, ground.z[:, None])[0])
+    if outside:
+        best = max(best, float(largest_gains(outside, ground.z[:, None])[0]) + OUTSIDE)
+    strays = p_of_strays(ground.strays, len(ground.setting.robot_log))
+    p_value = p_of_null(ground.candidates, outside, ground.null, strays)
+    return Prepared(ground, fine, outside, best, p_value, not_testable)
 
 
 def _strength(candidate: Candidate) -> float:
@@ -128,21 +119,3 @@ def _strength(candidate: Candidate) -> float:
         if choice.scale == 1.0:
             best = max(best, float(np.linalg.norm(choice.signature, axis=0).max()))
     return best
-
-
-def p_of_noise(null: NullModel, rows: np.ndarray | None = None) -> float:
-    """Probability of a chi^2 at least as large as that of the null's residuals, or of some of their rows."""
-    if rows is None:
-        z = null.white(null.r)
-    else:
-        z = np.linalg.solve(np.linalg.cholesky(null.covariance[np.ix_(rows, rows)]), null.r[rows])
-    return float(chi2.sf(float(z @ z), len(z)))
-
-
-def _significance(ground: Ground, best: float, gains: np.ndarray) -> float:
-    """p-value of the null: largest evidence of any law beside that of draws from the null, its chi^2, stray peaks."""
-    tail = (1.0 + float((gains >= best).sum())) / (len(gains) + 1.0)
-    if best > float(gains.max()):
-        tail = min(tail, len(ground.candidates) * float(np.exp(-best)))
-    strays = p_of_strays(ground.strays, len(ground.setting.robot_log))
-    return min(1.0, tail / _TAIL_SHARE, p_of_noise(ground.null) / _NOISE_SHARE, strays / _STRAY_SHARE)

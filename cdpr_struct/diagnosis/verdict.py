@@ -9,8 +9,9 @@ import numpy as np
 from cdpr_struct.diagnosis.diagnose import ADEQUATE, NAMED, Diagnosis
 from cdpr_struct.diagnosis.evidence import Choice
 from cdpr_struct.diagnosis.next_measurement import next_measurement
-from cdpr_struct.diagnosis.prepared import OUTSIDE, SIGNIFICANT
+from cdpr_struct.diagnosis.prepared import SIGNIFICANT
 from cdpr_struct.diagnosis.refit import Fit
+from cdpr_struct.diagnosis.significance import OUTSIDE
 from cdpr_struct.diagnosis.stray_peaks import SEVERAL, strays_left
 from cdpr_struct.diagnosis.suspect_reading import in_words
 
@@ -98,7 +99,7 @@ def _unknown_sentence(found: Diagnosis, place: str) -> str:
 def _aside(found: Diagnosis) -> str:
     """Which readings contradict all others, and whether their noise wanders."""
     places = [f"{in_words(found.campaign, wrong)} (off by {wrong.sigmas:.0f} sigma)" for wrong in found.aside]
-    text = f" Set aside because it contradicts all other readings: {'; '.join(places)}." if places else ""
+    text = f" Contradicts all other readings: {'; '.join(places)}." if places else ""
     return text + (" The noise of the sensors wanders from reading to reading." if found.campaign.memory else "")
 
 

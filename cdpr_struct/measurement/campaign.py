@@ -27,7 +27,7 @@ class Tolerances:
     platform_mass_kg, center_of_mass_m, platform_inertia (relative)
     load_cell_gain       : relative;  load_cell_bias_N [N]
     damping              : relative
-    pulley_radius_m      : [m]
+    pulley_radius_m      : each pulley [m]
     """
 
     anchor_m: float = 0.001

@@ -116,7 +116,7 @@ def report(options: argparse.Namespace) -> int:
 
 def sizes(options: argparse.Namespace) -> int:
     """Measure the smallest detectable sizes of the robots named, or of all."""
-    write_table([options.robot] if options.robot else list(ROBOTS))
+    write_table([options.robot] if options.robot else list(ROBOTS), options.workers)
     return 0
 
 

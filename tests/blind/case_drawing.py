@@ -26,6 +26,7 @@ from tests.blind.measuring_plan import PlanSize, drawn_plan
 from tests.blind.note_errors import spoiled
 from tests.blind.observation import SlackStateError, observed
 from tests.blind.sensors import Noise, Tables, filed
+from tests.blind.true_robot import bare_inertia
 
 ROBOTS = ("thesis-3-1", "cogiro", "thesis-5", "thesis-5-pulleys")
 SHARES = (0.35, 0.25, 0.25, 0.15)
@@ -153,11 +154,14 @@ def _sized(
 
 
 def _refuse_impossible(robot: EnteredRobot, deviations: Deviations) -> None:
-    """No negative masses or radii."""
+    """No negative masses or radii, no moments of inertia that no body has."""
     radius = robot.pulley_radius
     if radius is not None and radius + deviations["pulley_radius"].min() < 0.01:
         raise RejectedDrawError
     if robot.mass + deviations["platform_mass"][0] < 0.5 * robot.mass:
+        raise RejectedDrawError
+    moments = np.linalg.eigvalsh(bare_inertia(robot, deviations))
+    if moments.max() > moments.sum() - moments.max():
         raise RejectedDrawError
 
 

@@ -10,9 +10,10 @@ import numpy as np
 from scipy.linalg import null_space
 from scipy.optimize import nnls
 
-from fem_reference import solve_robot
+from fem_reference import PulleyData, solve_robot
+from fem_reference.pulley import wrapped
 from tests.blind.deviations import Deviations
-from tests.blind.entered_robot import EnteredRobot
+from tests.blind.entered_robot import UP, EnteredRobot
 from tests.blind.true_robot import Command, true_robot
 
 SUSPENDED_BOUND = 70.0  # N
@@ -20,6 +21,7 @@ PRELOADED_BOUND = 150.0  # N, robots with exits below the platform
 BALANCE_WEIGHT = 1e4  # of the balance against the norm in the least-squares form
 ELEMENTS = 20
 ROUNDS = 8
+EXIT_ROUNDS = 12  # each a hundredfold nearer with pulleys of centimetres on cables of metres
 
 
 def lower_bound(robot: EnteredRobot) -> float:
@@ -27,10 +29,21 @@ def lower_bound(robot: EnteredRobot) -> float:
     return PRELOADED_BOUND if robot.frame_anchors[:, 2].min() < robot.home[2] else SUSPENDED_BOUND
 
 
+def exit_points(robot: EnteredRobot, anchors: np.ndarray) -> np.ndarray:
+    """Points (m, 3) [m] where straight, weightless cables to platform anchors (m, 3) leave the frame or its pulleys."""
+    if robot.pulley_radius is None:
+        return robot.frame_anchors
+    pulley, exits = PulleyData(robot.pulley_radius, UP), robot.frame_anchors
+    for _ in range(EXIT_ROUNDS):
+        pairs = zip(robot.frame_anchors, anchors - exits, strict=True)
+        exits = np.array([wrapped(pulley, entry, along, 0.0, np.zeros(3), 1.0).exit_point for entry, along in pairs])
+    return exits
+
+
 def structure_matrix(robot: EnteredRobot, position: np.ndarray, rotation: np.ndarray) -> np.ndarray:
     """Wrench (6, m) on the platform per unit tension of straight cables, moments about its origin."""
     arms = robot.platform_anchors @ rotation.T
-    chords = robot.frame_anchors - position - arms
+    chords = exit_points(robot, position + arms) - position - arms
     along = chords / np.linalg.norm(chords, axis=1)[:, None]
     return np.vstack([along.T, np.cross(arms, along).T])
 

@@ -1,17 +1,19 @@
-"""How large must an effect be to stand out of tolerances and noise? By the referee, for a typical plan of a robot.
+"""How large must an effect be to stand out of tolerances and noise? By the referee, for typical plans of a robot.
 
 Readings r (in units of their noise) scatter with covariance S = 1 + J J^T, where J holds the change of r by one
 sigma of each tolerance and of each length reading. A change d of the readings is then seen with
 sqrt(d^T S^-1 d) sigmas. A pattern of one number is found with power 0.8 at a false-alarm rate of 0.001 if it stands
 out by 4.1 of them; one of more numbers, all of which are to be found, by what a noncentral chi^2 of as many degrees of
-freedom asks (4.6 for 3, 5.1 for 6, 6.3 for 24). The products d_i^T S^-1 d_k of all effects are kept in
-`reference_sizes.npz`, so that every drawn pattern has its own size and its own distance from whatever else could
-explain it.
+freedom asks (4.6 for 3, 5.1 for 6, 6.3 for 24). The products d_i^T S^-1 d_k of all effects, averaged over plans of
+which only those peaks are read that somebody picks, are kept in `reference_sizes.npz`, so that every drawn pattern has
+its own size and its own distance from whatever else could explain it.
 """
 
 from __future__ import annotations
 
+from concurrent.futures import ProcessPoolExecutor
 from functools import cache
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -23,14 +25,14 @@ from tests.blind.deviations import NUMBERS_PER_CABLE, NUMBERS_PER_ROBOT, Deviati
 from tests.blind.entered_robot import EnteredRobot, entered_robot
 from tests.blind.measuring_plan import Plan, drawn_plan
 from tests.blind.observation import Observation, observed
-from tests.blind.sensors import CABLE_HZ, ROBOT_HZ, SIGMA, cell_readings, pose_readings
+from tests.blind.sensors import CABLE_HZ, PICKED, ROBOT_HZ, SIGMA, cell_readings, pose_readings
 from tests.blind.vibrations import CABLE_MODES, VISIBLE_SHARE
 
 TABLE = Path(__file__).with_name("reference_sizes.npz")
 FALSE_ALARMS, POWER = 1e-3, 0.8
 PLAUSIBLE = 0.2  # of the largest size of the catalogue: one sigma of what a rival may be
 ELEMENTS = 12
-PLAN_SEED = 1
+PLAN_SEEDS = (1, 2, 3, 4, 5)
 CELL_FIELDS = ("load_cell_gain", "load_cell_bias", "pulley_friction", "cell_quadratic", "cell_crosstalk")
 SENSOR_FIELDS = ("tracker_frame", *CELL_FIELDS)
 STEPS = {"temperature": 0.3, "external_force": 0.3, "hose_stiffness": 0.3, "internal_force": 0.3, "dead_length": 0.02}
@@ -43,16 +45,18 @@ STEP = 5e-5  # all others: m, rad, ratios
 class Sensitivity:
     """Changes of the readings of one robot and plan, in sigmas of their noise, by any field."""
 
-    def __init__(self, robot: EnteredRobot) -> None:
-        self.robot, self.exact = robot, Deviations.none(robot.cables)
+    def __init__(self, robot: EnteredRobot, plan_seed: int) -> None:
+        self.robot, self.exact, self.plan_seed = robot, Deviations.none(robot.cables), plan_seed
         self.plan = self._planned(self.exact)
         self.seen = observed(robot, self.exact, self.plan, ELEMENTS)
+        read = np.random.default_rng([plan_seed, 1]).random(self.seen.shares.shape) < PICKED
+        self.peaks = read & (self.seen.shares > VISIBLE_SHARE)
         self.start = self._readings(self.plan, self.seen, self.exact)
         self._kept: dict[str, np.ndarray] = {}
         self._white: dict[str, np.ndarray] = {}
 
     def _planned(self, deviations: Deviations) -> Plan:
-        return drawn_plan(self.robot, np.random.default_rng(PLAN_SEED), deviations)
+        return drawn_plan(self.robot, np.random.default_rng(self.plan_seed), deviations)
 
     def _readings(self, plan: Plan, seen: Observation, deviations: Deviations) -> np.ndarray:
         pose = np.repeat([SIGMA["position_m"], SIGMA["rotation_deg"]], 3)
@@ -61,7 +65,7 @@ class Sensitivity:
         pairs = zip(plan.statics, seen.statics, strict=True)
         parts += [cell_readings(deviations, command, rest) / SIGMA["tension_N"] for command, rest in pairs]
         parts += [np.log(seen.cable_hz).ravel() / CABLE_HZ]
-        return np.concatenate([*parts, np.log(seen.robot_hz)[self.seen.shares > VISIBLE_SHARE] / ROBOT_HZ])
+        return np.concatenate([*parts, np.log(seen.robot_hz)[self.peaks] / ROBOT_HZ])
 
     def of(self, name: str) -> np.ndarray:
         """Derivatives (readings, size) by a field, per unit."""
@@ -121,12 +125,12 @@ class Sensitivity:
         parts += [np.full(6 * len(lock), states + number) for number, lock in enumerate(self.plan.locks)]
         parts += [np.repeat(np.arange(states), self.robot.cables)]
         parts += [np.repeat(np.arange(measured), self.robot.cables * CABLE_MODES)]
-        return np.concatenate([*parts, np.nonzero(self.seen.shares > VISIBLE_SHARE)[0]])
+        return np.concatenate([*parts, np.nonzero(self.peaks)[0]])
 
 
-def measured_table(name: str) -> tuple[list[str], np.ndarray, np.ndarray]:
+def measured_table(name: str, plan_seed: int) -> tuple[list[str], np.ndarray, np.ndarray]:
     """Effect of each column, d^T S^-1 d of all columns (k, k), and that of the internal force by the cells (2, 2)."""
-    sensitivity = Sensitivity(entered_robot(name))
+    sensitivity = Sensitivity(entered_robot(name), plan_seed)
     without = "pulley_radius" if sensitivity.robot.pulley_radius is None else "frame_compliance"
     effects = [effect for effect in dict.fromkeys([*LIBRARY, *EQUIVALENT, *OUTSIDE]) if effect != without]
     alone = sensitivity.whitened("internal_force")
@@ -205,14 +209,17 @@ def sigmas_left(robot: str, effect: str, change: np.ndarray) -> float:
     return float(np.sqrt(max(min(left), 0.0)))
 
 
-def write_table(names: list[str]) -> None:
-    """Measure the robots named and store them beside the others."""
+def write_table(names: list[str], workers: int = 1) -> None:
+    """Measure the robots named, averaged over plans, and store them beside the others."""
     table: dict[str, np.ndarray] = {}
     if TABLE.exists():
         with np.load(TABLE) as kept:
             table = dict(kept.items())
-    for name in names:
-        labels, gram, internal = measured_table(name)
-        table |= {f"{name}/labels": np.array(labels), f"{name}/gram": gram.astype(np.float32)}
+    with ProcessPoolExecutor(workers) as pool:
+        measured = list(pool.map(measured_table, *zip(*product(names, PLAN_SEEDS), strict=True)))
+    for number, name in enumerate(names):
+        plans = measured[number * len(PLAN_SEEDS) : (number + 1) * len(PLAN_SEEDS)]
+        gram, internal = (np.mean([plan[part] for plan in plans], axis=0) for part in (1, 2))
+        table |= {f"{name}/labels": np.array(plans[0][0]), f"{name}/gram": gram.astype(np.float32)}
         table[f"{name}/internal"] = internal
     np.savez_compressed(TABLE, **table)

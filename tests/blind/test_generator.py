@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from fem_reference import robot_modes
+from tests.blind import case_drawing
 from tests.blind.campaign_files import opened_truth, write_case
 from tests.blind.case_drawing import Case, CaseKind, drawn_case, without_effect
 from tests.blind.catalogue import EQUIVALENT, HANDLING, LIBRARY, OUTSIDE, drawn_pattern
@@ -175,6 +176,16 @@ def test_masts_that_are_nearly_rigid_change_nothing_and_soft_ones_do():
     np.testing.assert_allclose(found[1e-11], found[0.0], rtol=1e-5)
     assert (found[1e-5] < found[0.0] * (1.0 + 1e-9)).all()
     assert found[1e-5][0] < 0.999 * found[0.0][0]
+
+
+def test_a_platform_that_cannot_exist_is_not_drawn():
+    """One moment of inertia larger than the sum of the others: no body has that."""
+    robot, exact = entered_robot("thesis-3-1"), Deviations.none(8)
+    case_drawing._refuse_impossible(robot, exact.plus("platform_inertia", np.array([0.3, 0.3, 0.3])))
+    moments = np.diagonal(robot.inertia)
+    too_large = np.log(1.01 * (moments[0] + moments[1]) / moments[2])
+    with pytest.raises(case_drawing.RejectedDrawError):
+        case_drawing._refuse_impossible(robot, exact.plus("platform_inertia", np.array([0.0, 0.0, too_large])))
 
 
 def test_full_suite_has_its_composition_and_an_order_that_tells_nothing():

@@ -60,10 +60,14 @@ def true_platform(robot: EnteredRobot, deviations: Deviations, payload: float, r
     points = np.vstack([center, np.zeros(3), robot.platform_anchors + _offsets(deviations, "platform")])
     whole = masses @ points / masses.sum()
     arms = points - whole
-    stretch = np.exp(0.5 * deviations["platform_inertia"])
-    inertia = robot.inertia * np.outer(stretch, stretch)
-    inertia = inertia + np.einsum("k,kab->ab", masses, _point_inertia(arms))
+    inertia = bare_inertia(robot, deviations) + np.einsum("k,kab->ab", masses, _point_inertia(arms))
     return PlatformData(float(masses.sum()), whole, inertia)
+
+
+def bare_inertia(robot: EnteredRobot, deviations: Deviations) -> np.ndarray:
+    """(3, 3) [kg m^2] of the platform alone about its centre of mass."""
+    stretch = np.exp(0.5 * deviations["platform_inertia"])
+    return np.asarray(robot.inertia * np.outer(stretch, stretch))
 
 
 def _point_inertia(arms: np.ndarray) -> np.ndarray:

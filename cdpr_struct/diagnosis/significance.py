@@ -1,0 +1,85 @@
+"""Is anything wrong at all? Every law at once, each as large as it must be to be just seen.
+
+How large a cause is when it occurs, its prior says; whether something is there should not depend on it. Here each
+pattern of a cause is given the size that stands out of noise and tolerances by a few sigmas, in any direction that it
+can show. The mean over directions, patterns, causes and channels is one likelihood ratio against the null, the most
+powerful test for a law drawn so. Draws from the null say how large it gets by chance.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.special import log_ndtr, logsumexp
+from scipy.stats import chi2
+
+from cdpr_struct.diagnosis.causes.cause import SCALES, Pattern
+from cdpr_struct.diagnosis.evidence import Candidate
+from cdpr_struct.diagnosis.null_model import NullModel
+
+OUTSIDE = -2.0  # ln prior of a law outside the library, beside that of a cause
+SEED = 20240229
+DRAWS = 1000
+_JUST_SEEN = 3.0  # sigmas
+_SHOWN = 1.0  # sigmas by which a large occurrence must show in a direction
+_LAW_SHARE, _NOISE_SHARE, _STRAY_SHARE = 0.9, 0.08, 0.02  # of the false alarms: laws, chi^2, stray peaks
+
+
+def p_of_null(library: list[Candidate], outside: list[Candidate], null: NullModel, p_strays: float) -> float:
+    """p-value of the null: likelihood ratio of any law beside that of draws, its chi^2, stray peaks."""
+    draws = np.random.default_rng(SEED).standard_normal((len(null.r), DRAWS))
+    ratio = float(log_ratio(library, outside, null.white(null.r)[:, None])[0])
+    chance = log_ratio(library, outside, draws)
+    p_laws = (1.0 + float((chance >= ratio).sum())) / (DRAWS + 1.0)
+    if ratio > chance.max():
+        p_laws = min(p_laws, float(np.exp(-ratio)))  # no likelihood ratio is above e^x more often than e^-x
+    return min(1.0, p_laws / _LAW_SHARE, p_of_noise(null) / _NOISE_SHARE, p_strays / _STRAY_SHARE)
+
+
+def log_ratio(library: list[Candidate], outside: list[Candidate], z: np.ndarray) -> np.ndarray:
+    """(k,) logarithm of the likelihood ratio of any law against the null, for whitened residuals z (n, k)."""
+    logs, weights = [], []
+    for candidate, weight in [(c, 0.0) for c in library] + [(c, OUTSIDE) for c in outside]:
+        log = _of_law(candidate, z)
+        if log is not None:
+            logs.append(log)
+            weights.append(weight)
+    return _mean(logs, weights) if logs else np.zeros(z.shape[1])
+
+
+def _mean(logs: list[np.ndarray], weights: list[float]) -> np.ndarray:
+    """Logarithm (k,) of a weighted mean, from logarithms of values (k,) and weights."""
+    result: np.ndarray = logsumexp(np.array(logs) + np.array(weights)[:, None], axis=0) - logsumexp(weights)
+    return result
+
+
+def _of_law(candidate: Candidate, z: np.ndarray) -> np.ndarray | None:
+    """(k,) of one cause or channel over its patterns; None if it shows in none."""
+    gram, b = candidate.signature.T @ candidate.signature, candidate.signature.T @ z
+    found = list(_of_patterns(candidate.patterns, gram, b))
+    return _mean([log for _, log in found], [float(np.log(pattern.weight)) for pattern, _ in found]) if found else None
+
+
+def _of_patterns(patterns: list[Pattern], gram: np.ndarray, b: np.ndarray) -> Iterator[tuple[Pattern, np.ndarray]]:
+    """(k,) of each pattern that shows, from G'G (d0, d0) and G'z (d0, k) of the basic parameters."""
+    for pattern in patterns:
+        basis = pattern.basis * pattern.prior
+        values, vectors = np.linalg.eigh(basis.T @ gram @ basis)
+        shown = max(SCALES) ** 2 * values > _SHOWN**2
+        if not shown.any():
+            continue
+        along = (vectors[:, shown].T @ (basis.T @ b)) / np.sqrt(values[shown])[:, None]
+        variance = _JUST_SEEN**2 / len(along)
+        log = 0.5 * (variance / (1.0 + variance) * (along**2).sum(axis=0) - len(along) * np.log1p(variance))
+        if len(basis.T) == 1 and pattern.parameters[0].positive:
+            sign = vectors[0, 0]  # what explains z has the sign of -G'z
+            log = log + log_ndtr(-sign * along[0] * np.sqrt(variance / (1.0 + variance))) + np.log(2.0)
+        yield pattern, log
+
+
+def p_of_noise(null: NullModel, rows: np.ndarray | None = None) -> float:
+    """Probability of a chi^2 at least as large as that of the null's residuals, or of some of their rows."""
+    if rows is None:
+        z = null.white(null.r)
+    else:
+        z = np.linalg.solve(np.linalg.cholesky(null.covariance[np.ix_(rows, rows)]), null.r[rows])
+    return float(chi2.sf(float(z @ z), len(z)))
