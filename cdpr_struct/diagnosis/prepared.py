@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.diagnosis.causes.registry import causes_for, require_known
-from cdpr_struct.diagnosis.evidence import Candidate, candidates, choices, largest_gains
+from cdpr_struct.diagnosis.evidence import Candidate, candidates, choices, largest_gains, screen
 from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
 from cdpr_struct.diagnosis.null_model import (
     NullModel,
@@ -21,12 +21,12 @@ from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.setting import anchored, make_setting, paired_with, with_equilibria
 from cdpr_struct.diagnosis.significance import OUTSIDE, SEED, p_of_noise, p_of_null
-from cdpr_struct.diagnosis.stray_peaks import SEVERAL, p_of_strays
+from cdpr_struct.diagnosis.stray_peaks import ONE, SEVERAL, caught, p_of_strays
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
 
-SIGNIFICANT = 0.03
+SIGNIFICANT = 0.04
 _NO_STRAY, _IMPROBABLE, _PROBABLE = 0.5, 1e-3, 0.05  # strays; p of robot frequencies paired freely, and as entered
 _VISIBLE = 2.0  # sigmas: a cause whose typical size changes nothing by more is not testable
 
@@ -107,9 +107,18 @@ def _judged(ground: Ground, fine: NullModel, outside: list[Candidate], not_testa
     best = float(largest_gains(ground.candidates, ground.z[:, None])[0])
     if outside:
         best = max(best, float(largest_gains(outside, ground.z[:, None])[0]) + OUTSIDE)
+    return Prepared(ground, fine, outside, best, _p_value(ground, outside), not_testable)
+
+
+def _p_value(ground: Ground, outside: list[Candidate]) -> float:
+    """Of the null; by large changes that explain a stray peak only where nothing else is significant."""
     strays = p_of_strays(ground.strays, len(ground.setting.robot_log))
     p_value = p_of_null(ground.candidates, outside, ground.null, strays)
-    return Prepared(ground, fine, outside, best, p_value, not_testable)
+    if p_value < SIGNIFICANT or ground.strays < ONE:
+        return p_value
+    spread = {row.candidate.name: row.spread for row in screen(ground.candidates, ground.z)}
+    large = max((fit.gain for fit in caught(ground, None, spread)), default=-np.inf)
+    return p_of_null(ground.candidates, outside, ground.null, strays, large)
 
 
 def _strength(candidate: Candidate) -> float:

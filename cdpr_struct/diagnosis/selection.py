@@ -9,7 +9,7 @@ from cdpr_struct.diagnosis.evidence import Choice, Screened, candidates, choices
 from cdpr_struct.diagnosis.heldout import groups_of, weakest
 from cdpr_struct.diagnosis.refit import Fit, Ground, refit, screen_beyond, settled
 from cdpr_struct.diagnosis.residuals import residuals
-from cdpr_struct.diagnosis.stray_peaks import FEWER, SEVERAL, catching, strays_left
+from cdpr_struct.diagnosis.stray_peaks import caught
 
 NEAR = 12.0  # nats from the best at screening: refitted
 _NEAR_SHARE = 0.2  # of the best gain, which screening misjudges by a share where effects are large
@@ -66,8 +66,8 @@ def _key(picked: tuple[Choice, ...]) -> tuple[tuple[str, str, float], ...]:
 def _ranked(ground: Ground, before: Fit | None) -> list[Fit]:
     """Refits of the causes of a fit and one more, or of one alone; best first."""
     rows = _screened(ground, before)
-    caught = _caught(ground, before, rows)
-    if before is not None and rows[0].gain < _HOPELESS and not caught:
+    large = caught(ground, before, {row.candidate.name: row.spread for row in rows})
+    if before is not None and rows[0].gain < _HOPELESS and not large:
         return []
     fits = []
     for row in _promising(ground, rows, before is not None):
@@ -75,7 +75,7 @@ def _ranked(ground: Ground, before: Fit | None) -> list[Fit]:
             fit = refit(ground, (choice,)) if before is None else _with_one_more(before, choice)
             fits.append(replace(fit, gain=fit.gain + row.spread, spread=row.spread))
     if ground.level != ground.null.level:
-        fits = caught + _settled(ground, sorted(fits, key=lambda fit: -fit.gain))
+        fits = large + _settled(ground, sorted(fits, key=lambda fit: -fit.gain))
     alone: dict[tuple[str, ...], Fit] = {}
     for fit in sorted(fits, key=lambda fit: -fit.gain):
         alone.setdefault(fit.names, fit)
@@ -104,21 +104,6 @@ def _promising(ground: Ground, rows: list[Screened], further: bool) -> list[Scre
     if not further and float(ground.z @ ground.z) > len(ground.z) + _LARGE:
         chosen |= {row.candidate.name: row for row in _by_large_steps(ground, rows)[: ground.budget]}
     return list(chosen.values())
-
-
-def _caught(ground: Ground, before: Fit | None, rows: list[Screened]) -> list[Fit]:
-    """Fits of causes whose large changes explain peaks that no mode explains yet."""
-    if strays_left(ground, before) < SEVERAL:
-        return []
-    spread = {row.candidate.name: row.spread for row in rows}
-    first, start = ((), np.zeros(0)) if before is None else (before.choices, before.theta)
-    fits = []
-    for picked, theta in catching(ground, before, ground.budget):
-        guess = Fit.guessed(ground, (*first, picked), np.concatenate([start, theta]), spread[picked.candidate.name])
-        fits.append(settled(ground, guess))
-        while (again := settled(ground, fits[-1])).ground.strays < fits[-1].ground.strays - FEWER:
-            fits.append(again)
-    return fits
 
 
 def _settled(ground: Ground, fits: list[Fit]) -> list[Fit]:

@@ -21,13 +21,19 @@ SEED = 20240229
 DRAWS = 1000
 _JUST_SEEN = 3.0  # sigmas
 _SHOWN = 1.0  # sigmas by which a large occurrence must show in a direction
-_LAW_SHARE, _NOISE_SHARE, _STRAY_SHARE = 0.9, 0.08, 0.02  # of the false alarms: laws, chi^2, stray peaks
+_LAW_SHARE, _NOISE_SHARE, _STRAY_SHARE = 0.87, 0.08, 0.05  # of the false alarms: laws, chi^2, stray peaks
 
 
-def p_of_null(library: list[Candidate], outside: list[Candidate], null: NullModel, p_strays: float) -> float:
-    """p-value of the null: likelihood ratio of any law beside that of draws, its chi^2, stray peaks."""
+def p_of_null(
+    library: list[Candidate], outside: list[Candidate], null: NullModel, p_strays: float, large: float = -np.inf
+) -> float:
+    """p-value of the null: likelihood ratio of any law beside that of draws, its chi^2, stray peaks.
+
+    large : log evidence of the best large change of a cause, which small ones do not show
+    """
     draws = np.random.default_rng(SEED).standard_normal((len(null.r), DRAWS))
     ratio = float(log_ratio(library, outside, null.white(null.r)[:, None])[0])
+    ratio = float(np.logaddexp(ratio, large - np.log(max(len(library), 1))))
     chance = log_ratio(library, outside, draws)
     p_laws = (1.0 + float((chance >= ratio).sum())) / (DRAWS + 1.0)
     if ratio > chance.max():

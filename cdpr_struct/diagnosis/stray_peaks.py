@@ -12,15 +12,16 @@ from scipy.stats import binom
 
 from cdpr_struct.diagnosis.evidence import Candidate, Choice, choice
 from cdpr_struct.diagnosis.mode_pairing import STRAY
-from cdpr_struct.diagnosis.refit import Fit, Ground
+from cdpr_struct.diagnosis.refit import Fit, Ground, settled
 from cdpr_struct.diagnosis.setting import paired_with
 from cdpr_struct.diagnosis.world import World
 
-SEVERAL = 1.5  # expected strays from which large changes are tried
+SEVERAL = 1.5  # expected strays that are more than one
+ONE = 0.7  # expected strays from which large changes are tried
 _STEPS = (-2.5, -1.0, 1.0, 2.5)  # prior sigmas
 _MOVES = 4.0  # [%] by which the largest step must move a peak
 _SCALE = 2.5  # of the prior
-FEWER = 0.5  # strays, by which a change must be better
+_FEWER = 0.5  # strays, by which a change must be better
 _MOST_NUMBERS = 3  # that are tried one by one
 
 
@@ -35,8 +36,22 @@ def p_of_strays(strays: float, peaks: int) -> float:
     return float(binom.sf(count - 1, peaks, np.exp(STRAY))) if count > 1 else 1.0
 
 
-def catching(ground: Ground, before: Fit | None, most: int) -> list[tuple[Choice, np.ndarray]]:
-    """Sizes of single causes that explain strays on top of a fit, of the so many causes that explain most."""
+def caught(ground: Ground, before: Fit | None, spread: dict[str, float]) -> list[Fit]:
+    """Fits of a cause more whose large change explains peaks that no mode explains yet; `spread` of each cause."""
+    if strays_left(ground, before) < ONE:
+        return []
+    first, start = ((), np.zeros(0)) if before is None else (before.choices, before.theta)
+    fits = []
+    for picked, theta in _catching(ground, before):
+        guess = Fit.guessed(ground, (*first, picked), np.concatenate([start, theta]), spread[picked.candidate.name])
+        fits.append(settled(ground, guess))
+        while (again := settled(ground, fits[-1])).ground.strays < fits[-1].ground.strays - _FEWER:
+            fits.append(again)
+    return fits
+
+
+def _catching(ground: Ground, before: Fit | None) -> list[tuple[Choice, np.ndarray]]:
+    """Sizes of single causes that explain strays on top of a fit, of the `budget` causes that explain most."""
     world = ground.world if before is None else before.world
     taken = () if before is None else before.names
     found = []
@@ -46,8 +61,8 @@ def catching(ground: Ground, before: Fit | None, most: int) -> list[tuple[Choice
             trials = [_best_along(ground, world, picked, d) for picked in tried for d in _directions(picked)]
             found += [trials] if trials else []
     left = strays_left(ground, before)
-    first = sorted(found, key=lambda trials: min(map(_fewest, trials)))[:most]
-    return [(one.picked, one.theta) for trials in first for one in trials if one.strays < left - FEWER]
+    first = sorted(found, key=lambda trials: min(map(_fewest, trials)))[: ground.budget]
+    return [(one.picked, one.theta) for trials in first for one in trials if one.strays < left - _FEWER]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,7 +94,7 @@ def _best_along(ground: Ground, world: World, picked: Choice, direction: np.ndar
         if 1 < len(best.theta) <= _MOST_NUMBERS:
             steps += [sign * row / _SCALE for row in np.eye(len(best.theta)) for sign in (1.0, -1.0)]
         near = min((_trial(ground, world, picked, best.theta + step) for step in steps), key=_fewest)
-        if near.strays > best.strays - FEWER:
+        if near.strays > best.strays - _FEWER:
             break
         best = near
     return best
