@@ -21,6 +21,7 @@ _SETTLED_SHARE = 0.5  # of the best gain: large effects move frequencies past ea
 _HOPELESS = 2.0  # nats at screening below which a further cause is not refitted
 _HOLDS = 1.0  # nats that a further cause keeps whichever group of states is left out
 _BETTER = 0.5  # nats that make an exchange worth while
+_NEEDLESS = 1.0  # nats by which a special case of a cause beats it if its other parameters are needless
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,7 +29,7 @@ class Selection:
     """What was chosen.
 
     fit    : the chosen causes, or None for none;  first : all single causes refitted, best first
-    rivals : per chosen cause, the fits in which another cause takes its place, best first
+    rivals : per chosen cause, the fits in which another cause takes its place and says something else, best first
     """
 
     fit: Fit | None
@@ -162,8 +163,16 @@ def select(ground: Ground, further: float, most: int) -> Selection:
     rivals = []
     for i, name in enumerate(best.names):
         kept = tuple(c for j, c in enumerate(best.choices) if j != i)
-        rivals.append([fit for fit in search.rank(kept) if fit.names[-1] != name])
+        others = [fit for fit in search.rank(kept) if fit.names[-1] != name]
+        gains = {name: best.gain, **{fit.names[-1]: fit.gain for fit in others}}
+        rivals.append([fit for fit in others if _says_more(fit, gains)])
     return Selection(best, first, rivals)
+
+
+def _says_more(fit: Fit, gains: dict[str, float]) -> bool:
+    """Whether the last cause of a fit is not clearly worse than a special case of it, its other parameters zero."""
+    special = fit.choices[-1].candidate.cause.becomes
+    return all(gains.get(name, -np.inf) < fit.gain + _NEEDLESS for name in special)
 
 
 def _holds(fit: Fit) -> bool:

@@ -12,7 +12,7 @@ from cdpr_struct.diagnosis.evidence import candidates, choices
 from cdpr_struct.diagnosis.null_model import null_model, tolerance_count
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.refit import Ground, refit
-from cdpr_struct.diagnosis.selection import Search
+from cdpr_struct.diagnosis.selection import Search, select
 from cdpr_struct.diagnosis.setting import make_setting
 from cdpr_struct.diagnosis.verdict import verdict
 from cdpr_struct.diagnosis.world import World
@@ -104,6 +104,20 @@ def test_clean_readings_give_no_cause():
     found = diagnose(clean_campaign())
     assert verdict(found).status == "adequate"
     assert found.p_value > 0.5
+
+
+def test_a_force_that_is_alike_everywhere_is_no_hose():
+    """A hose without stiffness says no more than the force; one with stiffness does, and is chosen."""
+    names = ["external_force", "hose_stiffness"]
+    force = hidden(lambda world: world.plus(force=np.array([20.0, 0.0, 0.0])))
+    found = select(ground_of(force, names), 6.0, 1)
+    assert found.fit.names == ("external_force",)
+    assert {fit.names for fit in found.first} == {("external_force",), ("hose_stiffness",)}
+    assert found.rivals == [[]]
+    stiff = np.array([60.0, 0.0, 0.0, 0.0])
+    hose = select(ground_of(hidden(lambda world: LIBRARY["hose_stiffness"].apply(world, stiff)), names), 6.0, 1)
+    assert hose.fit.names == ("hose_stiffness",)
+    assert [fit.names for fit in hose.rivals[0]] == [("external_force",)]
 
 
 def test_compliances_in_line_are_one_class():

@@ -106,5 +106,6 @@ CAUSES = (
         sentence="a hose holds the platform with {value} N/m",
         separated_by="removing the hose; poses farther apart",
         extension="hose",
+        becomes=("external_force",),
     ),
 )
