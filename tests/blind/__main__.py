@@ -38,7 +38,7 @@ from tests.blind.suite import composed, record_final_use, set_seed
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "blind_tests.md"
 MESH = Path(__file__).with_name("mesh_error.json")
 FOLLOW_UPS = "followups"
-WHOLE = {"dev": 200, "final": 200, "ci": 12}
+WHOLE = {"dev": 200, "final": 200, "ci": 12, "unseen": 24}
 
 
 def campaigns_of(out: Path) -> Path:
@@ -130,7 +130,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Command line of the harness."""
     parser = argparse.ArgumentParser(prog="python -m tests.blind", description=__doc__.splitlines()[0])
     parser.add_argument("step", choices=("make", "run", "score", "report", "sizes", "mesh"))
-    parser.add_argument("--set", choices=("dev", "final", "ci"), default="dev")
+    parser.add_argument("--set", choices=tuple(WHOLE), default="dev")
     parser.add_argument("--count", type=int, default=0, help="cases (default: the whole set)")
     parser.add_argument("--out", default="results/blind", help="directory of campaigns and answers")
     parser.add_argument("--sealed", default="", help="directory of the truth (default: OUT-sealed)")

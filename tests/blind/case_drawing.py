@@ -10,10 +10,10 @@ import numpy as np
 from fem_reference import FemError
 from tests.blind.beside_checks import CHECKED, BesideCheck
 from tests.blind.catalogue import (
+    BEYOND,
     EQUIVALENT,
     LIBRARY,
     ONE_SIDED,
-    OUTSIDE,
     STATICS_ONLY,
     Effect,
     drawn_pattern,
@@ -118,7 +118,7 @@ def _hidden(
 ) -> tuple[Deviations, list[dict[str, Any]]]:
     """The tolerances with the effects on top, and a record of each effect."""
     effects = []
-    catalogue = {**(EQUIVALENT if kind.kind == "ambiguous" else LIBRARY), **OUTSIDE}
+    catalogue = {**(EQUIVALENT if kind.kind == "ambiguous" else LIBRARY), **BEYOND}
     deviations = tolerances
     for name, multiple in kind.effects:
         effect = catalogue[name]

@@ -81,6 +81,20 @@ OUTSIDE = {
     )
 }
 
+UNSEEN = {
+    effect.name: effect
+    for effect in (
+        Effect("cable_warming", "K", ("common",), largest=40.0),
+        Effect("construction_stretch", "strain", ("common",), signed=False, largest=2e-3),
+        Effect("tracker_lens", "m at 3 m", ("common",), largest=0.05),
+        Effect("tool_balancer", "N", ("common",), signed=False, largest=150.0),
+        Effect("hook_offset", "m", ("direction",), largest=0.2),
+        Effect("cell_settling", "share", ("common",), signed=False, largest=0.3),
+    )
+}
+
+BEYOND = {**OUTSIDE, **UNSEEN}  # what no cause of the library explains
+
 HANDLING = ("swapped_channels", "unit_error", "sign_error", "pose_mismatch")
 STATICS_ONLY = ("platform_mass",)  # filed without robot frequencies; weighing the platform separates
 ONE_SIDED = ("pulley_friction",)  # equivalent if every cable is always approached from the same side

@@ -20,12 +20,12 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.stats import chi2, ncx2
 
-from tests.blind.catalogue import EQUIVALENT, LIBRARY, OUTSIDE
+from tests.blind.catalogue import BEYOND, EQUIVALENT, LIBRARY
 from tests.blind.deviations import NUMBERS_PER_CABLE, NUMBERS_PER_ROBOT, Deviations, field_sizes, tolerance_columns
 from tests.blind.entered_robot import EnteredRobot, entered_robot
 from tests.blind.measuring_plan import Plan, drawn_plan
 from tests.blind.observation import Observation, observed
-from tests.blind.sensors import CABLE_HZ, PICKED, ROBOT_HZ, SIGMA, cell_readings, pose_readings
+from tests.blind.sensors import CABLE_HZ, PICKED, ROBOT_HZ, SIGMA, pose_readings, settled_readings
 from tests.blind.vibrations import CABLE_MODES, VISIBLE_SHARE
 
 TABLE = Path(__file__).with_name("reference_sizes.npz")
@@ -33,12 +33,20 @@ FALSE_ALARMS, POWER = 1e-3, 0.8
 PLAUSIBLE = 0.2  # of the largest size of the catalogue: one sigma of what a rival may be
 ELEMENTS = 12
 PLAN_SEEDS = (1, 2, 3, 4, 5)
-CELL_FIELDS = ("load_cell_gain", "load_cell_bias", "pulley_friction", "cell_quadratic", "cell_crosstalk")
-SENSOR_FIELDS = ("tracker_frame", *CELL_FIELDS)
+CELL_FIELDS = (
+    "load_cell_gain",
+    "load_cell_bias",
+    "pulley_friction",
+    "cell_quadratic",
+    "cell_crosstalk",
+    "cell_settling",
+)
+SENSOR_FIELDS = ("tracker_frame", "tracker_lens", *CELL_FIELDS)
 STEPS = {"temperature": 0.3, "external_force": 0.3, "hose_stiffness": 0.3, "internal_force": 0.3, "dead_length": 0.02}
 STEPS |= {"platform_mass": 0.03, "joint_mass": 0.005, "joint_compliance": 3e-8, "frame_compliance": 3e-8}
 STEPS |= {"axial_stiffness": 3e-3, "cable_linear_density": 3e-3, "platform_inertia": 5e-3, "wind_gradient": 0.1}
-STEPS |= {"drum_scale": 5e-6}
+STEPS |= {"drum_scale": 5e-6, "cable_warming": 0.3, "construction_stretch": 5e-6, "tool_balancer": 0.3}
+STEPS |= {"hook_offset": 1e-3}
 STEP = 5e-5  # all others: m, rad, ratios
 
 
@@ -62,8 +70,7 @@ class Sensitivity:
         pose = np.repeat([SIGMA["position_m"], SIGMA["rotation_deg"]], 3)
         parts = [pose_readings(deviations, rest) / pose for rest in seen.statics]
         parts += [pose_readings(deviations, rest) / pose for lock in seen.locks for rest in lock]
-        pairs = zip(plan.statics, seen.statics, strict=True)
-        parts += [cell_readings(deviations, command, rest) / SIGMA["tension_N"] for command, rest in pairs]
+        parts += [shown / SIGMA["tension_N"] for shown in settled_readings(plan, seen, deviations)]
         parts += [np.log(seen.cable_hz).ravel() / CABLE_HZ]
         return np.concatenate([*parts, np.log(seen.robot_hz)[self.peaks] / ROBOT_HZ])
 
@@ -132,7 +139,7 @@ def measured_table(name: str, plan_seed: int) -> tuple[list[str], np.ndarray, np
     """Effect of each column, d^T S^-1 d of all columns (k, k), and that of the internal force by the cells (2, 2)."""
     sensitivity = Sensitivity(entered_robot(name), plan_seed)
     without = "pulley_radius" if sensitivity.robot.pulley_radius is None else "frame_compliance"
-    effects = [effect for effect in dict.fromkeys([*LIBRARY, *EQUIVALENT, *OUTSIDE]) if effect != without]
+    effects = [effect for effect in dict.fromkeys([*LIBRARY, *EQUIVALENT, *BEYOND]) if effect != without]
     alone = sensitivity.whitened("internal_force")
     changes = [sensitivity.whitened(effect) for effect in effects if effect != "internal_force"]
     names = [effect for effect in effects if effect != "internal_force"]
@@ -169,7 +176,7 @@ def reference_size(robot: str, effect: str, pattern: np.ndarray, unknowns: int =
         return None
     seen = (
         sigmas_left(robot, effect, pattern)
-        if effect in OUTSIDE
+        if effect in BEYOND
         else float(pattern @ gram[np.ix_(own, own)] @ pattern) ** 0.5
     )
     return sigmas_to_find(unknowns) / seen if seen > 0.0 else None

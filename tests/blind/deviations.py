@@ -46,6 +46,13 @@ NUMBERS_PER_ROBOT = {
     "cell_crosstalk": 1,  # share of the next cable's tension
     "platform_hinge": 1,  # m, the centre of mass tips over with the platform
     "drum_eccentricity": 1,  # m, periodic in the paid-out length
+    # outside the library and unseen by those who wrote it
+    "cable_warming": 1,  # K, of the cables alone, from the first state filed to the last
+    "construction_stretch": 1,  # strain that a rope gains when its wires bed down under tension
+    "tracker_lens": 1,  # m at 3 m from the middle of the picture, with the cube of that distance
+    "tool_balancer": 1,  # N, a line of constant force towards a hook above the platform
+    "hook_offset": 2,  # m, x y of the platform: the payload hangs beside the origin
+    "cell_settling": 1,  # share of the last state's reading that is still in this one
 }
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -54,7 +54,7 @@ class Plan:
     """Commands of every state; the first static states are also those where frequencies are measured.
 
     statics : one Command a state
-    locks   : for each lock the Commands that differ in payload alone
+    locks   : for each lock the Commands that differ in payload, and in time, alone
     frequency_states : how many of the static states
     """
 
@@ -84,7 +84,19 @@ def drawn_plan(
         step = space.payloads[-1] / (size.loads_per_lock - 1)
         loads = [step * number for number in range(size.loads_per_lock)]
         locks.append(tuple(_reloaded(empty, load) for load in loads))
-    return Plan(tuple(statics), tuple(locks), size.frequency_states)
+    return _dated(Plan(tuple(statics), tuple(locks), size.frequency_states))
+
+
+def _dated(plan: Plan) -> Plan:
+    """The same plan with the time of every state: one after the other as they are filed, evenly spaced."""
+    first = len(plan.statics)
+    last = max(first + sum(len(lock) for lock in plan.locks) - 1, 1)
+    statics = tuple(replace(command, day=number / last) for number, command in enumerate(plan.statics))
+    locks = []
+    for lock in plan.locks:
+        locks.append(tuple(replace(command, day=number / last) for number, command in enumerate(lock, start=first)))
+        first += len(lock)
+    return Plan(statics, tuple(locks), plan.frequency_states)
 
 
 def _command(

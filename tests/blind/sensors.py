@@ -22,6 +22,7 @@ PICKED = 0.8  # share of the visible peaks that somebody picks
 POSE = ["x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"]
 COLOUR = 0.7  # correlation of one reading with the next in coloured noise
 OUTLIER = 7.0  # sigma
+PICTURE = 3.0  # m, from the middle of the tracker's picture, where its lens error is given
 
 Tables = dict[str, pd.DataFrame]
 
@@ -57,10 +58,21 @@ def cell_readings(deviations: Deviations, command: Command, rest: Rest) -> np.nd
     return np.asarray(pulled * (1.0 + deviations["load_cell_gain"]) + deviations["load_cell_bias"])
 
 
+def settled_readings(plan: Plan, seen: Observation, deviations: Deviations) -> list[np.ndarray]:
+    """What the cells would show at every static state, (m,) [N] each, without noise; each keeps some of the last."""
+    pairs = zip(plan.statics, seen.statics, strict=True)
+    shown = [cell_readings(deviations, command, rest) for command, rest in pairs]
+    for number in range(1, len(shown)):
+        shown[number] = shown[number] + deviations["cell_settling"] * (shown[number - 1] - shown[number])
+    return shown
+
+
 def pose_readings(deviations: Deviations, rest: Rest) -> np.ndarray:
-    """What the tracker would show (6,) [m, deg] without noise."""
+    """What the tracker would show (6,) [m, deg] without noise; its camera looks down on the world's origin."""
     shift, turn = deviations["tracker_frame"][:3], Rotation.from_rotvec(deviations["tracker_frame"][3:]).as_matrix()
-    return np.concatenate([turn @ rest.position + shift, angles_deg(turn @ rest.rotation)])
+    aside = np.array([*rest.position[:2], 0.0]) / PICTURE
+    bent = rest.position + deviations["tracker_lens"] * float(aside @ aside) * aside
+    return np.concatenate([turn @ bent + shift, angles_deg(turn @ rest.rotation)])
 
 
 def noisy_pose(deviations: Deviations, rest: Rest, noise: Noise) -> np.ndarray:
@@ -87,8 +99,9 @@ def filed(plan: Plan, seen: Observation, deviations: Deviations, noise: Noise, w
 def static_rows(plan: Plan, seen: Observation, deviations: Deviations, noise: Noise) -> pd.DataFrame:
     """A row for every cable at every static state."""
     rows = []
-    for number, (command, rest) in enumerate(zip(plan.statics, seen.statics, strict=True), start=1):
-        pose, cells = noisy_pose(deviations, rest, noise), cell_readings(deviations, command, rest)
+    states = zip(plan.statics, seen.statics, settled_readings(plan, seen, deviations), strict=True)
+    for number, (command, rest, cells) in enumerate(states, start=1):
+        pose = noisy_pose(deviations, rest, noise)
         tensions = cells + SIGMA["tension_N"] * noise.draw("tension", len(cells))
         lengths = command.lengths + SIGMA["length_m"] * noise.draw("length", len(cells))
         for cable in range(len(cells)):

@@ -11,13 +11,13 @@ from pathlib import Path
 import numpy as np
 
 from tests.blind.case_drawing import CaseKind
-from tests.blind.catalogue import EQUIVALENT, HANDLING, LIBRARY, OUTSIDE
+from tests.blind.catalogue import EQUIVALENT, HANDLING, LIBRARY, OUTSIDE, UNSEEN
 
 FULL = {"null": 40, "single": 80, "pair": 24, "ambiguous": 20, "outside": 20, "handling": 16}
 CI = {"null": 3, "single": 3, "pair": 1, "ambiguous": 2, "outside": 2, "handling": 1}
 MULTIPLES = (0.5, 1.0, 2.0, 4.0)
 CLEAR = 4.0  # multiple of effects whose size is not the question
-SET_SEEDS = {"dev": 20_101, "ci": 20_102}
+SET_SEEDS = {"dev": 20_101, "ci": 20_102, "unseen": 20_103}
 USES = Path(__file__).with_name("final_uses.json")
 
 
@@ -44,7 +44,7 @@ def counts(total: int) -> dict[str, int]:
 def composed(name: str, total: int, base: int) -> list[CaseKind]:
     """Kinds of all cases in the order in which they are numbered, which tells nothing about them."""
     rng = np.random.default_rng([base, 0])
-    numbers = CI if name == "ci" else counts(total)
+    numbers = CI if name == "ci" else {"unseen": total} if name == "unseen" else counts(total)
     makers = {
         "null": _nulls,
         "single": _singles,
@@ -52,8 +52,9 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
         "ambiguous": _ambiguous,
         "outside": _outside,
         "handling": _handling,
+        "unseen": _unseen,
     }
-    kinds = [kind for key, maker in makers.items() for kind in maker(numbers[key], rng)]
+    kinds = [kind for key, maker in makers.items() if key in numbers for kind in maker(numbers[key], rng)]
     return [kinds[index] for index in rng.permutation(len(kinds))]
 
 
@@ -87,6 +88,10 @@ def _ambiguous(count: int, rng: np.random.Generator) -> list[CaseKind]:
 
 def _outside(count: int, rng: np.random.Generator) -> list[CaseKind]:
     return [CaseKind("outside", ((name, CLEAR),)) for name in _dealt([*OUTSIDE], count, rng)]
+
+
+def _unseen(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    return [CaseKind("outside", ((name, CLEAR),)) for name in _dealt([*UNSEEN], count, rng)]
 
 
 def _handling(count: int, rng: np.random.Generator) -> list[CaseKind]:

@@ -15,6 +15,8 @@ ROUNDS = 30  # of forces and exits that depend on where the platform rests
 SETTLED = 1e-9  # m, rad
 DRUM_CIRCUMFERENCE = 0.4  # m, of the eccentric drum
 HINGE_TILT = 0.05  # rad, over which the hinge tips
+BEDDED = 300.0  # N, over which the wires of a rope bed down
+HOOK = np.array([1.0, -0.5, 2.5])  # m from home, of the balancer's line
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,6 +27,7 @@ class Command:
     payload  : [kg]
     approach : (m,) +1 if the winch last wound in, else -1
     position, rotation : where the platform should come to rest, (3,) [m], (3, 3)
+    day      : share of the campaign that is over, 0 at the first state and 1 at the last
     """
 
     lengths: np.ndarray
@@ -32,6 +35,7 @@ class Command:
     approach: np.ndarray
     position: np.ndarray
     rotation: np.ndarray
+    day: float = 0.0
 
 
 def true_lengths(deviations: Deviations, command: Command) -> np.ndarray:
@@ -39,12 +43,29 @@ def true_lengths(deviations: Deviations, command: Command) -> np.ndarray:
     wanted, phases = command.lengths, 0.7 * np.arange(len(command.lengths))
     eccentric = deviations["drum_eccentricity"] * np.sin(2.0 * np.pi * wanted / DRUM_CIRCUMFERENCE + phases)
     paid = wanted + deviations["unstrained_length_offset"] + eccentric + deviations["backlash"] * command.approach
-    return np.asarray(paid * (1.0 + deviations["drum_scale"]) * (1.0 + EXPANSION * deviations["temperature"]))
+    warmed = 1.0 + EXPANSION * deviations["cable_warming"] * command.day
+    scale = (1.0 + deviations["drum_scale"]) * warmed
+    return np.asarray(paid * scale * (1.0 + EXPANSION * deviations["temperature"]))
 
 
-def true_cables(robot: EnteredRobot, deviations: Deviations, lengths: np.ndarray) -> tuple[CableData, ...]:
-    """Cables whose stiffness also holds what is in series with them, spread over the free length."""
+def bedding(deviations: Deviations, tensions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Line that touches the strain s(T) = s0 (1 - exp(-T / T0)) at tensions (m,): its value at 0, its slope [1/N]."""
+    left = deviations["construction_stretch"] * np.exp(-tensions / BEDDED)
+    slope = left / BEDDED
+    return np.asarray(deviations["construction_stretch"] - left - slope * tensions), np.asarray(slope)
+
+
+def true_cables(
+    robot: EnteredRobot, deviations: Deviations, paid: np.ndarray, tensions: np.ndarray
+) -> tuple[CableData, ...]:
+    """Cables whose stiffness also holds what is in series with them, spread over the free length.
+
+    paid, tensions : unstrained lengths (m,) [m], and tensions (m,) [N] about which a rope that beds down is linear
+    """
+    stretch, slope = bedding(deviations, tensions)
+    lengths = paid * (1.0 + stretch)
     stiffness = robot.axial_stiffness * np.exp(deviations["axial_stiffness"])
+    stiffness = stiffness / (1.0 + slope * stiffness)
     longer = lengths + deviations["dead_length"] + deviations["joint_compliance"] * stiffness
     density = robot.linear_density * np.exp(deviations["cable_linear_density"])
     effective = stiffness * lengths / longer
@@ -57,7 +78,8 @@ def true_platform(robot: EnteredRobot, deviations: Deviations, payload: float, r
     center = robot.center_of_mass + deviations["center_of_mass"] - deviations["platform_hinge"] * tip
     mass = robot.mass + float(deviations["platform_mass"][0])
     masses = np.concatenate([[mass, payload], deviations["joint_mass"]])
-    points = np.vstack([center, np.zeros(3), robot.platform_anchors + _offsets(deviations, "platform")])
+    hung = np.array([*deviations["hook_offset"], 0.0])
+    points = np.vstack([center, hung, robot.platform_anchors + _offsets(deviations, "platform")])
     whole = masses @ points / masses.sum()
     arms = points - whole
     inertia = bare_inertia(robot, deviations) + np.einsum("k,kab->ab", masses, _point_inertia(arms))
@@ -91,13 +113,32 @@ def placed_force(robot: EnteredRobot, deviations: Deviations, position: np.ndarr
     away = position - robot.home
     force = deviations["external_force"] - deviations["hose_stiffness"] * away
     force = force + deviations["wind_gradient"] * float(away[:2] @ away[:2])
+    line = robot.home + HOOK - position
+    force = force + deviations["tool_balancer"] * line / np.linalg.norm(line)
     return PointForce(force) if np.any(force) else None
 
 
+def balancer_stiffness(robot: EnteredRobot, deviations: Deviations, position: np.ndarray) -> np.ndarray:
+    """Stiffness (3, 3) [N/m] of a line of constant force: it only turns."""
+    line = robot.home + HOOK - position
+    length = np.linalg.norm(line)
+    across = np.eye(3) - np.outer(line, line) / length**2
+    return np.asarray(deviations["tool_balancer"] / length * across)
+
+
 def true_robot(
-    robot: EnteredRobot, deviations: Deviations, command: Command, rotation: np.ndarray, yielded: np.ndarray
+    robot: EnteredRobot,
+    deviations: Deviations,
+    command: Command,
+    rotation: np.ndarray,
+    yielded: np.ndarray,
+    tensions: np.ndarray | None = None,
 ) -> RobotData:
-    """Data for the referee, for a platform turned by `rotation` and masts that yielded by (m, 3) [m]."""
+    """Data for the referee, for a platform turned by `rotation` and masts that yielded by (m, 3) [m].
+
+    tensions : (m,) [N], about which ropes that bed down are linear (default: none)
+    """
+    about = np.zeros(robot.cables) if tensions is None else tensions
     anchors = robot.frame_anchors + _offsets(deviations, "frame")
     anchors = anchors * (1.0 + EXPANSION * deviations["temperature"]) + yielded
     pulleys: tuple[PulleyData, ...] = ()
@@ -107,7 +148,7 @@ def true_robot(
     return RobotData(
         anchors,
         robot.platform_anchors + _offsets(deviations, "platform"),
-        true_cables(robot, deviations, true_lengths(deviations, command)),
+        true_cables(robot, deviations, true_lengths(deviations, command), about),
         platform,
         true_gravity(robot, deviations),
         pulleys,
@@ -124,19 +165,22 @@ def mast_yield(robot: EnteredRobot, deviations: Deviations, equilibrium: RobotEq
 def at_rest(robot: EnteredRobot, deviations: Deviations, command: Command, elements: int) -> RobotEquilibrium:
     """Where the real robot comes to rest, and with which forces.
 
-    Forces, masts and hinge that depend on the answer are repeated until it stays; the referee's own errors
+    Forces, masts, ropes and hinge that depend on the answer are repeated until it stays; the referee's own errors
     (slack cable, no equilibrium) pass through.
     """
     position, rotation = command.position, command.rotation
-    yielded = np.zeros_like(robot.frame_anchors)
+    yielded, tensions = np.zeros_like(robot.frame_anchors), np.zeros(robot.cables)
     for _ in range(ROUNDS):
-        data = true_robot(robot, deviations, command, rotation, yielded)
+        data = true_robot(robot, deviations, command, rotation, yielded, tensions)
         force = placed_force(robot, deviations, position)
         equilibrium = solve_robot(data, position, rotation, elements, external_force=force)
         shift = mast_yield(robot, deviations, equilibrium)
         moved = np.abs(equilibrium.position - position).max() + np.abs(equilibrium.rotation - rotation).max()
         moved += np.abs(shift - yielded).max()
-        position, rotation, yielded = equilibrium.position, equilibrium.rotation, shift
+        pulls = np.array([np.linalg.norm(cable.end_force) for cable in equilibrium.cables])
+        stretches = [bedding(deviations, about)[0] * command.lengths for about in (pulls, tensions)]
+        moved += np.abs(stretches[0] - stretches[1]).max()
+        position, rotation, yielded, tensions = equilibrium.position, equilibrium.rotation, shift, pulls
         if moved < SETTLED or not _depends_on_pose(deviations):
             return equilibrium
     raise RuntimeError(f"the platform did not settle in {ROUNDS} rounds, last motion {moved:.3g}")
@@ -144,4 +188,5 @@ def at_rest(robot: EnteredRobot, deviations: Deviations, command: Command, eleme
 
 def _depends_on_pose(deviations: Deviations) -> bool:
     names = ("hose_stiffness", "wind_gradient", "platform_hinge", "frame_compliance")
+    names += ("construction_stretch", "tool_balancer")
     return any(np.any(deviations[name]) for name in names)

@@ -11,6 +11,7 @@ from fem_reference.rigid_platform import platform_mass_matrix
 from fem_reference.robot_modes import robot_matrices
 from tests.blind.deviations import Deviations
 from tests.blind.entered_robot import EnteredRobot
+from tests.blind.true_robot import balancer_stiffness
 
 CABLE_MODES = 4
 ROBOT_MODES = 48
@@ -27,7 +28,7 @@ def in_plane_frequencies(equilibrium: RobotEquilibrium) -> np.ndarray:
 def whole_matrices(
     robot: EnteredRobot, deviations: Deviations, equilibrium: RobotEquilibrium
 ) -> tuple[csc_array, csc_array]:
-    """Stiffness and mass of cables and platform with the hose, and of the masts that are not rigid.
+    """Stiffness and mass of cables and platform with hose and balancer, and of the masts that are not rigid.
 
     The mean of lumped and consistent mass is right to fourth order, also where modes of cables and platform are so
     close that frequencies of two meshes could not be extrapolated.
@@ -37,6 +38,10 @@ def whole_matrices(
     hose = np.zeros(stiffness.shape[0])
     hose[-6:-3] = deviations["hose_stiffness"][0]
     stiffness = csc_array(stiffness + diags_array(hose))
+    if np.any(deviations["tool_balancer"]):
+        line = lil_array(stiffness.shape)
+        line[-6:-3, -6:-3] = balancer_stiffness(robot, deviations, equilibrium.position)
+        stiffness = csc_array(stiffness + line)
     soft = np.flatnonzero(deviations["frame_compliance"])
     if not len(soft):
         return stiffness, mass
