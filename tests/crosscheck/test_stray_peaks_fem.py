@@ -9,7 +9,7 @@ import pytest
 import fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.diagnosis.diagnose import diagnose
-from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
+from cdpr_struct.diagnosis.prepared import BUDGETS, SIGNIFICANT, prepare
 from cdpr_struct.diagnosis.verdict import verdict
 from cdpr_struct.measurement.campaign_file import load_campaign
 from tests.conftest import at_rest
@@ -62,6 +62,16 @@ def test_the_inertia_is_found_by_peaks_that_no_mode_explains(tmp_path):
     sizes = np.exp(found.selection.fit.theta * found.selection.fit.choices[0].prior)
     assert np.abs(np.log(sizes / 0.5)).min() < 0.1
     assert found.selection.fit.ground.strays == pytest.approx(0.0, abs=0.2)
+
+
+def test_one_stray_peak_is_enough_to_find_a_large_change_about_one_axis(tmp_path):
+    """All other peaks find modes, so small changes show nothing; the law that catches the stray is significant."""
+    about_y = np.sqrt([1.0, 1.45, 1.0])
+    found = diagnose(written(tmp_path, np.outer(about_y, about_y)))
+    assert found.ground.strays == pytest.approx(1.0, abs=0.1)
+    assert found.p_value < SIGNIFICANT
+    assert found.selection.fit.names == ("platform_inertia",)
+    assert found.selection.fit.ground.strays == pytest.approx(0.0, abs=0.1)
 
 
 def test_frequencies_near_those_of_a_cable_are_followed_from_the_likeliest_tolerances(tmp_path):
