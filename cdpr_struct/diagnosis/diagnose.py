@@ -110,7 +110,7 @@ def _selected(prepared: Prepared, plan: Budget, corrected: bool) -> Selection:
     """Causes, if anything is significant; on top of corrected data a first cause counts as a further one."""
     if prepared.p_value >= SIGNIFICANT:
         return Selection(None, [], [])
-    selection = select(prepared.ground, FURTHER, plan.causes)
+    selection = select(prepared.ground, FURTHER, plan.causes, prepared.large)
     if corrected and selection.first[0].gain < FURTHER:
         return Selection(None, selection.first, [])
     return selection

@@ -97,6 +97,14 @@ def _bounded(gram: np.ndarray, b: np.ndarray, scales: Sequence[float]) -> np.nda
     return result
 
 
+def log_factors_of_pattern(pattern: Pattern, gram: np.ndarray, b: np.ndarray, scales: Sequence[float]) -> np.ndarray:
+    """ln B (s, ...) of a pattern at several scales, from G'G (d, d) and G'z (d, ...); a single size keeps its sign."""
+    logs = scaled_log_bayes_factors(gram, b, scales)
+    if len(pattern.parameters) == 1 and pattern.parameters[0].positive:
+        logs = logs + _bounded(gram, b, scales)
+    return logs
+
+
 def gains_of(candidate: Candidate, z: np.ndarray, signature: np.ndarray | None = None) -> np.ndarray:
     """ln B + ln weight (patterns, scales, ...) of a cause for residuals z (n,) or (n, k)."""
     own = candidate.signature if signature is None else signature
@@ -105,10 +113,7 @@ def gains_of(candidate: Candidate, z: np.ndarray, signature: np.ndarray | None =
     for pattern in candidate.patterns:
         basis = pattern.basis * pattern.prior
         small, part = basis.T @ gram @ basis, basis.T @ b
-        logs = scaled_log_bayes_factors(small, part, SCALES) + np.log(pattern.weight / len(SCALES))
-        if len(small) == 1 and pattern.parameters[0].positive:
-            logs = logs + _bounded(small, part, SCALES)
-        rows.append(logs)
+        rows.append(log_factors_of_pattern(pattern, small, part, SCALES) + np.log(pattern.weight / len(SCALES)))
     return np.array(rows)
 
 

@@ -59,15 +59,18 @@ class NullModel:
 
 def tolerance_count(setting: Setting) -> int:
     """How many numbers describe the tolerances."""
-    m = setting.campaign.robot.platform_anchors.shape[0]
-    return 6 * m + m + 2 * (m + 1) + 1 + 3 + 3 + 3 * m
+    return sum(_tolerance_sizes(setting.campaign.robot.platform_anchors.shape[0]))
+
+
+def _tolerance_sizes(m: int) -> tuple[int, ...]:
+    """How many numbers each tolerance of a robot with m cables takes, in their order."""
+    return (3 * m, 3 * m, m, m, 1, m, 1, 1, 3, 3, m, m, m)
 
 
 def tolerated(setting: Setting, world: World, u: np.ndarray) -> World:
     """World whose tolerances are u (..., t) sigmas off."""
     tol, m = setting.campaign.tolerances, world.cables
-    sizes = (3 * m, 3 * m, m, m, 1, m, 1, 1, 3, 3, m, m, m)
-    parts = np.split(u, np.cumsum(sizes)[:-1], axis=-1)
+    parts = np.split(u, np.cumsum(_tolerance_sizes(m))[:-1], axis=-1)
     lead, half = u.shape[:-1], np.sqrt(0.5)
     body = np.sqrt(np.diagonal(setting.campaign.robot.platform.inertia))
     inertia = np.exp(0.5 * tol.platform_inertia * parts[9])

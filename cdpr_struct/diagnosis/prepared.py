@@ -16,7 +16,7 @@ from cdpr_struct.diagnosis.null_model import (
     tolerated,
 )
 from cdpr_struct.diagnosis.readings import Readings
-from cdpr_struct.diagnosis.refit import Ground
+from cdpr_struct.diagnosis.refit import Fit, Ground
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.setting import anchored, make_setting, paired_with, with_equilibria
@@ -46,13 +46,14 @@ BUDGETS = {"small": Budget(24, 3), "full": Budget(200, 6, 3)}
 @dataclass(frozen=True, slots=True, eq=False)
 class Prepared:
     """Ground for hypotheses, null paired as if the entered world were right, channels, largest log evidence of any
-    law (`best`), p-value of the null."""
+    law (`best`), p-value of the null, and fits of large changes if it was asked of them (None: not tried)."""
 
     ground: Ground
     fine: NullModel
     channels: list[Candidate]
     best: float
     p_value: float
+    large: list[Fit] | None
     not_testable: dict[str, str]
 
 
@@ -107,18 +108,18 @@ def _judged(ground: Ground, fine: NullModel, outside: list[Candidate], not_testa
     best = float(largest_gains(ground.candidates, ground.z[:, None])[0])
     if outside:
         best = max(best, float(largest_gains(outside, ground.z[:, None])[0]) + OUTSIDE)
-    return Prepared(ground, fine, outside, best, _p_value(ground, outside), not_testable)
+    return Prepared(ground, fine, outside, best, *_p_value(ground, outside), not_testable)
 
 
-def _p_value(ground: Ground, outside: list[Candidate]) -> float:
-    """Of the null; by large changes that explain a stray peak only where nothing else is significant."""
+def _p_value(ground: Ground, outside: list[Candidate]) -> tuple[float, list[Fit] | None]:
+    """Of the null; by large changes that explain a stray peak, which are returned, only where nothing else tells."""
     strays = p_of_strays(ground.strays, len(ground.setting.robot_log))
     p_value = p_of_null(ground.candidates, outside, ground.null, strays)
     if p_value < SIGNIFICANT or ground.strays < ONE:
-        return p_value
-    spread = {row.candidate.name: row.spread for row in screen(ground.candidates, ground.z)}
-    large = max((fit.gain for fit in caught(ground, None, spread)), default=-np.inf)
-    return p_of_null(ground.candidates, outside, ground.null, strays, large)
+        return p_value, None
+    large = caught(ground, None, screen(ground.candidates, ground.z))
+    best = max((fit.gain for fit in large), default=-np.inf)
+    return p_of_null(ground.candidates, outside, ground.null, strays, best), large
 
 
 def _strength(candidate: Candidate) -> float:

@@ -38,10 +38,10 @@ class Selection:
 
 
 class Search:
-    """Rankings of causes on a ground, each computed once."""
+    """Rankings of causes on a ground, each computed once; `large` are single large changes where known already."""
 
-    def __init__(self, ground: Ground) -> None:
-        self.ground = ground
+    def __init__(self, ground: Ground, large: list[Fit] | None = None) -> None:
+        self.ground, self._large = ground, large
         self._known: dict[tuple[tuple[str, str, float], ...], list[Fit]] = {}
         self._fits: dict[tuple[tuple[str, str, float], ...], Fit] = {}
 
@@ -49,7 +49,7 @@ class Search:
         """Refits of accepted causes plus one more, best first; causes far from the best at screening are left out."""
         key = _key(accepted)
         if key not in self._known:
-            self._known[key] = _ranked(self.ground, self._fitted(accepted))
+            self._known[key] = _ranked(self.ground, self._fitted(accepted), None if accepted else self._large)
             self._fits |= {_key(fit.choices): fit for fit in self._known[key]}
         return self._known[key]
 
@@ -64,10 +64,11 @@ def _key(picked: tuple[Choice, ...]) -> tuple[tuple[str, str, float], ...]:
     return tuple(sorted((c.candidate.name, c.pattern.label, c.scale) for c in picked))
 
 
-def _ranked(ground: Ground, before: Fit | None) -> list[Fit]:
+def _ranked(ground: Ground, before: Fit | None, large: list[Fit] | None) -> list[Fit]:
     """Refits of the causes of a fit and one more, or of one alone; best first."""
     rows = _screened(ground, before)
-    large = caught(ground, before, {row.candidate.name: row.spread for row in rows})
+    if large is None:
+        large = caught(ground, before, rows)
     if before is not None and rows[0].gain < _HOPELESS and not large:
         return []
     fits = []
@@ -150,9 +151,9 @@ def _worth_trying(row: Screened) -> list[Choice]:
     return [row.best, *(c for c in alike if row.best.pattern.label != "all alike")]
 
 
-def select(ground: Ground, further: float, most: int) -> Selection:
+def select(ground: Ground, further: float, most: int, large: list[Fit] | None = None) -> Selection:
     """The best cause, and more (`most` in all) that each raise the log evidence by `further`, in all parts of data."""
-    search = Search(ground)
+    search = Search(ground, large)
     first = search.rank()
     best = first[0]
     while len(best.choices) < most:

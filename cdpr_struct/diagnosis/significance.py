@@ -9,11 +9,11 @@ powerful test for a law drawn so. Draws from the null say how large it gets by c
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.special import log_ndtr, logsumexp
+from scipy.special import logsumexp
 from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.causes.cause import SCALES, Pattern
-from cdpr_struct.diagnosis.evidence import Candidate
+from cdpr_struct.diagnosis.evidence import Candidate, log_factors_of_pattern
 from cdpr_struct.diagnosis.null_model import NullModel
 
 OUTSIDE = -2.0  # ln prior of a law outside the library, beside that of a cause
@@ -74,12 +74,8 @@ def _of_patterns(patterns: list[Pattern], gram: np.ndarray, b: np.ndarray) -> It
         if not shown.any():
             continue
         along = (vectors[:, shown].T @ (basis.T @ b)) / np.sqrt(values[shown])[:, None]
-        variance = _JUST_SEEN**2 / len(along)
-        log = 0.5 * (variance / (1.0 + variance) * (along**2).sum(axis=0) - len(along) * np.log1p(variance))
-        if len(basis.T) == 1 and pattern.parameters[0].positive:
-            sign = vectors[0, 0]  # what explains z has the sign of -G'z
-            log = log + log_ndtr(-sign * along[0] * np.sqrt(variance / (1.0 + variance))) + np.log(2.0)
-        yield pattern, log
+        size = _JUST_SEEN / np.sqrt(len(along))  # of signatures of unit length, each at right angles to the others
+        yield pattern, log_factors_of_pattern(pattern, np.eye(len(along)), along, (size,))[0]
 
 
 def p_of_noise(null: NullModel, rows: np.ndarray | None = None) -> float:

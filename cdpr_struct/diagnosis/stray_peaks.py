@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import binom
 
-from cdpr_struct.diagnosis.evidence import Candidate, Choice, choice
+from cdpr_struct.diagnosis.evidence import Candidate, Choice, Screened, choice
 from cdpr_struct.diagnosis.mode_pairing import STRAY
 from cdpr_struct.diagnosis.refit import Fit, Ground, settled
 from cdpr_struct.diagnosis.setting import paired_with
@@ -36,10 +36,11 @@ def p_of_strays(strays: float, peaks: int) -> float:
     return float(binom.sf(count - 1, peaks, np.exp(STRAY))) if count > 1 else 1.0
 
 
-def caught(ground: Ground, before: Fit | None, spread: dict[str, float]) -> list[Fit]:
-    """Fits of a cause more whose large change explains peaks that no mode explains yet; `spread` of each cause."""
+def caught(ground: Ground, before: Fit | None, rows: list[Screened]) -> list[Fit]:
+    """Fits of a cause more, of those screened, whose large change explains peaks that no mode explains yet."""
     if strays_left(ground, before) < ONE:
         return []
+    spread = {row.candidate.name: row.spread for row in rows}
     first, start = ((), np.zeros(0)) if before is None else (before.choices, before.theta)
     fits = []
     for picked, theta in _catching(ground, before):

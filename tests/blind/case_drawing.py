@@ -161,7 +161,7 @@ def _refuse_impossible(robot: EnteredRobot, deviations: Deviations) -> None:
     if robot.mass + deviations["platform_mass"][0] < 0.5 * robot.mass:
         raise RejectedDrawError
     moments = np.linalg.eigvalsh(bare_inertia(robot, deviations))
-    if moments.max() > moments.sum() - moments.max():
+    if moments[2] > moments[0] + moments[1]:
         raise RejectedDrawError
 
 

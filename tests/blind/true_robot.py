@@ -187,6 +187,7 @@ def at_rest(robot: EnteredRobot, deviations: Deviations, command: Command, eleme
 
 
 def _depends_on_pose(deviations: Deviations) -> bool:
-    names = ("hose_stiffness", "wind_gradient", "platform_hinge", "frame_compliance")
-    names += ("construction_stretch", "tool_balancer")
-    return any(np.any(deviations[name]) for name in names)
+    forces = ("hose_stiffness", "wind_gradient", "tool_balancer")
+    return any(
+        np.any(deviations[name]) for name in (*forces, "platform_hinge", "frame_compliance", "construction_stretch")
+    )

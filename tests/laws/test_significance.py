@@ -54,7 +54,7 @@ def test_one_sided_causes_are_seen_on_their_side_only():
 
 
 def test_finds_what_is_just_detectable_more_often_than_chance():
-    """Four sigmas along one of ten causes, at one false alarm in fifty: found in six cases of ten or more."""
+    """Four sigmas along one of ten causes, at one false alarm in fifty: found in three cases of four or more."""
     laws = [candidate(f"cause_{k}", 1.0, k) for k in range(10)]
     limit = np.quantile(log_ratio(laws, [], draws()), 0.98)
     signature = laws[0].signature / np.linalg.norm(laws[0].signature)
