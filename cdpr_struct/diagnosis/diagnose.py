@@ -94,7 +94,8 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
         corrections=found, aside=data.aside, selection=selection, p_value=entered.p_value,
         p_value_left=prepared.p_value,
         p_adequate=_p_adequate(ground, fit),
-        weakest=weakest(fit, groups) if fit else np.zeros(0), held=left_out(fit, before, groups) if fit else None,
+        weakest=weakest(fit, groups, selection.caught) if fit else np.zeros(0),
+        held=left_out(fit, before, groups) if fit else None,
         fudge=_fudge(prepared, groups) if fit else None, transfer=transfer(fit, before) if fit else {},
         outside=_outside(prepared, selection), not_testable=prepared.not_testable,
     )  # fmt: skip
@@ -130,7 +131,7 @@ def _outside(prepared: Prepared, selection: Selection) -> Outside:
     on_top = Outside(best.candidate.cause.title, best.gain, limit)
     if len(fit.names) == 1:
         return on_top
-    others = [(alone, FURTHER)]
+    others = [(alone, FURTHER - ground.ahead)]
     others += [(_beyond(one), one.gain) for one in selection.first if one.names[0] in fit.names]
     law, kept = max(others, key=lambda other: other[0].gain + other[1])
     return replace(on_top, instead=law.gain + kept + OUTSIDE - fit.gain, one_law=law.candidate.cause.title)

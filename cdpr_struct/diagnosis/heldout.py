@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.diagnosis.evidence import log_bayes_factor
+from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
 from cdpr_struct.diagnosis.refit import Fit
 from cdpr_struct.diagnosis.residuals import UNITS, Labels, Setting
 
@@ -61,12 +62,14 @@ def groups_of(setting: Setting) -> np.ndarray:
     return groups
 
 
-def weakest(fit: Fit, groups: np.ndarray) -> np.ndarray:
+def weakest(fit: Fit, groups: np.ndarray, caught: np.ndarray) -> np.ndarray:
     """Per cause of a fit, the log evidence that it adds to the others, with the group left out that it needs most.
 
-    Linear about the fit. A cause that lives on one group of states alone explains that group, not the robot.
+    Linear about the fit, and robot frequencies (r,) that belong to no mode without a cause: `caught` (causes, r) is by
+    how much less probable that is with it. A cause that lives on one group of states alone explains that group, not
+    the robot.
     """
-    null = fit.ground.null
+    null, peaks = fit.ground.null, groups[fit.ground.setting.labels.block == "RF"]
     zero, signature = null.lower @ (fit.white + fit.signature @ fit.theta), null.lower @ fit.signature
     owner = np.repeat(np.arange(len(fit.choices)), [c.signature.shape[1] for c in fit.choices])
     least = np.full(len(fit.choices), np.inf)
@@ -76,7 +79,8 @@ def weakest(fit: Fit, groups: np.ndarray) -> np.ndarray:
         z, columns = np.linalg.solve(lower, zero[rows]), np.linalg.solve(lower, signature[rows])
         whole = float(log_bayes_factor(columns, z))
         for i in range(len(least)):
-            least[i] = min(least[i], whole - float(log_bayes_factor(columns[:, owner != i], z)))
+            strays = STRAY_NATS * float(caught[i] @ (peaks != group))
+            least[i] = min(least[i], whole - float(log_bayes_factor(columns[:, owner != i], z)) + max(strays, 0.0))
     return least
 
 

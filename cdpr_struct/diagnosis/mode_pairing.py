@@ -40,12 +40,12 @@ class Modes:
 class Pairing:
     """chosen (r,) mode of each peak;  doubt (r,) one sigma of ln f from pairings that compete.
 
-    strays : expected number of peaks that belong to no mode
+    stray (r,) : probability of each peak to belong to no mode
     """
 
     chosen: np.ndarray
     doubt: np.ndarray
-    strays: float
+    stray: np.ndarray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,9 +82,9 @@ def paired(
         grown = [new for path in paths for new in _grown(path, state[i], log, noise[i], modes, seen)]
         grown.sort(key=lambda new: -new[0])
         paths = [_taken(path, j, weight, np.log(hertz[i]), noise[i]) for weight, j, path in grown[:_BEAM]]
-    chosen, doubt = np.zeros(len(order), dtype=int), np.zeros(len(order))
-    chosen[order], doubt[order], strays = _agreed(paths, state[order], hertz[order], modes)
-    return Pairing(chosen, doubt, strays)
+    chosen, doubt, stray = np.zeros(len(order), dtype=int), np.zeros(len(order)), np.zeros(len(order))
+    chosen[order], doubt[order], stray[order] = _agreed(paths, state[order], hertz[order], modes)
+    return Pairing(chosen, doubt, stray)
 
 
 def _log_odds(energy: np.ndarray) -> np.ndarray:
@@ -118,8 +118,8 @@ def _taken(path: _Path, j: int, weight: float, log: float, noise: float) -> _Pat
 
 def _agreed(
     paths: list[_Path], state: np.ndarray, hertz: np.ndarray, modes: Modes
-) -> tuple[np.ndarray, np.ndarray, float]:
-    """The best path, how far the others are from it, and the expected number of strays."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The best path, how far the others are from it, and how probably each peak is a stray."""
     table = np.array([path.chosen for path in paths])
     logs = np.array([path.weight for path in paths])
     weight = np.exp(logs - logs.max())
@@ -128,7 +128,7 @@ def _agreed(
     best = np.where(table[0] >= 0, table[0], near)
     log = np.log(modes.hertz)
     apart = np.where(table >= 0, np.abs(log[table] - log[best]), STRAY_DOUBT)
-    return best, np.sqrt((weight[:, None] * apart**2).sum(axis=0)), float(weight @ (table < 0).sum(axis=1))
+    return best, np.sqrt((weight[:, None] * apart**2).sum(axis=0)), weight @ (table < 0)
 
 
 def _nearest(state: int, hertz: float, modes: Modes) -> int:

@@ -96,12 +96,12 @@ def _ground(setting: Setting, near: Setting, world: World, fine: NullModel, extr
     likeliest = tolerated(setting, world, u)
     setting = paired_with(with_equilibria(setting, likeliest), likeliest, wary=setting is not near)
     null, offset = relinearised(setting, likeliest, readings, extra, u)
-    level, strays = null.level, 0.0
+    level, stray = null.level, np.zeros(0)
     if setting.campaign.robot_frequencies.hertz.size:
         own = anchored(near, likeliest)
-        level, strays = relinearised(own, likeliest, readings, extra, u)[0].level, own.strays
-        level += STRAY_NATS * strays
-    return Ground(setting, likeliest, readings, null, [], budget, level, extra, u, offset, world, strays)
+        level, stray = relinearised(own, likeliest, readings, extra, u)[0].level, own.stray
+        level += STRAY_NATS * own.strays
+    return Ground(setting, likeliest, readings, null, [], budget, level, extra, u, offset, world, stray)
 
 
 def _judged(ground: Ground, fine: NullModel, outside: list[Candidate], not_testable: dict[str, str]) -> Prepared:

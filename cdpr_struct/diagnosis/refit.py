@@ -4,7 +4,7 @@ Residuals bend with large effects, so causes near the best are refitted by Gauss
 computation; the evidence is then Laplace's at the refitted size.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -27,7 +27,7 @@ class Ground:
     world : as entered but for the likeliest tolerances (t,);  offset : (n,) what these did to the residuals, undone
     level : minus the log evidence of the null, so that gains compare;  extra : (n,) noise of bending
     entered : world as entered, where that is not `world`
-    strays : expected number of robot frequencies that belong to no mode of the world it is about
+    stray  : probability of each robot frequency to belong to no mode of the world it is about
     """
 
     setting: Setting
@@ -41,12 +41,22 @@ class Ground:
     likeliest: np.ndarray
     offset: np.ndarray
     entered: World
-    strays: float = 0.0
+    stray: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     @property
     def z(self) -> np.ndarray:
         """(n,) whitened residuals as entered."""
         return self.null.white(self.null.r)
+
+    @property
+    def strays(self) -> float:
+        """Expected number of robot frequencies that belong to no mode."""
+        return float(self.stray.sum())
+
+    @property
+    def ahead(self) -> float:
+        """Log evidence of no cause at all beyond that in this ground, whose frequencies may be paired more freely."""
+        return self.null.level + STRAY_NATS * self.setting.strays - self.level
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -112,7 +122,7 @@ def refit(ground: Ground, picked: tuple[Choice, ...], start: np.ndarray | None =
     """Gauss-Newton on all sizes together through the nonlinear residuals, steps halved while they do not help.
 
     The residuals are r(theta) = r0 - J theta, so the signature, d(model)/d(theta), has the sign of -J. With a start
-    the search begins there, and the evidence is against zero residuals of the same ground.
+    the search begins there in the ground of an earlier fit, and the evidence is against no cause at all.
     """
     theta = np.zeros(sum(c.signature.shape[1] for c in picked)) if start is None else start
     if start is None:
@@ -141,6 +151,7 @@ def refit(ground: Ground, picked: tuple[Choice, ...], start: np.ndarray | None =
     matrix = np.eye(len(theta)) + signature.T @ signature
     level = ground.null.level if start is None else ground.level
     gain = level - 0.5 * (cost + np.linalg.slogdet(matrix)[1]) - ground.null.log_volume
+    gain -= 0.0 if start is None else STRAY_NATS * ground.strays
     gain += sum(c.log_weight for c in picked)
     return Fit(picked, theta, np.linalg.inv(matrix), float(gain), white, signature, ground)
 
@@ -153,9 +164,9 @@ def settled(ground: Ground, fit: Fit) -> Fit:
     except ValueError:  # a body or a cable that cannot exist
         return replace(fit, gain=-np.inf)
     null, offset = relinearised(setting, world, ground.readings, ground.extra, ground.likeliest)
-    there = replace(ground, setting=setting, null=null, offset=offset, strays=setting.strays)
+    there = replace(ground, setting=setting, null=null, offset=offset, stray=setting.stray)
     again = refit(there, fit.choices, fit.theta)
-    return replace(again, gain=again.gain + fit.spread - STRAY_NATS * setting.strays, spread=fit.spread)
+    return replace(again, gain=again.gain + fit.spread, spread=fit.spread)
 
 
 def screen_beyond(fit: Fit, found: list[Candidate]) -> list[Screened]:

@@ -11,7 +11,7 @@
 | FA    | one a mode and channel of an FRF      | %    | ln of measured over computed modal constant |
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -64,7 +64,7 @@ class Setting:
     robot_doubt : extra noise of each robot frequency [%]
     constants, constant_gap, constant_doubt : modal constants of FRFs, ln(exact / closed form), extra noise [%]
     locked_at : equilibria of the `locked` states in the world that this setting is about
-    strays : expected number of robot frequencies that belong to no mode of that world
+    stray : probability of each robot frequency to belong to no mode of that world
     """
 
     campaign: Campaign
@@ -89,7 +89,12 @@ class Setting:
     massless: bool = False
     geometric: bool = True
     locked_at: Reference | None = None
-    strays: float = 0.0
+    stray: np.ndarray = field(default_factory=lambda: np.zeros(0))
+
+    @property
+    def strays(self) -> float:
+        """Expected number of robot frequencies that belong to no mode."""
+        return float(self.stray.sum())
 
 
 def residuals(setting: Setting, world: World, readings: Readings, small: bool = False) -> np.ndarray:

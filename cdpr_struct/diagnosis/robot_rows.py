@@ -79,7 +79,7 @@ def with_robot_rows(setting: Setting, model: ModelModes, wary: bool) -> Setting:
     setting = replace(
         setting, robot_rows=rows, robot_gap=followed.gap[pick], robot_log=np.log(2.0 * np.pi * peaks.hertz),
         robot_doubt=100.0 * np.sqrt(pairing.doubt**2 + np.diagonal(own)[pick]),
-        entered=followed.matrix[pick], entered_rate=followed.rate[pick], strays=pairing.strays,
+        entered=followed.matrix[pick], entered_rate=followed.rate[pick], stray=pairing.stray,
     )  # fmt: skip
     if not len(setting.constants):
         return setting

@@ -1,11 +1,11 @@
 """One cause, several causes, or nothing: forward selection, every step with all sizes free, and exchange."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.stats import chi2
 
-from cdpr_struct.diagnosis.evidence import Choice, Screened, candidates, choices, screen
+from cdpr_struct.diagnosis.evidence import Choice, Screened, candidates, choices, log_bayes_factor, screen
 from cdpr_struct.diagnosis.heldout import groups_of, weakest
 from cdpr_struct.diagnosis.refit import Fit, Ground, refit, screen_beyond, settled
 from cdpr_struct.diagnosis.residuals import residuals
@@ -21,6 +21,8 @@ _SETTLED_SHARE = 0.5  # of the best gain: large effects move frequencies past ea
 _HOPELESS = 2.0  # nats at screening below which a further cause is not refitted
 _HOLDS = 1.0  # nats that a further cause keeps whichever group of states is left out
 _BETTER = 0.5  # nats that make an exchange worth while
+_BEGINNINGS = 2  # causes to begin with, beside the best single one, where two causes seem better
+_SEEN, _MISJUDGED = 1.0, 2.0  # nats of a cause worth beginning with; by which linear evidence of two may be off
 _NEEDLESS = 1.0  # nats by which a special case of a cause beats it if its other parameters are needless
 
 
@@ -30,11 +32,13 @@ class Selection:
 
     fit    : the chosen causes, or None for none;  first : all single causes refitted, best first
     rivals : per chosen cause, the fits in which another cause takes its place and says something else, best first
+    caught : (causes, r) by how much less probably a robot frequency belongs to no mode with that cause than without
     """
 
     fit: Fit | None
     first: list[Fit]
     rivals: list[list[Fit]]
+    caught: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
 
 
 class Search:
@@ -49,11 +53,12 @@ class Search:
         """Refits of accepted causes plus one more, best first; causes far from the best at screening are left out."""
         key = _key(accepted)
         if key not in self._known:
-            self._known[key] = _ranked(self.ground, self._fitted(accepted), None if accepted else self._large)
+            self._known[key] = _ranked(self.ground, self.fitted(accepted), None if accepted else self._large)
             self._fits |= {_key(fit.choices): fit for fit in self._known[key]}
         return self._known[key]
 
-    def _fitted(self, accepted: tuple[Choice, ...]) -> Fit | None:
+    def fitted(self, accepted: tuple[Choice, ...]) -> Fit | None:
+        """Accepted causes alone; None for none."""
         key = _key(accepted)
         if accepted and key not in self._fits:
             self._fits[key] = settled(self.ground, refit(self.ground, accepted))
@@ -114,7 +119,7 @@ def _settled(ground: Ground, fits: list[Fit]) -> list[Fit]:
     near = max(2, sum(fit.gain > fits[0].gain - margin for fit in fits))
     first = [settled(ground, fit) for fit in fits[:near]]
     if any(_explains(fit) for fit in first):
-        return first + fits[near:]
+        return first + [replace(fit, gain=fit.gain - ground.ahead) for fit in fits[near:]]
     return first + [settled(ground, fit) for fit in fits[near:]]
 
 
@@ -156,18 +161,69 @@ def select(ground: Ground, further: float, most: int, large: list[Fit] | None = 
     search = Search(ground, large)
     first = search.rank()
     best = first[0]
+    begun = [best.choices, *(_other_beginnings(ground, further) if most > 1 else [])]
     while len(best.choices) < most:
-        more = [fit for fit in search.rank(best.choices) if fit.gain > best.gain + further and _holds(fit)]
+        more = [fit for one in begun for fit in _one_more(search, one) if fit.gain > best.gain + further]
         if not more:
             break
-        best = _exchanged(search, more[0])
-    rivals = []
+        best = _exchanged(search, max(more, key=lambda fit: fit.gain))
+        begun = [best.choices]
+    rivals, caught_by = [], []
     for i, name in enumerate(best.names):
         kept = tuple(c for j, c in enumerate(best.choices) if j != i)
-        others = [fit for fit in search.rank(kept) if fit.names[-1] != name]
+        others = _in_its_place(ground, best, i, [fit for fit in search.rank(kept) if fit.names[-1] != name])
         gains = {name: best.gain, **{fit.names[-1]: fit.gain for fit in others}}
         rivals.append([fit for fit in others if _says_more(fit, gains)])
-    return Selection(best, first, rivals)
+        caught_by.append(_fewer_strays(ground, search.fitted(kept), best))
+    return Selection(best, first, rivals, np.array(caught_by))
+
+
+def _in_its_place(ground: Ground, best: Fit, i: int, rivals: list[Fit]) -> list[Fit]:
+    """Rivals of the i-th cause of a fit, best first, the near ones also with the fit's pairing of the frequencies.
+
+    Which mode a peak is may change by a hair's breadth of a world; that is no evidence between causes.
+    """
+    if ground.level == ground.null.level:
+        return rivals
+    parts, found = best.parts(), list(rivals)
+    kept = tuple(c for j, c in enumerate(best.choices) if j != i)
+    sizes = [part for j, part in enumerate(parts) if j != i]
+    for j, rival in enumerate(rivals[: ground.budget]):
+        picked = rival.choices[-1]
+        begun = refit(best.ground, (*kept, picked), np.concatenate([*sizes, np.zeros(len(picked.prior))]))
+        begun = replace(begun, gain=begun.gain + rival.spread, spread=rival.spread)
+        found[j] = max(rival, begun, key=lambda fit: fit.gain)
+    return sorted(found, key=lambda fit: -fit.gain)
+
+
+def _other_beginnings(ground: Ground, further: float) -> list[tuple[Choice, ...]]:
+    """Single causes to begin with because two causes seem better than any one, best first.
+
+    The best single cause may be one that stands in, each cable its own, for two others together.
+    """
+    single = screen(ground.candidates, ground.z)[0].gain
+    found: dict[tuple[str, str], tuple[float, Choice]] = {}
+    for candidate in ground.candidates:
+        others = [other for other in ground.candidates if other is not candidate]
+        for picked in choices(candidate):
+            alone = float(log_bayes_factor(picked.signature, ground.z)) + picked.log_weight
+            if alone > _SEEN and others:
+                both = alone + screen(others, ground.z, picked.signature)[0].gain
+                label = (candidate.name, picked.pattern.label)
+                found[label] = max(found.get(label, (-np.inf, picked)), (both, picked), key=lambda row: row[0])
+    better = sorted((row for row in found.values() if row[0] > single + further - _MISJUDGED), key=lambda row: -row[0])
+    return [(picked,) for _, picked in better[:_BEGINNINGS]]
+
+
+def _one_more(search: Search, accepted: tuple[Choice, ...]) -> list[Fit]:
+    """Accepted causes and one more that does not hang on one group of states."""
+    before = search.fitted(accepted)
+    return [fit for fit in search.rank(accepted) if _holds(search.ground, before, fit)]
+
+
+def _fewer_strays(ground: Ground, before: Fit | None, fit: Fit) -> np.ndarray:
+    """(r,) by how much less probably a robot frequency belongs to no mode in a fit than before it."""
+    return (ground if before is None else before.ground).stray - fit.ground.stray
 
 
 def _says_more(fit: Fit, gains: dict[str, float]) -> bool:
@@ -176,9 +232,11 @@ def _says_more(fit: Fit, gains: dict[str, float]) -> bool:
     return all(gains.get(name, -np.inf) < fit.gain + _NEEDLESS for name in special)
 
 
-def _holds(fit: Fit) -> bool:
+def _holds(ground: Ground, before: Fit | None, fit: Fit) -> bool:
     """Whether the last cause of a fit does not hang on one group of states."""
-    return bool(weakest(fit, groups_of(fit.ground.setting))[-1] > _HOLDS)
+    stray = np.zeros((len(fit.choices), len(fit.ground.stray)))
+    stray[-1] = _fewer_strays(ground, before, fit)
+    return bool(weakest(fit, groups_of(fit.ground.setting), stray)[-1] > _HOLDS)
 
 
 def _exchanged(search: Search, fit: Fit) -> Fit:
