@@ -22,6 +22,7 @@ from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned, 
 from cdpr_struct.diagnosis.locked_pose import Nearby, Reference, locked_pose, missed_pose, nearby_pose
 from cdpr_struct.diagnosis.modal_constants import Constants, log_gain, modelled_constants
 from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.vibrating_state import vibrating
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.measurement.campaign import CableFrequencies, Campaign
 from cdpr_struct.statics.cable_state import CableStates
@@ -105,14 +106,20 @@ def residuals(setting: Setting, world: World, readings: Readings, small: bool = 
     if setting.locked.size:
         blocks.append(1e3 * _scaled(states.missed, setting.radius))
     flat = [np.broadcast_to(b, (*batch, *b.shape[-2:])).reshape((*batch, -1)) for b in blocks]
-    rows = []
-    if setting.cable_rows.hertz.size:
-        model = cable_log_frequencies(wide, states.all.cables, setting.cable_rows) + setting.cable_gap
-        rows.append(100.0 * (np.log(setting.cable_rows.hertz) - model))
-    if setting.robot_rows.omega.size:
-        rows += [100.0 * block for block in _robot_blocks(setting, wide, states.all, small)]
-    flat += [np.broadcast_to(r, (*batch, r.shape[-1])) for r in rows]
+    flat += [np.broadcast_to(r, (*batch, r.shape[-1])) for r in _of_vibration(setting, wide, states.all, small)]
     return np.concatenate(flat, axis=-1)
+
+
+def _of_vibration(setting: Setting, world: World, rest: Conditioned, small: bool) -> list[np.ndarray]:
+    """Cable frequencies, robot frequencies and modal constants, with what hangs on the platform for them."""
+    rows, cables, robot = [], setting.cable_rows.hertz.size, setting.robot_rows.omega.size
+    state = vibrating(world, rest, setting.known) if cables or robot else rest
+    if cables:
+        model = cable_log_frequencies(world, state.cables, setting.cable_rows) + setting.cable_gap
+        rows.append(100.0 * (np.log(setting.cable_rows.hertz) - model))
+    if robot:
+        rows += [100.0 * block for block in _robot_blocks(setting, world, state, small)]
+    return rows
 
 
 def _batch(world: World, readings: Readings) -> tuple[int, ...]:

@@ -78,6 +78,16 @@ class Dynamics:
             ends = cable_stiffness(self.cables)
         else:
             ends = closed_form_stiffness(taut(self.cables, self.density), omega_squared[..., None])
+        stiffness, _ = self._carried(ends)
+        result: np.ndarray = stiffness - omega_squared[..., None, None] * self.mass
+        return result
+
+    def at_rest(self) -> tuple[np.ndarray, np.ndarray]:
+        """Static stiffness (..., r, 6, 6) at locked lengths, and what cables resist a twist by (..., r, 3m, 6)."""
+        return self._carried(cable_stiffness(self.cables))
+
+    def _carried(self, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Stiffness (..., r, 6, 6) of the platform on cable ends (..., r, m, 3, 3), and the cables' part of it."""
         map_ = platform.attachment(*np.moveaxis(self.arms, -1, 0))
         m = map_.shape[-3]
         stacked = map_.reshape((*map_.shape[:-3], 3 * m, 6))
@@ -85,9 +95,7 @@ class Dynamics:
             carried = self._on_masts(ends) @ stacked
         else:
             carried = (ends @ map_).reshape((*np.broadcast_shapes(ends.shape[:-3], map_.shape[:-3]), 3 * m, 6))
-        stiffness = np.swapaxes(stacked, -1, -2) @ carried + self.fixed
-        result: np.ndarray = stiffness - omega_squared[..., None, None] * self.mass
-        return result
+        return np.swapaxes(stacked, -1, -2) @ carried + self.fixed, carried
 
     def _on_masts(self, ends: np.ndarray) -> np.ndarray:
         """(..., 3m, 3m) K (1 + C K)^-1: cable ends behind masts that give way."""
@@ -109,7 +117,8 @@ def _pick(value: np.ndarray, rows: np.ndarray, core: int) -> np.ndarray:
 
 
 def _mass_matrix(world: World, rotation: np.ndarray, arms: np.ndarray, payload: np.ndarray) -> np.ndarray:
-    """(..., r, 6, 6) about the platform origin, at which the payload (..., r) is [kg]."""
+    """(..., r, 6, 6) about the platform origin, at which the payload (..., r) and sensors are [kg]."""
+    payload = payload + world.sensor_mass
     center = (rotation @ world.center_of_mass[..., None])[..., 0]
     inertia = rotation @ world.inertia @ np.swapaxes(rotation, -1, -2)
     body = platform.mass_matrix(world.mass, *_parts(center), *_inertia_parts(inertia))

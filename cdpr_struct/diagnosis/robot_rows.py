@@ -13,6 +13,7 @@ from cdpr_struct.diagnosis.mode_pairing import Modes, Pairing, paired
 from cdpr_struct.diagnosis.null_model import STEP, misread, reading_steps, tolerance_count, tolerated
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, States, at_states
+from cdpr_struct.diagnosis.vibrating_state import vibrating
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.natural_frequencies import count_below
@@ -165,11 +166,10 @@ def _dynamics(setting: Setting, world: World, readings: Readings, state: np.ndar
     """D(omega) of rows at their states, the other states left out."""
     some = np.unique(state)
     part = replace(setting, held=np.intersect1d(setting.held, some), locked=np.intersect1d(setting.locked, some))
-    wide = world.per_state()
+    wide, known = world.per_state(), at_states(setting, some)
     conditioned, local = States(part, wide, readings).all, np.searchsorted(some, state)
-    return robot_pitch.Dynamics.at(
-        wide, conditioned, at_states(setting, some), local, setting.massless, setting.geometric
-    )
+    moving = vibrating(wide, conditioned, known)
+    return robot_pitch.Dynamics.at(wide, moving, known, local, setting.massless, setting.geometric)
 
 
 def _covariance(setting: Setting, world: World, followed: _Followed) -> np.ndarray:
