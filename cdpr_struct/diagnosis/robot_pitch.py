@@ -163,17 +163,24 @@ def rate(dynamics: Dynamics, omega_squared: np.ndarray) -> np.ndarray:
     return (above - below) / (2.0 * step)[..., None, None]
 
 
-def first_order(dynamics: Dynamics, rows: Rows, entered: np.ndarray, entered_rate: np.ndarray) -> np.ndarray:
+def first_order(
+    dynamics: Dynamics, rows: Rows, entered: np.ndarray, entered_rate: np.ndarray, along: np.ndarray | None = None
+) -> np.ndarray:
     """Change of ln omega (..., r) to first order, from D as entered (r, 6, 6) and its rate.
+
+    along (..., r) : ln of what all cables' own frequencies are moved by; D is compared where these are alike then, for
+    at the same frequency a cable that passes by turns it over
 
     In very stiff directions the shape follows the change: there it is condensed exactly. With the shape held, a cable
     that hardly stretches would answer the square of the smallest turn with all its stiffness.
     """
-    change = dynamics.matrix(rows.omega**2) - entered
+    here = rows.omega**2 if along is None else (rows.omega * np.exp(along)) ** 2
+    change = dynamics.matrix(here) - entered
     top = np.einsum("ri,...rij,rj->...r", rows.shape, change, rows.shape)
     top = top - _condensed(change, rows, entered, entered_rate)
     bottom = np.einsum("ri,rij,rj->r", rows.shape, entered_rate, rows.shape)
-    return -top / bottom / (2.0 * rows.omega**2)
+    move = -top / bottom / (2.0 * rows.omega**2)
+    return move if along is None else along + move
 
 
 def _condensed(change: np.ndarray, rows: Rows, entered: np.ndarray, entered_rate: np.ndarray) -> np.ndarray:

@@ -22,6 +22,14 @@ def vibrating(world: World, state: Conditioned, known: Circumstances) -> Conditi
     return held_state(world, position, rotation, tension, known)
 
 
+def raised(rest: Conditioned, state: Conditioned) -> np.ndarray | None:
+    """(..., S) ln of what the cables' own frequencies rise by, on average, from a state to one of `vibrating`."""
+    if state is rest:
+        return None
+    result: np.ndarray = 0.5 * np.log(state.tension / rest.tension).mean(axis=-1)
+    return result
+
+
 def _given_way(world: World, state: Conditioned, known: Circumstances) -> tuple[np.ndarray, np.ndarray]:
     """Twist (..., S, 6) of the platform under the mass [m, rad], and rise (..., S, m) of the tensions there [N]."""
     everywhere = np.arange(state.position.shape[-2])

@@ -25,7 +25,7 @@ from fem_reference.robot_modes import robot_matrices
 
 ELEMENTS, CABLE_MODES, ROBOT_MODES, SHIFT = 24, 2, 48, -0.4
 SEEN = 0.3  # share of the kinetic energy in the platform: what an accelerometer shows as a clear peak
-CAMPAIGN = """robot = "{robot}"
+CAMPAIGN = """robot = "{name}"
 model = "dsm"
 [[measurement]]
 kind = "static_state"
@@ -121,7 +121,7 @@ def sensors_campaign(
             tables["peaks"].append(case | {"frequency_hz": read, "sigma": noise.robot * hertz})
     for file, rows in tables.items():
         pd.DataFrame(rows).to_csv(folder / f"{file}.csv", index=False)
-    (folder / "campaign.toml").write_text(CAMPAIGN.format(robot=name, **vars(noise)))
+    (folder / "campaign.toml").write_text(CAMPAIGN.format(name=name, **vars(noise)))
     return load_campaign(folder / "campaign.toml")
 
 
