@@ -62,7 +62,8 @@ class Setting:
     sent : what the simulation commands at `held` states without lengths
     radius : of the platform [m]
     cable_rows, robot_rows : measured frequencies, and the gaps ln(exact / closed form) at the world as entered
-    entered, entered_rate, entered_rise : D and its rate at the rows in their world, and what `raised` says there
+    entered, entered_rate, entered_rise : D and its rate at the rows in their world, what `raised` says there
+    nearness (r, m) : of the rows to the cables' own frequencies, as in `robot_pitch`
     robot_doubt : extra noise of each robot frequency [%]
     constants, constant_gap, constant_doubt : modal constants of FRFs, ln(exact / closed form), extra noise [%]
     locked_at : equilibria of the `locked` states in the world that this setting is about
@@ -86,6 +87,7 @@ class Setting:
     entered: np.ndarray
     entered_rate: np.ndarray
     entered_rise: np.ndarray
+    nearness: np.ndarray
     constants: Constants
     constant_gap: np.ndarray
     constant_doubt: np.ndarray
@@ -250,7 +252,7 @@ def _internal(setting: Setting, world: World, states: States, readings: Readings
 def _robot_blocks(
     setting: Setting, world: World, state: Conditioned, rise: np.ndarray | None, small: bool
 ) -> list[np.ndarray]:
-    """Robot frequencies, and modal constants where any were measured; rise (..., S) as of `raised`."""
+    """Robot frequencies, and modal constants where any were measured; rise (..., S, m) as of `raised`."""
     rows = setting.robot_rows
     dynamics = robot_pitch.Dynamics.at(world, state, setting.known, rows.state, setting.massless, setting.geometric)
     along = _along(setting, rise)
@@ -268,8 +270,9 @@ def _robot_blocks(
 
 
 def _along(setting: Setting, rise: np.ndarray | None) -> np.ndarray | None:
-    """(..., r) ln of what the cables' own frequencies rise by from the world of the rows; None if by nothing."""
+    """(..., r) ln of what nearest cables' own frequencies rise by from the world of the rows; None if by nothing."""
     if rise is None and not setting.entered_rise.any():
         return None
-    now = 0.0 if rise is None else np.take(rise, setting.robot_rows.state, axis=-1)
-    return now - setting.entered_rise
+    now = 0.0 if rise is None else np.take(rise, setting.robot_rows.state, axis=-2)
+    result: np.ndarray = ((now - setting.entered_rise) * setting.nearness).sum(axis=-1)
+    return result

@@ -18,6 +18,7 @@ _STEP = 1e-5
 _ITERATIONS = 5
 _SETTLED = 1e-7  # of omega^2
 _LARGEST_MOVE = 0.02  # of ln omega, beyond the first-order estimate
+_NEAR = 1e-3  # of a frequency: cables this near count fully
 _STIFF = 100.0  # times omega^2: a direction so stiff follows at once, as along cables that hardly stretch
 
 
@@ -163,13 +164,22 @@ def rate(dynamics: Dynamics, omega_squared: np.ndarray) -> np.ndarray:
     return (above - below) / (2.0 * step)[..., None, None]
 
 
+def nearness(dynamics: Dynamics, omega: np.ndarray) -> np.ndarray:
+    """(r, m) shares, large for cables that have a frequency of their own, ends held, near omega (r,)."""
+    cables = dynamics.cables
+    waves = omega[:, None] * cables.chord / np.sqrt(cables.tension / dynamics.density)
+    weight = 1.0 / ((np.sin(waves) / waves) ** 2 + _NEAR**2)
+    result: np.ndarray = weight / weight.sum(axis=-1, keepdims=True)
+    return result
+
+
 def first_order(
     dynamics: Dynamics, rows: Rows, entered: np.ndarray, entered_rate: np.ndarray, along: np.ndarray | None = None
 ) -> np.ndarray:
     """Change of ln omega (..., r) to first order, from D as entered (r, 6, 6) and its rate.
 
-    along (..., r) : ln of what all cables' own frequencies are moved by; D is compared where these are alike then, for
-    at the same frequency a cable that passes by turns it over
+    along (..., r) : ln of what the nearest cables' own frequencies are moved by; D is compared where these are alike
+    then, since at the same frequency a cable that passes by turns it over
 
     In very stiff directions the shape follows the change: there it is condensed exactly. With the shape held, a cable
     that hardly stretches would answer the square of the smallest turn with all its stiffness.

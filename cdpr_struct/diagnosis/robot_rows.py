@@ -33,13 +33,17 @@ _ELSEWHERE = (0.05, 0.02)  # of ln f: in a world that may be wrong all modes may
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Followed:
-    """Modes as the closed form has them: rows, ln(exact / closed form), D and its rate there, rise by sensors."""
+    """Modes as the closed form has them: rows, ln(exact / closed form), D and its rate there.
+
+    rise, nearness (k, m) : what sensors raise the cables' own frequencies by, and how near the mode is to these
+    """
 
     rows: robot_pitch.Rows
     gap: np.ndarray
     matrix: np.ndarray
     rate: np.ndarray
     rise: np.ndarray
+    nearness: np.ndarray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,7 +86,7 @@ def with_robot_rows(setting: Setting, model: ModelModes, wary: bool) -> Setting:
         setting, robot_rows=rows, robot_gap=followed.gap[pick], robot_log=np.log(2.0 * np.pi * peaks.hertz),
         robot_doubt=100.0 * np.sqrt(pairing.doubt**2 + np.diagonal(own)[pick]),
         entered=followed.matrix[pick], entered_rate=followed.rate[pick], entered_rise=followed.rise[pick],
-        strays=pairing.strays,
+        nearness=followed.nearness[pick], strays=pairing.strays,
     )  # fmt: skip
     if not len(setting.constants):
         return setting
@@ -161,7 +165,9 @@ def _followed(setting: Setting, world: World, modes: Modes) -> _Followed:
     best = np.abs(np.einsum("ri,rij->rj", modes.shape * scale, vectors)).argmax(axis=-1)
     shape = np.take_along_axis(vectors, best[:, None, None], axis=-1)[..., 0] / scale
     rows = robot_pitch.Rows(modes.state, omega, shape)
-    return _Followed(rows, gap, matrix, robot_pitch.rate(dynamics, omega**2), rise)
+    return _Followed(
+        rows, gap, matrix, robot_pitch.rate(dynamics, omega**2), rise, robot_pitch.nearness(dynamics, omega)
+    )
 
 
 def _dynamics(setting: Setting, world: World, readings: Readings, state: np.ndarray) -> robot_pitch.Dynamics:
@@ -172,7 +178,7 @@ def _dynamics(setting: Setting, world: World, readings: Readings, state: np.ndar
 def _dynamics_and_rise(
     setting: Setting, world: World, readings: Readings, state: np.ndarray
 ) -> tuple[robot_pitch.Dynamics, np.ndarray]:
-    """D(omega) of rows at their states, and (..., r) what sensors raise the cables' own frequencies by there."""
+    """D(omega) of rows at their states, and (..., r, m) what sensors raise the cables' own frequencies by there."""
     some = np.unique(state)
     part = replace(setting, held=np.intersect1d(setting.held, some), locked=np.intersect1d(setting.locked, some))
     wide, known = world.per_state(), at_states(setting, some)
@@ -180,7 +186,7 @@ def _dynamics_and_rise(
     moving = vibrating(wide, conditioned, known)
     rise = raised(conditioned, moving)
     at = robot_pitch.Dynamics.at(wide, moving, known, local, setting.massless, setting.geometric)
-    return at, np.zeros(local.shape) if rise is None else np.take(rise, local, axis=-1)
+    return at, np.zeros((local.size, world.cables)) if rise is None else np.take(rise, local, axis=-2)
 
 
 def _covariance(setting: Setting, world: World, followed: _Followed) -> np.ndarray:

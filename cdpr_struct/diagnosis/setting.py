@@ -48,7 +48,8 @@ def make_setting(campaign: Campaign) -> tuple[Setting, Setting]:
     setting = Setting(
         campaign, circumstances(campaign), held, locked, states.has_length[held], commanded(campaign, held), radius,
         Labels(blank, blank, blank), campaign.cable_frequencies, np.zeros(campaign.cable_frequencies.hertz.size),
-        robot_pitch.Rows(np.zeros(0, dtype=int), blank, np.zeros((0, 6))), *[blank] * 6,
+        robot_pitch.Rows(np.zeros(0, dtype=int), blank, np.zeros((0, 6))),
+        blank, blank, blank, blank, blank, blank, blank,
         constants, np.zeros(len(constants)), np.zeros(len(constants)),
         campaign.model == "static", campaign.assembly == "consistent",
     )  # fmt: skip

@@ -23,10 +23,10 @@ def vibrating(world: World, state: Conditioned, known: Circumstances) -> Conditi
 
 
 def raised(rest: Conditioned, state: Conditioned) -> np.ndarray | None:
-    """(..., S) ln of what the cables' own frequencies rise by, on average, from a state to one of `vibrating`."""
+    """(..., S, m) ln of what the cables' own frequencies rise by from a state to one of `vibrating`; or None."""
     if state is rest:
         return None
-    result: np.ndarray = 0.5 * np.log(state.tension / rest.tension).mean(axis=-1)
+    result: np.ndarray = 0.5 * np.log(state.tension / rest.tension)
     return result
 
 
