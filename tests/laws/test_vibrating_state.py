@@ -38,7 +38,7 @@ def entered():
 
 @pytest.mark.parametrize("case", WORLDS)
 def test_lengths_stay_locked_and_the_cables_carry_the_weight(entered, case):
-    """To first order in 2 kg on 118.5 kg: a thousandth of the stretch and of the weight is left, both of second order."""
+    """To first order in 2 kg on 118.5 kg: about a thousandth of the stretch and of the weight is left over."""
     setting, world, readings = entered
     world = replace(WORLDS[case](world), sensor_mass=np.array(MASS)).per_state()
     rest = States(setting, world, readings).all
