@@ -6,6 +6,7 @@
 | readings.py            | what the sensors said, as arrays that can be perturbed                             |
 | conditioned_state.py   | wrench balance and length compatibility at the measured state                      |
 | locked_pose.py         | the pose at locked lengths, beside the measured one                                |
+| vibrating_state.py     | the state with what hangs on the platform while vibration is measured, and only then |
 | cable_pitch.py         | natural frequencies of single cables at the measured state                         |
 | robot_pitch.py         | natural frequencies of the robot at the measured state, followed mode by mode      |
 | mode_pairing.py        | which mode of the model is which measured peak?                                    |

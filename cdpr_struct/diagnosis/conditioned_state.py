@@ -89,8 +89,13 @@ def series_stiffness(world: World, chord: np.ndarray, tension: np.ndarray, known
 
 def condition(world: World, readings: Readings, known: Circumstances) -> Conditioned:
     """The state that the readings of pose and tension mean; `world` per state."""
-    position, rotation = true_pose(world, readings)
-    tension = true_tension(world, readings, known)
+    return held_state(world, *true_pose(world, readings), true_tension(world, readings, known), known)
+
+
+def held_state(
+    world: World, position: np.ndarray, rotation: np.ndarray, tension: np.ndarray, known: Circumstances
+) -> Conditioned:
+    """The state of given pose and tensions (..., S, m) at the platform [N]; `world` per state."""
     arms = world.platform_anchors @ np.swapaxes(rotation, -1, -2)
     points = position[..., None, :] + arms
     cables = hold(world, points, tension, known, world.frame_anchors)
@@ -156,7 +161,7 @@ def _between(
 
 def load_wrench(world: World, position: np.ndarray, rotation: np.ndarray, known: Circumstances) -> np.ndarray:
     """(..., S, 6) wrench of weight, payload, joints, hose and forces about the platform origin; `world` per state."""
-    gravity = world.gravity[..., None] * _down(world)
+    gravity = world.gravity[..., None] * down(world)
     center = (rotation @ world.center_of_mass[..., None])[..., 0]
     arms = world.platform_anchors @ np.swapaxes(rotation, -1, -2)
     force = world.mass[..., None] * gravity
@@ -168,7 +173,8 @@ def load_wrench(world: World, position: np.ndarray, rotation: np.ndarray, known:
     return np.concatenate(np.broadcast_arrays(force, moment), axis=-1)
 
 
-def _down(world: World) -> np.ndarray:
+def down(world: World) -> np.ndarray:
+    """(..., 3) where the platform's weight pulls, world axes, its vertical part 1."""
     flat = world.tilt
     return np.concatenate([flat, -np.ones((*flat.shape[:-1], 1))], axis=-1)
 

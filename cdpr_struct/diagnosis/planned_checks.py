@@ -49,6 +49,7 @@ def _weighed_cells(world: World) -> np.ndarray:
 CHECKS = (
     Check("weigh the platform (+-0.1 kg)", 0.1, lambda w: w.mass[..., None]),
     Check("weigh the joints (+-0.01 kg)", 0.01, lambda w: w.joint_mass),
+    Check("weigh sensors and shaker (+-0.05 kg)", 0.05, lambda w: w.sensor_mass[..., None]),
     Check("weigh 5 m of cable (+-0.5 %)", 0.005, lambda w: np.log(w.linear_density)),
     Check("tensile test of 2 m of cable (+-1 %)", 0.01, lambda w: np.log(w.axial_stiffness)),
     Check("balance the platform on an edge (+-2 mm)", 2e-3, lambda w: w.center_of_mass),

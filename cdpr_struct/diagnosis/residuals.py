@@ -22,6 +22,7 @@ from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned, 
 from cdpr_struct.diagnosis.locked_pose import Nearby, Reference, locked_pose, missed_pose, nearby_pose
 from cdpr_struct.diagnosis.modal_constants import Constants, log_gain, modelled_constants
 from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.vibrating_state import raised, vibrating
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.measurement.campaign import CableFrequencies, Campaign
 from cdpr_struct.statics.cable_state import CableStates
@@ -61,6 +62,8 @@ class Setting:
     sent : what the simulation commands at `held` states without lengths
     radius : of the platform [m]
     cable_rows, robot_rows : measured frequencies, and the gaps ln(exact / closed form) at the world as entered
+    entered, entered_rate, entered_rise : D and its rate at the rows in their world, what `raised` says there
+    nearness (r, m) : of the rows to the cables' own frequencies, as in `robot_pitch`
     robot_doubt : extra noise of each robot frequency [%]
     constants, constant_gap, constant_doubt : modal constants of FRFs, ln(exact / closed form), extra noise [%]
     locked_at : equilibria of the `locked` states in the world that this setting is about
@@ -83,6 +86,8 @@ class Setting:
     robot_doubt: np.ndarray
     entered: np.ndarray
     entered_rate: np.ndarray
+    entered_rise: np.ndarray
+    nearness: np.ndarray
     constants: Constants
     constant_gap: np.ndarray
     constant_doubt: np.ndarray
@@ -110,14 +115,20 @@ def residuals(setting: Setting, world: World, readings: Readings, small: bool = 
     if setting.locked.size:
         blocks.append(1e3 * _scaled(states.missed, setting.radius))
     flat = [np.broadcast_to(b, (*batch, *b.shape[-2:])).reshape((*batch, -1)) for b in blocks]
-    rows = []
-    if setting.cable_rows.hertz.size:
-        model = cable_log_frequencies(wide, states.all.cables, setting.cable_rows) + setting.cable_gap
-        rows.append(100.0 * (np.log(setting.cable_rows.hertz) - model))
-    if setting.robot_rows.omega.size:
-        rows += [100.0 * block for block in _robot_blocks(setting, wide, states.all, small)]
-    flat += [np.broadcast_to(r, (*batch, r.shape[-1])) for r in rows]
+    flat += [np.broadcast_to(r, (*batch, r.shape[-1])) for r in _of_vibration(setting, wide, states.all, small)]
     return np.concatenate(flat, axis=-1)
+
+
+def _of_vibration(setting: Setting, world: World, rest: Conditioned, small: bool) -> list[np.ndarray]:
+    """Cable frequencies, robot frequencies and modal constants, with what hangs on the platform for them."""
+    rows, cables, robot = [], setting.cable_rows.hertz.size, setting.robot_rows.omega.size
+    state = vibrating(world, rest, setting.known) if cables or robot else rest
+    if cables:
+        model = cable_log_frequencies(world, state.cables, setting.cable_rows) + setting.cable_gap
+        rows.append(100.0 * (np.log(setting.cable_rows.hertz) - model))
+    if robot:
+        rows += [100.0 * block for block in _robot_blocks(setting, world, state, raised(rest, state), small)]
+    return rows
 
 
 def _batch(world: World, readings: Readings) -> tuple[int, ...]:
@@ -243,11 +254,14 @@ def _internal(setting: Setting, world: World, states: States, readings: Readings
     return seen + apart + common
 
 
-def _robot_blocks(setting: Setting, world: World, state: Conditioned, small: bool) -> list[np.ndarray]:
-    """Robot frequencies, and modal constants where any were measured."""
+def _robot_blocks(
+    setting: Setting, world: World, state: Conditioned, rise: np.ndarray | None, small: bool
+) -> list[np.ndarray]:
+    """Robot frequencies, and modal constants where any were measured; rise (..., S, m) as of `raised`."""
     rows = setting.robot_rows
     dynamics = robot_pitch.Dynamics.at(world, state, setting.known, rows.state, setting.massless, setting.geometric)
-    move = robot_pitch.first_order(dynamics, rows, setting.entered, setting.entered_rate)
+    along = _along(setting, rise)
+    move = robot_pitch.first_order(dynamics, rows, setting.entered, setting.entered_rate, along)
     log = np.log(rows.omega) + move
     if not small:  # absurd worlds may send the first guess anywhere
         near = np.log(rows.omega) + np.clip(np.nan_to_num(move), -1.0, 1.0)
@@ -258,3 +272,12 @@ def _robot_blocks(setting: Setting, world: World, state: Conditioned, small: boo
         return [frequencies]
     model = modelled_constants(constants, dynamics, rows, np.exp(log)) + log_gain(constants, world)
     return [frequencies, constants.log - model - setting.constant_gap]
+
+
+def _along(setting: Setting, rise: np.ndarray | None) -> np.ndarray | None:
+    """(..., r) ln of what nearest cables' own frequencies rise by from the world of the rows; None if by nothing."""
+    if rise is None and not setting.entered_rise.any():
+        return None
+    now = 0.0 if rise is None else np.take(rise, setting.robot_rows.state, axis=-2)
+    result: np.ndarray = ((now - setting.entered_rise) * setting.nearness).sum(axis=-1)
+    return result

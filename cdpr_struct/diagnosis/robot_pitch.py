@@ -18,6 +18,7 @@ _STEP = 1e-5
 _ITERATIONS = 5
 _SETTLED = 1e-7  # of omega^2
 _LARGEST_MOVE = 0.02  # of ln omega, beyond the first-order estimate
+_NEAR = 1e-3  # of a frequency: cables this near count fully
 _STIFF = 100.0  # times omega^2: a direction so stiff follows at once, as along cables that hardly stretch
 
 
@@ -78,6 +79,16 @@ class Dynamics:
             ends = cable_stiffness(self.cables)
         else:
             ends = closed_form_stiffness(taut(self.cables, self.density), omega_squared[..., None])
+        stiffness, _ = self._carried(ends)
+        result: np.ndarray = stiffness - omega_squared[..., None, None] * self.mass
+        return result
+
+    def at_rest(self) -> tuple[np.ndarray, np.ndarray]:
+        """Static stiffness (..., r, 6, 6) at locked lengths, and what cables resist a twist by (..., r, 3m, 6)."""
+        return self._carried(cable_stiffness(self.cables))
+
+    def _carried(self, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Stiffness (..., r, 6, 6) of the platform on cable ends (..., r, m, 3, 3), and the cables' part of it."""
         map_ = platform.attachment(*np.moveaxis(self.arms, -1, 0))
         m = map_.shape[-3]
         stacked = map_.reshape((*map_.shape[:-3], 3 * m, 6))
@@ -85,9 +96,7 @@ class Dynamics:
             carried = self._on_masts(ends) @ stacked
         else:
             carried = (ends @ map_).reshape((*np.broadcast_shapes(ends.shape[:-3], map_.shape[:-3]), 3 * m, 6))
-        stiffness = np.swapaxes(stacked, -1, -2) @ carried + self.fixed
-        result: np.ndarray = stiffness - omega_squared[..., None, None] * self.mass
-        return result
+        return np.swapaxes(stacked, -1, -2) @ carried + self.fixed, carried
 
     def _on_masts(self, ends: np.ndarray) -> np.ndarray:
         """(..., 3m, 3m) K (1 + C K)^-1: cable ends behind masts that give way."""
@@ -109,7 +118,8 @@ def _pick(value: np.ndarray, rows: np.ndarray, core: int) -> np.ndarray:
 
 
 def _mass_matrix(world: World, rotation: np.ndarray, arms: np.ndarray, payload: np.ndarray) -> np.ndarray:
-    """(..., r, 6, 6) about the platform origin, at which the payload (..., r) is [kg]."""
+    """(..., r, 6, 6) about the platform origin, at which the payload (..., r) and sensors are [kg]."""
+    payload = payload + world.sensor_mass
     center = (rotation @ world.center_of_mass[..., None])[..., 0]
     inertia = rotation @ world.inertia @ np.swapaxes(rotation, -1, -2)
     body = platform.mass_matrix(world.mass, *_parts(center), *_inertia_parts(inertia))
@@ -154,17 +164,33 @@ def rate(dynamics: Dynamics, omega_squared: np.ndarray) -> np.ndarray:
     return (above - below) / (2.0 * step)[..., None, None]
 
 
-def first_order(dynamics: Dynamics, rows: Rows, entered: np.ndarray, entered_rate: np.ndarray) -> np.ndarray:
+def nearness(dynamics: Dynamics, omega: np.ndarray) -> np.ndarray:
+    """(r, m) shares, large for cables that have a frequency of their own, ends held, near omega (r,)."""
+    cables = dynamics.cables
+    waves = omega[:, None] * cables.chord / np.sqrt(cables.tension / dynamics.density)
+    weight = 1.0 / ((np.sin(waves) / waves) ** 2 + _NEAR**2)
+    result: np.ndarray = weight / weight.sum(axis=-1, keepdims=True)
+    return result
+
+
+def first_order(
+    dynamics: Dynamics, rows: Rows, entered: np.ndarray, entered_rate: np.ndarray, along: np.ndarray | None = None
+) -> np.ndarray:
     """Change of ln omega (..., r) to first order, from D as entered (r, 6, 6) and its rate.
+
+    along (..., r) : ln of what the nearest cables' own frequencies are moved by; D is compared where these are alike
+    then, since at the same frequency a cable that passes by turns it over
 
     In very stiff directions the shape follows the change: there it is condensed exactly. With the shape held, a cable
     that hardly stretches would answer the square of the smallest turn with all its stiffness.
     """
-    change = dynamics.matrix(rows.omega**2) - entered
+    here = rows.omega**2 if along is None else (rows.omega * np.exp(along)) ** 2
+    change = dynamics.matrix(here) - entered
     top = np.einsum("ri,...rij,rj->...r", rows.shape, change, rows.shape)
     top = top - _condensed(change, rows, entered, entered_rate)
     bottom = np.einsum("ri,rij,rj->r", rows.shape, entered_rate, rows.shape)
-    return -top / bottom / (2.0 * rows.omega**2)
+    move = -top / bottom / (2.0 * rows.omega**2)
+    return move if along is None else along + move
 
 
 def _condensed(change: np.ndarray, rows: Rows, entered: np.ndarray, entered_rate: np.ndarray) -> np.ndarray:

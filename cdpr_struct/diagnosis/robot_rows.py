@@ -13,6 +13,7 @@ from cdpr_struct.diagnosis.mode_pairing import Modes, Pairing, paired
 from cdpr_struct.diagnosis.null_model import STEP, misread, reading_steps, tolerance_count, tolerated
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, States, at_states
+from cdpr_struct.diagnosis.vibrating_state import raised, vibrating
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.natural_frequencies import count_below
@@ -32,12 +33,17 @@ _ELSEWHERE = (0.05, 0.02)  # of ln f: in a world that may be wrong all modes may
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Followed:
-    """Modes as the closed form has them: rows, ln(exact / closed form), D and its rate there."""
+    """Modes as the closed form has them: rows, ln(exact / closed form), D and its rate there.
+
+    rise, nearness (k, m) : what sensors raise the cables' own frequencies by, and how near the mode is to these
+    """
 
     rows: robot_pitch.Rows
     gap: np.ndarray
     matrix: np.ndarray
     rate: np.ndarray
+    rise: np.ndarray
+    nearness: np.ndarray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,7 +85,8 @@ def with_robot_rows(setting: Setting, model: ModelModes, wary: bool) -> Setting:
     setting = replace(
         setting, robot_rows=rows, robot_gap=followed.gap[pick], robot_log=np.log(2.0 * np.pi * peaks.hertz),
         robot_doubt=100.0 * np.sqrt(pairing.doubt**2 + np.diagonal(own)[pick]),
-        entered=followed.matrix[pick], entered_rate=followed.rate[pick], stray=pairing.stray,
+        entered=followed.matrix[pick], entered_rate=followed.rate[pick], entered_rise=followed.rise[pick],
+        nearness=followed.nearness[pick], stray=pairing.stray,
     )  # fmt: skip
     if not len(setting.constants):
         return setting
@@ -148,7 +155,7 @@ def _followed(setting: Setting, world: World, modes: Modes) -> _Followed:
     exact = 2.0 * np.pi * modes.hertz
     rows = robot_pitch.Rows(modes.state, exact, modes.shape)
     readings = Readings.of(setting.campaign.states)
-    dynamics = _dynamics(setting, world, readings, modes.state)
+    dynamics, rise = _dynamics_and_rise(setting, world, readings, modes.state)
     gap = np.log(exact / robot_pitch.follow(dynamics, rows))
     gap = np.where(np.abs(gap) < _MOST_GAP, gap, 0.0)
     omega = robot_pitch.follow(dynamics, rows, exact * np.exp(-gap))
@@ -158,18 +165,28 @@ def _followed(setting: Setting, world: World, modes: Modes) -> _Followed:
     best = np.abs(np.einsum("ri,rij->rj", modes.shape * scale, vectors)).argmax(axis=-1)
     shape = np.take_along_axis(vectors, best[:, None, None], axis=-1)[..., 0] / scale
     rows = robot_pitch.Rows(modes.state, omega, shape)
-    return _Followed(rows, gap, matrix, robot_pitch.rate(dynamics, omega**2))
+    return _Followed(
+        rows, gap, matrix, robot_pitch.rate(dynamics, omega**2), rise, robot_pitch.nearness(dynamics, omega)
+    )
 
 
 def _dynamics(setting: Setting, world: World, readings: Readings, state: np.ndarray) -> robot_pitch.Dynamics:
     """D(omega) of rows at their states, the other states left out."""
+    return _dynamics_and_rise(setting, world, readings, state)[0]
+
+
+def _dynamics_and_rise(
+    setting: Setting, world: World, readings: Readings, state: np.ndarray
+) -> tuple[robot_pitch.Dynamics, np.ndarray]:
+    """D(omega) of rows at their states, and (..., r, m) what sensors raise the cables' own frequencies by there."""
     some = np.unique(state)
     part = replace(setting, held=np.intersect1d(setting.held, some), locked=np.intersect1d(setting.locked, some))
-    wide = world.per_state()
+    wide, known = world.per_state(), at_states(setting, some)
     conditioned, local = States(part, wide, readings).all, np.searchsorted(some, state)
-    return robot_pitch.Dynamics.at(
-        wide, conditioned, at_states(setting, some), local, setting.massless, setting.geometric
-    )
+    moving = vibrating(wide, conditioned, known)
+    rise = raised(conditioned, moving)
+    at = robot_pitch.Dynamics.at(wide, moving, known, local, setting.massless, setting.geometric)
+    return at, np.zeros((local.size, world.cables)) if rise is None else np.take(rise, local, axis=-2)
 
 
 def _covariance(setting: Setting, world: World, followed: _Followed) -> np.ndarray:

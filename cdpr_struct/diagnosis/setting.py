@@ -14,6 +14,7 @@ from cdpr_struct.diagnosis.modal_constants import measured_constants
 from cdpr_struct.diagnosis.readings import Readings, cell_reading, exit_turns
 from cdpr_struct.diagnosis.residuals import Labels, Setting, States, at_states, readings_of_states, world_of_states
 from cdpr_struct.diagnosis.robot_rows import model_modes, with_robot_rows
+from cdpr_struct.diagnosis.vibrating_state import vibrating
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import InputError
@@ -47,7 +48,8 @@ def make_setting(campaign: Campaign) -> tuple[Setting, Setting]:
     setting = Setting(
         campaign, circumstances(campaign), held, locked, states.has_length[held], commanded(campaign, held), radius,
         Labels(blank, blank, blank), campaign.cable_frequencies, np.zeros(campaign.cable_frequencies.hertz.size),
-        robot_pitch.Rows(np.zeros(0, dtype=int), blank, np.zeros((0, 6))), blank, blank, blank, blank, blank,
+        robot_pitch.Rows(np.zeros(0, dtype=int), blank, np.zeros((0, 6))),
+        blank, blank, blank, blank, blank, blank, blank,
         constants, np.zeros(len(constants)), np.zeros(len(constants)),
         campaign.model == "static", campaign.assembly == "consistent",
     )  # fmt: skip
@@ -134,7 +136,9 @@ def with_equilibria(setting: Setting, world: World) -> Setting:
 
 
 def _conditioned(setting: Setting, world: World) -> Conditioned:
-    return States(setting, world.per_state(), Readings.of(setting.campaign.states)).all
+    """The states while vibration is measured."""
+    wide = world.per_state()
+    return vibrating(wide, States(setting, wide, Readings.of(setting.campaign.states)).all, setting.known)
 
 
 def _points(setting: Setting, world: World, states: np.ndarray) -> dict[int, OperatingPoint]:
@@ -145,7 +149,8 @@ def _points(setting: Setting, world: World, states: np.ndarray) -> dict[int, Ope
     if any(np.any(value) for value in given.values()):
         more = Extensions.of(world.cables, {**given, "hose_center": setting.known.center})
         robot = replace(robot, extensions=more)
-    return {int(i): _point(robot, state, int(i), campaign.states.payload[i]) for i in np.unique(states)}
+    payload = campaign.states.payload + np.maximum(world.sensor_mass, 0.0)
+    return {int(i): _point(robot, state, int(i), payload[i]) for i in np.unique(states)}
 
 
 def _point(robot: Robot, state: Conditioned, i: int, payload: float) -> OperatingPoint:

@@ -14,7 +14,7 @@ _CORE = {
     "length_scale": 1, "series_compliance": 1, "frame_compliance": 1, "joint_mass": 1, "cell_gain": 1,
     "cell_bias": 1, "friction": 1, "force": 1, "hose": 0, "tracker": 1, "tilt": 1, "bending_stiffness": 1,
     "added_mass": 1, "nonlinearity": 0, "creep": 0, "slip": 1, "internal": 1, "internal_force": 1,
-    "pose_offset": 1, "masts": 2, "accelerometer_gain": 1,
+    "pose_offset": 1, "masts": 2, "accelerometer_gain": 1, "sensor_mass": 0,
 }  # fmt: skip
 
 EXTENSIONS = tuple(name for name in KEYS if name in _CORE)
@@ -43,6 +43,7 @@ class World:
     internal_force (..., q) : along the null space, the same in all those states [N a cable]
     pose_offset (..., S * 6) : of each state's pose reading [m, rad]
     accelerometer_gain (..., 6) : reading = gain * acceleration, along x, y, z and about them
+    sensor_mass (...) : on the platform origin while vibration is measured, and only then [kg]
     """
 
     platform_anchors: np.ndarray
@@ -77,6 +78,7 @@ class World:
     pose_offset: np.ndarray
     masts: np.ndarray
     accelerometer_gain: np.ndarray
+    sensor_mass: np.ndarray
 
     @classmethod
     def of(cls, robot: Robot, states: int = 0) -> "World":

@@ -56,8 +56,9 @@ KEYS: dict[str, Key] = {
     "creep": Key(0, 0.0, "1", "share of the elastic strain per decade of time after 1 min"),
     "slip": Key("cables", 0.0, "m/h", "of the winch"),
     "accelerometer_gain": Key(6, 1.0, "1", "accelerometer reading = gain * acceleration, x to rz", above=0.0),
+    "sensor_mass": Key(0, 0.0, "kg", "on the platform origin while vibration is measured, not when tensions are", 0.0),
 }  # fmt: skip
-SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain")
+SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain", "sensor_mass")
 """Act only where readings are compared: they describe sensors, or need the time of a reading."""
 AUXILIARY = {"hose_center": "hose", "reference_tension": "nonlinearity"}
 """Mean something only with the other key."""
@@ -91,6 +92,7 @@ class Extensions:
     creep: float
     slip: np.ndarray
     accelerometer_gain: np.ndarray
+    sensor_mass: float
     causes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

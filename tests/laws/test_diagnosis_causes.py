@@ -35,6 +35,7 @@ HIDDEN = [
     ("load_cell_gain", "cable 5 alone", 0.08),
     ("load_cell_bias", "cable 2 alone", 15.0),
     ("gravity_tilt", "", 0.025),
+    ("accelerometer_mass", "", 5.0),
     ("frame_anchor_position", "cable 4 alone", 0.015),
     ("platform_anchor_position", "cable 6 alone", 0.012),
 ]

@@ -1,4 +1,4 @@
-"""What accelerometers do to the size of a vibration."""
+"""What accelerometers do to a vibration: to its size by their gain, to its frequencies by their mass."""
 
 import numpy as np
 
@@ -8,11 +8,21 @@ from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.world import World
 
 _GAIN = 0.05  # of the logarithm
+_MASS = 2.0  # kg: some accelerometers with their cables, a small shaker
 
 
 def _gain(world: World, theta: np.ndarray) -> World:
     """One gain of all directions, then one of each."""
     return world.times(accelerometer_gain=np.exp(theta[..., :1] + theta[..., 1:]))
+
+
+def _mass(world: World, theta: np.ndarray) -> World:
+    return world.plus(sensor_mass=theta[..., 0])
+
+
+def _frequencies(setting: Setting) -> str:
+    measured = setting.cable_rows.hertz.size + setting.campaign.robot_frequencies.hertz.size
+    return "" if measured else "needs frequencies of the cables or of the robot"
 
 
 def _constants(setting: Setting) -> str:
@@ -35,5 +45,16 @@ CAUSES = (
             ("each its own", slice(1, None), 0.2),
             *((f"{d} alone", slice(i, i + 1), 0.05) for i, d in enumerate(DIRECTIONS, start=1)),
         ),
+    ),
+    Cause(
+        "accelerometer_mass",
+        "mass of sensors or a shaker on the platform while vibration was measured, and only then",
+        (Parameter("sensor_mass", "kg", _MASS, positive=True),),
+        _mass,
+        seen_in=("CF", "RF", "FA"),
+        sentence="sensors or a shaker of {value} kg hung on the platform while vibration was measured",
+        needs=_frequencies,
+        separated_by="weighing the sensors; reading the tensions with them on the platform",
+        extension="sensor_mass",
     ),
 )

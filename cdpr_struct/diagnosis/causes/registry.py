@@ -18,7 +18,6 @@ NEEDS_SIGNALS = {
     "viscous_damping": "needs free decays or FRFs",
     "hysteretic_damping": "needs decays at several amplitudes",
     "coulomb_damping": "needs decays at several amplitudes",
-    "accelerometer_mass": "its weight raises the tensions while vibration is measured, which no law here follows yet",
     "flexible_platform": "a peak without partner is listed, not explained; files have no places of sensors",
 }
 
