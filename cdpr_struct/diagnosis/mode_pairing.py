@@ -40,12 +40,13 @@ class Modes:
 class Pairing:
     """chosen (r,) mode of each peak;  doubt (r,) one sigma of ln f from pairings that compete.
 
-    strays : expected number of peaks that belong to no mode
+    strays : expected number of peaks that belong to no mode;  lone (r,) probability of each to be one of them
     """
 
     chosen: np.ndarray
     doubt: np.ndarray
     strays: float
+    lone: np.ndarray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,9 +83,10 @@ def paired(
         grown = [new for path in paths for new in _grown(path, state[i], log, noise[i], modes, seen)]
         grown.sort(key=lambda new: -new[0])
         paths = [_taken(path, j, weight, np.log(hertz[i]), noise[i]) for weight, j, path in grown[:_BEAM]]
-    chosen, doubt = np.zeros(len(order), dtype=int), np.zeros(len(order))
-    chosen[order], doubt[order], strays = _agreed(paths, state[order], hertz[order], modes)
-    return Pairing(chosen, doubt, strays)
+    chosen, doubt, lone = np.zeros(len(order), dtype=int), np.zeros(len(order)), np.zeros(len(order))
+    found = _agreed(paths, state[order], hertz[order], modes)
+    chosen[order], doubt[order], lone[order] = found.chosen, found.doubt, found.lone
+    return Pairing(chosen, doubt, found.strays, lone)
 
 
 def _log_odds(energy: np.ndarray) -> np.ndarray:
@@ -116,10 +118,8 @@ def _taken(path: _Path, j: int, weight: float, log: float, noise: float) -> _Pat
     return _Path(weight, (*path.chosen, j), mean, path.covariance - np.outer(gain, column))
 
 
-def _agreed(
-    paths: list[_Path], state: np.ndarray, hertz: np.ndarray, modes: Modes
-) -> tuple[np.ndarray, np.ndarray, float]:
-    """The best path, how far the others are from it, and the expected number of strays."""
+def _agreed(paths: list[_Path], state: np.ndarray, hertz: np.ndarray, modes: Modes) -> Pairing:
+    """The best path, how far the others are from it, and which peaks are strays."""
     table = np.array([path.chosen for path in paths])
     logs = np.array([path.weight for path in paths])
     weight = np.exp(logs - logs.max())
@@ -128,7 +128,8 @@ def _agreed(
     best = np.where(table[0] >= 0, table[0], near)
     log = np.log(modes.hertz)
     apart = np.where(table >= 0, np.abs(log[table] - log[best]), STRAY_DOUBT)
-    return best, np.sqrt((weight[:, None] * apart**2).sum(axis=0)), float(weight @ (table < 0).sum(axis=1))
+    doubt = np.sqrt((weight[:, None] * apart**2).sum(axis=0))
+    return Pairing(best, doubt, float(weight @ (table < 0).sum(axis=1)), weight @ (table < 0))
 
 
 def _nearest(state: int, hertz: float, modes: Modes) -> int:

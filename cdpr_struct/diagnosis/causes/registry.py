@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 from difflib import get_close_matches
 
-from cdpr_struct.diagnosis.causes import accelerometers, cables, geometry, platform, sensors, stiffness
+from cdpr_struct.diagnosis.causes import accelerometers, cables, geometry, internal_mode, platform, sensors, stiffness
 from cdpr_struct.diagnosis.causes.cause import Cause
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.errors import InputError
@@ -19,7 +19,6 @@ NEEDS_SIGNALS = {
     "hysteretic_damping": "needs decays at several amplitudes",
     "coulomb_damping": "needs decays at several amplitudes",
     "accelerometer_mass": "its weight raises the tensions while vibration is measured, which no law here follows yet",
-    "flexible_platform": "a peak without partner is listed, not explained; files have no places of sensors",
 }
 
 
@@ -59,6 +58,8 @@ def causes_for(setting: Setting) -> tuple[list[Cause], dict[str, str]]:
             testable.append(cause)
     not_testable |= NEEDS_SIGNALS
     campaign = setting.campaign
+    if reason := internal_mode.needs(campaign):
+        not_testable[internal_mode.NAME] = reason
     if campaign.model != "spring":
         not_testable["cable_sag"] = "the simulation under test has sagging cables"
     if campaign.model != "static" or not campaign.robot_frequencies.hertz.size:
