@@ -29,6 +29,12 @@ ELEMENTS, MODES, SHARE = 20, 110, 0.3
 NOISE = {"tension": 2.0, "position": 3e-4, "length": 1e-4, "hertz": 0.002}
 CAMPAIGN = f"""robot = "{ROBOT}"
 model = "dsm"
+[checked]  # of what moves modes only the body is left as a rival, which takes half the time
+axial_stiffness = 0.02
+joint_compliance = 5e-8
+dead_length = 0.05
+frame_compliance = 1e-8
+cable_linear_density = 0.01
 [[measurement]]
 kind = "static_state"
 file = "states.csv"
@@ -120,8 +126,8 @@ def steady(campaign):
 
 
 def test_a_mode_inside_the_platform_is_found_with_its_frequency(tmp_path):
-    """15 % of the platform's mass, on a spring just above the robot's modes, which are judged without its peaks."""
-    campaign, inner = written(tmp_path, seed=4, mass=18.0, hertz=6.9)
+    """6 kg of 118.5 on a spring; the robot's modes are judged without its peaks."""
+    campaign, inner = written(tmp_path, seed=3, mass=6.0, hertz=7.8)
     found = diagnose(campaign)
     said, row = verdict(found), candidate_rows(found)[0]
     assert said.status == "class"
@@ -143,9 +149,9 @@ def test_a_rigid_platform_is_adequate(tmp_path):
     assert verdict(diagnose(campaign)).status == "adequate"
 
 
-def test_peaks_of_a_light_mass_are_steady(tmp_path):
-    """6 kg of 118.5, not picked at one pose of the four."""
-    campaign, inner = written(tmp_path, seed=3, mass=6.0, hertz=7.8, missed=(1,))
+def test_peaks_of_a_heavy_mass_are_steady(tmp_path):
+    """15 % of the platform's mass, close to the modes of the robot; not picked at one pose of the four."""
+    campaign, inner = written(tmp_path, seed=4, mass=18.0, hertz=6.9, missed=(2,))
     ((group, nats),) = steady(campaign)
     assert len(group.rows) == len(POSES) - 1
     assert np.abs(inner - group.hertz).max() < 1.96 * group.sigma
@@ -156,9 +162,9 @@ def test_steady_peaks_of_a_wrong_inertia_are_no_internal_mode(tmp_path):
     """Peaks of 8.3 to 8.8 Hz, where the model's mode without a peak moves alike from pose to pose."""
     about_z = np.sqrt([1.0, 1.0, 0.6])
     campaign, _ = written(tmp_path, seed=12, inertia=np.outer(about_z, about_z))
-    ((group, nats),) = steady(campaign)
-    assert len(group.rows) == len(POSES)
-    assert nats < 0.0
+    found = steady(campaign)
+    assert len(found[0][0].rows) == len(POSES)
+    assert all(nats < 0.0 for _, nats in found)
     found = diagnose(campaign)
     assert found.p_value < SIGNIFICANT
     assert verdict(found).classes == (("platform_inertia",),)
