@@ -7,6 +7,7 @@ import numpy as np
 from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.causes.handling import Correction
+from cdpr_struct.diagnosis.causes.internal_mode import NAME
 from cdpr_struct.diagnosis.evidence import Screened, choices, largest_gains, screen
 from cdpr_struct.diagnosis.handled_data import handled
 from cdpr_struct.diagnosis.heldout import Held, groups_of, left_out, predicted, transfer, weakest
@@ -15,13 +16,12 @@ from cdpr_struct.diagnosis.prepared import BUDGETS, SIGNIFICANT, Budget, Prepare
 from cdpr_struct.diagnosis.refit import Fit, Ground, screen_beyond
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
-from cdpr_struct.diagnosis.selection import Selection, select
+from cdpr_struct.diagnosis.selection import FURTHER, Selection, select
 from cdpr_struct.diagnosis.significance import DRAWS, OUTSIDE, SEED, p_of_noise
 from cdpr_struct.diagnosis.stray_peaks import p_of_strays, strays_left
 from cdpr_struct.diagnosis.suspect_reading import Suspect
 from cdpr_struct.measurement.campaign import Campaign
 
-FURTHER = 6.0  # nats that each further cause must bring
 NAMED = 5.0  # nats that a named cause must bring
 ADEQUATE = 1e-3
 
@@ -88,7 +88,7 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
     selection = _selected(prepared, plan, bool(found))
     progress("predicting what was left out")
     ground, fit, groups = prepared.ground, selection.fit, groups_of(prepared.ground.setting)
-    before = prepared.fine.r
+    before, named = prepared.fine.r, [c.cause for c, _ in found]
     return Diagnosis(
         campaign=data.campaign, entered=entered.fine, entered_setting=entered.ground.setting, ground=ground,
         corrections=found, aside=data.aside, selection=selection, p_value=entered.p_value,
@@ -97,7 +97,8 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
         weakest=weakest(fit, groups, selection.caught) if fit else np.zeros(0),
         held=left_out(fit, before, groups) if fit else None,
         fudge=_fudge(prepared, groups) if fit else None, transfer=transfer(fit, before) if fit else {},
-        outside=_outside(prepared, selection), not_testable=prepared.not_testable,
+        outside=_outside(prepared, selection),
+        not_testable={k: why for k, why in prepared.not_testable.items() if k != NAME or k not in named},
     )  # fmt: skip
 
 

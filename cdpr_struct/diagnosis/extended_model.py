@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from cdpr_struct.diagnosis.causes.internal_mode import NAME
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.extended_robot import extensions_of, robot_of
 from cdpr_struct.diagnosis.refit import world_with
@@ -34,7 +35,7 @@ def extended_robot(found: Diagnosis) -> Robot:
     """The robot of the campaign with the chosen causes."""
     world, known, robot = extended_world(found), found.ground.setting.known, found.campaign.robot
     more = extensions_of(world, known.center, known.mean_tension)
-    causes = [*robot.extensions.causes, *(c.cause for c, _ in found.corrections)]
+    causes = [*robot.extensions.causes, *(c.cause for c, _ in found.corrections if c.cause != NAME)]
     causes += found.selection.fit.names if found.selection.fit else []
     return replace(robot_of(robot, world), extensions=replace(more, causes=tuple(dict.fromkeys(causes))))
 

@@ -1,4 +1,4 @@
-"""What is wrong with the data rather than the robot, found before any cause: handling, single readings, noise."""
+"""What is found before any cause: handling, peaks of internal modes, single readings, noise that wanders."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -7,6 +7,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.causes.handling import Correction
 from cdpr_struct.diagnosis.handling_screen import best_correction
+from cdpr_struct.diagnosis.internal_modes import internal_mode
 from cdpr_struct.diagnosis.null_model import sensors
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, Prepared, prepare
 from cdpr_struct.diagnosis.suspect_reading import Suspect, set_aside, suspect
@@ -48,11 +49,16 @@ def handled(campaign: Campaign, plan: Budget, progress: Callable[[str], None]) -
 def _next(data: Handled, plan: Budget) -> tuple[Handled, bool]:
     """The data with one more explanation, and whether there was one."""
     ground, rival = data.prepared.ground, data.prepared.best
-    better, wrong = None, None
+    better, wrong, inner = None, None, None
     if len(data.corrections) < _MOST_CORRECTIONS:
         better = best_correction(data.campaign, data.prepared.fine.level)
+        inner, prepared = internal_mode(data.campaign, data.prepared, plan)
+        data = replace(data, prepared=prepared)
     if len(data.aside) < _MOST_ASIDE:
         wrong = suspect(ground)
+    if inner is not None and inner.gain > max(better[1] if better else -np.inf, wrong.gain if wrong else -np.inf):
+        found = [*data.corrections, (inner.correction, inner.gain)]
+        return replace(data, campaign=inner.correction.campaign, prepared=inner.rest, corrections=found), True
     if wrong is not None and wrong.gain > max(rival, better[1] if better else -np.inf):
         return _repeated(replace(data, aside=[*data.aside, wrong]), set_aside(data.campaign, wrong), plan), True
     if better is not None:

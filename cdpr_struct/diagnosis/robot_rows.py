@@ -73,14 +73,8 @@ def with_robot_rows(setting: Setting, model: ModelModes, wary: bool) -> Setting:
 
     wary : the modes' world may be far from the truth
     """
-    peaks, modes, followed = setting.campaign.robot_frequencies, model.modes, model.followed
-    own = np.diag((_CABLES_SHARE * (1.0 - modes.energy)) ** 2)
-    covariance = model.covariance + own
-    if wary:
-        covariance = covariance + _ELSEWHERE[0] ** 2 + _ELSEWHERE[1] ** 2 * np.eye(len(covariance))
-    unlike = peaks.unlike(np.arange(len(peaks.hertz)), modes.shape, setting.radius)
-    pairing: Pairing = paired(peaks.state, peaks.hertz, peaks.sigma / peaks.hertz, modes, covariance, unlike)
-    pick = pairing.chosen
+    peaks, followed, pairing = setting.campaign.robot_frequencies, model.followed, pairing_of(setting, model, wary)
+    pick, own = pairing.chosen, _cables_doubt(model.modes)
     rows = robot_pitch.Rows(peaks.state, followed.rows.omega[pick], followed.rows.shape[pick])
     setting = replace(
         setting, robot_rows=rows, robot_gap=followed.gap[pick], robot_log=np.log(2.0 * np.pi * peaks.hertz),
@@ -94,6 +88,22 @@ def with_robot_rows(setting: Setting, model: ModelModes, wary: bool) -> Setting:
     unsure = np.minimum(_MOST_DOUBT, _UNSURE * pairing.doubt[setting.constants.peak])
     bend = _BEND * _constant_spread(setting, model.world) ** 2
     return replace(setting, constant_gap=gap, constant_doubt=100.0 * np.sqrt(doubt**2 + unsure**2 + bend**2))
+
+
+def pairing_of(setting: Setting, model: ModelModes, wary: bool) -> Pairing:
+    """Which mode each peak is; wary as in `with_robot_rows`."""
+    peaks, modes = setting.campaign.robot_frequencies, model.modes
+    covariance = model.covariance + _cables_doubt(modes)
+    if wary:
+        covariance = covariance + _ELSEWHERE[0] ** 2 + _ELSEWHERE[1] ** 2 * np.eye(len(covariance))
+    unlike = peaks.unlike(np.arange(len(peaks.hertz)), modes.shape, setting.radius)
+    return paired(peaks.state, peaks.hertz, peaks.sigma / peaks.hertz, modes, covariance, unlike)
+
+
+def _cables_doubt(modes: Modes) -> np.ndarray:
+    """(k, k) covariance of ln f by what the closed form misses of the cables."""
+    result: np.ndarray = np.diag((_CABLES_SHARE * (1.0 - modes.energy)) ** 2)
+    return result
 
 
 def _constant_spread(setting: Setting, world: World) -> np.ndarray:

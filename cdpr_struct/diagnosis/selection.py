@@ -11,6 +11,7 @@ from cdpr_struct.diagnosis.refit import Fit, Ground, refit, screen_beyond, settl
 from cdpr_struct.diagnosis.residuals import residuals
 from cdpr_struct.diagnosis.stray_peaks import caught
 
+FURTHER = 6.0  # nats that each further cause must bring
 NEAR = 12.0  # nats from the best at screening: refitted
 _NEAR_SHARE = 0.2  # of the best gain, which screening misjudges by a share where effects are large
 _ADEQUATE = 1e-3
@@ -118,12 +119,13 @@ def _settled(ground: Ground, fits: list[Fit]) -> list[Fit]:
     margin = max(_SETTLED, _SETTLED_SHARE * fits[0].gain)
     near = max(2, sum(fit.gain > fits[0].gain - margin for fit in fits))
     first = [settled(ground, fit) for fit in fits[:near]]
-    if any(_explains(fit) for fit in first):
+    if any(explains(fit) for fit in first):
         return first + [replace(fit, gain=fit.gain - ground.ahead) for fit in fits[near:]]
     return first + [settled(ground, fit) for fit in fits[near:]]
 
 
-def _explains(fit: Fit) -> bool:
+def explains(fit: Fit) -> bool:
+    """Whether what a fit leaves may be noise."""
     return float(chi2.sf(fit.adequacy(), len(fit.white))) > _ADEQUATE
 
 

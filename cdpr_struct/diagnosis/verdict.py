@@ -54,20 +54,25 @@ def verdict(found: Diagnosis) -> Verdict:
     fit, corrected = found.selection.fit, [c for c, _ in found.corrections]
     place = location(found)
     if is_unknown(found):
-        repeat = "; ".join(filter(None, ("repeat the worst state; see location", next_measurement(found, ()))))
+        repeat = "; ".join(filter(None, ("repeat the worst state; see location", _next(found, ()))))
         return Verdict("unknown", (), (), _probability(found), place, repeat, _unknown_sentence(found, place))
     names = tuple(c.cause for c in corrected) + (fit.names if fit else ())
-    classes = tuple((c.cause,) for c in corrected) + tuple(
+    classes = tuple((c.cause, *c.rivals) for c in corrected) + tuple(
         _class(found, i) for i in range(len(fit.names) if fit else 0)
     )
     separable = all(len(c) == 1 for c in classes)
     status = "named" if separable and _confirmed(found) else "class"
     if any(len(c) > LARGEST_CLASS for c in classes):
         text = f"Something is wrong in {place}; these data leave more than {LARGEST_CLASS} causes open."
-        return Verdict("class", names, classes, _probability(found), place, next_measurement(found, classes), text)
-    return Verdict(
-        status, names, classes, _probability(found), place, next_measurement(found, classes), _sentence(found, classes)
-    )
+        return Verdict("class", names, classes, _probability(found), place, _next(found, classes), text)
+    return Verdict(status, names, classes, _probability(found), place, _next(found, classes), _sentence(found, classes))
+
+
+def _next(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
+    """What to measure next: of peaks that are set aside, then of the causes."""
+    own = [c.next_measurement for c, _ in found.corrections if c.next_measurement]
+    more = next_measurement(found, classes) if found.selection.fit is not None or not (own and classes) else ""
+    return "; ".join(filter(None, [*own, more]))
 
 
 def is_unknown(found: Diagnosis) -> bool:
@@ -83,6 +88,7 @@ def is_unknown(found: Diagnosis) -> bool:
 def _unknown_sentence(found: Diagnosis, place: str) -> str:
     fit, outside = found.selection.fit, found.outside
     text = f"Something is wrong in {place}, and no cause in the library explains it."
+    text += "".join(f" Beside it {c.sentence}." for c, _ in found.corrections if c.place)
     if outside.instead > _INSTEAD:
         together = " and ".join(fit.names).replace("_", " ") if fit else ""
         return f"{text} One law explains it better than {together} together: {outside.one_law}." + _aside(found)
@@ -114,6 +120,9 @@ def _confirmed(found: Diagnosis) -> bool:
 def location(found: Diagnosis) -> str:
     """Where the error sits, block, state, cable: what the chosen causes take away, or what exceeds noise."""
     null, labels, fit = found.entered, found.entered_setting.labels, found.selection.fit
+    known = [c.place for c, _ in found.corrections if c.place]
+    if known and fit is None and not is_unknown(found):
+        return known[0]
     explained = fit is not None and not found.corrections and not is_unknown(found)
     after = fit.ground.null.lower @ fit.white if fit is not None and explained else np.zeros_like(null.r)
     score = {}
@@ -149,7 +158,7 @@ def _probability(found: Diagnosis) -> float:
     """Of the answer: the chosen causes (with their class) among all that was fitted, null and outside included."""
     fit, outside = found.selection.fit, found.outside
     if fit is None:
-        return 0.99 if found.corrections and not is_unknown(found) else 0.5
+        return _most(found) if found.corrections and not is_unknown(found) else 0.5
     gains = {fit.names: fit.gain}
     for row in found.selection.rivals:
         for rival in row:
@@ -162,7 +171,12 @@ def _probability(found: Diagnosis) -> float:
     share = float(np.exp(said - np.logaddexp.reduce(TEMPER * logs)))
     if is_unknown(found) and found.p_adequate < ADEQUATE:
         share = max(share, 0.9)
-    return float(np.round(min(share, 0.99 if is_unknown(found) or _confirmed(found) else UNCONFIRMED), 2))
+    return float(np.round(min(share, _most(found) if is_unknown(found) or _confirmed(found) else UNCONFIRMED), 2))
+
+
+def _most(found: Diagnosis) -> float:
+    """The largest probability that is said of an answer."""
+    return min([0.99, *(c.most for c, _ in found.corrections)])
 
 
 def _within(names: tuple[str, ...], classes: list[tuple[str, ...]]) -> bool:
@@ -210,7 +224,7 @@ def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
     """Every cause that was fitted, best first, with its parameters."""
     rows: list[dict[str, Any]] = [
         {
-            "cause": c.cause, "parameters": {}, "description": c.sentence, "log_evidence_gain": gain,
+            "cause": c.cause, "parameters": c.sizes, "description": c.sentence, "log_evidence_gain": gain,
             "heldout_rms": None, "explained_fraction": 1.0,
         }
         for c, gain in found.corrections

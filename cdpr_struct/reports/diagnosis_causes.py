@@ -1,5 +1,6 @@
 """Pages of the cause library, written from its data."""
 
+from cdpr_struct.diagnosis.causes import internal_mode
 from cdpr_struct.diagnosis.causes.cause import Cause
 from cdpr_struct.diagnosis.causes.registry import LIBRARY
 
@@ -25,9 +26,27 @@ def cause_page(cause: Cause) -> str:
     return "\n".join(lines)
 
 
+def internal_mode_page() -> str:
+    """The page of the one cause that is no change of the model."""
+    rivals, prior = " and ".join(internal_mode.RIVALS), "equally likely in ln f over the measured band"
+    seen = f"a peak of one frequency at {internal_mode.POSES} poses or more that no mode of the model has"
+    lines = [
+        f"# {internal_mode.NAME}", "",
+        "A mode inside the platform. No parameter of the model, whose platform is rigid: its peaks are set aside, and "
+        "the extended robot has no such mode.", "",
+        "| parameter | unit | prior |", "|---|---|---|", f"| frequency | Hz | {prior} |", "",
+        f"Seen in: robot frequencies, as {seen}.", "",
+        f"Never told from {rivals} (a mode of frame or mast) by frequencies alone. Separated from it by: "
+        f"{internal_mode.NEXT_MEASUREMENT}.", "",
+        "Generated from the library: `python -m cdpr_struct.reports.diagnosis_causes`.", "",
+    ]  # fmt: skip
+    return "\n".join(lines)
+
+
 def pages() -> dict[str, str]:
     """File name to text, one page a cause."""
-    return {f"{name}.md": cause_page(cause) for name, cause in LIBRARY.items()}
+    found = {f"{name}.md": cause_page(cause) for name, cause in LIBRARY.items()}
+    return {**found, f"{internal_mode.NAME}.md": internal_mode_page()}
 
 
 if __name__ == "__main__":

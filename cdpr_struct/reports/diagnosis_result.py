@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from cdpr_struct.diagnosis.causes.internal_mode import NAME
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.plan import minimum_detectable
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT
@@ -39,7 +40,7 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
         "candidates": candidate_rows(found),
         "outside_library": {"law": found.outside.words, "log_evidence_gain": _number(found.outside.gain)},
         "gain": _gain(found),
-        "extended_model": "extended_robot.toml" if said.causes else None,
+        "extended_model": "extended_robot.toml" if set(said.causes) - {NAME} else None,
         "not_testable": sorted(found.not_testable),
         "why_not_testable": found.not_testable,
         "minimum_detectable": minimum_detectable(found.ground.candidates),

@@ -22,6 +22,8 @@ class Correction:
     """A corrected campaign: what was wrong with the recorded one, in words, and how many alternatives were tried.
 
     flips : the pose, tensions or lengths of the readings differ from those recorded
+    rivals : causes that show the same, and what tells them apart;  most : probability of the class at most
+    place : where it shows, "" if that is to be computed;  sizes : value, sigma and unit of its numbers
     """
 
     cause: str
@@ -29,6 +31,11 @@ class Correction:
     campaign: Campaign
     alternatives: int = 1
     parameters: dict[str, Any] = field(default_factory=dict)
+    rivals: tuple[str, ...] = ()
+    next_measurement: str = ""
+    most: float = 0.99
+    place: str = ""
+    sizes: dict[str, dict[str, float | str]] = field(default_factory=dict)
 
 
 def corrections(campaign: Campaign) -> list[Correction]:

@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 from difflib import get_close_matches
 
-from cdpr_struct.diagnosis.causes import accelerometers, cables, geometry, platform, sensors, stiffness
+from cdpr_struct.diagnosis.causes import accelerometers, cables, geometry, internal_mode, platform, sensors, stiffness
 from cdpr_struct.diagnosis.causes.cause import Cause
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.errors import InputError
@@ -18,7 +18,6 @@ NEEDS_SIGNALS = {
     "viscous_damping": "needs free decays or FRFs",
     "hysteretic_damping": "needs decays at several amplitudes",
     "coulomb_damping": "needs decays at several amplitudes",
-    "flexible_platform": "a peak without partner is listed, not explained; files have no places of sensors",
 }
 
 
@@ -58,6 +57,8 @@ def causes_for(setting: Setting) -> tuple[list[Cause], dict[str, str]]:
             testable.append(cause)
     not_testable |= NEEDS_SIGNALS
     campaign = setting.campaign
+    if reason := internal_mode.needs(campaign):
+        not_testable[internal_mode.NAME] = reason
     if campaign.model != "spring":
         not_testable["cable_sag"] = "the simulation under test has sagging cables"
     if campaign.model != "static" or not campaign.robot_frequencies.hertz.size:

@@ -1,0 +1,101 @@
+"""Whether steady stray peaks are those of an internal mode: against everything that the library makes of them.
+
+A large change of a cause leaves strays, too. So the campaign without the peaks, at the price of one unknown frequency,
+is held against the best fits to all of it, large changes included.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cdpr_struct.diagnosis.causes.handling import Correction
+from cdpr_struct.diagnosis.causes.internal_mode import MOVING, POSES, Steady, correction, poses
+from cdpr_struct.diagnosis.evidence import screen
+from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, Prepared, prepare
+from cdpr_struct.diagnosis.robot_rows import pairing_of
+from cdpr_struct.diagnosis.selection import FURTHER, Search, explains, select
+from cdpr_struct.diagnosis.setting import modes_in
+from cdpr_struct.diagnosis.steady_peaks import moves_alone, steady_peaks
+from cdpr_struct.diagnosis.stray_peaks import ONE, caught
+from cdpr_struct.errors import InputError
+from cdpr_struct.measurement.campaign import Campaign
+
+_CLEAR = (6.0, 12.0)  # nats beyond the best of the library, seen at enough poses, and at one fewer
+_OWN = 3.0  # nats beyond a mode of the model that is off by one factor
+_TRIED = 2  # groups of peaks
+_LOST = 0.5 + float(np.log(100.0 * np.sqrt(2.0 * np.pi)))  # nats of a modal constant of which nothing is known [%]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Found:
+    """An internal mode: what to say of it, its log evidence against the null, and the rest of the data prepared."""
+
+    correction: Correction
+    gain: float
+    rest: Prepared
+
+
+def internal_mode(campaign: Campaign, full: Prepared, plan: Budget) -> tuple[Found | None, Prepared]:
+    """The internal mode that explains steady stray peaks, if nothing else does; and what else was tried."""
+    tried = [(steady, _tried(campaign, full, steady, plan)) for steady in _candidates(campaign, full)]
+    steady, best = max(tried, key=lambda row: row[1].gain if row[1] else -np.inf, default=(None, None))
+    if steady is None or best is None or best.gain < min(_CLEAR):
+        return None, full
+    seen = poses(campaign.states, campaign.robot_frequencies.state[steady.rows])
+    margin = _CLEAR[0] if seen >= POSES else _CLEAR[1]
+    if full.large is None:
+        full = replace(full, large=caught(full.ground, None, screen(full.ground.candidates, full.ground.z)))
+    return best if _stands(full, best.gain - margin, best.rest, plan) else None, full
+
+
+def _candidates(campaign: Campaign, full: Prepared) -> list[Steady]:
+    """Groups of peaks at enough poses that no mode off by one factor explains as well."""
+    ground, peaks = full.ground, campaign.robot_frequencies
+    if ground.strays < ONE or poses(campaign.states, peaks.state) < POSES - 1:
+        return []
+    model = modes_in(ground.setting, ground.world)
+    pairing = pairing_of(ground.setting, model, wary=False)
+    return [
+        steady
+        for steady in steady_peaks(peaks, pairing)
+        if poses(campaign.states, peaks.state[steady.rows]) >= POSES - 1
+        and moves_alone(peaks, steady, pairing, model.modes) > _OWN
+    ][:_TRIED]
+
+
+def _tried(campaign: Campaign, full: Prepared, steady: Steady, plan: Budget) -> Found | None:
+    """The campaign without the peaks; where that is not noise, also with doubt of the others, if that is likelier."""
+    best: Found | None = None
+    for moving in MOVING:
+        found = _without(campaign, full, steady, moving, plan)
+        if found is not None and (best is None or found.gain > best.gain):
+            best = found
+        if found is not None and found.rest.p_value >= SIGNIFICANT:
+            break
+    return best
+
+
+def _without(campaign: Campaign, full: Prepared, steady: Steady, moving: float, plan: Budget) -> Found | None:
+    """The campaign without the peaks; None where it cannot be computed."""
+    made = correction(campaign, steady, moving)
+    try:
+        rest = prepare(made.campaign, plan)
+    except (InputError, np.linalg.LinAlgError):
+        return None
+    constants = len(full.ground.setting.constants) - len(rest.ground.setting.constants)
+    rows = len(full.ground.null.r) - len(rest.ground.null.r)
+    gain = full.ground.level - rest.ground.level + 0.5 * rows * float(np.log(2.0 * np.pi))
+    gain += steady.log_density - len(steady.rows) * float(np.log(100.0)) - constants * _LOST
+    return Found(made, gain, rest)
+
+
+def _stands(full: Prepared, gain: float, rest: Prepared, plan: Budget) -> bool:
+    """Whether an internal mode beats a cause alone; or, with a cause on top, as many as the plan allows."""
+    alone = Search(full.ground, full.large).rank()
+    if gain > max(alone[0].gain, 0.0):
+        return True
+    if rest.p_value >= SIGNIFICANT or (explains(alone[0]) and alone[0].ground.strays < ONE):
+        return False
+    more = Search(rest.ground, rest.large).rank()[0].gain - FURTHER
+    rival = select(full.ground, FURTHER, plan.causes, full.large).fit
+    return rival is None or gain + max(more, 0.0) > rival.gain
