@@ -51,7 +51,7 @@ def _next(data: Handled, plan: Budget) -> tuple[Handled, bool]:
     ground, rival = data.prepared.ground, data.prepared.best
     better, wrong, inner = None, None, None
     if len(data.corrections) < _MOST_CORRECTIONS:
-        better = best_correction(data.campaign, data.prepared.fine.level)
+        better = best_correction(data.campaign, data.prepared.fine.level, [c for c, _ in data.corrections])
         inner, prepared = internal_mode(data.campaign, data.prepared, plan)
         data = replace(data, prepared=prepared)
     if len(data.aside) < _MOST_ASIDE:

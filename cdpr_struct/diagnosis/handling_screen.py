@@ -1,5 +1,6 @@
 """Which handling error, if any, explains the residuals: hundreds of corrections at once on the static states."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,9 +19,13 @@ _WORTH = 20.0  # decrease of chi^2 on the static states that makes a correction 
 _KEEP = 3
 
 
-def best_correction(campaign: Campaign, level: float) -> tuple[Correction, float] | None:
-    """The handling error or shortcut with the highest evidence against the null at `level`, if it is enough."""
-    tried = shortcuts(campaign) + _worthwhile(campaign)
+def best_correction(campaign: Campaign, level: float, made: Sequence[Correction]) -> tuple[Correction, float] | None:
+    """The handling error or shortcut with the highest evidence against the null at `level`, if it is enough.
+
+    made : corrections that the campaign has already; none is made twice
+    """
+    said = {correction.sentence for correction in made}
+    tried = [c for c in shortcuts(campaign) + _worthwhile(campaign) if c.sentence not in said]
     scored = []
     for correction in tried:
         own = level_of(correction.campaign)

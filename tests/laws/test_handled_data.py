@@ -5,8 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cdpr_struct.diagnosis.causes.handling import corrections
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.handled_data import handled
+from cdpr_struct.diagnosis.handling_screen import best_correction
 from cdpr_struct.diagnosis.null_model import null_model, reading_count, sensors
 from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
 from cdpr_struct.diagnosis.readings import Readings
@@ -147,3 +149,27 @@ def test_gain_and_zero_of_the_cells_are_told_as_such():
     tension = 1.03 * campaign.states.tension + 12.0
     said = verdict(diagnose(replace(campaign, states=replace(campaign.states, tension=tension))))
     assert set(said.causes) == {"load_cell_gain", "load_cell_bias"}
+
+
+def test_a_single_wrong_angle_is_no_wrong_unit():
+    """With one tilted state, dividing its angle by 57 hides the tilt as well as any unit would."""
+    campaign = noisy()
+    angles = 0.0 * campaign.states.angles
+    angles[3, 0] = 20.0
+    states = replace(campaign.states, angles=angles)
+    assert not [
+        c for c in corrections(replace(campaign, states=states)) if "angles" in c.sentence and c.cause == "unit_error"
+    ]
+    angles[2, 1] = 5.0
+    states = replace(campaign.states, angles=angles)
+    assert [
+        c for c in corrections(replace(campaign, states=states)) if "angles" in c.sentence and c.cause == "unit_error"
+    ]
+
+
+def test_no_correction_is_made_twice():
+    campaign = noisy()
+    wrong = replace(campaign, states=replace(campaign.states, tension=0.1 * campaign.states.tension))
+    correction, _ = best_correction(wrong, prepare(wrong, SMALL).fine.level, [])
+    again = best_correction(wrong, prepare(wrong, SMALL).fine.level, [correction])
+    assert again is None or again[0].sentence != correction.sentence

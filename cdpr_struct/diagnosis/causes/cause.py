@@ -121,8 +121,8 @@ class Cause:
             return [Pattern(label, every[:, own], basic[own], weight) for label, own, weight in self.shapes]
         parts = [slice(axes * i, axes * (i + 1)) for i in range(len(basic) // axes)]
         if self.count is not None:
-            n = len(parts)
-            return [Pattern(f"one, {i}", every[:, own], basic[own], 1.0 / n) for i, own in enumerate(parts, 1)]
+            n, states = len(parts), setting.campaign.states.names
+            return [Pattern(f"case {states[i]}", every[:, own], basic[own], 1.0 / n) for i, own in enumerate(parts)]
         if len(parts) < 2:
             return [Pattern("", every, self.parameters, 1.0)]
         alike = np.tile(np.eye(axes), (len(parts), 1))

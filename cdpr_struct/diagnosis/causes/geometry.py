@@ -160,7 +160,7 @@ CAUSES = (
         + tuple(Parameter(f"turn_{a}", "rad", 0.03) for a in _XYZ),
         _pose,
         seen_in=("EQ", "CO", "LP"),
-        sentence="the pose entered for one state is another one's",
+        sentence="the pose entered for one state is not the one that was measured there",
         separated_by="measuring that pose again",
         count=_states,
     ),
