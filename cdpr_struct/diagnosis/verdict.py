@@ -61,7 +61,7 @@ def verdict(found: Diagnosis) -> Verdict:
         _class(found, i) for i in range(len(fit.names) if fit else 0)
     )
     separable = all(len(c) == 1 for c in classes)
-    status = "named" if separable and _confirmed(found) else "class"
+    status = "named" if separable and confirmed(found) else "class"
     if any(len(c) > LARGEST_CLASS for c in classes):
         text = f"Something is wrong in {place}; these data leave more than {LARGEST_CLASS} causes open."
         return Verdict("class", names, classes, _probability(found), place, next_measurement(found, classes), text)
@@ -103,7 +103,7 @@ def _aside(found: Diagnosis) -> str:
     return text + (" The noise of the sensors wanders from reading to reading." if found.campaign.memory else "")
 
 
-def _confirmed(found: Diagnosis) -> bool:
+def confirmed(found: Diagnosis) -> bool:
     """A fitted cause is a claim of transfer: it must not hang on one group of states."""
     fit = found.selection.fit
     if fit is None:
@@ -162,7 +162,7 @@ def _probability(found: Diagnosis) -> float:
     share = float(np.exp(said - np.logaddexp.reduce(TEMPER * logs)))
     if is_unknown(found) and found.p_adequate < ADEQUATE:
         share = max(share, 0.9)
-    return float(np.round(min(share, 0.99 if is_unknown(found) or _confirmed(found) else UNCONFIRMED), 2))
+    return float(np.round(min(share, 0.99 if is_unknown(found) or confirmed(found) else UNCONFIRMED), 2))
 
 
 def _within(names: tuple[str, ...], classes: list[tuple[str, ...]]) -> bool:
@@ -184,7 +184,7 @@ def _sentence(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
         text += f" These data do not tell {' from '.join(n.replace('_', ' ') for n in names)}."
     if fit is not None:
         text += f" This explains {100.0 * fit.explained(found.ground.z):.0f} % of the significant error"
-        if found.held is not None and not _confirmed(found):
+        if found.held is not None and not confirmed(found):
             text += ", but it hangs on one state: nothing that was left out confirms it"
         elif found.held is not None:
             ratio = found.held.ratio(found.held.concerned)

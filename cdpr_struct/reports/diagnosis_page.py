@@ -9,6 +9,7 @@ from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.extended_model import extended_robot_toml
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.diagnosis_signals import signal_plates, signal_tables
+from cdpr_struct.reports.diagnosis_tables import Table, gain_table
 from cdpr_struct.reports.figures import diagnosis as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
@@ -52,9 +53,12 @@ def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Pla
         (f"{row['rms']:.3g} {row['unit']}", f"rms error, {row['kind'].replace('_', ' ')}")
         for row in result["simulation_error"]
     ]
-    if result["gain"]["ratio"]:
-        facts.append((f"{result['gain']['ratio']:.1f}×", "smaller error on states that were not fitted"))
-        facts.append((f"{result['gain']['generic_fudge_ratio']:.1f}×", "a generic fit of common EA and cell gain"))
+    if result["gain"]["confirmed"]:
+        counted, of = result["gain"]["counted"], result["gain"]["of"]
+        said_of = f"smaller error where it was not fitted ({counted} of {of} readings, those that the cause concerns)"
+        facts.append((f"{result['gain']['ratio']:.1f}×", said_of))
+        fudge = f"{result['gain']['generic_fudge_ratio']:.1f}×"
+        facts.append((fudge, "the same by a generic fit of common EA and cell gain, all readings"))
     return Page(
         title=f"{found.campaign.robot_name}: what the simulation gets wrong, and why",
         subtitle=f"model {found.campaign.model}, {len(found.campaign.states.names)} states, {found.campaign.source}",
@@ -91,11 +95,7 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
         for name, p in list(c["parameters"].items())[:8]
     ]
     tables.append(HtmlTable("Candidates", ["cause", "evidence [nats]", "parameter", "size", "unit"], rows))
-    gain = [
-        [kind, f"{g['before']:.3g}", f"{g['after']:.3g}", g["unit"], f"{g['ratio']:.2f}"]
-        for kind, g in result["gain"]["per_kind"].items()
-    ]
-    tables.append(HtmlTable("States that were not fitted", ["kind", "before", "after", "unit", "ratio"], gain))
+    tables += [_html(table) for table in (gain_table(result["gain"]),) if table]
     why = [[name.replace("_", " "), reason] for name, reason in sorted(result["why_not_testable"].items())]
     tables.append(HtmlTable("What these data cannot show", ["cause", "why"], why))
     sizes = [[n.replace("_", " "), f"{v['value']:.3g}", v["unit"]] for n, v in result["minimum_detectable"].items()]
@@ -105,6 +105,10 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
     ]
     tables.append(HtmlTable("Tolerances taken into account, one sigma", ["tolerance", "size", "source"], tolerances))
     return tables
+
+
+def _html(table: Table) -> HtmlTable:
+    return HtmlTable(table.title, table.columns, table.rows, table.note)
 
 
 def _residuals_csv(found: Diagnosis) -> str:

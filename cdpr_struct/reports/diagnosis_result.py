@@ -5,10 +5,11 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import Diagnosis
+from cdpr_struct.diagnosis.heldout import groups_of
 from cdpr_struct.diagnosis.plan import minimum_detectable
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT
-from cdpr_struct.diagnosis.simulation_error import simulation_error
-from cdpr_struct.diagnosis.verdict import candidate_rows, verdict
+from cdpr_struct.diagnosis.simulation_error import rows_read, simulation_error
+from cdpr_struct.diagnosis.verdict import candidate_rows, confirmed, is_unknown, verdict
 from cdpr_struct.reports.diagnosis_signals import with_signals
 
 
@@ -56,14 +57,25 @@ def _number(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 
+def _left_out(found: Diagnosis) -> str:
+    """What was predicted from all the rest: each state, each kind of data, or nothing where there is no rest."""
+    groups = groups_of(found.ground.setting)
+    if len(np.unique(groups[rows_read(found)])) < 2:
+        return ""
+    return "state" if len(found.campaign.states.names) > 1 else "kind of data"
+
+
 def _gain(found: Diagnosis) -> dict[str, Any]:
     if found.held is None:
-        return {"heldout_rms_before": None, "heldout_rms_after": None, "ratio": None, "per_kind": {}, "transfer": {}}
-    held = found.held
+        return {"heldout_rms_before": None, "heldout_rms_after": None, "ratio": None, "per_kind": {}, "transfer": {},
+                "confirmed": False, "left_out": ""}  # fmt: skip
+    held, left_out = found.held, _left_out(found)
     before, after = held.rms(held.concerned)
     return {
         "heldout_rms_before": before, "heldout_rms_after": after, "ratio": held.ratio(held.concerned),
         "unit": "standard deviations under the null, of the readings that the causes change by more than one",
-        "ratio_of_all": held.ratio(), "per_kind": held.by_kind(),
+        "ratio_of_all": held.ratio(), "per_kind": held.by_kind(rows_read(found)) if left_out else {},
+        "counted": int(held.concerned.sum()), "of": int(rows_read(found).sum()), "left_out": left_out,
+        "confirmed": bool(left_out) and confirmed(found) and not is_unknown(found),
         "generic_fudge_ratio": None if found.fudge is None else found.fudge.ratio(), "transfer": found.transfer,
     }  # fmt: skip

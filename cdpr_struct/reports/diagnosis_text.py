@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from cdpr_struct.reports.diagnosis_tables import Table, gain_table
 from cdpr_struct.reports.text import paragraphs, plain_table
 
 
@@ -22,15 +23,16 @@ def diagnosis_text(result: Mapping[str, Any]) -> str:
             [c["cause"], f"{c['log_evidence_gain']:.1f}", _sizes(c["parameters"])] for c in result["candidates"][:8]
         ]
         blocks.append(plain_table("Candidates", ["cause", "evidence [nats]", "size"], rows))
-    if result["gain"]["per_kind"]:
-        rows = [
-            [kind, f"{g['before']:.3g}", f"{g['after']:.3g}", g["unit"], f"{g['ratio']:.2f}"]
-            for kind, g in result["gain"]["per_kind"].items()
-        ]
-        blocks.append(plain_table("States that were not fitted", ["kind", "before", "after", "unit", "ratio"], rows))
+    blocks += [_shown(table) for table in (gain_table(result["gain"]),) if table]
     if said["next_measurement"]:
         blocks.append(f"To measure next: {said['next_measurement']}.")
     return paragraphs(*blocks)
+
+
+def _shown(table: Table) -> str:
+    """A table for a terminal, its note below."""
+    text = plain_table(table.title, table.columns, table.rows)
+    return f"{text}\n{table.note}" if table.note else text
 
 
 def _place(worst: Mapping[str, Any]) -> str:

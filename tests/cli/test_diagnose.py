@@ -73,3 +73,35 @@ def test_plan_says_what_to_measure_next(plan):
     assert told_apart["joint_mass", "platform_mass"]["nats_after"] > 5.0
     assert "separates" in weighing["sentence"]
     assert weighing["sentence"].endswith("nats")
+
+
+@pytest.fixture(scope="module")
+def one_state(tmp_path_factory):
+    """Five robot frequencies at one pose, no tension read."""
+    out = tmp_path_factory.mktemp("one-state")
+    assert run(["diagnose", str(Path(LEVEL).parents[1] / "section-4-3-3" / "simulated.toml"), "--out", str(out)]) == 0
+    return json.loads((out / "result.json").read_text()), out
+
+
+def test_gain_counts_the_same_readings_everywhere(level):
+    result, out = level
+    gain, page = result["gain"], (out / "report.html").read_text()
+    assert sum(row["counted"] for row in gain["per_kind"].values()) == gain["counted"] < gain["of"]
+    assert all(
+        row["ratio"] == pytest.approx(row["before_sigmas"] / row["after_sigmas"]) for row in gain["per_kind"].values()
+    )
+    assert f"{gain['counted']} of {gain['of']}" in page
+
+
+def test_no_gain_is_claimed_of_an_unconfirmed_cause(level, one_state):
+    for result, out in (level, one_state):
+        assert not result["gain"]["confirmed"]
+        assert "smaller error" not in (out / "report.html").read_text()
+    assert "does not confirm" in (level[1] / "report.html").read_text()
+
+
+def test_kinds_without_readings_are_not_shown(one_state):
+    result, out = one_state
+    assert [row["kind"] for row in result["simulation_error"]] == ["robot_frequency"]
+    assert result["gain"]["per_kind"] == {}
+    assert "e-12" not in (out / "report.html").read_text().split("</svg>")[-1].split("What these data")[0]
