@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError
-from cdpr_struct.measurement.campaign import Campaign, Sigmas, Tolerances
+from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.signal_cases import join_signals
@@ -88,8 +88,11 @@ def load_campaign(path: str | Path) -> Campaign:
     table = _table(source)
     robot = _nominal(_robot(table.robot, source), table.nominal, source)
     gathering = Gathering(len(robot.cables))
+    sheets = []
     for number, entry in enumerate(table.measurement, start=1):
-        gathering.add(_rows(entry, source, number, len(robot.cables)), _sigmas(entry))
+        rows, sigmas = _rows(entry, source, number, len(robot.cables)), _sigmas(entry)
+        gathering.add(rows, sigmas)
+        sheets.append(_sheet(entry, rows, sigmas))
     identified = join_signals(gathering, robot, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(
@@ -108,6 +111,7 @@ def load_campaign(path: str | Path) -> Campaign:
         tension_distribution=table.tension_distribution,
         lower_bound=table.lower_bound_N,
         checked=table.checked,
+        sheets=tuple(sheets),
     )
 
 
@@ -144,6 +148,11 @@ def _rows(entry: MeasurementTable, source: Path, number: int, cables: int) -> Ro
 def _sigmas(entry: MeasurementTable) -> Sigmas:
     given = {f.name: getattr(entry.sigma, f.name) for f in fields(Sigmas)}
     return replace(Sigmas(), **{k: v for k, v in given.items() if v is not None})
+
+
+def _sheet(entry: MeasurementTable, rows: Rows, sigmas: Sigmas) -> Sheet:
+    stated = {name for name, value in entry.sigma.model_dump().items() if value is not None}
+    return Sheet(entry.kind, entry.file, (*rows.numbers, *rows.words), sigmas, frozenset(stated))
 
 
 def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:

@@ -105,3 +105,12 @@ def test_kinds_without_readings_are_not_shown(one_state):
     assert [row["kind"] for row in result["simulation_error"]] == ["robot_frequency"]
     assert result["gain"]["per_kind"] == {}
     assert "e-12" not in (out / "report.html").read_text().split("</svg>")[-1].split("What these data")[0]
+
+
+def test_a_class_is_led_by_no_fact_and_no_zero_share(level, one_state):
+    for result, _ in (level, one_state):
+        assert "explains 0 %" not in result["verdict"]["sentence"]
+    assert one_state[0]["verdict"]["sentence"].startswith("Best candidate of its class: ")
+    causes = [name.replace("_", " ") for name in level[0]["verdict"]["class"][0]]
+    assert len(causes) > 4
+    assert all(name in level[0]["verdict"]["sentence"] for name in causes)
