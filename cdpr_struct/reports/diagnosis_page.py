@@ -9,7 +9,7 @@ from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.extended_model import extended_robot_toml
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.diagnosis_signals import signal_plates, signal_tables
-from cdpr_struct.reports.diagnosis_tables import Table, gain_table
+from cdpr_struct.reports.diagnosis_tables import Table, error_table, gain_table, standing
 from cdpr_struct.reports.figures import diagnosis as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
@@ -47,7 +47,8 @@ def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, st
 def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Plate]) -> Page:
     """The report page."""
     said = result["verdict"]
-    more = [f"Where: {said['location']}."] if said["location"] else []
+    more = [line[:1].upper() + line[1:] for line in standing(result)]
+    more += [f"Where: {said['location']}."] if said["location"] else []
     more += [f"To measure next: {said['next_measurement']}."] if said["next_measurement"] else []
     facts = [
         (f"{row['rms']:.3g} {row['unit']}", f"rms error, {row['kind'].replace('_', ' ')}")
@@ -82,7 +83,7 @@ _METHOD = (
 
 
 def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
-    tables = []
+    tables = [_html(error_table(result))]
     rows = [
         [
             c["cause"].replace("_", " "),

@@ -8,7 +8,9 @@ from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.heldout import groups_of
 from cdpr_struct.diagnosis.plan import minimum_detectable
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT
+from cdpr_struct.diagnosis.significance import NOISE_SHARE, STRAY_SHARE, p_of_noise
 from cdpr_struct.diagnosis.simulation_error import rows_read, simulation_error
+from cdpr_struct.diagnosis.stray_peaks import p_of_strays
 from cdpr_struct.diagnosis.verdict import candidate_rows, confirmed, is_unknown, verdict
 from cdpr_struct.reports.diagnosis_signals import with_signals
 
@@ -23,6 +25,7 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
         "simulation_error": simulation_error(found),
         "significant": found.p_value < SIGNIFICANT,
         "p_value": found.p_value,
+        "p_value_of": _decided_by(found),
         "p_adequate": found.p_adequate,
         "verdict": {
             "status": said.status, "causes": list(said.causes), "class": [list(c) for c in said.classes],
@@ -51,6 +54,16 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
         "not_used": sorted({s.kind for s in found.campaign.series}),
     }  # fmt: skip
     return with_signals(result, found.campaign)
+
+
+def _decided_by(found: Diagnosis) -> str:
+    """Which of the three tests of the null gave its p-value: single laws, chi2 of all readings, or stray peaks."""
+    setting = found.entered_setting
+    strays = p_of_strays(setting.strays, len(setting.robot_log)) / STRAY_SHARE
+    noise = p_of_noise(found.entered) / NOISE_SHARE
+    if strays <= noise and strays <= 1.01 * found.p_value:
+        return "strays"
+    return "chi2" if noise <= 1.01 * found.p_value else "laws"
 
 
 def _number(value: float) -> float | None:

@@ -15,6 +15,39 @@ class Table:
     note: str = ""
 
 
+_DECIDED = {
+    "laws": "p is that of single laws, which look in few directions; chi2/n counts all readings alike.",
+    "chi2": "p is that of chi2 of all readings together.",
+    "strays": "p is that of so many robot frequencies without a mode.",
+}
+
+
+def standing(result: Mapping[str, Any]) -> list[str]:
+    """Status, probability and p-value in one line, then each class that is not told apart."""
+    said = result["verdict"]
+    lines = [f"status: {said['status']}; probability {said['probability']:.2f}; p = {result['p_value']:.2g}"]
+    return lines + [f"class: {' | '.join(names)}" for names in said["class"] if len(names) > 1]
+
+
+def error_table(result: Mapping[str, Any]) -> Table:
+    """Simulation against measurement, kind by kind; the note says what the p-value counts instead."""
+    rows = [
+        [row["kind"], f"{row['rms']:.3g}", row["unit"], figure(row["chi2_per_n"], 2), _place(row["worst"])]
+        for row in result["simulation_error"]
+    ]
+    note = _DECIDED[result["p_value_of"]] if result["significant"] else ""
+    return Table("Simulation against measurement", ["kind", "rms", "unit", "chi2/n", "worst"], rows, note)
+
+
+def _place(worst: Mapping[str, Any]) -> str:
+    return f"{worst['case']}" + (f", cable {worst['cable']}" if "cable" in worst else "")
+
+
+def figure(value: float, decimals: int = 1) -> str:
+    """A number that a person reads: decimals up to ten thousand, beyond it one digit and a power of ten."""
+    return f"{value:.{decimals}f}" if abs(value) < 1e4 else f"{value:.0e}".replace("e+", "e").replace("e0", "e")
+
+
 def gain_table(gain: Mapping[str, Any]) -> Table | None:
     """What was left out, predicted from the rest: the same readings and the same unit as the gain that is claimed."""
     if not gain["per_kind"]:

@@ -3,21 +3,14 @@
 from collections.abc import Mapping
 from typing import Any
 
-from cdpr_struct.reports.diagnosis_tables import Table, gain_table
+from cdpr_struct.reports.diagnosis_tables import Table, error_table, gain_table, standing
 from cdpr_struct.reports.text import paragraphs, plain_table
 
 
 def diagnosis_text(result: Mapping[str, Any]) -> str:
     """The sentence first, then errors, candidates and the gain."""
     said = result["verdict"]
-    errors = [
-        [row["kind"], f"{row['rms']:.3g}", row["unit"], f"{row['chi2_per_n']:.2f}", _place(row["worst"])]
-        for row in result["simulation_error"]
-    ]
-    blocks = [
-        said["sentence"],
-        plain_table("Simulation against measurement", ["kind", "rms", "unit", "chi2/n", "worst"], errors),
-    ]
+    blocks = [said["sentence"], "\n".join(standing(result)), _shown(error_table(result))]
     if result["candidates"]:
         rows = [
             [c["cause"], f"{c['log_evidence_gain']:.1f}", _sizes(c["parameters"])] for c in result["candidates"][:8]
@@ -33,10 +26,6 @@ def _shown(table: Table) -> str:
     """A table for a terminal, its note below."""
     text = plain_table(table.title, table.columns, table.rows)
     return f"{text}\n{table.note}" if table.note else text
-
-
-def _place(worst: Mapping[str, Any]) -> str:
-    return f"{worst['case']}" + (f", cable {worst['cable']}" if "cable" in worst else "")
 
 
 def _sizes(parameters: Mapping[str, Any]) -> str:

@@ -114,3 +114,24 @@ def test_a_class_is_led_by_no_fact_and_no_zero_share(level, one_state):
     causes = [name.replace("_", " ") for name in level[0]["verdict"]["class"][0]]
     assert len(causes) > 4
     assert all(name in level[0]["verdict"]["sentence"] for name in causes)
+
+
+def test_status_probability_p_and_class_are_said(level):
+    from cdpr_struct.reports.diagnosis_text import diagnosis_text
+
+    result, out = level
+    text, page = diagnosis_text(result), (out / "report.html").read_text()
+    said = result["verdict"]
+    line = f"tatus: {said['status']}; probability {said['probability']:.2f}; p = {result['p_value']:.2g}"
+    for shown in (text, page):
+        assert line in shown
+        assert "lass: " + " | ".join(said["class"][0]) in shown
+        assert "p is that of " in shown
+
+
+def test_large_numbers_are_rounded_for_a_person():
+    from cdpr_struct.reports.diagnosis_tables import figure
+
+    assert figure(397739310579649.1) == "4e14"
+    assert figure(7102487688923.14, 2) == "7e12"
+    assert [figure(12.34), figure(-20000.0), figure(0.461, 2)] == ["12.3", "-2e4", "0.46"]
