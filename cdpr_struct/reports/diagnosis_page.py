@@ -9,7 +9,14 @@ from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.extended_model import extended_robot_toml
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.diagnosis_signals import signal_plates, signal_tables
-from cdpr_struct.reports.diagnosis_tables import Table, error_table, gain_table, standing
+from cdpr_struct.reports.diagnosis_tables import (
+    Table,
+    candidate_table,
+    error_table,
+    gain_table,
+    size_table,
+    standing,
+)  # fmt: skip
 from cdpr_struct.reports.figures import diagnosis as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
@@ -83,20 +90,14 @@ _METHOD = (
 
 
 def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
-    tables = [_html(error_table(result))]
-    rows = [
-        [
-            c["cause"].replace("_", " "),
-            f"{c['log_evidence_gain']:.1f}",
-            name,
-            f"{p['value']:.4g} ± {p['sigma']:.2g}",
-            p["unit"],
-        ]
-        for c in result["candidates"][:6]
-        for name, p in list(c["parameters"].items())[:8]
-    ]
-    tables.append(HtmlTable("Candidates", ["cause", "evidence [nats]", "parameter", "size", "unit"], rows))
-    tables += [_html(table) for table in (gain_table(result["gain"]),) if table]
+    candidates = result["candidates"]
+    shown = (
+        error_table(result),
+        candidate_table(candidates, 20, 3),
+        gain_table(result["gain"]),
+        size_table(candidates),
+    )
+    tables = [_html(table) for table in shown if table]
     why = [[name.replace("_", " "), reason] for name, reason in sorted(result["why_not_testable"].items())]
     tables.append(HtmlTable("What these data cannot show", ["cause", "why"], why))
     sizes = [[n.replace("_", " "), f"{v['value']:.3g}", v["unit"]] for n, v in result["minimum_detectable"].items()]

@@ -1,6 +1,7 @@
 """Tables of a diagnosis as text, the same on the screen and on the page."""
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -46,6 +47,73 @@ def _place(worst: Mapping[str, Any]) -> str:
 def figure(value: float, decimals: int = 1) -> str:
     """A number that a person reads: decimals up to ten thousand, beyond it one digit and a power of ten."""
     return f"{value:.{decimals}f}" if abs(value) < 1e4 else f"{value:.0e}".replace("e+", "e").replace("e0", "e")
+
+
+@dataclass(frozen=True, slots=True)
+class Hypothesis:
+    """One cause, or several that were fitted together and share one evidence; sizes by name."""
+
+    causes: tuple[str, ...]
+    gain: float
+    explained: float | None
+    sizes: dict[str, Mapping[str, Any]]
+
+    @property
+    def name(self) -> str:
+        """Its causes, joined."""
+        return " + ".join(self.causes)
+
+
+def hypotheses(candidates: Sequence[Mapping[str, Any]]) -> list[Hypothesis]:
+    """Candidates as they were judged: rows of one fit are one hypothesis, whose evidence counts once."""
+    found: list[Hypothesis] = []
+    for row in candidates:
+        causes = (row["cause"], *row.get("with", ()))
+        last = found[-1] if found else None
+        if last and set(causes) == set(last.causes) and row["log_evidence_gain"] == last.gain:
+            last.sizes.update(row["parameters"])
+            continue
+        found.append(Hypothesis(causes, row["log_evidence_gain"], row["explained_fraction"], dict(row["parameters"])))
+    return found
+
+
+def candidate_table(candidates: Sequence[Mapping[str, Any]], most: int, sizes: int) -> Table | None:
+    """The likeliest `most` hypotheses, with the first few sizes of each."""
+    rows = [
+        [h.name, figure(h.gain), f"{100.0 * h.explained:.0f}" if h.explained else "", _first(h, sizes)]
+        for h in hypotheses(candidates)[:most]
+    ]
+    note = "Evidence is against nothing being wrong; three nats are a factor of twenty in probability."
+    columns = ["cause", "evidence [nats]", "explains [%]", "size"]
+    return Table("Candidates", columns, rows, note) if rows else None
+
+
+def size_table(candidates: Sequence[Mapping[str, Any]]) -> Table | None:
+    """Every number of every hypothesis."""
+    rows = [
+        [h.name, name, with_sigma(p["value"], p["sigma"]), p["unit"]]
+        for h in hypotheses(candidates)
+        for name, p in h.sizes.items()
+    ]
+    return Table("Sizes of all candidates", ["candidate", "parameter", "size", "unit"], rows) if rows else None
+
+
+def _first(hypothesis: Hypothesis, count: int) -> str:
+    shown = [
+        f"{name} {with_sigma(p['value'], p['sigma'])} {p['unit']}" for name, p in list(hypothesis.sizes.items())[:count]
+    ]
+    more = len(hypothesis.sizes) - count
+    return "; ".join(shown) + (f"; {more} more" if more > 0 else "")
+
+
+def with_sigma(value: float, sigma: float) -> str:
+    """A size with the digits that its sigma allows."""
+    if not (sigma > 0.0 and math.isfinite(sigma)):
+        return f"{value:.4g}"
+    decimals = 1 - math.floor(math.log10(sigma))
+    if not -3 <= decimals <= 6:
+        return f"{value:.4g} ± {sigma:.2g}"
+    return f"{round(value, decimals) + 0.0:.{max(decimals, 0)}f} ± {round(sigma, decimals):.{max(decimals, 0)}f}"
 
 
 def gain_table(gain: Mapping[str, Any]) -> Table | None:

@@ -135,3 +135,37 @@ def test_large_numbers_are_rounded_for_a_person():
     assert figure(397739310579649.1) == "4e14"
     assert figure(7102487688923.14, 2) == "7e12"
     assert [figure(12.34), figure(-20000.0), figure(0.461, 2)] == ["12.3", "-2e4", "0.46"]
+
+
+def test_a_pair_is_one_hypothesis(level):
+    from cdpr_struct.reports.diagnosis_tables import hypotheses
+    from cdpr_struct.reports.diagnosis_text import diagnosis_text
+
+    result, out = level
+    first, second = result["candidates"][:2]
+    assert first["with"] == [second["cause"]]
+    assert second["with"] == [first["cause"]]
+    pair = f"{first['cause']} + {second['cause']}"
+    shown = hypotheses(result["candidates"])
+    assert [h.name for h in shown].count(pair) == 1
+    assert len({h.gain for h in shown}) == len(shown)
+    assert set(shown[0].sizes) == set(first["parameters"]) | set(second["parameters"])
+    for text in (diagnosis_text(result), (out / "report.html").read_text()):
+        assert pair in text
+    assert pair.replace("_", " ") in (out / "evidence.svg").read_text()
+
+
+def test_page_lists_every_size_and_says_that_it_scrolls(level):
+    result, out = level
+    page = (out / "report.html").read_text()
+    names = {name for c in result["candidates"] for name in c["parameters"]}
+    assert all(f"<td>{name}</td>" in page for name in names)
+    assert "rows: scroll inside the table" in page
+
+
+def test_sizes_have_the_digits_of_their_sigma():
+    from cdpr_struct.reports.diagnosis_tables import with_sigma
+
+    assert with_sigma(0.999612, 3.5e-5) == "0.999612 ± 0.000035"
+    assert with_sigma(12.7012, 3.13) == "12.7 ± 3.1"
+    assert with_sigma(-0.001, 0.0) == "-0.001"

@@ -8,10 +8,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cdpr_struct.diagnosis.diagnose import Diagnosis
+from cdpr_struct.reports.diagnosis_tables import figure as shown
+from cdpr_struct.reports.diagnosis_tables import hypotheses
 from cdpr_struct.reports.figures.style import BLUE, GREY, ORANGE, quiet
 
 RESIDUAL_SIZE, EVIDENCE_SIZE, MEASURED_SIZE = (9.6, 3.6), (9.6, 3.2), (9.6, 3.2)
 
+_BARS = 10
 _WORDS = {
     "EQ": "wrench balance",
     "CO": "lengths",
@@ -63,12 +66,14 @@ def _name_blocks(axes: Axes, blocks: np.ndarray) -> None:
 def draw_evidence(figure: Figure, result: Mapping[str, Any]) -> None:
     """Log evidence of every cause that was fitted, against nothing being wrong."""
     axes = figure.subplots()
-    best: dict[str, float] = {}
-    for row in result["candidates"]:
-        best[row["cause"]] = max(best.get(row["cause"], -np.inf), row["log_evidence_gain"])
-    rows = sorted(best.items(), key=lambda x: x[1])[-10:]
+    rows = hypotheses(result["candidates"])[:_BARS][::-1]
     if rows:
-        axes.barh([n.replace("_", " ") for n, _ in rows], [max(v, 0.0) for _, v in rows], color=BLUE)
+        bars = axes.barh([_plain(h.name) for h in rows], [max(h.gain, 0.0) for h in rows], color=BLUE)
+        axes.bar_label(bars, [f" {shown(h.gain)}" for h in rows], fontsize=8.5)
     axes.axvline(5.0, color=GREY, linewidth=0.9, linestyle="--")
     axes.set_xlabel("log evidence against nothing being wrong [nats]; dashed: needed to be named")
     quiet(axes, "x")
+
+
+def _plain(name: str) -> str:
+    return name.replace("_", " ")
