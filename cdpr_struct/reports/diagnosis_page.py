@@ -14,6 +14,7 @@ from cdpr_struct.reports.diagnosis_tables import (
     candidate_table,
     error_table,
     gain_table,
+    sigma_table,
     size_table,
     standing,
 )  # fmt: skip
@@ -47,8 +48,21 @@ def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, st
         "report.html": render_page(diagnosis_page(found, result, plates)),
     }
     if result["extended_model"]:
-        files["extended_robot.toml"] = extended_robot_toml(found)
+        files["extended_robot.toml"] = extended_robot_toml(found, robot_comments(result))
     return files
+
+
+def robot_comments(result: Mapping[str, Any]) -> list[str]:
+    """What a reader of extended_robot.toml must know: where it is from and how far it can be trusted."""
+    said, gain = result["verdict"], result["gain"]
+    lines = [f"Written by cdpr-struct diagnose {result['campaign']}.", said["sentence"], *standing(result)]
+    if any(len(names) > 1 for names in said["class"]):
+        lines.append(
+            "WARNING: these data do not tell the causes of a class; of each only the likeliest is in this file."
+        )
+    if said["status"] == "class" and not gain["confirmed"] and gain["ratio"] is not None:
+        lines.append("WARNING: not confirmed by anything that was left out of the fit; do not rely on it.")
+    return lines
 
 
 def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Plate]) -> Page:
@@ -106,7 +120,8 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
         [n, f"{v['value']:g}", "stated" if v["stated"] else "default"] for n, v in result["tolerances"].items()
     ]
     tables.append(HtmlTable("Tolerances taken into account, one sigma", ["tolerance", "size", "source"], tolerances))
-    return tables
+    sigmas = sigma_table(result["sigmas"])
+    return tables + ([_html(sigmas)] if sigmas else [])
 
 
 def _html(table: Table) -> HtmlTable:

@@ -1,5 +1,6 @@
 """A diagnosis as result.json."""
 
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.heldout import groups_of
 from cdpr_struct.diagnosis.plan import minimum_detectable
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT
+from cdpr_struct.diagnosis.sigma_check import sigmas_used, warnings
 from cdpr_struct.diagnosis.significance import NOISE_SHARE, STRAY_SHARE, p_of_noise
 from cdpr_struct.diagnosis.simulation_error import rows_read, simulation_error
 from cdpr_struct.diagnosis.stray_peaks import p_of_strays
@@ -51,6 +53,8 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
             name: {"value": getattr(found.campaign.tolerances, name), "stated": name in found.campaign.stated}
             for name in found.campaign.tolerances.__slots__
         },
+        "sigmas": [asdict(used) for used in sigmas_used(found.campaign)],
+        "warnings": warnings(found),
         "not_used": sorted({s.kind for s in found.campaign.series}),
     }  # fmt: skip
     return with_signals(result, found.campaign)

@@ -27,7 +27,21 @@ def standing(result: Mapping[str, Any]) -> list[str]:
     """Status, probability and p-value in one line, then each class that is not told apart."""
     said = result["verdict"]
     lines = [f"status: {said['status']}; probability {said['probability']:.2f}; p = {result['p_value']:.2g}"]
-    return lines + [f"class: {' | '.join(names)}" for names in said["class"] if len(names) > 1]
+    lines += [f"class: {' | '.join(names)}" for names in said["class"] if len(names) > 1]
+    return lines + [f"warning: {text}.".replace("?.", "?") for text in result["warnings"]]
+
+
+def sigma_table(sigmas: Sequence[Mapping[str, Any]]) -> Table | None:
+    """Every sigma that was used and where it is from."""
+    rows = [[s["kind"], s["file"], s["sigma"], s["words"], s["source"]] for s in sigmas]
+    note = "One sigma of each reading. A state that several files name has the pose sigmas of the first."
+    return Table("Sigmas of the sensors", ["kind", "file", "sigma", "size", "source"], rows, note) if rows else None
+
+
+def default_sigmas(sigmas: Sequence[Mapping[str, Any]]) -> str:
+    """One line for a terminal about sigmas that nobody gave."""
+    given = [f"{s['sigma']} {s['words']} ({s['file']})" for s in sigmas if s["source"] == "default"]
+    return f"Sigmas not given, defaults used: {', '.join(given)}." if given else ""
 
 
 def error_table(result: Mapping[str, Any]) -> Table:

@@ -3,7 +3,14 @@
 from collections.abc import Mapping
 from typing import Any
 
-from cdpr_struct.reports.diagnosis_tables import Table, candidate_table, error_table, gain_table, standing
+from cdpr_struct.reports.diagnosis_tables import (
+    Table,
+    candidate_table,
+    default_sigmas,
+    error_table,
+    gain_table,
+    standing,
+)
 from cdpr_struct.reports.text import paragraphs, plain_table
 
 
@@ -15,6 +22,7 @@ def diagnosis_text(result: Mapping[str, Any]) -> str:
     blocks += [_shown(table) for table in tables if table]
     if said["next_measurement"]:
         blocks.append(f"To measure next: {said['next_measurement']}.")
+    blocks += filter(None, [default_sigmas(result["sigmas"])])
     return paragraphs(*blocks)
 
 

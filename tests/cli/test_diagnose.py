@@ -169,3 +169,25 @@ def test_sizes_have_the_digits_of_their_sigma():
     assert with_sigma(0.999612, 3.5e-5) == "0.999612 ± 0.000035"
     assert with_sigma(12.7012, 3.13) == "12.7 ± 3.1"
     assert with_sigma(-0.001, 0.0) == "-0.001"
+
+
+def test_extended_robot_says_how_far_to_trust_it(level, capsys):
+    result, out = level
+    head = [line for line in (out / "extended_robot.toml").read_text().splitlines() if line.startswith("# ")]
+    text = "\n".join(head)
+    assert "status: class; probability" in text
+    assert " | ".join(result["verdict"]["class"][0]) in text
+    assert "WARNING: these data do not tell" in text
+    assert "WARNING: not confirmed" in text
+    for command in (["inverse"], ["modes", "--count", "3"]):
+        assert run([*command, str(out / "extended_robot.toml"), "--json"]) == 0
+    capsys.readouterr()
+
+
+def test_sigmas_are_in_result_and_page(level):
+    result, out = level
+    assert {(s["sigma"], s["source"]) for s in result["sigmas"]} == {
+        ("tension_N", "stated"), ("position_m", "stated"), ("rotation_deg", "stated"),
+    }  # fmt: skip
+    assert result["warnings"] == []
+    assert "Sigmas of the sensors" in (out / "report.html").read_text()
