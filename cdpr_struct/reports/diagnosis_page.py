@@ -32,7 +32,8 @@ def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, st
             svg("residuals", figures.RESIDUAL_SIZE, lambda f: figures.draw_residuals(f, found)),
             "Each point is one residual at the measured state, in its own standard deviation under noise and "
             "tolerances. "
-            "Inside the shaded band there is nothing to explain.",
+            "The shaded band is +-2 sigma: inside it there is nothing to explain. Faint lines part the states, whose "
+            "names stand above where there is room; values of all points: residuals.csv.",
         ),
         Plate(
             "evidence",

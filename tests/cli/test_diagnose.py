@@ -1,8 +1,10 @@
 """`diagnose` and `plan` as a script uses them, on the thesis's own table of tensions."""
 
 import json
+import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from cdpr_struct.cli.main import run
@@ -191,3 +193,25 @@ def test_sigmas_are_in_result_and_page(level):
     }  # fmt: skip
     assert result["warnings"] == []
     assert "Sigmas of the sensors" in (out / "report.html").read_text()
+
+
+def test_residual_figure_can_be_read(level):
+    _, out = level
+    shown = re.findall(r"<text[^>]*>([^<]*)</text>", (out / "residuals.svg").read_text())
+    assert {"-5", "-2", "0", "2", "5", "horizontal centre", "middle edge", "horizontal corner"} <= set(shown)
+    assert not [text for text in shown if "10^" in text]
+    assert "+-2 sigma" in (out / "report.html").read_text()
+
+
+@pytest.mark.parametrize("largest", [1.0, 9.0, 300.0, 5e12])
+def test_ticks_are_plain_numbers_at_any_size(largest):
+    from matplotlib.figure import Figure
+
+    from cdpr_struct.reports.figures.diagnosis import _plain_sigmas
+
+    axes = Figure().subplots()
+    _plain_sigmas(axes, [np.array([-largest, 0.3])])
+    shown = [label.get_text() for label in axes.get_yticklabels()]
+    assert 5 <= len(shown) <= 17
+    assert {"-2", "0", "2"} <= set(shown)
+    assert axes.get_ylim()[0] < -largest
