@@ -93,6 +93,7 @@ def load_campaign(path: str | Path) -> Campaign:
         rows, sigmas = _rows(entry, source, number, len(robot.cables)), _sigmas(entry)
         gathering.add(rows, sigmas)
         sheets.append(_sheet(entry, rows, sigmas))
+    _check_poses(gathering)
     identified = join_signals(gathering, robot, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(
@@ -125,7 +126,7 @@ def _table(source: Path) -> CampaignTable:
     except tomllib.TOMLDecodeError as error:
         raise InputError(str(source), "", str(error), "a TOML file, each key and table given once") from error
     except ValidationError as error:
-        raise input_error(str(source), error) from error
+        raise input_error(str(source), error, CampaignTable) from error
 
 
 def _robot(name: str, source: Path) -> Robot:
@@ -148,6 +149,17 @@ def _rows(entry: MeasurementTable, source: Path, number: int, cables: int) -> Ro
 def _sigmas(entry: MeasurementTable) -> Sigmas:
     given = {f.name: getattr(entry.sigma, f.name) for f in fields(Sigmas)}
     return replace(Sigmas(), **{k: v for k, v in given.items() if v is not None})
+
+
+def _check_poses(gathering: Gathering) -> None:
+    """Signals alone need poses: said before minutes go into their modes."""
+    series = [series for series, _ in gathering.series]
+    if gathering.known or not series or any("x_m" in s.columns for s in series):
+        return
+    case = series[0].case[0]
+    expected = f"this file carries no pose, so give that of case {case} in another file (static_state or loaded_pose)"
+    expected += ", or as columns x_m, y_m, z_m[, rx_deg, ry_deg, rz_deg] of a CSV file"
+    raise InputError(series[0].file, f"case {case}", "no pose", expected)
 
 
 def _sheet(entry: MeasurementTable, rows: Rows, sigmas: Sigmas) -> Sheet:
