@@ -6,6 +6,7 @@ pose, each started at its neighbour's solution; it is timed on every `STRIDE`-th
 Run: python -m benchmarks.distribution
 """
 
+import argparse
 import time
 
 import numpy as np
@@ -88,6 +89,9 @@ def _median(function, repeats: int = 5) -> float:
 
 def main() -> None:
     """Print the record (processor time, so that a busy machine does not disturb it)."""
+    argparse.ArgumentParser(
+        prog="python -m benchmarks.distribution", description=(__doc__ or "").split("\n")[0]
+    ).parse_args()
     for bound in ("fixed", "pose-dependent"):
         ours, peer = HelixDistribution(), GeneralSolver()
         ours.setup(bound)

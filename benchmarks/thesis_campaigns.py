@@ -1,6 +1,6 @@
 """What does the diagnosis say about the thesis's own measurements, and how much of it hangs on assumed sigmas?
 
-    python -m benchmarks.thesis_campaigns                 all tables, to the screen (about two minutes)
+    python -m benchmarks.thesis_campaigns                 all tables, to the screen (about five minutes)
     python -m benchmarks.thesis_campaigns verdicts modes  some of them
     python -m benchmarks.thesis_campaigns --write         puts them into docs/thesis_measurements.md, with figures
 

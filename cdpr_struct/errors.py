@@ -23,7 +23,9 @@ class InputError(ValueError):
     def __init__(self, source: str, field: str, value: object, expected: str) -> None:
         self.source, self.field, self.value, self.expected = source, field, value, expected
         place = f"{source}: {field}" if field else source
-        super().__init__(f"{place}: got {value!r}; {expected}")
+        plain = value.item() if type(value).__module__ == "numpy" and hasattr(value, "item") else value
+        shown = f"{plain:g}" if isinstance(plain, float) and plain.is_integer() and abs(plain) < 1e6 else repr(plain)
+        super().__init__(f"{place}: got {shown}; {expected}")
 
 
 class UnholdablePoseError(CdprError):

@@ -104,6 +104,9 @@ def main() -> None:
     parser.add_argument("directory", type=Path)
     parser.add_argument("--only", default="", help="names of recordings, separated by commas; default all")
     given = parser.parse_args()
+    for name in ("Grab_prototype_33.json", "free_motion_poses_100Hz_33.npz"):
+        if not (given.recordings / name).is_file():
+            parser.error(f"{given.recordings / name}: no such file; RECORDINGS is the folder that holds it")
     print(write_campaign(given.recordings, given.directory, [n for n in given.only.split(",") if n]))
 
 

@@ -5,23 +5,25 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.extension_notes import noted, with_extensions
-from cdpr_struct.cli.options import Json, Out
+from cdpr_struct.cli.options import Json, Out, require_file
 from cdpr_struct.cli.output import emit, result_json, write_files
 from cdpr_struct.cli.progress import steps
 from cdpr_struct.errors import InputError
 
 NAME = "diagnose"
+BUDGET_HELP = "small (10 s for static states, a minute with loads and frequencies, minutes with signals) or full."
 
 
 def run(
     campaign: Annotated[str, typer.Argument(metavar="CAMPAIGN.toml", help="Path to a campaign file.")],
-    budget: Annotated[str, typer.Option("--budget", help="small (under half a minute) or full.")] = "small",
+    budget: Annotated[str, typer.Option("--budget", help=BUDGET_HELP)] = "small",
     out: Out = None,
     json: Json = False,
 ) -> int:
     """Name the cause of differences between a simulation and measured data."""
     if budget not in ("small", "full"):
         raise InputError("--budget", "", budget, "small or full")
+    require_file(campaign)
     from cdpr_struct.diagnosis.diagnose import diagnose
     from cdpr_struct.measurement.campaign_file import load_campaign
     from cdpr_struct.reports.diagnosis_result import diagnosis_json

@@ -33,7 +33,9 @@ def run(
     """Pose and tensions at fixed unstrained cable lengths."""
     machine = read_robot(robot, payload, mass)
     chosen, length = read_model(model), read_lengths(lengths, len(machine.cables), machine.name)
-    from cdpr_struct.cli.options import read_pose
+    from cdpr_struct.cli.options import read_pose, require_metres
+
+    require_metres(length, machine)
     from cdpr_struct.reports import statics_rest as report
     from cdpr_struct.statics.forward_kinematics import forward
 

@@ -1,6 +1,8 @@
 """The program `cdpr-struct`: one subcommand a file, and the one place that turns errors into exit codes."""
 
 import sys
+from importlib.metadata import version as installed
+from typing import Annotated
 
 import typer
 from typer.exceptions import Abort, TyperException
@@ -54,6 +56,23 @@ COMMANDS = (
     diagnose,
     plan,
 )
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        print(f"cdpr-struct {installed('cdpr-struct')}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
+    ] = False,
+) -> None:
+    """Deflection and vibration of cable-driven parallel robots, checked against an independent FEM."""
+
+
 for command in COMMANDS:
     app.command(name=command.NAME)(command.run)
 

@@ -1,6 +1,7 @@
 """Options that several commands share, and how their text is read."""
 
 import os
+import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from cdpr_struct.workspace.grid import Grid
 
 
+_LOOKS_LIKE_MM = 50.0  # times the robot's width
 LARGEST, SMALLEST = 1e12, 1e-12  # of single numbers; beyond them squares and products leave what can be computed
 
 
@@ -44,7 +46,36 @@ def directory(text: str) -> Path:
     found = next((p for p in (Path(text), *Path(text).absolute().parents) if p.exists()), Path("/"))
     if not text.strip() or not found.is_dir() or not os.access(found, os.W_OK | os.X_OK):
         raise typer.BadParameter(f"got {text!r}; give a directory that can be written")
+    try:
+        Path(tempfile.mkdtemp(dir=found)).rmdir()
+    except OSError as error:
+        raise typer.BadParameter(f"got {text!r}; give a directory that can be written ({error.strerror})") from error
     return Path(text)
+
+
+def require_file(path: str) -> None:
+    """Refuse a campaign that is not there before anything slow is loaded.
+
+    Raises
+    ------
+    InputError : no such file.
+    """
+    if not Path(path).is_file():
+        raise InputError("CAMPAIGN", "", path, "no such file" if not Path(path).is_dir() else "a file, not a folder")
+
+
+def require_metres(values: list[float], robot: "Robot", option: str = "--lengths") -> None:
+    """Refuse lengths that look like mm.
+
+    Raises
+    ------
+    InputError : even the shortest is many times as long as the robot is wide.
+    """
+    import numpy as np
+
+    wide = float(np.linalg.norm(np.ptp(robot.frame_anchors, axis=0)))
+    if min(values) > _LOOKS_LIKE_MM * wide:
+        raise InputError(option, "", values[0], f"lengths in m; these look like mm (the robot is {wide:.3g} m wide)")
 
 
 RobotName = Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in name or path to a robot file.")]

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.options import Json, Out
+from cdpr_struct.cli.options import Json, Out, require_file
 from cdpr_struct.cli.output import emit, result_json, write_files
 
 NAME = "plan"
@@ -17,6 +17,7 @@ def run(
     json: Json = False,
 ) -> int:
     """Smallest detectable size of each cause, which causes look alike, and which measurement would separate them."""
+    require_file(campaign)
     from cdpr_struct.diagnosis.planned_campaign import planned
     from cdpr_struct.measurement.campaign_file import load_campaign
     from cdpr_struct.reports.diagnosis_plan import plan_json, plan_text

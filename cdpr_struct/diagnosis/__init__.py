@@ -28,6 +28,8 @@
 | handled_data.py        | what is wrong with the data rather than the robot, in order                        |
 | heldout.py             | does the cause predict states and kinds of data that it was not fitted to?         |
 | simulation_error.py    | what the user sees: simulated minus measured, in his units                         |
+| sigma_check.py         | which sigmas were used, and is one in a wrong unit?                                |
+| wording.py             | causes with their sizes, corrections and doubtful peaks, in words                  |
 | verdict.py             | the sentence and the result                                                        |
 | diagnose.py            | all of the above in order                                                          |
 | extended_robot.py      | the robot object that a world means                                                |

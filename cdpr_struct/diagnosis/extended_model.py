@@ -40,9 +40,15 @@ def extended_robot(found: Diagnosis) -> Robot:
     return replace(robot_of(robot, world), extensions=replace(more, causes=tuple(dict.fromkeys(causes))))
 
 
-def extended_robot_toml(found: Diagnosis) -> str:
-    """Text of extended_robot.toml."""
-    return robot_toml(extended_robot(found), f"{found.campaign.robot.name}-extended")
+def extended_robot_toml(found: Diagnosis, comments: Sequence[str] = ()) -> str:
+    """Text of extended_robot.toml, comments at its head."""
+    head = "".join(f"# {printable(line)}\n" for line in comments)
+    return head + robot_toml(extended_robot(found), f"{found.campaign.robot.name}-extended")
+
+
+def printable(line: str) -> str:
+    """A comment of one line: names of cases may hold anything."""
+    return "".join(c if c.isprintable() else " " for c in line)
 
 
 def robot_toml(robot: Robot, name: str) -> str:

@@ -36,14 +36,27 @@ class Held:
         before, after = self.rms(rows)
         return before / max(after, 1e-12)
 
-    def by_kind(self) -> dict[str, dict[str, float | str]]:
-        """Root mean squares before and after of each block, in its unit."""
+    def by_kind(self, read: np.ndarray) -> dict[str, dict[str, float | str]]:
+        """Root mean squares of each block over the readings that the cause concerns, before and after.
+
+        The ratio is that of errors in their sigmas, as `ratio` counts them.
+
+        Parameters
+        ----------
+        read : (n,) rows that hold readings at all
+        """
         table: dict[str, dict[str, float | str]] = {}
         for block, unit in UNITS.items():
-            rows = self.labels.block == block
-            if rows.any():
-                before, after = (float(np.sqrt(np.mean(r[rows] ** 2))) for r in (self.before, self.after))
-                table[f"{_NAMES[block]}"] = {"before": before, "after": after, "unit": unit, "ratio": before / after}
+            own = (self.labels.block == block) & read
+            rows = own & self.concerned
+            if not rows.any():
+                continue
+            before, after = (float(np.sqrt(np.mean(r[rows] ** 2))) for r in (self.before, self.after))
+            sigmas = self.rms(rows)
+            table[_NAMES[block]] = {
+                "before": before, "after": after, "unit": unit, "ratio": self.ratio(rows), "counted": int(rows.sum()),
+                "of": int(own.sum()), "before_sigmas": sigmas[0], "after_sigmas": sigmas[1],
+            }  # fmt: skip
         return table
 
 

@@ -21,7 +21,7 @@ SEED = 20240229
 DRAWS = 1000
 _JUST_SEEN = 3.0  # sigmas
 _SHOWN = 1.0  # sigmas by which a large occurrence must show in a direction
-_LAW_SHARE, _NOISE_SHARE, _STRAY_SHARE = 0.87, 0.08, 0.05  # of the false alarms: laws, chi^2, stray peaks
+LAW_SHARE, NOISE_SHARE, STRAY_SHARE = 0.87, 0.08, 0.05  # of the false alarms: laws, chi^2, stray peaks
 
 
 def p_of_null(
@@ -38,7 +38,7 @@ def p_of_null(
     p_laws = (1.0 + float((chance >= ratio).sum())) / (DRAWS + 1.0)
     if ratio > chance.max():
         p_laws = min(p_laws, float(np.exp(-ratio)))  # no likelihood ratio is above e^x more often than e^-x
-    return min(1.0, p_laws / _LAW_SHARE, p_of_noise(null) / _NOISE_SHARE, p_strays / _STRAY_SHARE)
+    return min(1.0, p_laws / LAW_SHARE, p_of_noise(null) / NOISE_SHARE, p_strays / STRAY_SHARE)
 
 
 def log_ratio(library: list[Candidate], outside: list[Candidate], z: np.ndarray) -> np.ndarray:

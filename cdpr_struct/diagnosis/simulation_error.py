@@ -26,12 +26,20 @@ def tension_errors(setting: Setting) -> np.ndarray:
     return errors
 
 
+def rows_read(found: Diagnosis) -> np.ndarray:
+    """(n,) residuals that hold a reading: where no tension was read, the simulation's own balance by construction."""
+    labels, states = found.entered_setting.labels, found.campaign.states
+    tensions = np.isin(labels.block.astype(str), ("EQ", "CO", "NS"))
+    read: np.ndarray = ~tensions | np.isfinite(states.tension).any(axis=1)[labels.state]
+    return read
+
+
 def simulation_error(found: Diagnosis) -> list[dict[str, Any]]:
-    """Per kind of data: root mean square, unit, chi^2 over its count, and the worst reading."""
-    null, setting = found.entered, found.entered_setting
+    """Per kind of data that was read: root mean square, unit, chi^2 over its count, and the worst reading."""
+    null, setting, read = found.entered, found.entered_setting, rows_read(found)
     labels, rows = setting.labels, []
-    for kind in dict.fromkeys(labels.kind.tolist()):
-        own = np.flatnonzero(labels.kind == kind)
+    for kind in dict.fromkeys(labels.kind[read].tolist()):
+        own = np.flatnonzero((labels.kind == kind) & read)
         values, worst = _in_units(kind, setting, null, own)
         rows.append(
             {"kind": kind, "rms": float(np.sqrt(np.nanmean(values**2))), "unit": UNIT[kind],

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import ADEQUATE, NAMED, Diagnosis
-from cdpr_struct.diagnosis.evidence import Choice
 from cdpr_struct.diagnosis.next_measurement import next_measurement
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT
 from cdpr_struct.diagnosis.refit import Fit
 from cdpr_struct.diagnosis.significance import OUTSIDE
 from cdpr_struct.diagnosis.stray_peaks import SEVERAL, strays_left
 from cdpr_struct.diagnosis.suspect_reading import in_words
+from cdpr_struct.diagnosis.wording import agreement, corrected, described, rest_words
 
 LARGEST_CLASS = 4
 TEMPER = 0.7  # of the evidence between causes: the model of noise and tolerances is a model too
@@ -47,23 +47,22 @@ class Verdict:
 def verdict(found: Diagnosis) -> Verdict:
     """What to tell the user."""
     if found.p_value >= SIGNIFICANT:
-        text = "Nothing significant: simulation and measurements agree within their uncertainty"
-        text += f" (p = {found.p_value:.2g})." + _aside(found)
+        text = agreement(found) + _aside(found)
         again = "; ".join(f"read again {in_words(found.campaign, wrong)}" for wrong in found.aside)
         return Verdict("adequate", (), (), 0.99, "", again, text)
-    fit, corrected = found.selection.fit, [c for c, _ in found.corrections]
+    fit, mended = found.selection.fit, [c for c, _ in found.corrections]
     place = location(found)
     if is_unknown(found):
         repeat = "; ".join(filter(None, ("repeat the worst state; see location", _next(found, ()))))
         return Verdict("unknown", (), (), _probability(found), place, repeat, _unknown_sentence(found, place))
-    names = tuple(c.cause for c in corrected) + (fit.names if fit else ())
-    classes = tuple((c.cause, *c.rivals) for c in corrected) + tuple(
+    names = tuple(c.cause for c in mended) + (fit.names if fit else ())
+    classes = tuple((c.cause, *c.rivals) for c in mended) + tuple(
         _class(found, i) for i in range(len(fit.names) if fit else 0)
     )
     separable = all(len(c) == 1 for c in classes)
-    status = "named" if separable and _confirmed(found) else "class"
+    status = "named" if separable and confirmed(found) else "class"
     if any(len(c) > LARGEST_CLASS for c in classes):
-        text = f"Something is wrong in {place}; these data leave more than {LARGEST_CLASS} causes open."
+        text = f"Something is wrong in {place}; these data leave {_many(classes)} open." + _aside(found)
         return Verdict("class", names, classes, _probability(found), place, _next(found, classes), text)
     return Verdict(status, names, classes, _probability(found), place, _next(found, classes), _sentence(found, classes))
 
@@ -83,6 +82,12 @@ def is_unknown(found: Diagnosis) -> bool:
     outside = found.outside
     structured = outside.gain > max(outside.limit, _LEFT)
     return found.p_adequate < ADEQUATE or structured or outside.instead > _INSTEAD
+
+
+def _many(classes: tuple[tuple[str, ...], ...]) -> str:
+    """The causes of classes too large to lead with one of them."""
+    said = [f"{len(names)} causes ({', '.join(n.replace('_', ' ') for n in names)})" for names in classes]
+    return ", beside them ".join(said)
 
 
 def _unknown_sentence(found: Diagnosis, place: str) -> str:
@@ -109,7 +114,7 @@ def _aside(found: Diagnosis) -> str:
     return text + (" The noise of the sensors wanders from reading to reading." if found.campaign.memory else "")
 
 
-def _confirmed(found: Diagnosis) -> bool:
+def confirmed(found: Diagnosis) -> bool:
     """A fitted cause is a claim of transfer: it must not hang on one group of states."""
     fit = found.selection.fit
     if fit is None:
@@ -171,7 +176,7 @@ def _probability(found: Diagnosis) -> float:
     share = float(np.exp(said - np.logaddexp.reduce(TEMPER * logs)))
     if is_unknown(found) and found.p_adequate < ADEQUATE:
         share = max(share, 0.9)
-    return float(np.round(min(share, _most(found) if is_unknown(found) or _confirmed(found) else UNCONFIRMED), 2))
+    return float(np.round(min(share, _most(found) if is_unknown(found) or confirmed(found) else UNCONFIRMED), 2))
 
 
 def _most(found: Diagnosis) -> float:
@@ -187,44 +192,39 @@ def _within(names: tuple[str, ...], classes: list[tuple[str, ...]]) -> bool:
 
 
 def _sentence(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
-    fit = found.selection.fit
-    parts = [c.sentence for c, _ in found.corrections]
+    fit, parts = found.selection.fit, corrected(found)
     if fit is not None:
-        parts += [described(choice, theta) for choice, theta in zip(fit.choices, fit.parts(), strict=True)]
+        for choice, theta, names in zip(fit.choices, fit.parts(), classes[len(parts) :], strict=True):
+            lead = "best candidate of its class: " if len(names) > 1 else ""
+            parts.append(lead + described(choice, theta))
     text = "; ".join(parts)
     text = text[:1].upper() + text[1:] + "."
-    others = [names for names in classes if len(names) > 1]
-    for names in others:
+    for names in (names for names in classes if len(names) > 1):
         text += f" These data do not tell {' from '.join(n.replace('_', ' ') for n in names)}."
-    if fit is not None:
-        text += f" This explains {100.0 * fit.explained(found.ground.z):.0f} % of the significant error"
-        if found.held is not None and not _confirmed(found):
-            text += ", but it hangs on one state: nothing that was left out confirms it"
-        elif found.held is not None:
-            ratio = found.held.ratio(found.held.concerned)
-            text += f"; what it concerns is predicted {ratio:.1f} times better in states that were not fitted"
-        text += "."
+    text += rest_words(found) if fit is None else _standing(found, fit)
     return text + _aside(found)
 
 
-def described(choice: Choice, theta: np.ndarray) -> str:
-    """The cause's sentence with its size."""
-    value = theta * choice.prior
-    first = choice.pattern.parameters[0].shown(float(value[0]), 0.0)
-    rms, norm = float(np.sqrt(np.mean(value**2))), float(np.linalg.norm(value))
-    words = {
-        "value": f"{first['value']:.3g}", "percent": f"{100.0 * np.exp(float(value.mean())):.1f} %",
-        "rms": f"{rms:.2g}", "norm": f"{norm:.2g}", "unit": str(first["unit"]),
-    }  # fmt: skip
-    label = choice.pattern.label
-    return choice.candidate.cause.sentence.format(**words) + (f" ({label})" if label else "")
+def _standing(found: Diagnosis, fit: Fit) -> str:
+    """What the chosen causes explain of what is not noise, if chi^2 shows any, and whether what was left out agrees."""
+    share, said = 100.0 * fit.explained(found.ground.z), []
+    if share >= 0.5:
+        said.append(f"This explains {share:.0f} % of the significant error")
+    if found.held is not None and not confirmed(found):
+        said.append("but it hangs on one state: nothing that was left out confirms it")
+    elif found.held is not None:
+        ratio = found.held.ratio(found.held.concerned)
+        said.append(f"what it concerns is predicted {ratio:.1f} times better in states that were not fitted")
+    joint = ", " if said[-1:] and said[-1].startswith("but") else "; "
+    text = joint.join(said).removeprefix("but ")
+    return f" {text[:1].upper()}{text[1:]}." if text else ""
 
 
 def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
     """Every cause that was fitted, best first, with its parameters."""
     rows: list[dict[str, Any]] = [
         {
-            "cause": c.cause, "parameters": c.sizes, "description": c.sentence, "log_evidence_gain": gain,
+            "cause": c.cause, "with": [], "parameters": c.sizes, "description": c.sentence, "log_evidence_gain": gain,
             "heldout_rms": None, "explained_fraction": 1.0,
         }
         for c, gain in found.corrections
@@ -242,7 +242,8 @@ def _fit_rows(found: Diagnosis, fit: Fit) -> list[dict[str, Any]]:
     after = found.held.after / found.held.sigma if chosen and found.held is not None else None
     return [
         {
-            "cause": choice.candidate.name, "pattern": choice.pattern.label,
+            "cause": choice.candidate.name, "with": [n for n in fit.names if n != choice.candidate.name],
+            "pattern": choice.pattern.label,
             "parameters": {
                 p.name: p.shown(float(t * prior), float(s * prior))
                 for p, t, s, prior in zip(choice.pattern.parameters, theta, sigma, choice.prior, strict=True)

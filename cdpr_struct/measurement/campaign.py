@@ -59,6 +59,17 @@ class Sigmas:
         return 0.003 * hertz if self.frequency_hz is None else np.full_like(hertz, self.frequency_hz)
 
 
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A data file of a campaign: its columns and sigmas; `stated` are the sigmas that the campaign file gives."""
+
+    kind: str
+    file: str
+    columns: tuple[str, ...]
+    sigmas: Sigmas
+    stated: frozenset[str]
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class States:
     """S states of the robot (cases) with m cables; nan where nothing was measured.
@@ -166,6 +177,7 @@ class Campaign:
     stated : names of the tolerances that the file gives; the others are defaults
     checked : causes that a check beside the robot has bounded, with one sigma of what they may still be
     identified : modes found in the signals of `series`; those used are among `robot_frequencies`
+    sheets : the data files, with the sigmas used
     memory : correlation of a sensor's noise in one state with that in the next, 0 for independent noise
     """
 
@@ -185,6 +197,7 @@ class Campaign:
     lower_bound: float = 0.0
     checked: Mapping[str, float] = field(default_factory=dict)
     memory: float = 0.0
+    sheets: tuple[Sheet, ...] = ()
 
     @property
     def cable_model(self) -> str:

@@ -9,6 +9,10 @@ from cdpr_struct.measurement.campaign import CableFrequencies, RobotFrequencies,
 from cdpr_struct.measurement.campaign_rows import POSE, Rows, length_columns
 
 _SAME_POSE = (1e-9, 1e-9)
+_WHOLE = (
+    "one row and value for each cable; where a cell could not be read, leave all cells of that column empty for this "
+    "case (what else was read there still counts), or leave the case out"
+)
 
 
 @dataclass(slots=True)
@@ -125,7 +129,7 @@ class Gathering:
             if any(partly):
                 values = state.tension if partly[0] else state.length
                 lacking = (np.flatnonzero(~np.isfinite(values)) + 1).tolist()
-                raise InputError(rows.file, f"case {state.name}", f"no value for cables {lacking}", "one row for each")
+                raise InputError(rows.file, f"case {state.name}", f"no value for cables {lacking}", _WHOLE)
 
     def _loaded(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         own = rows.get("sigma")

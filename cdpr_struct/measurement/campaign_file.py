@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError
-from cdpr_struct.measurement.campaign import Campaign, Sigmas, Tolerances
+from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.signal_cases import join_signals
@@ -88,8 +88,12 @@ def load_campaign(path: str | Path) -> Campaign:
     table = _table(source)
     robot = _nominal(_robot(table.robot, source), table.nominal, source)
     gathering = Gathering(len(robot.cables))
+    sheets = []
     for number, entry in enumerate(table.measurement, start=1):
-        gathering.add(_rows(entry, source, number, len(robot.cables)), _sigmas(entry))
+        rows, sigmas = _rows(entry, source, number, len(robot.cables)), _sigmas(entry)
+        gathering.add(rows, sigmas)
+        sheets.append(_sheet(entry, rows, sigmas))
+    _check_poses(gathering)
     identified = join_signals(gathering, robot, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(
@@ -108,6 +112,7 @@ def load_campaign(path: str | Path) -> Campaign:
         tension_distribution=table.tension_distribution,
         lower_bound=table.lower_bound_N,
         checked=table.checked,
+        sheets=tuple(sheets),
     )
 
 
@@ -121,7 +126,7 @@ def _table(source: Path) -> CampaignTable:
     except tomllib.TOMLDecodeError as error:
         raise InputError(str(source), "", str(error), "a TOML file, each key and table given once") from error
     except ValidationError as error:
-        raise input_error(str(source), error) from error
+        raise input_error(str(source), error, CampaignTable) from error
 
 
 def _robot(name: str, source: Path) -> Robot:
@@ -144,6 +149,22 @@ def _rows(entry: MeasurementTable, source: Path, number: int, cables: int) -> Ro
 def _sigmas(entry: MeasurementTable) -> Sigmas:
     given = {f.name: getattr(entry.sigma, f.name) for f in fields(Sigmas)}
     return replace(Sigmas(), **{k: v for k, v in given.items() if v is not None})
+
+
+def _check_poses(gathering: Gathering) -> None:
+    """Signals alone need poses: said before minutes go into their modes."""
+    series = [series for series, _ in gathering.series]
+    if gathering.known or not series or any("x_m" in s.columns for s in series):
+        return
+    case = series[0].case[0]
+    expected = f"this file carries no pose, so give that of case {case} in another file (static_state or loaded_pose)"
+    expected += ", or as columns x_m, y_m, z_m[, rx_deg, ry_deg, rz_deg] of a CSV file"
+    raise InputError(series[0].file, f"case {case}", "no pose", expected)
+
+
+def _sheet(entry: MeasurementTable, rows: Rows, sigmas: Sigmas) -> Sheet:
+    stated = {name for name, value in entry.sigma.model_dump().items() if value is not None}
+    return Sheet(entry.kind, entry.file, (*rows.numbers, *rows.words), sigmas, frozenset(stated))
 
 
 def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:

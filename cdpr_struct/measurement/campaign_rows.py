@@ -1,6 +1,7 @@
 """Rows of a measured-data file, checked: columns known and present, numbers finite and in their range."""
 
 from dataclasses import dataclass
+from difflib import get_close_matches
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +28,7 @@ _ALSO: dict[str, tuple[str, ...]] = {
 _ALWAYS = ("case", *POSE, "payload_kg", "sigma", "temperature_K", "approach", "time_s")
 _WORDS = ("case", "respond", "excite", "plane")
 _POSITIVE = ("tension_N", "length_m", "frequency_hz", "sigma", "temperature_K", "mode", "cable")
+COMMENTS = ("comment", "note", "remark")  # columns for people, not read
 HIGHEST = 1e3  # of any frequency [Hz]
 _BLANK_ALLOWED = ("sigma", "temperature_K", "approach", "tension_N", "length_m", "time_s")
 
@@ -69,6 +71,8 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
         raise InputError(
             str(path), "row 1", row, f"{len(table.columns)} values as in the header, decimals with a point"
         )
+    _check_separator(str(path), list(table.columns))
+    table = table.drop(columns=[name for name in table.columns if name in COMMENTS])
     _check_columns(kind, str(path), list(table.columns), cables)
     if not len(table):
         raise InputError(str(path), "", "no rows", "at least one row of data")
@@ -97,6 +101,13 @@ def length_columns(cables: int) -> list[str]:
     return [f"length_{i}_m" for i in range(1, cables + 1)]
 
 
+def _check_separator(source: str, columns: list[str]) -> None:
+    for mark, name in ((";", "';'"), ("\t", "tabs")):
+        if len(columns) == 1 and mark in columns[0]:
+            expected = "columns separated by commas, decimals with a point"
+            raise InputError(source, "header", f"columns separated by {name}", expected)
+
+
 def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> None:
     lengths = length_columns(cables)
     needed = [*_NEEDED[kind], *(lengths if kind == "loaded_pose" else [])]
@@ -106,9 +117,16 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
     known = {*_ALWAYS, *_NEEDED[kind], *_ALSO.get(kind, ()), *lengths}
     for name in columns:
         if name not in known:
-            raise InputError(source, name, "a column", f"unknown for {kind}; known are {', '.join(sorted(known))}")
+            raise InputError(source, name, "a column", _unknown(kind, name, known))
     if kind == "static_state" and not {"tension_N", "length_m"} & set(columns):
         raise InputError(source, "tension_N", "no such column", "give tension_N or length_m or both")
+
+
+def _unknown(kind: str, name: str, known: set[str]) -> str:
+    """A column that nothing reads is refused, since it may be a known one misspelt; remarks have names of their own."""
+    near = get_close_matches(name, sorted(known), 1)
+    meant = f"{near[0]} is perhaps meant; " if near else ""
+    return f"unknown for {kind}; {meant}known are {', '.join(sorted(known))}; remarks go into a column {COMMENTS[0]}"
 
 
 def _numbers(source: str, name: str, column: pd.Series) -> np.ndarray:

@@ -9,6 +9,15 @@ from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.extended_model import extended_robot_toml
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.diagnosis_signals import signal_plates, signal_tables
+from cdpr_struct.reports.diagnosis_tables import (
+    Table,
+    candidate_table,
+    error_table,
+    gain_table,
+    sigma_table,
+    size_table,
+    standing,
+)  # fmt: skip
 from cdpr_struct.reports.figures import diagnosis as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
@@ -23,7 +32,8 @@ def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, st
             svg("residuals", figures.RESIDUAL_SIZE, lambda f: figures.draw_residuals(f, found)),
             "Each point is one residual at the measured state, in its own standard deviation under noise and "
             "tolerances. "
-            "Inside the shaded band there is nothing to explain.",
+            "The shaded band is +-2 sigma: inside it there is nothing to explain. Faint lines part the states, whose "
+            "names stand above where there is room; values of all points: residuals.csv.",
         ),
         Plate(
             "evidence",
@@ -39,22 +49,39 @@ def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, st
         "report.html": render_page(diagnosis_page(found, result, plates)),
     }
     if result["extended_model"]:
-        files["extended_robot.toml"] = extended_robot_toml(found)
+        files["extended_robot.toml"] = extended_robot_toml(found, robot_comments(result))
     return files
+
+
+def robot_comments(result: Mapping[str, Any]) -> list[str]:
+    """What a reader of extended_robot.toml must know: where it is from and how far it can be trusted."""
+    said, gain = result["verdict"], result["gain"]
+    lines = [f"Written by cdpr-struct diagnose {result['campaign']}.", said["sentence"], *standing(result)]
+    if any(len(names) > 1 for names in said["class"]):
+        lines.append(
+            "WARNING: these data do not tell the causes of a class; of each only the likeliest is in this file."
+        )
+    if said["status"] == "class" and not gain["confirmed"] and gain["ratio"] is not None:
+        lines.append("WARNING: not confirmed by anything that was left out of the fit; do not rely on it.")
+    return lines
 
 
 def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Plate]) -> Page:
     """The report page."""
     said = result["verdict"]
-    more = [f"Where: {said['location']}."] if said["location"] else []
+    more = [line[:1].upper() + line[1:] for line in standing(result)]
+    more += [f"Where: {said['location']}."] if said["location"] else []
     more += [f"To measure next: {said['next_measurement']}."] if said["next_measurement"] else []
     facts = [
         (f"{row['rms']:.3g} {row['unit']}", f"rms error, {row['kind'].replace('_', ' ')}")
         for row in result["simulation_error"]
     ]
-    if result["gain"]["ratio"]:
-        facts.append((f"{result['gain']['ratio']:.1f}×", "smaller error on states that were not fitted"))
-        facts.append((f"{result['gain']['generic_fudge_ratio']:.1f}×", "a generic fit of common EA and cell gain"))
+    if result["gain"]["confirmed"]:
+        counted, of = result["gain"]["counted"], result["gain"]["of"]
+        said_of = f"smaller error where it was not fitted ({counted} of {of} readings, those that the cause concerns)"
+        facts.append((f"{result['gain']['ratio']:.1f}×", said_of))
+        fudge = f"{result['gain']['generic_fudge_ratio']:.1f}×"
+        facts.append((fudge, "the same by a generic fit of common EA and cell gain, all readings"))
     return Page(
         title=f"{found.campaign.robot_name}: what the simulation gets wrong, and why",
         subtitle=f"model {found.campaign.model}, {len(found.campaign.states.names)} states, {found.campaign.source}",
@@ -78,24 +105,14 @@ _METHOD = (
 
 
 def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
-    tables = []
-    rows = [
-        [
-            c["cause"].replace("_", " "),
-            f"{c['log_evidence_gain']:.1f}",
-            name,
-            f"{p['value']:.4g} ± {p['sigma']:.2g}",
-            p["unit"],
-        ]
-        for c in result["candidates"][:6]
-        for name, p in list(c["parameters"].items())[:8]
-    ]
-    tables.append(HtmlTable("Candidates", ["cause", "evidence [nats]", "parameter", "size", "unit"], rows))
-    gain = [
-        [kind, f"{g['before']:.3g}", f"{g['after']:.3g}", g["unit"], f"{g['ratio']:.2f}"]
-        for kind, g in result["gain"]["per_kind"].items()
-    ]
-    tables.append(HtmlTable("States that were not fitted", ["kind", "before", "after", "unit", "ratio"], gain))
+    candidates = result["candidates"]
+    shown = (
+        error_table(result),
+        candidate_table(candidates, 20, 3),
+        gain_table(result["gain"]),
+        size_table(candidates),
+    )
+    tables = [_html(table) for table in shown if table]
     why = [[name.replace("_", " "), reason] for name, reason in sorted(result["why_not_testable"].items())]
     tables.append(HtmlTable("What these data cannot show", ["cause", "why"], why))
     sizes = [[n.replace("_", " "), f"{v['value']:.3g}", v["unit"]] for n, v in result["minimum_detectable"].items()]
@@ -104,7 +121,12 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
         [n, f"{v['value']:g}", "stated" if v["stated"] else "default"] for n, v in result["tolerances"].items()
     ]
     tables.append(HtmlTable("Tolerances taken into account, one sigma", ["tolerance", "size", "source"], tolerances))
-    return tables
+    sigmas = sigma_table(result["sigmas"])
+    return tables + ([_html(sigmas)] if sigmas else [])
+
+
+def _html(table: Table) -> HtmlTable:
+    return HtmlTable(table.title, table.columns, table.rows, table.note)
 
 
 def _residuals_csv(found: Diagnosis) -> str:

@@ -3,40 +3,30 @@
 from collections.abc import Mapping
 from typing import Any
 
+from cdpr_struct.reports.diagnosis_tables import (
+    Table,
+    candidate_table,
+    default_sigmas,
+    error_table,
+    gain_table,
+    standing,
+)
 from cdpr_struct.reports.text import paragraphs, plain_table
 
 
 def diagnosis_text(result: Mapping[str, Any]) -> str:
     """The sentence first, then errors, candidates and the gain."""
     said = result["verdict"]
-    errors = [
-        [row["kind"], f"{row['rms']:.3g}", row["unit"], f"{row['chi2_per_n']:.2f}", _place(row["worst"])]
-        for row in result["simulation_error"]
-    ]
-    blocks = [
-        said["sentence"],
-        plain_table("Simulation against measurement", ["kind", "rms", "unit", "chi2/n", "worst"], errors),
-    ]
-    if result["candidates"]:
-        rows = [
-            [c["cause"], f"{c['log_evidence_gain']:.1f}", _sizes(c["parameters"])] for c in result["candidates"][:8]
-        ]
-        blocks.append(plain_table("Candidates", ["cause", "evidence [nats]", "size"], rows))
-    if result["gain"]["per_kind"]:
-        rows = [
-            [kind, f"{g['before']:.3g}", f"{g['after']:.3g}", g["unit"], f"{g['ratio']:.2f}"]
-            for kind, g in result["gain"]["per_kind"].items()
-        ]
-        blocks.append(plain_table("States that were not fitted", ["kind", "before", "after", "unit", "ratio"], rows))
+    blocks = [said["sentence"], "\n".join(standing(result)), _shown(error_table(result))]
+    tables = (candidate_table(result["candidates"], 8, 2), gain_table(result["gain"]))
+    blocks += [_shown(table) for table in tables if table]
     if said["next_measurement"]:
         blocks.append(f"To measure next: {said['next_measurement']}.")
+    blocks += filter(None, [default_sigmas(result["sigmas"])])
     return paragraphs(*blocks)
 
 
-def _place(worst: Mapping[str, Any]) -> str:
-    return f"{worst['case']}" + (f", cable {worst['cable']}" if "cable" in worst else "")
-
-
-def _sizes(parameters: Mapping[str, Any]) -> str:
-    shown = [f"{name} {p['value']:.4g} ± {p['sigma']:.2g} {p['unit']}" for name, p in list(parameters.items())[:2]]
-    return "; ".join(shown) + (" ..." if len(parameters) > 2 else "")
+def _shown(table: Table) -> str:
+    """A table for a terminal, its note below."""
+    text = plain_table(table.title, table.columns, table.rows)
+    return f"{text}\n{table.note}" if table.note else text

@@ -1,9 +1,10 @@
 """Robot files (TOML): read, check with messages that name the field, write."""
 
 import tomllib
+from difflib import get_close_matches
 from importlib import resources
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -79,18 +80,36 @@ def load_robot(name_or_path: str | Path) -> Robot:
     except tomllib.TOMLDecodeError as error:
         raise InputError(source, "", str(error), "a TOML file, each key and table given once") from error
     except ValidationError as error:
-        raise input_error(source, error) from error
+        raise input_error(source, error, RobotTable) from error
     return _build(table, source)
 
 
-def input_error(source: str, error: ValidationError) -> InputError:
-    """The first complaint of pydantic as one sentence with file, field, value and what would be right."""
+def input_error(source: str, error: ValidationError, model: type[BaseModel] | None = None) -> InputError:
+    """The first complaint of pydantic as one sentence with file, field, value and what would be right.
+
+    model : of the whole file, to say which keys are known where one is not
+    """
     first = error.errors()[0]
     field = "".join(f"[{p + 1}]" if isinstance(p, int) else f".{p}" for p in first["loc"]).lstrip(".")
     value = "nothing" if first["type"] == "missing" else first["input"]
     words = _EXPECTED.get(first["type"])
     expected = first["msg"].lower() if words is None else words.format(**first.get("ctx", {}))
+    if first["type"] == "extra_forbidden" and model is not None:
+        known = known_keys(model, first["loc"][:-1])
+        near = get_close_matches(str(first["loc"][-1]), known, 1)
+        expected += "; " + (f"{near[0]} is perhaps meant; " if near else "") + f"known are {', '.join(known)}"
     return InputError(source, field, value, expected)
+
+
+def known_keys(model: type[BaseModel], place: tuple[int | str, ...]) -> list[str]:
+    """Keys of the table at a place of a file: names and numbers of entries from the top."""
+    for step in (step for step in place if isinstance(step, str) and step in model.model_fields):
+        inner = [model.model_fields[step].annotation]
+        while inner and not (isinstance(inner[0], type) and issubclass(inner[0], BaseModel)):
+            inner = [*get_args(inner[0]), *inner[1:]]
+        if inner and isinstance(inner[0], type):
+            model = inner[0]
+    return sorted(model.model_fields)
 
 
 _EXPECTED = {

@@ -1,8 +1,10 @@
 """`diagnose` and `plan` as a script uses them, on the thesis's own table of tensions."""
 
 import json
+import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from cdpr_struct.cli.main import run
@@ -73,3 +75,143 @@ def test_plan_says_what_to_measure_next(plan):
     assert told_apart["joint_mass", "platform_mass"]["nats_after"] > 5.0
     assert "separates" in weighing["sentence"]
     assert weighing["sentence"].endswith("nats")
+
+
+@pytest.fixture(scope="module")
+def one_state(tmp_path_factory):
+    """Five robot frequencies at one pose, no tension read."""
+    out = tmp_path_factory.mktemp("one-state")
+    assert run(["diagnose", str(Path(LEVEL).parents[1] / "section-4-3-3" / "simulated.toml"), "--out", str(out)]) == 0
+    return json.loads((out / "result.json").read_text()), out
+
+
+def test_gain_counts_the_same_readings_everywhere(level):
+    result, out = level
+    gain, page = result["gain"], (out / "report.html").read_text()
+    assert sum(row["counted"] for row in gain["per_kind"].values()) == gain["counted"] < gain["of"]
+    assert all(
+        row["ratio"] == pytest.approx(row["before_sigmas"] / row["after_sigmas"]) for row in gain["per_kind"].values()
+    )
+    assert f"{gain['counted']} of {gain['of']}" in page
+
+
+def test_no_gain_is_claimed_of_an_unconfirmed_cause(level, one_state):
+    for result, out in (level, one_state):
+        assert not result["gain"]["confirmed"]
+        assert "smaller error" not in (out / "report.html").read_text()
+    assert "does not confirm" in (level[1] / "report.html").read_text()
+
+
+def test_kinds_without_readings_are_not_shown(one_state):
+    result, out = one_state
+    assert [row["kind"] for row in result["simulation_error"]] == ["robot_frequency"]
+    assert result["gain"]["per_kind"] == {}
+    assert "e-12" not in (out / "report.html").read_text().split("</svg>")[-1].split("What these data")[0]
+
+
+def test_a_class_is_led_by_no_fact_and_no_zero_share(level, one_state):
+    for result, _ in (level, one_state):
+        assert "explains 0 %" not in result["verdict"]["sentence"]
+    assert one_state[0]["verdict"]["sentence"].startswith("Best candidate of its class: ")
+    causes = [name.replace("_", " ") for name in level[0]["verdict"]["class"][0]]
+    assert len(causes) > 4
+    assert all(name in level[0]["verdict"]["sentence"] for name in causes)
+
+
+def test_status_probability_p_and_class_are_said(level):
+    from cdpr_struct.reports.diagnosis_text import diagnosis_text
+
+    result, out = level
+    text, page = diagnosis_text(result), (out / "report.html").read_text()
+    said = result["verdict"]
+    line = f"tatus: {said['status']}; probability {said['probability']:.2f}; p = {result['p_value']:.2g}"
+    for shown in (text, page):
+        assert line in shown
+        assert "lass: " + " | ".join(said["class"][0]) in shown
+        assert "p is that of " in shown
+
+
+def test_large_numbers_are_rounded_for_a_person():
+    from cdpr_struct.reports.diagnosis_tables import figure
+
+    assert figure(397739310579649.1) == "4e14"
+    assert figure(7102487688923.14, 2) == "7e12"
+    assert [figure(12.34), figure(-20000.0), figure(0.461, 2)] == ["12.3", "-2e4", "0.46"]
+
+
+def test_a_pair_is_one_hypothesis(level):
+    from cdpr_struct.reports.diagnosis_tables import hypotheses
+    from cdpr_struct.reports.diagnosis_text import diagnosis_text
+
+    result, out = level
+    first, second = result["candidates"][:2]
+    assert first["with"] == [second["cause"]]
+    assert second["with"] == [first["cause"]]
+    pair = f"{first['cause']} + {second['cause']}"
+    shown = hypotheses(result["candidates"])
+    assert [h.name for h in shown].count(pair) == 1
+    assert len({h.gain for h in shown}) == len(shown)
+    assert set(shown[0].sizes) == set(first["parameters"]) | set(second["parameters"])
+    for text in (diagnosis_text(result), (out / "report.html").read_text()):
+        assert pair in text
+    assert pair.replace("_", " ") in (out / "evidence.svg").read_text()
+
+
+def test_page_lists_every_size_and_says_that_it_scrolls(level):
+    result, out = level
+    page = (out / "report.html").read_text()
+    names = {name for c in result["candidates"] for name in c["parameters"]}
+    assert all(f"<td>{name}</td>" in page for name in names)
+    assert "rows: scroll inside the table" in page
+
+
+def test_sizes_have_the_digits_of_their_sigma():
+    from cdpr_struct.reports.diagnosis_tables import with_sigma
+
+    assert with_sigma(0.999612, 3.5e-5) == "0.999612 ± 0.000035"
+    assert with_sigma(12.7012, 3.13) == "12.7 ± 3.1"
+    assert with_sigma(-0.001, 0.0) == "-0.001"
+
+
+def test_extended_robot_says_how_far_to_trust_it(level, capsys):
+    result, out = level
+    head = [line for line in (out / "extended_robot.toml").read_text().splitlines() if line.startswith("# ")]
+    text = "\n".join(head)
+    assert "status: class; probability" in text
+    assert " | ".join(result["verdict"]["class"][0]) in text
+    assert "WARNING: these data do not tell" in text
+    assert "WARNING: not confirmed" in text
+    for command in (["inverse"], ["modes", "--count", "3"]):
+        assert run([*command, str(out / "extended_robot.toml"), "--json"]) == 0
+    capsys.readouterr()
+
+
+def test_sigmas_are_in_result_and_page(level):
+    result, out = level
+    assert {(s["sigma"], s["source"]) for s in result["sigmas"]} == {
+        ("tension_N", "stated"), ("position_m", "stated"), ("rotation_deg", "stated"),
+    }  # fmt: skip
+    assert result["warnings"] == []
+    assert "Sigmas of the sensors" in (out / "report.html").read_text()
+
+
+def test_residual_figure_can_be_read(level):
+    _, out = level
+    shown = re.findall(r"<text[^>]*>([^<]*)</text>", (out / "residuals.svg").read_text())
+    assert {"-5", "-2", "0", "2", "5", "horizontal centre", "middle edge", "horizontal corner"} <= set(shown)
+    assert not [text for text in shown if "10^" in text]
+    assert "+-2 sigma" in (out / "report.html").read_text()
+
+
+@pytest.mark.parametrize("largest", [1.0, 9.0, 300.0, 5e12])
+def test_ticks_are_plain_numbers_at_any_size(largest):
+    from matplotlib.figure import Figure
+
+    from cdpr_struct.reports.figures.diagnosis import _plain_sigmas
+
+    axes = Figure().subplots()
+    _plain_sigmas(axes, [np.array([-largest, 0.3])])
+    shown = [label.get_text() for label in axes.get_yticklabels()]
+    assert 5 <= len(shown) <= 17
+    assert {"-2", "0", "2"} <= set(shown)
+    assert axes.get_ylim()[0] < -largest

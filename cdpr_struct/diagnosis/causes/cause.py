@@ -75,6 +75,7 @@ class Cause:
     apply     : world with basic parameters theta0 (..., d0) put in
     seen_in   : blocks of residuals it shows in
     shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
+    sign      : what a number above zero means, for a person
     becomes   : causes that it is where some of its parameters are zero
     needs     : why these data cannot show it, or ""
     sentence  : for a person, with {value} and {unit} of the first parameter
@@ -96,6 +97,7 @@ class Cause:
     count: Callable[[Setting], int] | None = field(default=None)
     shapes: tuple[tuple[str, slice, float], ...] = ()
     becomes: tuple[str, ...] = ()
+    sign: str = ""
 
     def basic(self, setting: Setting) -> tuple[Parameter, ...]:
         """Basic parameters of the cause for this campaign."""

@@ -63,6 +63,7 @@ CAUSES = (
         True,
         seen_in=("EQ", "CO", "CF"),
         sentence="the load cells' zero is off, by {rms} N in the mean",
+        sign="reading = tension + this",
         needs=_cells,
         separated_by="tensions over a range of two or more",
         extension="cell_bias",
@@ -88,6 +89,7 @@ CAUSES = (
         seen_in=("CO", "LP"),
         needs=_times,
         sentence="a winch slips by {rms} m an hour",
+        sign="above zero pays out",
         separated_by="the motor encoder's log",
     ),
 )

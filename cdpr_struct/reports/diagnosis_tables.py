@@ -1,0 +1,148 @@
+"""Tables of a diagnosis as text, the same on the screen and on the page."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A titled table of ready-made text; the note says how to read it."""
+
+    title: str
+    columns: list[str]
+    rows: list[list[str]]
+    note: str = ""
+
+
+_DECIDED = {
+    "laws": "p is that of single laws, which look in few directions; chi2/n counts all readings alike.",
+    "chi2": "p is that of chi2 of all readings together.",
+    "strays": "p is that of so many robot frequencies without a mode.",
+}
+
+
+def standing(result: Mapping[str, Any]) -> list[str]:
+    """Status, probability and p-value in one line, then each class that is not told apart."""
+    said = result["verdict"]
+    lines = [f"status: {said['status']}; probability {said['probability']:.2f}; p = {result['p_value']:.2g}"]
+    lines += [f"class: {' | '.join(names)}" for names in said["class"] if len(names) > 1]
+    return lines + [f"warning: {text}.".replace("?.", "?") for text in result["warnings"]]
+
+
+def sigma_table(sigmas: Sequence[Mapping[str, Any]]) -> Table | None:
+    """Every sigma that was used and where it is from."""
+    rows = [[s["kind"], s["file"], s["sigma"], s["words"], s["source"]] for s in sigmas]
+    note = "One sigma of each reading. A state that several files name has the pose sigmas of the first."
+    return Table("Sigmas of the sensors", ["kind", "file", "sigma", "size", "source"], rows, note) if rows else None
+
+
+def default_sigmas(sigmas: Sequence[Mapping[str, Any]]) -> str:
+    """One line for a terminal about sigmas that nobody gave."""
+    given = [f"{s['sigma']} {s['words']} ({s['file']})" for s in sigmas if s["source"] == "default"]
+    return f"Sigmas not given, defaults used: {', '.join(given)}." if given else ""
+
+
+def error_table(result: Mapping[str, Any]) -> Table:
+    """Simulation against measurement, kind by kind; the note says what the p-value counts instead."""
+    rows = [
+        [row["kind"], f"{row['rms']:.3g}", row["unit"], figure(row["chi2_per_n"], 2), _place(row["worst"])]
+        for row in result["simulation_error"]
+    ]
+    note = _DECIDED[result["p_value_of"]] if result["significant"] else ""
+    return Table("Simulation against measurement", ["kind", "rms", "unit", "chi2/n", "worst"], rows, note)
+
+
+def _place(worst: Mapping[str, Any]) -> str:
+    return f"{worst['case']}" + (f", cable {worst['cable']}" if "cable" in worst else "")
+
+
+def figure(value: float, decimals: int = 1) -> str:
+    """A number that a person reads: decimals up to ten thousand, beyond it one digit and a power of ten."""
+    return f"{value:.{decimals}f}" if abs(value) < 1e4 else f"{value:.0e}".replace("e+", "e").replace("e0", "e")
+
+
+@dataclass(frozen=True, slots=True)
+class Hypothesis:
+    """One cause, or several that were fitted together and share one evidence; sizes by name."""
+
+    causes: tuple[str, ...]
+    gain: float
+    explained: float | None
+    sizes: dict[str, Mapping[str, Any]]
+
+    @property
+    def name(self) -> str:
+        """Its causes, joined."""
+        return " + ".join(self.causes)
+
+
+def hypotheses(candidates: Sequence[Mapping[str, Any]]) -> list[Hypothesis]:
+    """Candidates as they were judged: rows of one fit are one hypothesis, whose evidence counts once."""
+    found: list[Hypothesis] = []
+    for row in candidates:
+        causes = (row["cause"], *row.get("with", ()))
+        last = found[-1] if found else None
+        if last and set(causes) == set(last.causes) and row["log_evidence_gain"] == last.gain:
+            last.sizes.update(row["parameters"])
+            continue
+        found.append(Hypothesis(causes, row["log_evidence_gain"], row["explained_fraction"], dict(row["parameters"])))
+    return found
+
+
+def candidate_table(candidates: Sequence[Mapping[str, Any]], most: int, sizes: int) -> Table | None:
+    """The likeliest `most` hypotheses, with the first few sizes of each."""
+    rows = [
+        [h.name, figure(h.gain), f"{100.0 * h.explained:.0f}" if h.explained else "", _first(h, sizes)]
+        for h in hypotheses(candidates)[:most]
+    ]
+    note = "Evidence is against nothing being wrong; three nats are a factor of twenty in probability."
+    columns = ["cause", "evidence [nats]", "explains [%]", "size"]
+    return Table("Candidates", columns, rows, note) if rows else None
+
+
+def size_table(candidates: Sequence[Mapping[str, Any]]) -> Table | None:
+    """Every number of every hypothesis."""
+    rows = [
+        [h.name, name, with_sigma(p["value"], p["sigma"]), p["unit"]]
+        for h in hypotheses(candidates)
+        for name, p in h.sizes.items()
+    ]
+    return Table("Sizes of all candidates", ["candidate", "parameter", "size", "unit"], rows) if rows else None
+
+
+def _first(hypothesis: Hypothesis, count: int) -> str:
+    shown = [
+        f"{name} {with_sigma(p['value'], p['sigma'])} {p['unit']}" for name, p in list(hypothesis.sizes.items())[:count]
+    ]
+    more = len(hypothesis.sizes) - count
+    return "; ".join(shown) + (f"; {more} more" if more > 0 else "")
+
+
+def with_sigma(value: float, sigma: float) -> str:
+    """A size with the digits that its sigma allows."""
+    if not (sigma > 0.0 and math.isfinite(sigma)):
+        return f"{value:.4g}"
+    decimals = 1 - math.floor(math.log10(sigma))
+    if not -3 <= decimals <= 6:
+        return f"{value:.4g} ± {sigma:.2g}"
+    return f"{round(value, decimals) + 0.0:.{max(decimals, 0)}f} ± {round(sigma, decimals):.{max(decimals, 0)}f}"
+
+
+def gain_table(gain: Mapping[str, Any]) -> Table | None:
+    """What was left out, predicted from the rest: the same readings and the same unit as the gain that is claimed."""
+    if not gain["per_kind"]:
+        return None
+    rows = [
+        [kind, f"{g['counted']} of {g['of']}", f"{g['before_sigmas']:.2f}", f"{g['after_sigmas']:.2f}",
+         f"{g['ratio']:.2f}"]
+        for kind, g in gain["per_kind"].items()
+    ]  # fmt: skip
+    together = [gain["heldout_rms_before"], gain["heldout_rms_after"], gain["ratio"]]
+    rows.append(["all of these", f"{gain['counted']} of {gain['of']}", *(f"{v:.2f}" for v in together)])
+    note = "Counted are the readings that the causes, fitted to the rest, change by more than one sigma."
+    if not gain["confirmed"]:
+        note += " This does not confirm the causes, so nothing is claimed from it."
+    title = f"Each {gain['left_out']} predicted from the others, rms error in sigmas"
+    return Table(title, ["kind", "counted", "before", "after", "times smaller"], rows, note)

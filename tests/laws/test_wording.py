@@ -1,0 +1,75 @@
+"""What a diagnosis says in words: signs, what to mend, peaks that are given to no mode for certain."""
+
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from cdpr_struct.diagnosis.causes.handling import Correction
+from cdpr_struct.diagnosis.causes.registry import LIBRARY
+from cdpr_struct.diagnosis.diagnose import diagnose
+from cdpr_struct.diagnosis.setting import make_setting
+from cdpr_struct.diagnosis.verdict import verdict
+from cdpr_struct.diagnosis.wording import corrected, described, rest_words
+from cdpr_struct.measurement.campaign import Sheet, Sigmas
+from cdpr_struct.measurement.campaign_file import load_campaign
+from tests.laws.crime_campaign import clean_campaign
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+@pytest.fixture(scope="module")
+def clean():
+    return clean_campaign()
+
+
+def chosen(name, label, campaign):
+    """A pattern of a cause as it is chosen, in units of its prior."""
+    setting, _ = make_setting(
+        replace(campaign, cable_frequencies=campaign.with_states_only(campaign.states).cable_frequencies)
+    )
+    cause = LIBRARY[name]
+    pattern = next(p for p in cause.patterns(setting) if p.label == label)
+    return SimpleNamespace(candidate=SimpleNamespace(cause=cause), pattern=pattern, prior=pattern.prior)
+
+
+@pytest.mark.parametrize("size", [-0.0062, 0.0062])
+def test_a_single_number_keeps_its_sign_and_says_what_it_means(clean, size):
+    found = chosen("unstrained_length_offset", "all alike", clean)
+    said = described(found, np.array([size]) / found.prior)
+    assert f"by {size:+.2g} m (all alike" in said
+    assert "in the mean" not in said
+    assert "paid out = encoder length + this" in said
+
+
+def test_numbers_of_each_cable_are_a_mean(clean):
+    found = chosen("load_cell_bias", "each its own", clean)
+    said = described(found, np.array([3.0, -3.0] * 4) / found.prior)
+    assert said == "the load cells' zero is off, by 3 N in the mean (each its own)"
+
+
+def found_with(campaign, correction, p_left):
+    return SimpleNamespace(
+        entered_setting=SimpleNamespace(campaign=campaign), corrections=[(correction, 1e3)], p_value_left=p_left
+    )
+
+
+def test_a_unit_error_names_column_file_factor_and_the_rest(clean):
+    sheet = Sheet("static_state", "day1.csv", ("cable", "length_m", "tension_N"), Sigmas(), frozenset())
+    entered = replace(clean, sheets=(sheet,))
+    mended = replace(entered, states=replace(entered.states, length=1e-3 * entered.states.length))
+    wrong = Correction("unit_error", "the lengths are in mm", mended, parameters={"factor": 1e-3})
+    (said,) = corrected(found_with(entered, wrong, 0.4))
+    assert said == "the lengths are in mm (mend column length_m of day1.csv: times 0.001)"
+    assert "rest then agrees" in rest_words(found_with(entered, wrong, 0.4))
+    assert "does not agree yet" in rest_words(found_with(entered, wrong, 1e-5))
+
+
+def test_peaks_without_a_mode_are_not_said_to_agree():
+    """Section 4.3.3: five rounded frequencies between 34 modes, two of which may be any of several or none."""
+    said = verdict(diagnose(load_campaign(EXAMPLES / "section-4-3-3" / "campaign.toml")))
+    assert said.status == "adequate"
+    assert "2 of 5 robot frequencies (8, 12.3 Hz) cannot be given to a mode for certain" in said.sentence
+    assert "simulation and measurements agree" not in said.sentence
