@@ -49,7 +49,7 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
         },
         "not_used": sorted({s.kind for s in found.campaign.series}),
     }  # fmt: skip
-    return with_signals(result, found.campaign)
+    return with_signals(result, found)
 
 
 def _number(value: float) -> float | None:
