@@ -4,7 +4,7 @@ Damping ratios are linear in the size of each law, so that the evidence is an in
 entered law is uncertain by its tolerance; shapes and shares of the model by a sixth of each mode's damping.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +13,7 @@ from scipy.stats import chi2
 from cdpr_struct.diagnosis.damping_rows import DampingRows
 
 NAMED, SAME_CLASS, ADEQUATE = 5.0, 3.0, 1e-3
+SCATTER = "the damping ratios scatter more than their sigmas, whatever the law"
 MODEL_SHARE = 0.15  # of a mode's damping: how well the model knows its energies and angles
 _POINTS, _DECADES = {1: 4001, 2: 601}, 4.0  # of the prior, level in the logarithm of the size
 _LARGEST = 0.3  # damping ratio of the largest size considered
@@ -27,13 +28,18 @@ _LAWS = (
 
 @dataclass(frozen=True, slots=True)
 class LawFit:
-    """One hypothesis: causes, pattern, sizes {parameter: (median, 2.5 %, 97.5 %)}, evidence against the entered law."""
+    """One hypothesis: causes, pattern, sizes {parameter: (median, 2.5 %, 97.5 %)}, evidence against the entered law.
+
+    laws : numbers of its laws;  square : whitened sum of squares that the best sizes leave
+    """
 
     causes: tuple[str, ...]
     pattern: str
     sizes: Mapping[str, tuple[float, float, float]]
     gain: float
     p_adequate: float
+    laws: tuple[int, ...]
+    square: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,14 +58,16 @@ def damping_finding(rows: DampingRows, tolerance: float) -> DampingFinding:
     if len(rows) < 2:
         return DampingFinding("not testable", (), (), rows, "needs free decays or FRFs with two clear modes or windows")
     covariance = _covariance(rows, tolerance)
-    p_null = _tail(rows, covariance, rows.entered)
+    p_null = float(chi2.sf(_square(rows, covariance, rows.entered), len(rows)))
     fits = sorted((_fit(rows, covariance, laws) for laws in _hypotheses(rows)), key=lambda f: -f.gain)
     best = fits[0]
-    if best.gain < NAMED:
-        status = "adequate" if p_null >= ADEQUATE else "unknown"
-        return DampingFinding(status, (), tuple(fits), rows, "")
+    if best.gain < NAMED and p_null >= ADEQUATE:
+        return DampingFinding("adequate", (), tuple(fits), rows, "")
     if best.p_adequate < ADEQUATE:
-        return DampingFinding("unknown", (), tuple(fits), rows, "")
+        sure = best.gain >= NAMED and _fit(rows, covariance * _scatter(best, len(rows)), best.laws).gain >= NAMED
+        return DampingFinding("unknown" if sure else "not testable", (), tuple(fits), rows, "" if sure else SCATTER)
+    if best.gain < NAMED:
+        return DampingFinding("adequate", (), tuple(fits), rows, "")
     near = list(dict.fromkeys(f.causes for f in fits if f.gain > best.gain - SAME_CLASS and len(f.causes) == 1))
     if len(best.causes) == 2 and not near:
         return DampingFinding("named", best.causes, tuple(fits), rows, "")
@@ -77,7 +85,7 @@ def _hypotheses(rows: DampingRows) -> list[list[int]]:
 def _covariance(rows: DampingRows, tolerance: float) -> np.ndarray:
     """(n, n) of the damping ratios: noise, the entered law, and the model's shares (a mode's windows share them)."""
     same = rows.mode[:, None] == rows.mode[None]
-    size = MODEL_SHARE * np.abs(rows.ratio)
+    size = MODEL_SHARE * np.maximum(np.abs(rows.ratio), rows.entered)
     share = size[:, None] * size[None] * same
     entered = tolerance * rows.entered
     covariance: np.ndarray = np.diag(rows.sigma**2) + share + entered[:, None] * entered[None]
@@ -93,12 +101,17 @@ def _likelihood(rows: DampingRows, covariance: np.ndarray, sizes: np.ndarray, si
     return result
 
 
-def _tail(rows: DampingRows, covariance: np.ndarray, predicted: np.ndarray) -> float:
+def _square(rows: DampingRows, covariance: np.ndarray, predicted: np.ndarray) -> float:
     z = np.linalg.solve(np.linalg.cholesky(covariance), rows.ratio - predicted)
-    return float(chi2.sf(float(z @ z), len(z)))
+    return float(z @ z)
 
 
-def _fit(rows: DampingRows, covariance: np.ndarray, laws: list[int]) -> LawFit:
+def _scatter(fit: LawFit, count: int) -> float:
+    """By how much variances must grow for what the fit leaves to be noise (Birge's ratio squared)."""
+    return max(1.0, fit.square / count)
+
+
+def _fit(rows: DampingRows, covariance: np.ndarray, laws: Sequence[int]) -> LawFit:
     signature = np.stack([getattr(rows, _LAWS[j][3]) for j in laws])
     top = np.log(_LARGEST / np.abs(signature).max(axis=1))
     # a size beyond which even the least damped row would exceed the limit is of no use; four decades below it
@@ -114,8 +127,9 @@ def _fit(rows: DampingRows, covariance: np.ndarray, laws: list[int]) -> LawFit:
         low, middle, high = _quantiles(sizes[:, column], weight)
         found[name] = (middle + shift, low + shift, high + shift)
     causes, patterns = [_LAWS[j][0] for j in laws], [_LAWS[j][1] for j in laws if _LAWS[j][1]]
-    tail = _tail(rows, covariance, rows.entered + best @ signature)
-    return LawFit(tuple(causes), ", ".join(patterns), found, gain, tail)
+    square = _square(rows, covariance, rows.entered + best @ signature)
+    tail = float(chi2.sf(square, len(rows)))
+    return LawFit(tuple(causes), ", ".join(patterns), found, gain, tail, tuple(laws), square)
 
 
 def _quantiles(sizes: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:

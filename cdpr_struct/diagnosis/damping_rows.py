@@ -5,8 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.measurement.identified import Identified
+from cdpr_struct.measurement.neighbours import crowded, pole_doubt
 from cdpr_struct.measurement.signal_states import channel_weight, model_shapes
 from cdpr_struct.measurement.state_modes import StateModes
+
+_BETTER = 0.5  # of the sigma of all windows together: a whole record so good speaks for itself, at its mean amplitude
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,14 +40,18 @@ class DampingRows:
 
 
 def damping_rows(identified: tuple[Identified, ...]) -> DampingRows:
-    """Rows of all modes that joined the campaign; a decay gives one per window, an FRF one without amplitude (nan)."""
+    """Rows of all modes that join and have a partner; a decay gives one per window, an FRF one without amplitude (nan).
+
+    Sigmas count what neighbours do that were not told apart. `left_out` names the modes that give no row.
+    """
     case: list[str] = []
     table: list[tuple[float, ...]] = []
     for number, item in enumerate(identified):
         if item.state is None:
             continue
         laws = _laws(item.state)
-        for i in np.flatnonzero(item.used):
+        alone = np.array([not reason for reason in _reasons(item)], dtype=bool)
+        for i in np.flatnonzero(item.used & alone):
             partner = int(item.partner[i])
             for ratio, sigma, modal in _readings(item, int(i), partner):
                 own = [float(laws[j][partner]) for j in range(3)]
@@ -56,20 +63,57 @@ def damping_rows(identified: tuple[Identified, ...]) -> DampingRows:
     return DampingRows(tuple(case), columns[0].astype(int), *columns[1:])
 
 
+def left_out(identified: tuple[Identified, ...]) -> list[tuple[str, float, str]]:
+    """Case, frequency [Hz] and reason of each mode that joined the campaign but says nothing of the damping."""
+    return [
+        (item.record.case, float(item.modes.hertz[i]), reason)
+        for item in identified
+        for i, reason in enumerate(_reasons(item))
+        if item.used[i] and reason
+    ]
+
+
+def _reasons(item: Identified) -> list[str]:
+    """(k,) why a mode gives no damping ratio, "" if it does."""
+    single = crowded(item)
+    return ["no partner in the model" if item.partner[i] < 0 else single[i] for i in range(len(item.modes))]
+
+
 def _readings(item: Identified, i: int, partner: int) -> list[tuple[float, float, float]]:
-    """(ratio, sigma, modal amplitude [sqrt(kg) m]) of mode i, window by window."""
+    """(ratio, sigma, modal amplitude [sqrt(kg) m]) of mode i, window by window, or of the whole where it says more."""
     windows = item.windows
+    hertz, ratio = float(item.modes.hertz[i]), float(item.modes.damping[i])
+    whole = float(np.hypot(item.modes.damping_sigma[i], pole_doubt(item, _duration(item))[i] / hertz))
     if windows is None or not len(windows.middle):
-        return [(float(item.modes.damping[i]), float(item.modes.damping_sigma[i]), np.nan)]
+        return [(ratio, whole, np.nan)]
+    doubt = float(pole_doubt(item, float(windows.middle[1] - windows.middle[0]))[i]) / hertz
+    clear = np.isfinite(windows.damping[:, i])
+    if not clear.any():
+        return []
+    sigma, amplitude = windows.damping_sigma[clear, i], _modal_amplitudes(item, i, partner)[clear]
+    together = float(np.hypot(1.0 / np.sqrt((1.0 / sigma**2).sum()), doubt))
+    if whole < _BETTER * together:
+        return [(ratio, whole, float(np.exp(np.log(amplitude).mean())))]
+    return list(
+        zip(windows.damping[clear, i].tolist(), np.hypot(sigma, doubt).tolist(), amplitude.tolist(), strict=True)
+    )
+
+
+def _duration(item: Identified) -> float:
+    """[s], infinite for an FRF."""
+    axis = item.record.axis
+    return np.inf if item.record.kind == "frf" else float(axis[-1] - axis[0])
+
+
+def _modal_amplitudes(item: Identified, i: int, partner: int) -> np.ndarray:
+    """(w,) of mode i in each window [sqrt(kg) m]."""
+    assert item.windows is not None
     assert item.state is not None
     weight = channel_weight(item.state, item.record)
     model = float(np.linalg.norm(model_shapes(item.state, item.record)[partner]))
     fast = (2.0 * np.pi * item.modes.hertz[i]) ** 2 if item.record.kind == "free_decay" else 1.0
-    return [
-        (float(r), float(s), float(np.linalg.norm(a * weight)) / model / fast)
-        for r, s, a in zip(windows.damping[:, i], windows.damping_sigma[:, i], windows.amplitude[:, i], strict=True)
-        if np.isfinite(r)
-    ]
+    found: np.ndarray = np.linalg.norm(item.windows.amplitude[:, i] * weight, axis=1) / model / fast
+    return found
 
 
 def _laws(state: StateModes) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

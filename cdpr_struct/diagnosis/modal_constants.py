@@ -15,8 +15,8 @@ from cdpr_struct.diagnosis import robot_pitch
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.measurement.identified import Identified
+from cdpr_struct.measurement.mode_size import modal_constants, ways
 from cdpr_struct.measurement.signal_records import MOTION
-from cdpr_struct.measurement.signal_states import direction
 
 DIRECTIONS = MOTION
 NOISE = 0.05  # of a modal constant: what repeated modal tests scatter by
@@ -67,18 +67,16 @@ def _apart(item: Identified, i: int) -> bool:
 
 def _of_mode(item: Identified, i: int) -> list[np.ndarray]:
     """Rows (15,): respond, excite, ln |A|, its sigma, and the part that all channels share."""
-    modes, pairs = item.modes, [name.split("/", 1) for name in item.record.channels]
-    ways = np.array([[direction(part) for part in pair] for pair in pairs])
-    ratio, omega = float(modes.damping[i]), 2.0 * np.pi * float(modes.hertz[i])
-    size = np.abs(modes.shape[i]) * 2.0 * np.sqrt(1.0 - ratio**2) / omega
-    turns = np.abs(ways[:, :, 3:]).sum(axis=2) @ [2.0, 1.0]
-    known = np.abs(ways).sum(axis=2).min(axis=1) > 0.0
+    modes, along = item.modes, ways(item.record)
+    size, ratio = np.abs(modal_constants(modes)[i]), float(modes.damping[i])
+    turns = np.abs(along[:, :, 3:]).sum(axis=2) @ [2.0, 1.0]
+    known = np.abs(along).sum(axis=2).min(axis=1) > 0.0
     rows = []
     for c in np.flatnonzero(known):
         share = float(size[c] / size[known & (turns == turns[c])].max())
         if share > _LEAST:
             own = [np.log(size[c]), np.hypot(NOISE, _FLOOR / share), float(modes.damping_sigma[i]) / ratio]
-            rows.append(np.concatenate([*ways[c], own]))
+            rows.append(np.concatenate([*along[c], own]))
     return rows
 
 

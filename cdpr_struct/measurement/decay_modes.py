@@ -78,10 +78,11 @@ class _Decays:
         slope = wave * self.clock[:, None]
         columns = np.concatenate([np.zeros((n, 2 * k)), self.rest], axis=1)
         columns[:, 0 : 2 * k : 2], columns[:, 1 : 2 * k : 2] = wave.real, -wave.imag
-        slopes = np.zeros((2 * k, n, columns.shape[1]))
+        slopes = np.zeros((2 * k, n, 2))
         for i in range(k):
-            slopes[2 * i, :, 2 * i], slopes[2 * i, :, 2 * i + 1] = slope[:, i].real, -slope[:, i].imag
-            slopes[2 * i + 1, :, 2 * i], slopes[2 * i + 1, :, 2 * i + 1] = -slope[:, i].imag, -slope[:, i].real
+            real, imag = slope[:, i].real, slope[:, i].imag
+            slopes[2 * i, :, 0], slopes[2 * i, :, 1] = real, -imag
+            slopes[2 * i + 1, :, 0], slopes[2 * i + 1, :, 1] = -imag, -real
         return columns, slopes
 
 

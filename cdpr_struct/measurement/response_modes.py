@@ -21,6 +21,7 @@ _TOGETHER, _CERTAIN = 0.3, 4.5  # correlation of neighbouring residuals that noi
 _NEIGHBOURS = 15  # lines on either side among which a mode would show in the residuals
 _REACH = 60  # lines on either side that tell how noisy this part of the band is
 _ROUNDS = 4
+_ROUGH = 1e-4  # relative change of the squares below which a fit ends whose weights are not yet final
 _LEAST_STRENGTH = 6.0
 
 
@@ -62,7 +63,7 @@ def _weighed_fit(
     """Fit whose weights (2f, c) are one over the noise that its own residuals show."""
     lines = len(parts) // 2
     for _ in range(_ROUNDS):
-        fit = separable_fit(basis, parts, weight, poles)
+        fit = separable_fit(basis, parts, weight, poles, _ROUGH)
         poles, left = fit.poles, fit.residual / weight
         answer = parts - left
         power = 0.5 * (left[:lines] ** 2 + left[lines:] ** 2)
@@ -169,15 +170,14 @@ class _Resonances:
     def __call__(self, poles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         k, n = len(poles), 2 * len(self.omega)
         columns = np.concatenate([np.zeros((n, 2 * k)), self.rest], axis=1)
-        slopes = np.zeros((2 * k, n, columns.shape[1]))
+        slopes = np.zeros((2 * k, n, 2))
         for i, pole in enumerate(poles):
             near, far = 1.0 / (1j * self.omega - pole), 1.0 / (1j * self.omega - np.conj(pole))
             columns[:, 2 * i] = _parts(near + far)
             columns[:, 2 * i + 1] = _parts(1j * (near - far))
-            slopes[2 * i, :, 2 * i] = _parts(near**2 + far**2)
-            slopes[2 * i, :, 2 * i + 1] = _parts(1j * (near**2 - far**2))
-            slopes[2 * i + 1, :, 2 * i] = _parts(1j * (near**2 - far**2))
-            slopes[2 * i + 1, :, 2 * i + 1] = -_parts(near**2 + far**2)
+            together, apart = _parts(near**2 + far**2), _parts(1j * (near**2 - far**2))
+            slopes[2 * i, :, 0], slopes[2 * i, :, 1] = together, apart
+            slopes[2 * i + 1, :, 0], slopes[2 * i + 1, :, 1] = apart, -together
         return columns, slopes
 
 

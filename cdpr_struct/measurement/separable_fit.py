@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 
 Basis = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 _EVALUATIONS = 60
+_TOLERANCE = 1e-8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,26 +49,30 @@ class SeparableFit:
         return n * c * float(np.log(max(self.squares, 1e-300) / (n * c))) + unknown * float(np.log(n * c))
 
 
-def separable_fit(basis: Basis, signal: np.ndarray, weight: np.ndarray, start: np.ndarray) -> SeparableFit:
+def separable_fit(
+    basis: Basis, signal: np.ndarray, weight: np.ndarray, start: np.ndarray, tolerance: float = _TOLERANCE
+) -> SeparableFit:
     """Poles and linear coefficients that fit a signal best.
 
     Parameters
     ----------
-    basis : poles (k,) to columns (n, q) and their derivatives (2k, n, q) by real and imaginary parts, pole by pole
+    basis : poles (k,) to columns (n, q), the first 2k those of the poles, two each, and how these two change with
+            the real and the imaginary part of their pole (2k, n, 2)
     signal : (n, c);  weight : (n, c) or (1, c), one over the noise's standard deviation
-    start : (k,) complex poles [rad/s]
+    start : (k,) complex poles [rad/s];  tolerance : relative change of the squares below which it ends
     """
     scale = np.repeat(np.abs(start), 2)
-    shared = weight.shape[0] == 1
+    shared, channels = weight.shape[0] == 1, signal.shape[1]
     target = signal * weight
 
+    last: list[tuple[np.ndarray, list[tuple[np.ndarray, np.ndarray, np.ndarray]]]] = []
+
     def parts(x: np.ndarray) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        columns, slopes = basis(_poles(x * scale))
-        if shared:
-            return [_project(columns, slopes, target)]
-        return [
-            _project(weight[:, [i]] * columns, weight[:, [i]] * slopes, target[:, [i]]) for i in range(target.shape[1])
-        ]
+        if not last or not np.array_equal(last[0][0], x):  # residuals and slopes are asked for one after the other
+            columns, slopes = basis(_poles(x * scale))
+            own = [(slice(None), 1.0)] if shared else [(slice(i, i + 1), weight[:, [i]]) for i in range(channels)]
+            last[:] = [(x.copy(), [_project(w * columns, w * slopes, target[:, i]) for i, w in own])]
+        return last[0][1]
 
     def rest(x: np.ndarray) -> np.ndarray:
         return np.concatenate([p[0].T.ravel() for p in parts(x)])
@@ -78,7 +83,7 @@ def separable_fit(basis: Basis, signal: np.ndarray, weight: np.ndarray, start: n
 
     first = np.stack([start.real, start.imag], axis=1).ravel() / scale
     with np.errstate(over="ignore"):
-        found = least_squares(rest, first, jac=slope, method="lm", max_nfev=_EVALUATIONS)
+        found = least_squares(rest, first, jac=slope, method="lm", ftol=tolerance, max_nfev=_EVALUATIONS)
         done = parts(found.x)
     information = sum(np.einsum("pcn,qcn->pq", p[1], p[1]) for p in done)
     linear = np.concatenate([p[2] for p in done], axis=1)
@@ -97,6 +102,7 @@ def _project(columns: np.ndarray, slopes: np.ndarray, target: np.ndarray) -> tup
     q, r = np.linalg.qr(columns)
     inside = q.T @ target
     linear = np.linalg.lstsq(r, inside, rcond=None)[0]
-    moved = slopes @ linear
+    pairs = np.repeat(linear[: len(slopes)].reshape((-1, 2, linear.shape[1])), 2, axis=0)
+    moved = slopes @ pairs
     across = moved - q @ (q.T @ moved)
     return target - q @ inside, -np.swapaxes(across, 1, 2), linear

@@ -11,18 +11,24 @@ from cdpr_struct.measurement.campaign import Series, Sigmas
 from cdpr_struct.measurement.decay_modes import decay_modes
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.modal_estimate import Modes
+from cdpr_struct.measurement.mode_size import direction, log_sizes, translation_share, ways
 from cdpr_struct.measurement.peak_kinds import MODE, assurance, peak_kinds
 from cdpr_struct.measurement.response_modes import response_modes
-from cdpr_struct.measurement.signal_records import MOTION, SignalRecord, records
+from cdpr_struct.measurement.signal_records import SignalRecord, records
 from cdpr_struct.measurement.state_modes import StateModes, state_modes
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.energy_descent import arm_scale
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 VISIBLE = 0.15  # share of the kinetic energy in the platform from which on a mode counts as the robot's
+SEEN = 0.25  # the same as an FRF shows it, whatever the model says
 CLEAR = 10.0  # amplitude over its sigma
 _NO_PARTNER = 16.0  # cost; a frequency 40 % off with the right shape
 _SPREAD = 0.1  # of ln f
+_EXACT = 0.003  # of ln f: the model may well be right
+_TOO_LARGE, _TOO_SMALL = 2.0, 6.0  # largest cost of a size that is not the mode's; several modes may be fitted as one
+_SIZE_SPREAD = 0.5  # of ln of a mode's size; a peak that much smaller than a mode is another
+_OF_WIDTH = 0.25  # of a peak's half-width: modes nearer than their widths are fitted as one
 
 
 def identify(
@@ -37,6 +43,11 @@ def identify(
     InputError : rows that do not make records.
     """
     return [_identify(_placed(r, poses), robot, model, sigmas) for r in records(series, len(robot.cables))]
+
+
+def held_against(item: Identified, robot: Robot, model: str) -> Identified:
+    """Identified modes held against another robot's, whose modes may join and pair differently."""
+    return _against_model(item.record, robot, model, item.modes, item.windows, item.sigma, list(item.kinds))
 
 
 def _placed(record: SignalRecord, poses: dict[str, np.ndarray]) -> SignalRecord:
@@ -58,6 +69,8 @@ def _identify(record: SignalRecord, robot: Robot, model: str, sigmas: Sigmas) ->
         windows = amplitude_windows(record.axis, record.signal, modes, min(own, default=0.0))
         scatter = windows.scatter() if len(windows.middle) else np.ones(len(modes))
     sigma = modes.hertz_sigma * scatter
+    if record.kind == "frf":
+        sigma = np.hypot(sigma, _OF_WIDTH * modes.damping * modes.hertz)
     if sigmas.frequency_hz is not None:
         sigma = np.hypot(sigma, sigmas.frequency_hz)
     return _against_model(record, robot, model, modes, windows, sigma, kinds)
@@ -68,6 +81,7 @@ def _against_model(
     sigma: np.ndarray, kinds: list[str],
 ) -> Identified:  # fmt: skip
     partner, state, note = np.full(len(modes), -1), None, ""
+    seen = translation_share(modes, record, robot.platform.mass + record.payload)
     own = np.flatnonzero([kind == MODE for kind in kinds])
     if not len(own):
         note = "no mode stands out of the noise"
@@ -82,30 +96,54 @@ def _against_model(
             partner[own] = partners(modes.take(own), state, record)
         except CdprError as error:
             note = str(error)
-    reason = [_reason(i, modes, kinds, partner, state) for i in range(len(modes))]
+    own_size = _own_size(modes, partner, state, record)
+    reason = [
+        _reason(i, modes, kinds, partner, state, bool(seen[i] >= SEEN), bool(own_size[i])) for i in range(len(modes))
+    ]
     used = np.array([not r for r in reason], dtype=bool) & (state is not None)
     return Identified(record, modes, windows, sigma, tuple(kinds), partner, used, tuple(reason), note, state)
 
 
-def _reason(i: int, modes: Modes, kinds: list[str], partner: np.ndarray, state: StateModes | None) -> str:
+def _own_size(modes: Modes, partner: np.ndarray, state: StateModes | None, record: SignalRecord) -> np.ndarray:
+    """(k,) bool: whether each peak of an FRF is not much smaller than its partner in the model."""
+    if state is None or record.kind != "frf":
+        return np.ones(len(modes), dtype=bool)
+    off = log_sizes(modes, model_shapes(state, record))[np.arange(len(modes)), partner]
+    return off > -_SIZE_SPREAD
+
+
+def _reason(
+    i: int, modes: Modes, kinds: list[str], partner: np.ndarray, state: StateModes | None, seen: bool, own_size: bool
+) -> str:
+    """Why a peak does not join, or nothing; one that is seen to move the platform needs no partner to do so."""
     if kinds[i] != MODE:
         return kinds[i]
     if modes.strength[i] < CLEAR:
         return "weak"
     if state is None:
         return "no model at this state"
+    if seen:
+        return ""
     if partner[i] < 0:
         return "no partner in the model"
     share = float(state.modes.platform_energy[partner[i]])
-    return "" if share >= VISIBLE else f"a mode of the cables ({share:.0%} of its energy in the platform)"
+    if share < VISIBLE:
+        return f"a mode of the cables ({share:.0%} of its energy in the platform)"
+    return "" if own_size else "too small for its partner in the model"
 
 
 def partners(modes: Modes, state: StateModes, record: SignalRecord) -> np.ndarray:
-    """(k,) the model's mode for each identified one, by frequency, shape and visibility; -1 where none is near."""
+    """(k,) the model's mode for each identified one, by frequency, shape, and size in an FRF or visibility; -1 where
+    none is near."""
     far = (np.log(modes.hertz)[:, None] - np.log(state.hertz)[None]) / _SPREAD
     shapes = model_shapes(state, record)
     unlike = np.array([[1.0 - assurance(s, p) for p in shapes] for s in modes.shape * channel_weight(state, record)])
-    cost = far**2 + 12.0 * unlike + 3.0 * (1.0 - state.modes.platform_energy)[None]
+    cost = far**2 + 0.5 * np.log1p((far * _SPREAD / _EXACT) ** 2) + 12.0 * unlike
+    if record.kind == "frf":
+        size = log_sizes(modes, shapes) / _SIZE_SPREAD
+        cost = cost + np.minimum(size**2, np.where(size > 0.0, _TOO_LARGE, _TOO_SMALL))
+    else:
+        cost = cost + 3.0 * (1.0 - state.modes.platform_energy)[None]
     alone = np.full((len(modes), len(modes)), _NO_PARTNER)
     rows, columns = linear_sum_assignment(np.concatenate([cost, alone], axis=1))
     found = np.full(len(modes), -1)
@@ -120,11 +158,8 @@ def model_shapes(state: StateModes, record: SignalRecord) -> np.ndarray:
         return platform[:, :3]
     if record.kind == "platform_motion":
         return platform * channel_weight(state, record)
-    columns = []
-    for name in record.channels:
-        respond, excite = (direction(part) for part in name.split("/", 1))
-        columns.append((platform @ respond) * (platform @ excite))
-    return np.stack(columns, axis=1)
+    respond, excite = ways(record).transpose(1, 0, 2)
+    return (platform @ respond.T) * (platform @ excite.T)
 
 
 def platform_shape(record: SignalRecord, shape: np.ndarray) -> np.ndarray:
@@ -141,16 +176,6 @@ def platform_shape(record: SignalRecord, shape: np.ndarray) -> np.ndarray:
             axis = int(np.abs(along).argmax())
             seen[axis] = value * along[axis]
     return seen
-
-
-def direction(name: str) -> np.ndarray:
-    """(6,) unit platform motion that a channel's name means: x .. rz, fx .. mz; zeros for any other."""
-    sign, text = (-1.0 if name.strip().startswith("-") else 1.0), name.strip().lower().removeprefix("-")
-    text = "r" + text[1:] if text.startswith("m") else text.removeprefix("f")
-    found = np.zeros(6)
-    if text in MOTION:
-        found[MOTION.index(text)] = sign
-    return found
 
 
 def channel_weight(state: StateModes, record: SignalRecord) -> np.ndarray:

@@ -42,7 +42,7 @@ def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, st
             "Three nats are a factor of twenty in probability.",
         ),
     ]
-    plates += signal_plates(found.campaign)
+    plates += signal_plates(found, result)
     files: dict[str, str | bytes] = {
         "residuals.csv": _residuals_csv(found),
         **{f"{plate.name}.svg": plate.svg for plate in plates},

@@ -58,7 +58,7 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
         "warnings": warnings(found),
         "not_used": sorted({s.kind for s in found.campaign.series}),
     }  # fmt: skip
-    return with_signals(result, found.campaign)
+    return with_signals(result, found)
 
 
 def _decided_by(found: Diagnosis) -> str:

@@ -1,13 +1,16 @@
 """What the signals of a campaign gave: identified peaks and the damping law, joined to a diagnosis' result."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from cdpr_struct.diagnosis.damping_law import UNITS, DampingFinding, LawFit, damping_finding
-from cdpr_struct.diagnosis.damping_rows import damping_rows
-from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.diagnosis.damping_law import SCATTER, UNITS, DampingFinding, LawFit, damping_finding
+from cdpr_struct.diagnosis.damping_rows import damping_rows, left_out
+from cdpr_struct.diagnosis.diagnose import Diagnosis
+from cdpr_struct.diagnosis.extended_model import extended_robot
 from cdpr_struct.measurement.identified import Identified
+from cdpr_struct.measurement.signal_states import held_against
 from cdpr_struct.reports.figures import signals as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Plate
@@ -16,15 +19,17 @@ _LAWS = ("viscous_damping", "hysteretic_damping", "coulomb_damping")
 _MOST_PLATES = 6
 
 
-def with_signals(result: dict[str, Any], campaign: Campaign) -> dict[str, Any]:
+def with_signals(result: dict[str, Any], found: Diagnosis) -> dict[str, Any]:
     """The result with `signals` and `damping`; damping that stands out speaks up where nothing else does."""
+    campaign = found.campaign
     if not campaign.identified:
         return result | {"signals": [], "damping": None}
-    finding = damping_finding(damping_rows(campaign.identified), campaign.tolerances.damping)
+    judged = judged_signals(found, result)
+    finding = damping_finding(damping_rows(judged), campaign.tolerances.damping)
     why = {k: v for k, v in result["why_not_testable"].items() if k not in _LAWS} | _untestable(finding)
     more = {
         "signals": [_signal(item) for item in campaign.identified],
-        "damping": _damping(finding),
+        "damping": _damping(finding) | {"left_out": _left_out(judged)},
         "why_not_testable": why,
         "not_testable": sorted(why),
         "not_used": sorted({i.record.kind for i in campaign.identified if not i.used.any()}),
@@ -33,6 +38,19 @@ def with_signals(result: dict[str, Any], campaign: Campaign) -> dict[str, Any]:
     if finding.causes:
         more["candidates"] = [*result["candidates"], *(_candidate(f) for f in finding.fits[:4])]
     return result | more
+
+
+def judged_signals(found: Diagnosis, result: Mapping[str, Any]) -> tuple[Identified, ...]:
+    """The signals held against the fitted robot where a cause is known, whose modes are damped otherwise."""
+    campaign = found.campaign
+    if result["verdict"]["status"] not in ("named", "class") or found.selection.fit is None:
+        return campaign.identified
+    robot = extended_robot(found)
+    return tuple(held_against(item, robot, campaign.model) for item in campaign.identified)
+
+
+def _left_out(judged: tuple[Identified, ...]) -> list[dict[str, Any]]:
+    return [{"case": case, "frequency_hz": hertz, "reason": why} for case, hertz, why in left_out(judged)]
 
 
 def _untestable(finding: DampingFinding) -> dict[str, str]:
@@ -90,6 +108,8 @@ def _damping(finding: DampingFinding) -> dict[str, Any]:
 
 def damping_sentence(finding: DampingFinding) -> str:
     """What the damping says, in one sentence; nothing if nothing stands out."""
+    if finding.reason == SCATTER:
+        return f"No statement on the damping: {SCATTER}."
     if finding.status in ("adequate", "not testable"):
         return ""
     best = finding.fits[0]
@@ -109,7 +129,7 @@ def damping_sentence(finding: DampingFinding) -> str:
 def _spoken(verdict: dict[str, Any], finding: DampingFinding) -> dict[str, Any]:
     """The verdict with the damping's sentence; where nothing else is wrong, the damping is the verdict."""
     text = damping_sentence(finding)
-    if not text:
+    if not text or finding.status == "not testable":
         return verdict
     if verdict["status"] != "adequate" or finding.status == "unknown":
         return verdict | {"sentence": f"{verdict['sentence']} {text}"}
@@ -120,18 +140,20 @@ def _spoken(verdict: dict[str, Any], finding: DampingFinding) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def signal_plates(campaign: Campaign) -> list[Plate]:
+def signal_plates(found: Diagnosis, result: Mapping[str, Any]) -> list[Plate]:
     """Spectra with identified peaks, and damping ratios over amplitude."""
-    plates = [_plate(f"signal-{i + 1}", item) for i, item in enumerate(campaign.identified[:_MOST_PLATES])]
-    rows = damping_rows(campaign.identified)
+    identified = found.campaign.identified
+    plates = [_plate(f"signal-{i + 1}", item) for i, item in enumerate(identified[:_MOST_PLATES])]
+    rows = damping_rows(judged_signals(found, result))
     if np.isfinite(rows.amplitude).any():
         plates.append(
             Plate(
                 "damping",
                 "Damping ratio over amplitude",
                 svg("damping", figures.DAMPING_SIZE, lambda f: figures.draw_damping(f, rows)),
-                "One line per mode and record, one point per window of the decay; bars are two sigma. Level lines mean "
-                "viscous or structural damping; lines that rise towards small amplitudes mean friction.",
+                "One line per mode and record, one point per window of the decay, or one for the whole where that says "
+                "more; bars are two sigma, dashes what the entered law gives. Level lines mean viscous or "
+                "structural damping; lines that rise towards small amplitudes mean friction.",
             )
         )
     return plates
@@ -143,9 +165,10 @@ def _plate(name: str, item: Identified) -> Plate:
         f"Peaks in {item.record.case} ({item.record.kind.replace('_', ' ')})",
         svg(name, figures.SPECTRUM_SIZE, lambda f: figures.draw_spectrum(f, item)),
         "Measured spectrum. Blue dots: peaks that joined the campaign as robot frequencies; orange rings: peaks that "
-        "did not, being combination tones of a motion that is not small, weak, or without partner. Upright lines: "
-        "the model's modes, black where the platform moves. See whether each black line has a blue dot on it, and to "
-        "which side it misses.",
+        "did not, being combination tones of a motion that is not small, weak, or without partner; triangles: peaks "
+        "to which no mode was fitted, as where several lie closer than their widths. Upright lines: the model's modes, "
+        "black where the platform moves. See whether each black line has a blue dot on it, and to which side it "
+        "misses.",
     )
 
 
