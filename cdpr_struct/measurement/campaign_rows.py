@@ -100,6 +100,9 @@ def length_columns(cables: int) -> list[str]:
 def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> None:
     lengths = length_columns(cables)
     needed = [*_NEEDED[kind], *(lengths if kind == "loaded_pose" else [])]
+    if kind == "free_decay" and "ax" not in columns and "x_m_s2" in columns:
+        how = "time_s and x_m_s2, y_m_s2, z_m_s2 as ax, ay, az, and the pose at rest as x_m, y_m, z_m (docs/files.md)"
+        raise InputError(source, "x_m_s2", "the motion that `transient` writes", how)
     for name in needed:
         if name not in columns:
             raise InputError(source, name, "no such column", f"a {kind} file needs {', '.join(needed)}")

@@ -10,6 +10,7 @@ from cdpr_struct.errors import InputError
 from cdpr_struct.statics.trajectory import Trajectory, through_samples
 
 ACCELERATION_COLUMNS = ("ax", "ay", "az")
+TRANSIENT_COLUMNS = ("x_m_s2", "y_m_s2", "z_m_s2")  # of transient.csv
 _POSITION, _ANGLES = ("x_m", "y_m", "z_m"), ("rx_deg", "ry_deg", "rz_deg")
 _EVEN = 0.01  # largest relative deviation of a time step from their mean
 _FEWEST_SAMPLES = 64
@@ -42,13 +43,14 @@ def _numbers(path: Path, name: str, column: pd.Series) -> np.ndarray:
 
 
 def read_accelerations(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Evenly spaced time (n,) [s] and accelerations (n, 3) [m/s^2] from columns time_s, ax, ay, az.
+    """Evenly spaced time (n,) [s] and accelerations (n, 3) [m/s^2] from columns time_s, ax, ay, az, or a transient.csv.
 
     Raises
     ------
     InputError : as `read_columns`; or uneven or too few instants.
     """
-    columns = read_columns(path, ("time_s", *ACCELERATION_COLUMNS))
+    names = TRANSIENT_COLUMNS if _is_transient(path) else ACCELERATION_COLUMNS
+    columns = read_columns(path, ("time_s", *names))
     time = columns["time_s"]
     if len(time) < _FEWEST_SAMPLES:
         raise InputError(str(path), "time_s", f"{len(time)} rows", f"at least {_FEWEST_SAMPLES} instants")
@@ -59,7 +61,17 @@ def read_accelerations(path: Path) -> tuple[np.ndarray, np.ndarray]:
         raise InputError(
             f"{path}, line {worst + 3}", "time_s", f"a step of {steps[worst]:.6g} s", f"even steps, here {mean:.6g} s"
         )
-    return time, np.stack([columns[name] for name in ACCELERATION_COLUMNS], axis=1)
+    return time, np.stack([columns[name] for name in names], axis=1)
+
+
+def _is_transient(path: Path) -> bool:
+    """Whether the header is that of a file which `transient` wrote; False also if there is none to read."""
+    try:
+        with path.open(encoding="utf-8") as lines:
+            header = [name.strip() for name in lines.readline().split(",")]
+    except (OSError, UnicodeDecodeError):
+        return False
+    return set(TRANSIENT_COLUMNS) <= set(header) and not set(ACCELERATION_COLUMNS) & set(header)
 
 
 def read_trajectory(path: Path) -> Trajectory:

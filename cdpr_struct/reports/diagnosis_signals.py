@@ -151,8 +151,9 @@ def signal_plates(found: Diagnosis, result: Mapping[str, Any]) -> list[Plate]:
                 "damping",
                 "Damping ratio over amplitude",
                 svg("damping", figures.DAMPING_SIZE, lambda f: figures.draw_damping(f, rows)),
-                "One line per mode and record, one point per window of the decay; bars are two sigma. Level lines mean "
-                "viscous or structural damping; lines that rise towards small amplitudes mean friction.",
+                "One line per mode and record, one point per window of the decay, or one for the whole where that says "
+                "more; bars are two sigma, dashes what the entered law gives. Level lines mean viscous or "
+                "structural damping; lines that rise towards small amplitudes mean friction.",
             )
         )
     return plates
@@ -164,9 +165,10 @@ def _plate(name: str, item: Identified) -> Plate:
         f"Peaks in {item.record.case} ({item.record.kind.replace('_', ' ')})",
         svg(name, figures.SPECTRUM_SIZE, lambda f: figures.draw_spectrum(f, item)),
         "Measured spectrum. Blue dots: peaks that joined the campaign as robot frequencies; orange rings: peaks that "
-        "did not, being combination tones of a motion that is not small, weak, or without partner. Upright lines: "
-        "the model's modes, black where the platform moves. See whether each black line has a blue dot on it, and to "
-        "which side it misses.",
+        "did not, being combination tones of a motion that is not small, weak, or without partner; triangles: peaks "
+        "to which no mode was fitted, as where several lie closer than their widths. Upright lines: the model's modes, "
+        "black where the platform moves. See whether each black line has a blue dot on it, and to which side it "
+        "misses.",
     )
 
 

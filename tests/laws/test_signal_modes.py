@@ -1,5 +1,7 @@
 """Modes from signals: standard deviations that cover the truth, peaks that are no modes, damping laws told apart."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.signal import lfilter
@@ -10,6 +12,7 @@ from cdpr_struct.diagnosis.damping_rows import DampingRows
 from cdpr_struct.measurement.decay_modes import decay_modes
 from cdpr_struct.measurement.peak_kinds import COMBINATION, MODE, peak_kinds
 from cdpr_struct.measurement.response_modes import response_modes
+from cdpr_struct.reports.diagnosis_signals import damping_sentence
 
 
 def spaced(generator, count, low, high, gap):
@@ -133,6 +136,17 @@ def test_each_law_is_named_and_its_size_found(law, size, cause):
 
 def test_the_entered_damping_is_adequate():
     assert damping_finding(rows("entered", 0.0), 0.3).status == "adequate"
+
+
+def test_scatter_beyond_the_sigmas_is_no_law():
+    """Ratios up and down by a factor of three: nothing beats the entered law, so that it is not declared wrong."""
+    whole = rows("entered", 0.0)
+    wild = np.exp(1.1 * np.random.default_rng(4).choice([-1.0, 1.0], size=18))
+    found = damping_finding(replace(whole, ratio=whole.ratio * wild, sigma=0.03 * whole.ratio), 0.3)
+    assert found.fits[0].p_adequate < 1e-3
+    assert (found.status, found.causes) == ("not testable", ())
+    assert "scatter" in found.reason
+    assert "No statement" in damping_sentence(found)
 
 
 def test_one_mode_does_not_tell_material_from_structure():
