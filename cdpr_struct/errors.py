@@ -24,8 +24,7 @@ class InputError(ValueError):
         self.source, self.field, self.value, self.expected = source, field, value, expected
         place = f"{source}: {field}" if field else source
         plain = value.item() if type(value).__module__ == "numpy" and hasattr(value, "item") else value
-        shown = f"{plain:g}" if isinstance(plain, float) and plain.is_integer() and abs(plain) < 1e6 else repr(plain)
-        super().__init__(f"{place}: got {shown}; {expected}")
+        super().__init__(f"{place}: got {plain!r}; {expected}")
 
 
 class UnholdablePoseError(CdprError):

@@ -74,7 +74,7 @@ def require_metres(values: list[float], robot: "Robot", option: str = "--lengths
     import numpy as np
 
     wide = float(np.linalg.norm(np.ptp(robot.frame_anchors, axis=0)))
-    if min(values) > _LOOKS_LIKE_MM * wide:
+    if wide > 0.0 and min(values) > _LOOKS_LIKE_MM * wide:
         raise InputError(option, "", values[0], f"lengths in m; these look like mm (the robot is {wide:.3g} m wide)")
 
 

@@ -89,7 +89,9 @@ def input_error(source: str, error: ValidationError, model: type[BaseModel] | No
 
     model : of the whole file, to say which keys are known where one is not
     """
-    first = error.errors()[0]
+    found = error.errors()
+    misspelt = [e for e in found if e["type"] == "extra_forbidden"] if found[0]["type"] == "missing" else []
+    first = [*misspelt, *found][0]
     field = "".join(f"[{p + 1}]" if isinstance(p, int) else f".{p}" for p in first["loc"]).lstrip(".")
     value = "nothing" if first["type"] == "missing" else first["input"]
     words = _EXPECTED.get(first["type"])

@@ -77,4 +77,4 @@ def test_rows_without_a_case_column_are_named_by_their_poses(tmp_path):
 
 def test_a_path_that_no_file_can_have(capsys):
     assert run(["diagnose", "a\0b"]) == 2
-    assert "a campaign file (TOML) that can be read" in capsys.readouterr().err
+    assert "no such file" in capsys.readouterr().err

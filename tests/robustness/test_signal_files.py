@@ -6,6 +6,7 @@ import pytest
 import pyuff
 
 from cdpr_struct.cli.main import run
+from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.measurement.universal_rows import universal_columns
 
@@ -50,9 +51,8 @@ def test_a_decay_without_a_pose_says_so(tmp_path):
     decay(np.arange(400) * 0.01).drop(columns=["x_m", "y_m", "z_m"]).to_csv(tmp_path / "decay.csv", index=False)
     path = tmp_path / "campaign.toml"
     path.write_text(CAMPAIGN.format(kind="free_decay", file="decay.csv"))
-    (item,) = load_campaign(path).identified
-    assert "pose columns" in item.note
-    assert not item.used.any()
+    with pytest.raises(InputError, match="carries no pose, so give that of case"):
+        load_campaign(path)
 
 
 def universal(path, **change):
