@@ -52,11 +52,12 @@ def _next(data: Handled, plan: Budget) -> tuple[Handled, bool]:
     better, wrong, inner = None, None, None
     if len(data.corrections) < _MOST_CORRECTIONS:
         better = best_correction(data.campaign, data.prepared.fine.level, [c for c, _ in data.corrections])
-        inner, prepared = internal_mode(data.campaign, data.prepared, plan)
-        data = replace(data, prepared=prepared)
+        if better is None:  # what is misfiled leaves stray peaks, too
+            inner, prepared = internal_mode(data.campaign, data.prepared, plan)
+            data = replace(data, prepared=prepared)
     if len(data.aside) < _MOST_ASIDE:
         wrong = suspect(ground)
-    if inner is not None and inner.gain > max(better[1] if better else -np.inf, wrong.gain if wrong else -np.inf):
+    if inner is not None and inner.gain > (wrong.gain if wrong else -np.inf):
         found = [*data.corrections, (inner.correction, inner.gain)]
         return replace(data, campaign=inner.correction.campaign, prepared=inner.rest, corrections=found), True
     if wrong is not None and wrong.gain > max(rival, better[1] if better else -np.inf):

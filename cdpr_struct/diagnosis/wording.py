@@ -19,7 +19,7 @@ def described(choice: Choice, theta: np.ndarray) -> str:
     rms, norm = float(np.sqrt(np.mean(value**2))), float(np.linalg.norm(value))
     single = len(value) == 1
     words = {
-        "value": f"{first['value']:.3g}", "percent": f"{100.0 * np.exp(float(value.mean())):.1f} %",
+        "value": f"{first['value']:.3g}", "percent": _per_cent(float(np.exp(value.mean()))),
         "rms": f"{value[0]:+.2g}" if single else f"{rms:.2g}", "norm": f"{norm:.2g}", "unit": str(first["unit"]),
     }  # fmt: skip
     text = cause.sentence.format(**words)
@@ -27,6 +27,11 @@ def described(choice: Choice, theta: np.ndarray) -> str:
     notes = [choice.pattern.label, cause.sign if single else ""]
     note = ", ".join(filter(None, notes))
     return f"{text} ({note})" if note else text
+
+
+def _per_cent(ratio: float) -> str:
+    """A ratio in per cent; what is near one keeps its digits."""
+    return f"{100.0 * ratio:.{1 if abs(ratio - 1.0) > 0.01 else 3}f} %"
 
 
 def corrected(found: Diagnosis) -> list[str]:

@@ -50,6 +50,13 @@ def test_numbers_of_each_cable_are_a_mean(clean):
     assert said == "the load cells' zero is off, by 3 N in the mean (each its own)"
 
 
+def test_a_ratio_near_one_keeps_its_digits(clean):
+    """A drum 0.04 % too large is no 100.0 %."""
+    found = chosen("drum_scale", "all alike", clean)
+    assert "100.042 %" in described(found, np.array([np.log(1.00042)]) / found.prior)
+    assert "120.0 %" in described(found, np.array([np.log(1.2)]) / found.prior)
+
+
 def found_with(campaign, correction, p_left):
     return SimpleNamespace(
         entered_setting=SimpleNamespace(campaign=campaign), corrections=[(correction, 1e3)], p_value_left=p_left
