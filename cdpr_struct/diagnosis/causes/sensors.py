@@ -96,9 +96,12 @@ CAUSES = (
 
 
 def internal_force(setting: Setting) -> Cause:
-    """The measured tensions sit elsewhere in the null space: by one force everywhere, or by lengths of each state."""
-    q = setting.sent.null_space.shape[-1]
-    states = len(setting.campaign.states.names)
+    """The measured tensions sit elsewhere in the null space of these states."""
+    return internal_forces(setting.sent.null_space.shape[-1], len(setting.campaign.states.names))
+
+
+def internal_forces(q: int, states: int) -> Cause:
+    """Internal force of q directions in the null space: one force everywhere, or lengths of each state."""
     named = tuple(Parameter(f"internal_force_{j + 1}", "N", 15.0) for j in range(q))
     named += tuple(Parameter(f"null_space_{j + 1}_{i + 1}", "m", 6e-3) for i in range(states) for j in range(q))
     return Cause(
