@@ -14,6 +14,7 @@ from cdpr_struct.reports.diagnosis_tables import (
     candidate_table,
     error_table,
     gain_table,
+    next_table,
     sigma_table,
     size_table,
     standing,
@@ -71,7 +72,6 @@ def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Pla
     said = result["verdict"]
     more = [line[:1].upper() + line[1:] for line in standing(result)]
     more += [f"Where: {said['location']}."] if said["location"] else []
-    more += [f"To measure next: {said['next_measurement']}."] if said["next_measurement"] else []
     facts = [
         (f"{row['rms']:.3g} {row['unit']}", f"rms error, {row['kind'].replace('_', ' ')}")
         for row in result["simulation_error"]
@@ -110,6 +110,7 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
         error_table(result),
         candidate_table(candidates, 20, 3),
         gain_table(result["gain"]),
+        next_table(result["verdict"]["next_measurement"]),
         size_table(candidates),
     )
     tables = [_html(table) for table in shown if table]

@@ -31,6 +31,13 @@ def standing(result: Mapping[str, Any]) -> list[str]:
     return lines + [f"warning: {text}.".replace("?.", "?") for text in result["warnings"]]
 
 
+def next_table(text: str) -> Table | None:
+    """What to measure next, one proposal a row."""
+    rows = [[str(i), step] for i, step in enumerate(filter(None, text.split("; ")), start=1)]
+    note = "Nats: expected evidence between the two, if either is the true one; three are a factor of twenty."
+    return Table("To measure next", ["", "proposal"], rows, note if "nats" in text else "") if rows else None
+
+
 def sigma_table(sigmas: Sequence[Mapping[str, Any]]) -> Table | None:
     """Every sigma that was used and where it is from."""
     rows = [[s["kind"], s["file"], s["sigma"], s["words"], s["source"]] for s in sigmas]

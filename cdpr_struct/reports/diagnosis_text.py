@@ -9,6 +9,7 @@ from cdpr_struct.reports.diagnosis_tables import (
     default_sigmas,
     error_table,
     gain_table,
+    next_table,
     standing,
 )
 from cdpr_struct.reports.text import paragraphs, plain_table
@@ -20,8 +21,8 @@ def diagnosis_text(result: Mapping[str, Any]) -> str:
     blocks = [said["sentence"], "\n".join(standing(result)), _shown(error_table(result))]
     tables = (candidate_table(result["candidates"], 8, 2), gain_table(result["gain"]))
     blocks += [_shown(table) for table in tables if table]
-    if said["next_measurement"]:
-        blocks.append(f"To measure next: {said['next_measurement']}.")
+    after = next_table(said["next_measurement"])
+    blocks += [f"{after.title}\n" + "\n".join(f"{i}. {step}" for i, step in after.rows)] if after else []
     blocks += filter(None, [default_sigmas(result["sigmas"])])
     return paragraphs(*blocks)
 

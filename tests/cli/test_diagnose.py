@@ -215,3 +215,10 @@ def test_ticks_are_plain_numbers_at_any_size(largest):
     assert 5 <= len(shown) <= 17
     assert {"-2", "0", "2"} <= set(shown)
     assert axes.get_ylim()[0] < -largest
+
+
+def test_what_to_measure_next_is_a_list():
+    table = next_table("poses with 0, 18 kg: expected to separate a from b by 7 nats; or weighing: 3 nats")
+    assert [row[0] for row in table.rows] == ["1", "2"]
+    assert table.rows[1][1] == "or weighing: 3 nats"
+    assert next_table("") is None
