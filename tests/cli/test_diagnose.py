@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from cdpr_struct.cli.main import run
+from cdpr_struct.reports.diagnosis_tables import next_table
 
 CAMPAIGN = str(Path(__file__).parents[2] / "examples" / "table-4-4" / "campaign.toml")
 LEVEL = str(Path(__file__).parents[2] / "examples" / "table-4-4" / "level.toml")
