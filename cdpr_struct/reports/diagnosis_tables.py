@@ -33,9 +33,9 @@ def standing(result: Mapping[str, Any]) -> list[str]:
 
 def next_table(text: str) -> Table | None:
     """What to measure next, one proposal a row."""
-    rows = [[str(i), step] for i, step in enumerate(filter(None, text.split("; ")), start=1)]
+    rows = [[f"{i}. {step}"] for i, step in enumerate(filter(None, text.split("; ")), start=1)]
     note = "Nats: expected evidence between the two, if either is the true one; three are a factor of twenty."
-    return Table("To measure next", ["", "proposal"], rows, note if "nats" in text else "") if rows else None
+    return Table("To measure next", ["proposal"], rows, note if "nats" in text else "") if rows else None
 
 
 def sigma_table(sigmas: Sequence[Mapping[str, Any]]) -> Table | None:

@@ -22,7 +22,7 @@ def diagnosis_text(result: Mapping[str, Any]) -> str:
     tables = (candidate_table(result["candidates"], 8, 2), gain_table(result["gain"]))
     blocks += [_shown(table) for table in tables if table]
     after = next_table(said["next_measurement"])
-    blocks += [f"{after.title}\n" + "\n".join(f"{i}. {step}" for i, step in after.rows)] if after else []
+    blocks += [f"{after.title}\n" + "\n".join(row[0] for row in after.rows)] if after else []
     blocks += filter(None, [default_sigmas(result["sigmas"])])
     return paragraphs(*blocks)
 
