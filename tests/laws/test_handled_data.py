@@ -154,17 +154,17 @@ def test_gain_and_zero_of_the_cells_are_told_as_such():
 def test_a_single_wrong_angle_is_no_wrong_unit():
     """With one tilted state, dividing its angle by 57 hides the tilt as well as any unit would."""
     campaign = noisy()
-    angles = 0.0 * campaign.states.angles
-    angles[3, 0] = 20.0
-    states = replace(campaign.states, angles=angles)
-    assert not [
-        c for c in corrections(replace(campaign, states=states)) if "angles" in c.sentence and c.cause == "unit_error"
-    ]
-    angles[2, 1] = 5.0
-    states = replace(campaign.states, angles=angles)
-    assert [
-        c for c in corrections(replace(campaign, states=states)) if "angles" in c.sentence and c.cause == "unit_error"
-    ]
+
+    def angle_units(angles):
+        new = replace(campaign, states=replace(campaign.states, angles=angles))
+        return [c for c in corrections(new) if "angles" in c.sentence and c.cause == "unit_error"]
+
+    angles = 1e-4 * campaign.states.angles
+    angles[3, 0] = 0.35
+    assert not angle_units(angles)
+    angles[2, 1] = 0.1
+    assert angle_units(angles)
+    assert angle_units(campaign.states.angles / 57.3**2)  # rad taken for deg, however small
 
 
 def test_no_correction_is_made_twice():

@@ -14,7 +14,7 @@ from cdpr_struct.measurement.campaign import Campaign, States
 
 TENSION_UNITS = {"kgf": 9.80665, "lbf": 4.4482216, "kN": 1000.0, "daN": 10.0}
 LENGTH_UNITS = {"mm": 1e-3, "ft": 0.3048}
-_TILTED = 1e-3  # as recorded
+_TILTED = 0.05  # of the largest angle
 PAIRS_OF_STATES = 2000  # static ones: all of 63
 
 
@@ -81,8 +81,7 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
             new = _with(campaign, **{what: getattr(states, what) * factor})
             yield Correction("unit_error", f"the {what}s are in {unit}", new, parameters={"factor": factor})
     turned = ((np.degrees(1.0), "rad"), (np.radians(1.0), "deg written as if rad"))
-    tilted = states.angles[np.abs(states.angles).max(axis=1, initial=0.0) > _TILTED]
-    for factor, unit in turned if len(np.unique(tilted, axis=0)) > 1 else ():  # one alone may be any slip of the pen
+    for factor, unit in turned if _several_tilted(states) else ():
         new = _with(campaign, angles=states.angles * factor)
         yield Correction("unit_error", f"the pose angles are in {unit}", new, parameters={"factor": factor})
     for factor, unit in ((0.45359237, "lb"), (1.0 / 9.80665, "N")) if np.any(states.payload) else ():
@@ -96,6 +95,13 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
             yield Correction(
                 "unit_error", f"the {what.replace('_', ' ')} are in rad/s", new, parameters={"factor": turn}
             )
+
+
+def _several_tilted(states: States) -> bool:
+    """Whether more than one orientation is of the largest's order: a single one may be any slip of the pen."""
+    size = np.abs(states.angles).max(axis=1, initial=0.0)
+    tilted = states.angles[(size > 0.0) & (size > _TILTED * size.max(initial=0.0))]
+    return len(np.unique(tilted, axis=0)) > 1
 
 
 def _signs(campaign: Campaign) -> Iterator[Correction]:
