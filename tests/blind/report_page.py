@@ -78,7 +78,7 @@ def _written(entry: Any) -> tuple[str, str, str]:
         if entry["value"] is None:
             return "no case", "", "0"
         low, high = entry["band"]
-        return f"{100 * entry['value']:.0f} %", f"{100 * low:.0f}-{100 * high:.0f} %", str(entry["cases"])
+        return f"{100 * entry['value']:.1f} %", f"{100 * low:.0f}-{100 * high:.0f} %", str(entry["cases"])
     return ("no case" if entry is None else f"{entry:.3g}"), "", ""
 
 
