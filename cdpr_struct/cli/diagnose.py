@@ -33,9 +33,9 @@ def run(
     with steps(4) as progress:
         found = diagnose(measured, budget, progress)
     result = with_extensions(diagnosis_json(found), measured.robot, NAME)
-    emit(result, json, lambda: print(diagnosis_text(result)))
     if out is not None:
         from cdpr_struct.reports.diagnosis_page import diagnosis_files
 
         write_files(out, noted(result, {"result.json": result_json(result), **diagnosis_files(found, result)}))
+    emit(result, json, lambda: print(diagnosis_text(result)))
     return 0
