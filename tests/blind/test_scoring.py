@@ -202,7 +202,7 @@ def test_harness_runs_scores_and_reports(one_case_set, tmp_path, capsys):
     page = tmp_path / "page.md"
     assert main(["report", "--out", str(one_case_set), "--page", str(page)]) == 0
     text = page.read_text("utf-8")
-    assert "| wrong confident name, over everything | 100 % | 2-100 % | 1 | <= 2 % |" in text
+    assert "| wrong confident name, over everything | 100.0 % | 2-100 % | 1 | <= 2 % |" in text
     assert "@" not in text
     assert (tmp_path / "page_confusion.svg").exists()
 
