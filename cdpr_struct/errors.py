@@ -4,6 +4,9 @@
 numbers and the next step; the command line turns them into exit codes 2 and 1.
 """
 
+from collections.abc import Sequence
+from difflib import get_close_matches
+
 
 class CdprError(Exception):
     """The request is well-posed, but the robot cannot do it."""
@@ -41,3 +44,9 @@ class ConvergenceError(CdprError):
     def __init__(self, what: str, residual: float, iterations: int, hint: str) -> None:
         self.residual, self.iterations = residual, iterations
         super().__init__(f"{what}: residual {residual:.3g} after {iterations} iterations. {hint}")
+
+
+def known_names(name: str, known: Sequence[str]) -> str:
+    """What to say of a name that is not among those known: which of them is perhaps meant, and all."""
+    near = get_close_matches(name, known, 1)
+    return (f"{near[0]} is perhaps meant; " if near else "") + f"known are {', '.join(known)}"

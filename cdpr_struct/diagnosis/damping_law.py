@@ -61,13 +61,11 @@ def damping_finding(rows: DampingRows, tolerance: float) -> DampingFinding:
     p_null = float(chi2.sf(_square(rows, covariance, rows.entered), len(rows)))
     fits = sorted((_fit(rows, covariance, laws) for laws in _hypotheses(rows)), key=lambda f: -f.gain)
     best = fits[0]
-    if best.gain < NAMED and p_null >= ADEQUATE:
+    if best.gain < NAMED and max(p_null, best.p_adequate) >= ADEQUATE:
         return DampingFinding("adequate", (), tuple(fits), rows, "")
     if best.p_adequate < ADEQUATE:
         sure = best.gain >= NAMED and _fit(rows, covariance * _scatter(best, len(rows)), best.laws).gain >= NAMED
         return DampingFinding("unknown" if sure else "not testable", (), tuple(fits), rows, "" if sure else SCATTER)
-    if best.gain < NAMED:
-        return DampingFinding("adequate", (), tuple(fits), rows, "")
     near = list(dict.fromkeys(f.causes for f in fits if f.gain > best.gain - SAME_CLASS and len(f.causes) == 1))
     if len(best.causes) == 2 and not near:
         return DampingFinding("named", best.causes, tuple(fits), rows, "")

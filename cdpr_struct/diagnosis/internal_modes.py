@@ -13,7 +13,7 @@ from cdpr_struct.diagnosis.causes.internal_mode import MOVING, POSES, Steady, co
 from cdpr_struct.diagnosis.evidence import screen
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, Prepared, prepare
 from cdpr_struct.diagnosis.robot_rows import pairing_of
-from cdpr_struct.diagnosis.selection import FURTHER, Search, explains, select
+from cdpr_struct.diagnosis.selection import FURTHER, Search, explains, selected
 from cdpr_struct.diagnosis.setting import modes_in
 from cdpr_struct.diagnosis.steady_peaks import moves_alone, steady_peaks
 from cdpr_struct.diagnosis.stray_peaks import ONE, caught
@@ -91,11 +91,12 @@ def _without(campaign: Campaign, full: Prepared, steady: Steady, moving: float, 
 
 def _stands(full: Prepared, gain: float, rest: Prepared, plan: Budget) -> bool:
     """Whether an internal mode beats a cause alone; or, with a cause on top, as many as the plan allows."""
-    alone = Search(full.ground, full.large).rank()
+    search = Search(full.ground, full.large)
+    alone = search.rank()
     if gain > max(alone[0].gain, 0.0):
         return True
     if rest.p_value >= SIGNIFICANT or (explains(alone[0]) and alone[0].ground.strays < ONE):
         return False
     more = Search(rest.ground, rest.large).rank()[0].gain - FURTHER
-    rival = select(full.ground, FURTHER, plan.causes, full.large).fit
+    rival = selected(search, FURTHER, plan.causes).fit
     return rival is None or gain + max(more, 0.0) > rival.gain

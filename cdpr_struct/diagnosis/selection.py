@@ -160,8 +160,12 @@ def _worth_trying(row: Screened) -> list[Choice]:
 
 def select(ground: Ground, further: float, most: int, large: list[Fit] | None = None) -> Selection:
     """The best cause, and more (`most` in all) that each raise the log evidence by `further`, in all parts of data."""
-    search = Search(ground, large)
-    first = search.rank()
+    return selected(Search(ground, large), further, most)
+
+
+def selected(search: Search, further: float, most: int) -> Selection:
+    """As `select`, from a search that may have ranked causes already."""
+    ground, first = search.ground, search.rank()
     best = first[0]
     begun = [best.choices, *(_other_beginnings(ground, further) if most > 1 else [])]
     while len(best.choices) < most:

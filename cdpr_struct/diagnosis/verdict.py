@@ -207,16 +207,15 @@ def _sentence(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
 
 def _standing(found: Diagnosis, fit: Fit) -> str:
     """What the chosen causes explain of what is not noise, if chi^2 shows any, and whether what was left out agrees."""
-    share, said = 100.0 * fit.explained(found.ground.z), []
-    if share >= 0.5:
-        said.append(f"This explains {share:.0f} % of the significant error")
+    share = 100.0 * fit.explained(found.ground.z)
+    explained = f"This explains {share:.0f} % of the significant error" if share >= 0.5 else ""
+    joint, outcome = "", ""
     if found.held is not None and not confirmed(found):
-        said.append("but it hangs on one state: nothing that was left out confirms it")
+        joint, outcome = ", but ", "it hangs on one state: nothing that was left out confirms it"
     elif found.held is not None:
         ratio = found.held.ratio(found.held.concerned)
-        said.append(f"what it concerns is predicted {ratio:.1f} times better in states that were not fitted")
-    joint = ", " if said[-1:] and said[-1].startswith("but") else "; "
-    text = joint.join(said).removeprefix("but ")
+        joint, outcome = "; ", f"what it concerns is predicted {ratio:.1f} times better in states that were not fitted"
+    text = explained + (joint if explained else "") + outcome
     return f" {text[:1].upper()}{text[1:]}." if text else ""
 
 

@@ -1,13 +1,12 @@
 """Rows of a measured-data file, checked: columns known and present, numbers finite and in their range."""
 
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from cdpr_struct.errors import InputError
+from cdpr_struct.errors import InputError, known_names
 from cdpr_struct.measurement.universal_rows import is_universal, universal_columns
 from cdpr_struct.robot.robot_file import LARGEST
 
@@ -127,9 +126,7 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
 
 def _unknown(kind: str, name: str, known: set[str]) -> str:
     """A column that nothing reads is refused, since it may be a known one misspelt; remarks have names of their own."""
-    near = get_close_matches(name, sorted(known), 1)
-    meant = f"{near[0]} is perhaps meant; " if near else ""
-    return f"unknown for {kind}; {meant}known are {', '.join(sorted(known))}; remarks go into a column {COMMENTS[0]}"
+    return f"unknown for {kind}; {known_names(name, sorted(known))}; remarks go into a column {COMMENTS[0]}"
 
 
 def _numbers(source: str, name: str, column: pd.Series) -> np.ndarray:

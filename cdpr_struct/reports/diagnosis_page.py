@@ -10,7 +10,6 @@ from cdpr_struct.diagnosis.extended_model import extended_robot_toml
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.diagnosis_signals import signal_plates, signal_tables
 from cdpr_struct.reports.diagnosis_tables import (
-    Table,
     candidate_table,
     error_table,
     gain_table,
@@ -113,7 +112,7 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
         next_table(result["verdict"]["next_measurement"]),
         size_table(candidates),
     )
-    tables = [_html(table) for table in shown if table]
+    tables = [table for table in shown if table]
     why = [[name.replace("_", " "), reason] for name, reason in sorted(result["why_not_testable"].items())]
     tables.append(HtmlTable("What these data cannot show", ["cause", "why"], why))
     sizes = [[n.replace("_", " "), f"{v['value']:.3g}", v["unit"]] for n, v in result["minimum_detectable"].items()]
@@ -123,11 +122,7 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
     ]
     tables.append(HtmlTable("Tolerances taken into account, one sigma", ["tolerance", "size", "source"], tolerances))
     sigmas = sigma_table(result["sigmas"])
-    return tables + ([_html(sigmas)] if sigmas else [])
-
-
-def _html(table: Table) -> HtmlTable:
-    return HtmlTable(table.title, table.columns, table.rows, table.note)
+    return tables + ([sigmas] if sigmas else [])
 
 
 def _residuals_csv(found: Diagnosis) -> str:

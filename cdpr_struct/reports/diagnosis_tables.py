@@ -5,16 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-
-@dataclass(frozen=True, slots=True)
-class Table:
-    """A titled table of ready-made text; the note says how to read it."""
-
-    title: str
-    columns: list[str]
-    rows: list[list[str]]
-    note: str = ""
-
+from cdpr_struct.reports.html import HtmlTable
 
 _DECIDED = {
     "laws": "p is that of single laws, which look in few directions; chi2/n counts all readings alike.",
@@ -31,18 +22,18 @@ def standing(result: Mapping[str, Any]) -> list[str]:
     return lines + [f"warning: {text}.".replace("?.", "?") for text in result["warnings"]]
 
 
-def next_table(text: str) -> Table | None:
+def next_table(text: str) -> HtmlTable | None:
     """What to measure next, one proposal a row."""
     rows = [[f"{i}. {step}"] for i, step in enumerate(filter(None, text.split("; ")), start=1)]
     note = "Nats: expected evidence between the two, if either is the true one; three are a factor of twenty."
-    return Table("To measure next", ["proposal"], rows, note if "nats" in text else "") if rows else None
+    return HtmlTable("To measure next", ["proposal"], rows, note if "nats" in text else "") if rows else None
 
 
-def sigma_table(sigmas: Sequence[Mapping[str, Any]]) -> Table | None:
+def sigma_table(sigmas: Sequence[Mapping[str, Any]]) -> HtmlTable | None:
     """Every sigma that was used and where it is from."""
     rows = [[s["kind"], s["file"], s["sigma"], s["words"], s["source"]] for s in sigmas]
     note = "One sigma of each reading. A state that several files name has the pose sigmas of the first."
-    return Table("Sigmas of the sensors", ["kind", "file", "sigma", "size", "source"], rows, note) if rows else None
+    return HtmlTable("Sigmas of the sensors", ["kind", "file", "sigma", "size", "source"], rows, note) if rows else None
 
 
 def default_sigmas(sigmas: Sequence[Mapping[str, Any]]) -> str:
@@ -51,14 +42,14 @@ def default_sigmas(sigmas: Sequence[Mapping[str, Any]]) -> str:
     return f"Sigmas not given, defaults used: {', '.join(given)}." if given else ""
 
 
-def error_table(result: Mapping[str, Any]) -> Table:
+def error_table(result: Mapping[str, Any]) -> HtmlTable:
     """Simulation against measurement, kind by kind; the note says what the p-value counts instead."""
     rows = [
         [row["kind"], f"{row['rms']:.3g}", row["unit"], figure(row["chi2_per_n"], 2), _place(row["worst"])]
         for row in result["simulation_error"]
     ]
     note = _DECIDED[result["p_value_of"]] if result["significant"] else ""
-    return Table("Simulation against measurement", ["kind", "rms", "unit", "chi2/n", "worst"], rows, note)
+    return HtmlTable("Simulation against measurement", ["kind", "rms", "unit", "chi2/n", "worst"], rows, note)
 
 
 def _place(worst: Mapping[str, Any]) -> str:
@@ -98,7 +89,7 @@ def hypotheses(candidates: Sequence[Mapping[str, Any]]) -> list[Hypothesis]:
     return found
 
 
-def candidate_table(candidates: Sequence[Mapping[str, Any]], most: int, sizes: int) -> Table | None:
+def candidate_table(candidates: Sequence[Mapping[str, Any]], most: int, sizes: int) -> HtmlTable | None:
     """The likeliest `most` hypotheses, with the first few sizes of each."""
     rows = [
         [h.name, figure(h.gain), f"{100.0 * h.explained:.0f}" if h.explained else "", _first(h, sizes)]
@@ -106,17 +97,17 @@ def candidate_table(candidates: Sequence[Mapping[str, Any]], most: int, sizes: i
     ]
     note = "Evidence is against nothing being wrong; three nats are a factor of twenty in probability."
     columns = ["cause", "evidence [nats]", "explains [%]", "size"]
-    return Table("Candidates", columns, rows, note) if rows else None
+    return HtmlTable("Candidates", columns, rows, note) if rows else None
 
 
-def size_table(candidates: Sequence[Mapping[str, Any]]) -> Table | None:
+def size_table(candidates: Sequence[Mapping[str, Any]]) -> HtmlTable | None:
     """Every number of every hypothesis."""
     rows = [
         [h.name, name, with_sigma(p["value"], p["sigma"]), p["unit"]]
         for h in hypotheses(candidates)
         for name, p in h.sizes.items()
     ]
-    return Table("Sizes of all candidates", ["candidate", "parameter", "size", "unit"], rows) if rows else None
+    return HtmlTable("Sizes of all candidates", ["candidate", "parameter", "size", "unit"], rows) if rows else None
 
 
 def _first(hypothesis: Hypothesis, count: int) -> str:
@@ -137,7 +128,7 @@ def with_sigma(value: float, sigma: float) -> str:
     return f"{round(value, decimals) + 0.0:.{max(decimals, 0)}f} ± {round(sigma, decimals):.{max(decimals, 0)}f}"
 
 
-def gain_table(gain: Mapping[str, Any]) -> Table | None:
+def gain_table(gain: Mapping[str, Any]) -> HtmlTable | None:
     """What was left out, predicted from the rest: the same readings and the same unit as the gain that is claimed."""
     if not gain["per_kind"]:
         return None
@@ -152,4 +143,4 @@ def gain_table(gain: Mapping[str, Any]) -> Table | None:
     if not gain["confirmed"]:
         note += " This does not confirm the causes, so nothing is claimed from it."
     title = f"Each {gain['left_out']} predicted from the others, rms error in sigmas"
-    return Table(title, ["kind", "counted", "before", "after", "times smaller"], rows, note)
+    return HtmlTable(title, ["kind", "counted", "before", "after", "times smaller"], rows, note)

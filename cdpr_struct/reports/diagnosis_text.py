@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from cdpr_struct.reports.diagnosis_tables import (
-    Table,
     candidate_table,
     default_sigmas,
     error_table,
@@ -12,6 +11,7 @@ from cdpr_struct.reports.diagnosis_tables import (
     next_table,
     standing,
 )
+from cdpr_struct.reports.html import HtmlTable
 from cdpr_struct.reports.text import paragraphs, plain_table
 
 
@@ -27,7 +27,7 @@ def diagnosis_text(result: Mapping[str, Any]) -> str:
     return paragraphs(*blocks)
 
 
-def _shown(table: Table) -> str:
+def _shown(table: HtmlTable) -> str:
     """A table for a terminal, its note below."""
     text = plain_table(table.title, table.columns, table.rows)
     return f"{text}\n{table.note}" if table.note else text

@@ -1,7 +1,6 @@
 """Robot files (TOML): read, check with messages that name the field, write."""
 
 import tomllib
-from difflib import get_close_matches
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, get_args
@@ -9,7 +8,7 @@ from typing import Annotated, Any, get_args
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from cdpr_struct.errors import InputError
+from cdpr_struct.errors import InputError, known_names
 from cdpr_struct.robot.cable import Cable, Pulley
 from cdpr_struct.robot.extensions import KEYS, Extensions, divided_mast
 from cdpr_struct.robot.platform import Platform
@@ -98,8 +97,7 @@ def input_error(source: str, error: ValidationError, model: type[BaseModel] | No
     expected = first["msg"].lower() if words is None else words.format(**first.get("ctx", {}))
     if first["type"] == "extra_forbidden" and model is not None:
         known = known_keys(model, first["loc"][:-1])
-        near = get_close_matches(str(first["loc"][-1]), known, 1)
-        expected += "; " + (f"{near[0]} is perhaps meant; " if near else "") + f"known are {', '.join(known)}"
+        expected += "; " + known_names(str(first["loc"][-1]), known)
     return InputError(source, field, value, expected)
 
 

@@ -2,12 +2,11 @@
 
 import math
 from dataclasses import replace
-from difflib import get_close_matches
 
 from cdpr_struct.diagnosis.causes import accelerometers, cables, geometry, internal_mode, platform, sensors, stiffness
 from cdpr_struct.diagnosis.causes.cause import Cause
 from cdpr_struct.diagnosis.residuals import Setting
-from cdpr_struct.errors import InputError
+from cdpr_struct.errors import InputError, known_names
 from cdpr_struct.measurement.campaign import Campaign
 
 FAMILIES = (stiffness, geometry, platform, cables, sensors, accelerometers)
@@ -26,9 +25,7 @@ def require_known(campaign: Campaign) -> None:
     known = sorted({*LIBRARY, "internal_force"})
     for name, sigma in campaign.checked.items():
         if name not in known:
-            near = get_close_matches(name.lower(), known, 1)
-            meant = f"{near[0]} is perhaps meant; " if near else ""
-            expected = f"no such cause; {meant}known are {', '.join(known)}"
+            expected = f"no such cause; {known_names(name.lower(), known)}"
             raise InputError(campaign.source, f"checked.{name}", sigma, expected)
 
 
