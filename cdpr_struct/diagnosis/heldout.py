@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import solve_triangular
 
 from cdpr_struct.diagnosis.evidence import log_bayes_factor
 from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
@@ -89,7 +90,7 @@ def weakest(fit: Fit, groups: np.ndarray, caught: np.ndarray) -> np.ndarray:
     for group in np.unique(groups):
         rows = groups != group
         lower = np.linalg.cholesky(null.covariance[np.ix_(rows, rows)])
-        z, columns = np.linalg.solve(lower, zero[rows]), np.linalg.solve(lower, signature[rows])
+        z, columns = (solve_triangular(lower, part[rows], lower=True) for part in (zero, signature))
         whole = float(log_bayes_factor(columns, z))
         for i in range(len(least)):
             strays = STRAY_NATS * float(caught[i] @ (peaks != group))
@@ -126,7 +127,7 @@ def predicted(
 def _fit_to(zero: np.ndarray, signature: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """theta (d,) that fits the given rows best, prior included."""
     lower = np.linalg.cholesky(covariance)
-    white, columns = np.linalg.solve(lower, zero), np.linalg.solve(lower, signature)
+    white, columns = (solve_triangular(lower, part, lower=True) for part in (zero, signature))
     result: np.ndarray = np.linalg.solve(np.eye(columns.shape[1]) + columns.T @ columns, columns.T @ white)
     return result
 

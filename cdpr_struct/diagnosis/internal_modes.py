@@ -12,8 +12,9 @@ from cdpr_struct.diagnosis.causes.handling import Correction
 from cdpr_struct.diagnosis.causes.internal_mode import MOVING, POSES, Steady, correction, poses
 from cdpr_struct.diagnosis.evidence import screen
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, Prepared, prepare
+from cdpr_struct.diagnosis.ranking import Search, explains
 from cdpr_struct.diagnosis.robot_rows import pairing_of
-from cdpr_struct.diagnosis.selection import FURTHER, Search, explains, selected
+from cdpr_struct.diagnosis.selection import FURTHER, selected
 from cdpr_struct.diagnosis.setting import modes_in
 from cdpr_struct.diagnosis.steady_peaks import moves_alone, steady_peaks
 from cdpr_struct.diagnosis.stray_peaks import ONE, caught

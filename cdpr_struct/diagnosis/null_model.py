@@ -8,6 +8,7 @@ share their length readings.
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import solve_triangular
 
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, residuals
@@ -36,7 +37,7 @@ class NullModel:
 
     def white(self, value: np.ndarray) -> np.ndarray:
         """L^-1 value for (n,) or (n, d)."""
-        result: np.ndarray = np.linalg.solve(self.lower, value)
+        result: np.ndarray = solve_triangular(self.lower, value, lower=True, check_finite=False)
         return result
 
     @property

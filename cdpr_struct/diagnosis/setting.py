@@ -13,7 +13,7 @@ from cdpr_struct.diagnosis.locked_pose import reference
 from cdpr_struct.diagnosis.modal_constants import measured_constants
 from cdpr_struct.diagnosis.readings import Readings, cell_reading, exit_turns
 from cdpr_struct.diagnosis.residuals import Labels, Setting, States, at_states, readings_of_states, world_of_states
-from cdpr_struct.diagnosis.robot_rows import ModelModes, model_modes, with_robot_rows
+from cdpr_struct.diagnosis.robot_rows import ModelModes, model_modes, rough_strays, with_robot_rows
 from cdpr_struct.diagnosis.vibrating_state import vibrating
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.operating_point import OperatingPoint
@@ -128,6 +128,11 @@ def paired_with(setting: Setting, world: World, wary: bool = False) -> Setting:
 def modes_in(setting: Setting, world: World) -> ModelModes:
     """The exact modes of a world at the states where peaks were measured."""
     return model_modes(setting, world, _points(setting, world, setting.campaign.robot_frequencies.state))
+
+
+def strays_in(setting: Setting, world: World) -> float:
+    """Expected number of peaks that are no mode of a world, roughly."""
+    return rough_strays(setting, _points(setting, world, setting.campaign.robot_frequencies.state))
 
 
 def with_equilibria(setting: Setting, world: World) -> Setting:

@@ -13,7 +13,7 @@ from scipy.stats import binom
 from cdpr_struct.diagnosis.evidence import Candidate, Choice, Screened, choice
 from cdpr_struct.diagnosis.mode_pairing import STRAY
 from cdpr_struct.diagnosis.refit import Fit, Ground, settled
-from cdpr_struct.diagnosis.setting import paired_with
+from cdpr_struct.diagnosis.setting import strays_in
 from cdpr_struct.diagnosis.world import World
 
 SEVERAL = 1.5  # expected strays that are more than one
@@ -116,6 +116,6 @@ def _trial(ground: Ground, world: World, picked: Choice, theta: np.ndarray) -> _
         return _Trial(picked, theta, np.inf)
     try:
         changed = picked.candidate.cause.apply(world, (theta * picked.prior) @ picked.pattern.basis.T)
-        return _Trial(picked, theta, paired_with(ground.setting, changed).strays)
+        return _Trial(picked, theta, strays_in(ground.setting, changed))
     except ValueError:  # a body or a cable that cannot exist
         return _Trial(picked, theta, np.inf)

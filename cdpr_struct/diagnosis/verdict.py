@@ -229,7 +229,7 @@ def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
         for c, gain in found.corrections
     ]  # fmt: skip
     fits = ([found.selection.fit] if found.selection.fit else []) + [
-        f for f in found.selection.first if found.selection.fit is None or f is not found.selection.fit
+        f for f in found.selection.first if found.selection.fit is None or f.names != found.selection.fit.names
     ]
     return rows + [row for fit in fits for row in _fit_rows(found, fit)]
 

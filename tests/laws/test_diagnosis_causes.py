@@ -10,9 +10,10 @@ from cdpr_struct.diagnosis.causes.registry import LIBRARY
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.evidence import candidates, choices
 from cdpr_struct.diagnosis.null_model import null_model, tolerance_count
+from cdpr_struct.diagnosis.ranking import Search
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.refit import Ground, refit
-from cdpr_struct.diagnosis.selection import Search, select
+from cdpr_struct.diagnosis.selection import select
 from cdpr_struct.diagnosis.setting import make_setting
 from cdpr_struct.diagnosis.verdict import verdict
 from cdpr_struct.diagnosis.world import World

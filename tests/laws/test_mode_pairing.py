@@ -1,10 +1,16 @@
 """Unlabelled peaks and modes: shared tolerances sharpen the pairing, competing pairings raise the doubt."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from cdpr_struct.diagnosis.mode_pairing import Modes, paired
+from cdpr_struct.diagnosis.setting import make_setting, modes_in, paired_with, strays_in
 from cdpr_struct.diagnosis.stray_peaks import p_of_strays
+from cdpr_struct.diagnosis.world import World
+from cdpr_struct.measurement.campaign import RobotFrequencies
+from tests.laws.crime_campaign import clean_campaign
 
 HERTZ = np.array([1.0, 1.06, 1.5, 1.9, 2.02, 3.0])
 
@@ -77,3 +83,30 @@ def test_one_stray_is_nothing_and_several_are_significant():
     chance = np.exp(-6.0)
     assert p_of_strays(2.0, 15) == pytest.approx(1.0 - (1 - chance) ** 15 - 15 * chance * (1 - chance) ** 14)
     assert p_of_strays(3.0, 15) < 1e-4
+
+
+def test_a_mode_that_hardly_moves_the_platform_is_better_than_none():
+    """Tolerances pass motion from mode to mode: a peak where one has 3 % of its energy in the platform is that."""
+    covariance, share = 0.005**2 * np.eye(len(HERTZ)), [1.0, 1.0, 1.0, 0.03, 1.0, 1.0]
+    there = given([1.9], modes(share), covariance)
+    assert there.chosen[0] == 3
+    assert there.stray[0] < 0.2
+    assert given([1.9], modes([1.0, 1.0, 1.0, 0.0, 1.0, 1.0]), covariance).stray[0] > 0.9
+    assert given([1.99], modes(share), 0.03**2 * np.eye(len(HERTZ))).chosen[0] == 4
+
+
+def test_strays_of_a_world_are_counted_roughly_without_following_its_modes():
+    """Peaks of a robot whose platform turns 1.7 times as heavily: none astray in its own world, some in the entered."""
+    campaign = clean_campaign()
+    entered = World.of(campaign.robot, len(campaign.states.names))
+    true = replace(entered, inertia=1.7 * entered.inertia)
+    guess = RobotFrequencies(np.array([0, 1, 2]), np.full(3, 6.5), np.full(3, 0.02))
+    campaign = replace(campaign, robot_frequencies=guess)
+    setting, _ = make_setting(campaign)
+    own = modes_in(setting, true).modes
+    own = own.some(np.flatnonzero(own.energy > 0.4))
+    peaks = RobotFrequencies(own.state, own.hertz, 0.003 * own.hertz)
+    setting, _ = make_setting(replace(campaign, robot_frequencies=peaks))
+    assert strays_in(setting, true) < 0.2
+    assert paired_with(setting, entered).strays > 1.5
+    assert strays_in(setting, entered) == pytest.approx(paired_with(setting, entered).strays, abs=0.7)

@@ -1,0 +1,153 @@
+"""Rankings: each cause refitted alone, or on top of causes that are accepted already, best first."""
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.stats import chi2
+
+from cdpr_struct.diagnosis.evidence import Choice, Screened, candidates, choices, screen
+from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
+from cdpr_struct.diagnosis.refit import Fit, Ground, refit, screen_beyond, settled
+from cdpr_struct.diagnosis.residuals import residuals
+from cdpr_struct.diagnosis.stray_peaks import caught
+
+_NEAR = 12.0  # nats from the best at screening: refitted
+_NEAR_SHARE = 0.2  # of the best gain, which screening misjudges by a share where effects are large
+_ADEQUATE = 1e-3
+_LARGE = 150.0  # chi^2 beyond its mean from which small steps do not tell enough
+_LARGE_STEPS = np.array([-2.5, -1.0, 1.0, 2.5])  # prior sigmas
+_SETTLED = 4.0  # nats from the best refit: frequencies are paired again in its own world
+_SETTLED_SHARE = 0.5  # of the best gain: large effects move frequencies past each other, and gains with them
+_HOPELESS = 2.0  # nats at screening below which a further cause is not refitted
+
+
+class Search:
+    """Rankings of causes on a ground, each computed once; `large` are single large changes where known already."""
+
+    def __init__(self, ground: Ground, large: list[Fit] | None = None) -> None:
+        self.ground, self._large = ground, large
+        self._known: dict[tuple[tuple[str, str, float], ...], list[Fit]] = {}
+        self._fits: dict[tuple[tuple[str, str, float], ...], Fit] = {}
+        self._screened: dict[tuple[tuple[str, str, float], ...], list[Screened]] = {}
+
+    def rank(self, accepted: tuple[Choice, ...] = ()) -> list[Fit]:
+        """Refits of accepted causes plus one more, best first; causes far from the best at screening are left out."""
+        key = _key(accepted)
+        if key not in self._known:
+            before, large = self.fitted(accepted), None if accepted else self._large
+            self._known[key] = _ranked(self.ground, before, self.screened(accepted), large)
+            self._fits |= {_key(fit.choices): fit for fit in self._known[key]}
+        return self._known[key]
+
+    def fitted(self, accepted: tuple[Choice, ...]) -> Fit | None:
+        """Accepted causes alone; None for none."""
+        key = _key(accepted)
+        if accepted and key not in self._fits:
+            self._fits[key] = settled(self.ground, refit(self.ground, accepted))
+        return self._fits.get(key)
+
+    def screened(self, accepted: tuple[Choice, ...] = ()) -> list[Screened]:
+        """Gains of one more cause by linear evidence, best first; those of further ones in the world of the fit.
+
+        Seen from the world as entered, peaks that the fitted causes move past others look like further causes.
+        """
+        key = _key(accepted)
+        if key not in self._screened:
+            before = self.fitted(accepted)
+            self._screened[key] = (
+                screen(self.ground.candidates, self.ground.z) if before is None else _beyond(self.ground, before)
+            )
+        return self._screened[key]
+
+    def promise(self, accepted: tuple[Choice, ...]) -> float:
+        """Log evidence that accepted causes seem to have with one more, which may also explain every stray peak."""
+        fit = self.fitted(accepted)
+        if fit is None or not np.isfinite(fit.gain):
+            return -np.inf
+        return fit.gain + self.screened(accepted)[0].gain + STRAY_NATS * fit.ground.strays
+
+
+def _key(picked: tuple[Choice, ...]) -> tuple[tuple[str, str, float], ...]:
+    return tuple(sorted((c.candidate.name, c.pattern.label, c.scale) for c in picked))
+
+
+def _ranked(ground: Ground, before: Fit | None, rows: list[Screened], large: list[Fit] | None) -> list[Fit]:
+    """Refits of the causes of a fit and one more, or of one alone; best first."""
+    if large is None:
+        large = caught(ground, before, rows)
+    if before is not None and rows[0].gain < _HOPELESS and not large:
+        return []
+    fits = []
+    for row in _promising(ground, rows, before is not None):
+        for picked in _worth_trying(row):
+            fit = refit(ground, (picked,)) if before is None else _with_one_more(before, picked)
+            fits.append(replace(fit, gain=fit.gain + row.spread, spread=row.spread))
+    if ground.level != ground.null.level:
+        fits = large + _settled(ground, sorted(fits, key=lambda fit: -fit.gain))
+    alone: dict[tuple[str, ...], Fit] = {}
+    for fit in sorted(fits, key=lambda fit: -fit.gain):
+        alone.setdefault(fit.names, fit)
+    return list(alone.values())
+
+
+def _beyond(ground: Ground, before: Fit) -> list[Screened]:
+    """Gains of further causes, with their signatures in the world of the fit."""
+    left, there = [c.cause for c in ground.candidates if c.name not in before.names], before.ground
+    return screen_beyond(before, candidates(there.setting, before.world, there.readings, there.null, left))
+
+
+def _with_one_more(before: Fit, more: Choice) -> Fit:
+    return refit(before.ground, (*before.choices, more), np.concatenate([before.theta, np.zeros(len(more.prior))]))
+
+
+def _promising(ground: Ground, rows: list[Screened], further: bool) -> list[Screened]:
+    """Near the best, and the best few: what looks far off at first sight may come near when refitted."""
+    near = [row for row in rows if row.gain > rows[0].gain - max(_NEAR, _NEAR_SHARE * rows[0].gain)]
+    chosen = {row.candidate.name: row for row in [*rows[: ground.budget], *near[: 2 * ground.budget]]}
+    if not further and float(ground.z @ ground.z) > len(ground.z) + _LARGE:
+        chosen |= {row.candidate.name: row for row in _by_large_steps(ground, rows)[: ground.budget]}
+    return list(chosen.values())
+
+
+def _settled(ground: Ground, fits: list[Fit]) -> list[Fit]:
+    """The fits, those settled that may be the best: all if none of the near ones explains the data."""
+    margin = max(_SETTLED, _SETTLED_SHARE * fits[0].gain)
+    near = max(2, sum(fit.gain > fits[0].gain - margin for fit in fits))
+    first = [settled(ground, fit) for fit in fits[:near]]
+    if any(explains(fit) for fit in first):
+        return first + [replace(fit, gain=fit.gain - ground.ahead) for fit in fits[near:]]
+    return first + [settled(ground, fit) for fit in fits[near:]]
+
+
+def explains(fit: Fit) -> bool:
+    """Whether what a fit leaves may be noise."""
+    return float(chi2.sf(fit.adequacy(), len(fit.white))) > _ADEQUATE
+
+
+def _by_large_steps(ground: Ground, rows: list[Screened]) -> list[Screened]:
+    """Causes by what large steps of all cables alike would bring, which screening by small ones may not see.
+
+    Robot frequencies are left out if that is better: they may be paired wrongly as entered.
+    """
+    clear = ~np.isin(ground.setting.labels.block, ("RF", "FA"))
+    gains = []
+    for row in rows:
+        best = -np.inf
+        for pattern in row.candidate.patterns:
+            if pattern.basis.shape[1] == 1:
+                theta = _LARGE_STEPS[:, None] * pattern.prior
+                world = row.candidate.cause.apply(ground.world, theta @ pattern.basis.T)
+                white = ground.null.white((residuals(ground.setting, world, ground.readings) + ground.offset).T)
+                for part in (np.ones_like(clear), clear):
+                    drop = (ground.z[part] ** 2).sum() - (white[part] ** 2).sum(axis=0) - _LARGE_STEPS**2
+                    best = max(best, float(np.nan_to_num(drop, nan=-np.inf).max()))
+            if pattern.label in ("all alike", ""):
+                break
+        gains.append(best)
+    return [rows[i] for i in np.argsort(-np.array(gains)) if gains[i] > 0.0]
+
+
+def _worth_trying(row: Screened) -> list[Choice]:
+    """The pattern that screening prefers, and all cables alike."""
+    alike = [c for c in choices(row.candidate) if c.pattern.label == "all alike" and c.scale == row.best.scale]
+    return [row.best, *(c for c in alike if row.best.pattern.label != "all alike")]
