@@ -14,7 +14,7 @@ from cdpr_struct.generated import cable_dsm
 from cdpr_struct.measurement.campaign import CableFrequencies
 from cdpr_struct.statics.cable_state import CableStates
 
-_BAND = 2.0  # times the highest measured frequency: up to there the exact modes are computed
+_BAND = 2.0  # times the highest frequency by the closed form: up to there the exact modes are computed
 _LAMBDA2 = (1e-8, 1e8)
 _NODES = 8000  # keeps the spline's error below 1e-9 of a root
 
@@ -64,13 +64,16 @@ def _symmetric_roots(count: int) -> CubicSpline:
     return CubicSpline(nodes, symmetric_roots(np.exp(nodes), count))
 
 
-def exact_log_frequencies(points: dict[int, OperatingPoint], rows: CableFrequencies) -> np.ndarray:
-    """ln f (r,) of the exact catenary at each state's operating point; nan where a state has none."""
+def exact_log_frequencies(points: dict[int, OperatingPoint], rows: CableFrequencies, closed: np.ndarray) -> np.ndarray:
+    """ln f (r,) of the exact catenary at each state's operating point; nan where a state has none.
+
+    closed : (r,) ln f by the closed form, which says how many modes are needed; what was measured may be in any unit
+    """
     log = np.full(rows.mode.shape, np.nan)
     for state in np.unique(rows.state):
         if int(state) not in points:
             continue
-        highest = 2.0 * np.pi * _BAND * float(rows.hertz[rows.state == state].max())
+        highest = 2.0 * np.pi * _BAND * float(np.exp(closed[rows.state == state].max()))
         full = cable_dynamics(points[int(state)], "exact", highest).expansion(highest)
         across = np.abs(full.coupling[..., 1]) > 0.5 * np.linalg.norm(full.coupling, axis=-1)
         for i in np.flatnonzero(rows.state == state):

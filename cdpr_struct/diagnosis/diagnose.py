@@ -112,7 +112,9 @@ def _selected(prepared: Prepared, plan: Budget, corrected: bool) -> Selection:
     """Causes, if anything is significant; on top of corrected data a first cause counts as a further one."""
     if prepared.p_value >= SIGNIFICANT:
         return Selection(None, [], [])
-    selection = select(prepared.ground, FURTHER, plan.causes, prepared.large)
+    ground = prepared.ground
+    outside = screen(prepared.channels, ground.z)[0].gain - max(ground.ahead, 0.0) if prepared.channels else -np.inf
+    selection = select(ground, FURTHER, plan.causes, prepared.large, outside)
     if corrected and selection.first[0].gain < FURTHER:
         return Selection(None, selection.first, [])
     return selection

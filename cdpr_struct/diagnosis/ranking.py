@@ -64,7 +64,8 @@ class Search:
         fit = self.fitted(accepted)
         if fit is None or not np.isfinite(fit.gain):
             return -np.inf
-        return fit.gain + self.screened(accepted)[0].gain + STRAY_NATS * fit.ground.strays
+        further = max((row.gain for row in self.screened(accepted)), default=-np.inf)
+        return fit.gain + further + STRAY_NATS * fit.ground.strays
 
 
 def _key(picked: tuple[Choice, ...]) -> tuple[tuple[str, str, float], ...]:

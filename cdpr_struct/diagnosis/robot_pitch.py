@@ -92,21 +92,21 @@ class Dynamics:
         map_ = platform.attachment(*np.moveaxis(self.arms, -1, 0))
         m = map_.shape[-3]
         stacked = map_.reshape((*map_.shape[:-3], 3 * m, 6))
+        held = ends @ map_
         if np.any(self.frame_compliance):
-            carried = self._on_masts(ends) @ stacked
-        else:
-            carried = (ends @ map_).reshape((*np.broadcast_shapes(ends.shape[:-3], map_.shape[:-3]), 3 * m, 6))
+            held = held - ends @ self._yielded(ends, held)
+        carried = held.reshape((*held.shape[:-3], 3 * m, 6))
         return np.swapaxes(stacked, -1, -2) @ carried + self.fixed, carried
 
-    def _on_masts(self, ends: np.ndarray) -> np.ndarray:
-        """(..., 3m, 3m) K (1 + C K)^-1: cable ends behind masts that give way."""
-        m = ends.shape[-3]
-        block = np.zeros((*ends.shape[:-3], m, 3, m, 3))
-        for i in range(m):
-            block[..., i, :, i, :] = ends[..., i, :, :]
-        stiff = block.reshape((*ends.shape[:-3], 3 * m, 3 * m))
-        give = np.repeat(self.frame_compliance, 3, axis=-1)[..., None] * np.kron(self.masts, np.eye(3))
-        result: np.ndarray = stiff @ np.linalg.inv(np.eye(3 * m) + give @ stiff)
+    def _yielded(self, ends: np.ndarray, held: np.ndarray) -> np.ndarray:
+        """(..., m, 3, 6) motion of the cables' exits per twist: c F with the force F on a mast of compliance c.
+
+        Of cables K, pulled by K A with exits held, F = sum K (A - c F), hence F = (1 + sum c K)^-1 sum K A.
+        """
+        give = self.frame_compliance[..., None, None]
+        soft = np.einsum("mk,...kij->...mij", self.masts, give * ends) + np.eye(3)
+        force = np.linalg.solve(soft, np.einsum("mk,...kij->...mij", self.masts, held))
+        result: np.ndarray = give * force
         return result
 
 

@@ -15,6 +15,7 @@ _HOLDS = 1.0  # nats that a further cause keeps whichever group of states is lef
 _BETTER = 0.5  # nats that make an exchange worth while
 _BEGINNINGS = 2  # causes to begin with, beside the best single one, where two causes seem better
 _SEEN, _MISJUDGED = 1.0, 2.0  # nats of a cause worth beginning with; by which linear evidence of two may be off
+_BEHIND = 20.0  # nats that causes may seem to stay behind a law outside the library and yet be looked for
 _NEEDLESS = 1.0  # nats by which a special case of a cause beats it if its other parameters are needless
 
 
@@ -33,14 +34,19 @@ class Selection:
     caught: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
 
 
-def select(ground: Ground, further: float, most: int, large: list[Fit] | None = None) -> Selection:
-    """The best cause, and more (`most` in all) that each raise the log evidence by `further`, in all parts of data."""
-    return selected(Search(ground, large), further, most)
+def select(
+    ground: Ground, further: float, most: int, large: list[Fit] | None = None, outside: float = -np.inf
+) -> Selection:
+    """The best cause, and more (`most` in all) that each raise the log evidence by `further`, in all parts of data.
+
+    outside : log evidence of the best law outside the library; causes that would stay far behind it are not looked for
+    """
+    return selected(Search(ground, large), further, most, outside)
 
 
-def selected(search: Search, further: float, most: int) -> Selection:
+def selected(search: Search, further: float, most: int, outside: float = -np.inf) -> Selection:
     """As `select`, from a search that may have ranked causes already."""
-    best = _grown(search, further, most)
+    best = _grown(search, further, most, outside)
     rivals = _rivals(search, best)
     better = max((fit for row in rivals for fit in row), key=lambda fit: fit.gain, default=best)
     if better.gain > best.gain + _BETTER:  # with the pairing of what was best
@@ -50,12 +56,13 @@ def selected(search: Search, further: float, most: int) -> Selection:
     return Selection(best, search.rank(), rivals, caught_by)
 
 
-def _grown(search: Search, further: float, most: int) -> Fit:
+def _grown(search: Search, further: float, most: int, outside: float) -> Fit:
     """The best cause, and as many more as each raise the log evidence enough."""
     best = search.rank()[0]
     begun = [best.choices, *(_other_beginnings(search, further) if most > 1 else [])]
     while len(best.choices) < most:
-        more = [fit for one in begun for fit in _one_more(search, one) if fit.gain > best.gain + further]
+        hopeful = [one for one in begun if search.promise(one) > outside - _BEHIND]
+        more = [fit for one in hopeful for fit in _one_more(search, one) if fit.gain > best.gain + further]
         if not more:
             break
         best = _exchanged(search, max(more, key=lambda fit: fit.gain))

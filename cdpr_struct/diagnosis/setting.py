@@ -109,7 +109,7 @@ def _cable_gap(setting: Setting, world: World) -> np.ndarray:
     rows = setting.cable_rows
     world = replace(world, bending_stiffness=0.0 * world.bending_stiffness, added_mass=0.0 * world.added_mass)
     closed = cable_log_frequencies(world.per_state(), _conditioned(setting, world).cables, rows)
-    exact = exact_log_frequencies(_points(setting, world, rows.state), rows)
+    exact = exact_log_frequencies(_points(setting, world, rows.state), rows, closed)
     return np.where(np.isfinite(exact), exact - closed, 0.0)
 
 

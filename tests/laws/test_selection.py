@@ -1,0 +1,37 @@
+"""How many causes are looked for: two where both are there, one where nothing more can be gained."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
+from cdpr_struct.diagnosis.selection import FURTHER, select
+from tests.laws.crime_campaign import hidden
+
+
+def two_causes(world):
+    """All cables 6 % softer than entered, and the second load cell 12 N too high."""
+    return world.plus(cell_bias=12.0 * np.eye(world.cables)[1], series_compliance=np.full(world.cables, 1.2e-5))
+
+
+@pytest.fixture(scope="module")
+def ground():
+    return prepare(hidden(two_causes), BUDGETS["small"]).ground
+
+
+def test_two_causes_are_found(ground):
+    names = select(ground, FURTHER, 2).fit.names
+    assert "load_cell_bias" in names
+    assert set(names) & {"joint_compliance", "dead_length", "axial_stiffness"}
+
+
+def test_no_second_cause_is_sought_where_a_law_outside_the_library_is_far_better(ground):
+    both = select(ground, FURTHER, 2).fit
+    assert len(select(ground, FURTHER, 2, outside=both.gain + 15.0).fit.names) == 2
+    assert len(select(ground, FURTHER, 2, outside=both.gain + 100.0).fit.names) == 1
+
+
+def test_a_single_candidate_needs_no_second(ground):
+    alone = replace(ground, candidates=[c for c in ground.candidates if c.name == "load_cell_bias"])
+    assert select(alone, FURTHER, 2).fit.names == ("load_cell_bias",)
