@@ -61,7 +61,7 @@ def _catching(ground: Ground, before: Fit | None) -> list[tuple[Choice, np.ndarr
             tried = [choice(candidate, pattern, _SCALE) for pattern in candidate.patterns[:2]]
             trials = [_best_along(ground, world, picked, d) for picked in tried for d in _directions(picked)]
             found += [trials] if trials else []
-    left = strays_left(ground, before)
+    left = strays_in(ground.setting, world)
     first = sorted(found, key=lambda trials: min(map(_fewest, trials)))[: ground.budget]
     return [(one.picked, one.theta) for trials in first for one in trials if one.strays < left - _FEWER]
 
