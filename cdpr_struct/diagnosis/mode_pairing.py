@@ -15,9 +15,8 @@ STRAY_DOUBT = 0.3  # of ln f
 STRAY_NATS = -STRAY - float(np.log(STRAY_DOUBT * np.sqrt(2.0 * np.pi)))
 """What a stray costs a world in log evidence, beyond the density of a residual with this doubt."""
 _SHAPE = 6.0  # ln density lost by a shape that is orthogonal to the mode's
-_NEVER = 1e-6  # probability that a mode is picked in which the platform rests
 _SEEN = (0.05, 0.75)  # probability that a mode without and with platform motion is picked
-_PLATFORM = (0.1, 0.4)  # of the kinetic energy in the platform: between these the probability rises, to zero below
+_PLATFORM = (0.1, 0.4)  # of the kinetic energy in the platform: between these the probability rises
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,7 +90,7 @@ def paired(
 def _log_odds(energy: np.ndarray) -> np.ndarray:
     """ln of the odds that a mode is among the peaks."""
     low, high = _PLATFORM
-    chance = np.maximum(np.interp(energy, (0.0, low, high), (0.0, *_SEEN)), _NEVER)
+    chance = np.interp(energy, (low, high), _SEEN)
     return np.log(chance / (1.0 - chance))
 
 

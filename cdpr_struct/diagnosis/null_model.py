@@ -223,11 +223,14 @@ def null_with_bending(
     return NullModel(null.r, columns, _lower(setting, columns)), extra
 
 
-def likeliest_tolerances(setting: Setting, null: NullModel) -> np.ndarray:
-    """(t,) tolerances that explain the residuals of a null best, in sigmas; none beyond `_FARTHEST`."""
+def likeliest_tolerances(setting: Setting, null: NullModel, white: np.ndarray | None = None) -> np.ndarray:
+    """(t,) tolerances that explain the residuals of a null best, in sigmas; none beyond `_FARTHEST`.
+
+    white : (n,) whitened residuals to explain, where causes have taken their part already
+    """
     noise = reading_count(setting)
     columns = null.white(null.columns[:, noise : noise + tolerance_count(setting)])
-    likeliest = -columns.T @ null.white(null.r)
+    likeliest = -columns.T @ (null.white(null.r) if white is None else white)
     result: np.ndarray = likeliest * min(1.0, _FARTHEST / max(float(np.abs(likeliest).max()), 1e-9))
     return result
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.evidence import Candidate, Choice, Screened, screen
 from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
-from cdpr_struct.diagnosis.null_model import NullModel, relinearised
+from cdpr_struct.diagnosis.null_model import NullModel, likeliest_tolerances, relinearised, tolerated
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, residuals
 from cdpr_struct.diagnosis.setting import anchored
@@ -18,6 +18,7 @@ from cdpr_struct.diagnosis.world import World
 
 _ITERATIONS = 8
 _STEP = 0.02  # of the prior's sigma
+_ASTRAY, _FEWER = 0.5, 0.3  # strays of a world that is not right yet; by which another must be better
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -157,7 +158,23 @@ def refit(ground: Ground, picked: tuple[Choice, ...], start: np.ndarray | None =
 
 
 def settled(ground: Ground, fit: Fit) -> Fit:
-    """The fit again, with frequencies paired in its own world and the null linearised there; strays cost evidence."""
+    """The fit again in its own world: frequencies paired and the null linearised there; strays cost evidence.
+
+    Its tolerances are those that are likeliest beside the causes. Where peaks stay astray the world was not right yet,
+    and it is settled again as long as fewer are left.
+    """
+    fits = [_settled_once(ground, fit)]
+    while fits[-1].ground.strays > _ASTRAY:
+        again = _settled_once(ground, fits[-1])
+        if again.ground.strays > fits[-1].ground.strays - _FEWER:
+            break
+        fits.append(again)
+    return max(fits, key=lambda one: one.gain)
+
+
+def _settled_once(ground: Ground, fit: Fit) -> Fit:
+    if np.isfinite(fit.gain):
+        ground = _beside(ground, fit)
     world = world_with(ground.world, fit.choices, fit.theta)
     try:
         setting = anchored(ground.setting, world)
@@ -167,6 +184,12 @@ def settled(ground: Ground, fit: Fit) -> Fit:
     there = replace(ground, setting=setting, null=null, offset=offset, stray=setting.stray)
     again = refit(there, fit.choices, fit.theta)
     return replace(again, gain=again.gain + fit.spread, spread=fit.spread)
+
+
+def _beside(ground: Ground, fit: Fit) -> Ground:
+    """The ground about the tolerances that are likeliest beside the causes of a fit."""
+    u = likeliest_tolerances(fit.ground.setting, fit.ground.null, fit.white)
+    return replace(ground, likeliest=u, world=tolerated(ground.setting, ground.entered, u))
 
 
 def screen_beyond(fit: Fit, found: list[Candidate]) -> list[Screened]:

@@ -21,7 +21,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.errors import InputError
 
-_LEAST_SHARE = 0.01  # of the kinetic energy in the platform: a mode with less is not seen there
+_LEAST_SHARE = 0.08  # of the kinetic energy in the platform: a mode with less is not seen there
 _MARGINS = (1.35, 2.5, 6.0)  # times the highest peak: how far modes are looked for, until there are enough
 _MOST_GAP = 0.05  # of ln f between the closed form and the exact model; beyond it they are different modes
 _CABLES_SHARE = 0.004  # of ln f: what the closed form may miss of a mode that is all cables

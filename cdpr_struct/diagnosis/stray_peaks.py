@@ -46,8 +46,6 @@ def caught(ground: Ground, before: Fit | None, rows: list[Screened]) -> list[Fit
     for picked, theta in _catching(ground, before):
         guess = Fit.guessed(ground, (*first, picked), np.concatenate([start, theta]), spread[picked.candidate.name])
         fits.append(settled(ground, guess))
-        while (again := settled(ground, fits[-1])).ground.strays < fits[-1].ground.strays - _FEWER:
-            fits.append(again)
     return fits
 
 

@@ -85,16 +85,6 @@ def test_one_stray_is_nothing_and_several_are_significant():
     assert p_of_strays(3.0, 15) < 1e-4
 
 
-def test_a_mode_that_hardly_moves_the_platform_is_better_than_none():
-    """Tolerances pass motion from mode to mode: a peak where one has 3 % of its energy in the platform is that."""
-    covariance, share = 0.005**2 * np.eye(len(HERTZ)), [1.0, 1.0, 1.0, 0.03, 1.0, 1.0]
-    there = given([1.9], modes(share), covariance)
-    assert there.chosen[0] == 3
-    assert there.stray[0] < 0.2
-    assert given([1.9], modes([1.0, 1.0, 1.0, 0.0, 1.0, 1.0]), covariance).stray[0] > 0.9
-    assert given([1.99], modes(share), 0.03**2 * np.eye(len(HERTZ))).chosen[0] == 4
-
-
 def test_strays_of_a_world_are_counted_roughly_without_following_its_modes():
     """Peaks of a robot whose platform turns 1.7 times as heavily: none astray in its own world, some in the entered."""
     campaign = clean_campaign()
