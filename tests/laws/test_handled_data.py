@@ -173,3 +173,15 @@ def test_no_correction_is_made_twice():
     correction, _ = best_correction(wrong, prepare(wrong, SMALL).fine.level, [])
     again = best_correction(wrong, prepare(wrong, SMALL).fine.level, [correction])
     assert again is None or again[0].sentence != correction.sentence
+
+
+def test_the_modes_of_cables_do_not_depend_on_the_unit_of_what_was_read():
+    """Cable frequencies filed sixty times too high or too low: the model's own are the same, and as soon there."""
+    campaign = clean_campaign()
+    rows = campaign.cable_frequencies
+    gaps = [
+        make_setting(replace(campaign, cable_frequencies=replace(rows, hertz=factor * rows.hertz)))[0].cable_gap
+        for factor in (1.0, 60.0, 1.0 / 60.0)
+    ]
+    assert np.ptp(gaps, axis=0).max() < 1e-9
+    assert np.abs(gaps[0]).max() > 1e-6

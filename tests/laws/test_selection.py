@@ -5,7 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cdpr_struct.diagnosis.evidence import choices
 from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
+from cdpr_struct.diagnosis.refit import refit, settled
 from cdpr_struct.diagnosis.selection import FURTHER, select
 from tests.laws.crime_campaign import hidden
 
@@ -35,3 +37,14 @@ def test_no_second_cause_is_sought_where_a_law_outside_the_library_is_far_better
 def test_a_single_candidate_needs_no_second(ground):
     alone = replace(ground, candidates=[c for c in ground.candidates if c.name == "load_cell_bias"])
     assert select(alone, FURTHER, 2).fit.names == ("load_cell_bias",)
+
+
+def test_a_fit_stands_about_the_tolerances_that_are_likeliest_beside_it():
+    """Cables 12 % lighter than entered: the null takes a part for tolerances, the fit gives it back."""
+    ground = prepare(hidden(lambda w: w.plus(linear_density=-0.12 * w.linear_density)), BUDGETS["small"]).ground
+    density = next(c for c in ground.candidates if c.name == "cable_linear_density")
+    alike = next(c for c in choices(density) if c.pattern.label == "all alike" and c.scale == 1.0)
+    fit = settled(ground, refit(ground, (alike,)))
+    assert np.abs(ground.likeliest).max() > 1.0
+    assert np.abs(fit.ground.likeliest).max() < 0.3
+    assert np.exp(fit.theta[0] * alike.prior[0]) == pytest.approx(0.88, abs=0.005)
