@@ -16,7 +16,7 @@ from cdpr_struct.diagnosis.prepared import BUDGETS, SIGNIFICANT, Budget, Prepare
 from cdpr_struct.diagnosis.refit import Fit, Ground, screen_beyond
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
-from cdpr_struct.diagnosis.selection import FURTHER, Selection, select
+from cdpr_struct.diagnosis.selection import FURTHER, Selection, selected
 from cdpr_struct.diagnosis.significance import DRAWS, OUTSIDE, SEED, p_of_noise
 from cdpr_struct.diagnosis.stray_peaks import p_of_strays, strays_left
 from cdpr_struct.diagnosis.suspect_reading import Suspect
@@ -114,7 +114,7 @@ def _selected(prepared: Prepared, plan: Budget, corrected: bool) -> Selection:
         return Selection(None, [], [])
     ground = prepared.ground
     outside = screen(prepared.channels, ground.z)[0].gain - max(ground.ahead, 0.0) if prepared.channels else -np.inf
-    selection = select(ground, FURTHER, plan.causes, prepared.large, outside)
+    selection = selected(prepared.search, FURTHER, plan.causes, outside)
     if corrected and selection.first[0].gain < FURTHER:
         return Selection(None, selection.first, [])
     return selection

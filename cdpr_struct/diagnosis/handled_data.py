@@ -53,8 +53,7 @@ def _next(data: Handled, plan: Budget) -> tuple[Handled, bool]:
     if len(data.corrections) < _MOST_CORRECTIONS:
         better = best_correction(data.campaign, data.prepared.fine.level, [c for c, _ in data.corrections])
         if better is None:  # what is misfiled leaves stray peaks, too
-            inner, prepared = internal_mode(data.campaign, data.prepared, plan)
-            data = replace(data, prepared=prepared)
+            inner = internal_mode(data.campaign, data.prepared, plan)
     if len(data.aside) < _MOST_ASIDE:
         wrong = suspect(ground)
     if inner is not None and inner.gain > (wrong.gain if wrong else -np.inf):

@@ -4,20 +4,19 @@ A large change of a cause leaves strays, too. So the campaign without the peaks,
 is held against the best fits to all of it, large changes included.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from cdpr_struct.diagnosis.causes.handling import Correction
 from cdpr_struct.diagnosis.causes.internal_mode import MOVING, POSES, Steady, correction, poses
-from cdpr_struct.diagnosis.evidence import screen
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, Prepared, prepare
-from cdpr_struct.diagnosis.ranking import Search, explains
+from cdpr_struct.diagnosis.ranking import explains
 from cdpr_struct.diagnosis.robot_rows import pairing_of
 from cdpr_struct.diagnosis.selection import FURTHER, selected
 from cdpr_struct.diagnosis.setting import modes_in
 from cdpr_struct.diagnosis.steady_peaks import moves_alone, steady_peaks
-from cdpr_struct.diagnosis.stray_peaks import ONE, caught
+from cdpr_struct.diagnosis.stray_peaks import ONE
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
 
@@ -36,17 +35,15 @@ class Found:
     rest: Prepared
 
 
-def internal_mode(campaign: Campaign, full: Prepared, plan: Budget) -> tuple[Found | None, Prepared]:
-    """The internal mode that explains steady stray peaks, if nothing else does; and what else was tried."""
+def internal_mode(campaign: Campaign, full: Prepared, plan: Budget) -> Found | None:
+    """The internal mode that explains steady stray peaks, if nothing else does."""
     tried = [(steady, _tried(campaign, full, steady, plan)) for steady in _candidates(campaign, full)]
     steady, best = max(tried, key=lambda row: row[1].gain if row[1] else -np.inf, default=(None, None))
     if steady is None or best is None or best.gain < min(_CLEAR):
-        return None, full
+        return None
     seen = poses(campaign.states, campaign.robot_frequencies.state[steady.rows])
     margin = _CLEAR[0] if seen >= POSES else _CLEAR[1]
-    if full.large is None:
-        full = replace(full, large=caught(full.ground, None, screen(full.ground.candidates, full.ground.z)))
-    return best if _stands(full, best.gain - margin, best.rest, plan) else None, full
+    return best if _stands(full, best.gain - margin, best.rest, plan) else None
 
 
 def _candidates(campaign: Campaign, full: Prepared) -> list[Steady]:
@@ -92,12 +89,11 @@ def _without(campaign: Campaign, full: Prepared, steady: Steady, moving: float, 
 
 def _stands(full: Prepared, gain: float, rest: Prepared, plan: Budget) -> bool:
     """Whether an internal mode beats a cause alone; or, with a cause on top, as many as the plan allows."""
-    search = Search(full.ground, full.large)
-    alone = search.rank()
+    alone = full.search.rank()
     if gain > max(alone[0].gain, 0.0):
         return True
     if rest.p_value >= SIGNIFICANT or (explains(alone[0]) and alone[0].ground.strays < ONE):
         return False
-    more = Search(rest.ground, rest.large).rank()[0].gain - FURTHER
-    rival = selected(search, FURTHER, plan.causes).fit
+    more = rest.search.rank()[0].gain - FURTHER
+    rival = selected(full.search, FURTHER, plan.causes).fit
     return rival is None or gain + max(more, 0.0) > rival.gain

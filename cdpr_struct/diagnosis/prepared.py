@@ -15,6 +15,7 @@ from cdpr_struct.diagnosis.null_model import (
     relinearised,
     tolerated,
 )
+from cdpr_struct.diagnosis.ranking import Search
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.refit import Fit, Ground
 from cdpr_struct.diagnosis.remainder import channels
@@ -46,14 +47,14 @@ BUDGETS = {"small": Budget(24, 3), "full": Budget(200, 6, 3)}
 @dataclass(frozen=True, slots=True, eq=False)
 class Prepared:
     """Ground for hypotheses, null paired as if the entered world were right, channels, largest log evidence of any
-    law (`best`), p-value of the null, and fits of large changes if it was asked of them (None: not tried)."""
+    law (`best`), p-value of the null, and the search for causes on the ground, which remembers what it has ranked."""
 
     ground: Ground
     fine: NullModel
     channels: list[Candidate]
     best: float
     p_value: float
-    large: list[Fit] | None
+    search: Search
     not_testable: dict[str, str]
 
 
@@ -108,7 +109,8 @@ def _judged(ground: Ground, fine: NullModel, outside: list[Candidate], not_testa
     best = float(largest_gains(ground.candidates, ground.z[:, None])[0])
     if outside:
         best = max(best, float(largest_gains(outside, ground.z[:, None])[0]) + OUTSIDE)
-    return Prepared(ground, fine, outside, best, *_p_value(ground, outside), not_testable)
+    p_value, large = _p_value(ground, outside)
+    return Prepared(ground, fine, outside, best, p_value, Search(ground, large), not_testable)
 
 
 def _p_value(ground: Ground, outside: list[Candidate]) -> tuple[float, list[Fit] | None]:
