@@ -8,7 +8,7 @@ from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.causes.handling import Correction
 from cdpr_struct.diagnosis.causes.internal_mode import NAME
-from cdpr_struct.diagnosis.evidence import Screened, choices, largest_gains, screen
+from cdpr_struct.diagnosis.evidence import Screened, choices, largest_gains
 from cdpr_struct.diagnosis.handled_data import handled
 from cdpr_struct.diagnosis.heldout import Held, groups_of, left_out, predicted, transfer, weakest
 from cdpr_struct.diagnosis.null_model import NullModel
@@ -16,7 +16,7 @@ from cdpr_struct.diagnosis.prepared import BUDGETS, SIGNIFICANT, Budget, Prepare
 from cdpr_struct.diagnosis.refit import Fit, Ground, screen_beyond
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
-from cdpr_struct.diagnosis.selection import FURTHER, Selection, selected
+from cdpr_struct.diagnosis.selection import FURTHER, Selection, select
 from cdpr_struct.diagnosis.significance import DRAWS, OUTSIDE, SEED, p_of_noise
 from cdpr_struct.diagnosis.stray_peaks import p_of_strays, strays_left
 from cdpr_struct.diagnosis.suspect_reading import Suspect
@@ -112,9 +112,9 @@ def _selected(prepared: Prepared, plan: Budget, corrected: bool) -> Selection:
     """Causes, if anything is significant; on top of corrected data a first cause counts as a further one."""
     if prepared.p_value >= SIGNIFICANT:
         return Selection(None, [], [])
-    ground = prepared.ground
-    outside = screen(prepared.channels, ground.z)[0].gain - max(ground.ahead, 0.0) if prepared.channels else -np.inf
-    selection = selected(prepared.search, FURTHER, plan.causes, outside)
+    law = prepared.outside
+    outside = -np.inf if law is None else law.gain - max(prepared.ground.ahead, 0.0)
+    selection = select(prepared.search, FURTHER, plan.causes, outside)
     if corrected and selection.first[0].gain < FURTHER:
         return Selection(None, selection.first, [])
     return selection
@@ -122,12 +122,11 @@ def _selected(prepared: Prepared, plan: Budget, corrected: bool) -> Selection:
 
 def _outside(prepared: Prepared, selection: Selection) -> Outside:
     """The best law outside the library on top of the chosen causes, and instead of all or all but one of them."""
-    ground, fit = prepared.ground, selection.fit
-    if not prepared.channels:
+    ground, fit, alone = prepared.ground, selection.fit, prepared.outside
+    if alone is None:
         return Outside("", -np.inf, np.inf)
     draws = np.random.default_rng(SEED + 1).standard_normal((len(ground.z), DRAWS))
     limit = float(np.quantile(largest_gains(prepared.channels, draws), 0.975))
-    alone = screen(prepared.channels, ground.z)[0]
     if fit is None:
         return Outside(alone.candidate.cause.title, alone.gain, limit)
     best = _beyond(fit)

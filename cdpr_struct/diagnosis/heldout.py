@@ -89,8 +89,8 @@ def weakest(fit: Fit, groups: np.ndarray, caught: np.ndarray) -> np.ndarray:
     least = np.full(len(fit.choices), np.inf)
     for group in np.unique(groups):
         rows = groups != group
-        lower = np.linalg.cholesky(null.covariance[np.ix_(rows, rows)])
-        z, columns = (solve_triangular(lower, part[rows], lower=True) for part in (zero, signature))
+        white = null.white_among(rows, np.column_stack([zero, signature]))
+        z, columns = white[:, 0], white[:, 1:]
         whole = float(log_bayes_factor(columns, z))
         for i in range(len(least)):
             strays = STRAY_NATS * float(caught[i] @ (peaks != group))

@@ -13,7 +13,7 @@ from cdpr_struct.diagnosis.causes.internal_mode import MOVING, POSES, Steady, co
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, Prepared, prepare
 from cdpr_struct.diagnosis.ranking import explains
 from cdpr_struct.diagnosis.robot_rows import pairing_of
-from cdpr_struct.diagnosis.selection import FURTHER, selected
+from cdpr_struct.diagnosis.selection import FURTHER, select
 from cdpr_struct.diagnosis.setting import modes_in
 from cdpr_struct.diagnosis.steady_peaks import moves_alone, steady_peaks
 from cdpr_struct.diagnosis.stray_peaks import ONE
@@ -95,5 +95,5 @@ def _stands(full: Prepared, gain: float, rest: Prepared, plan: Budget) -> bool:
     if rest.p_value >= SIGNIFICANT or (explains(alone[0]) and alone[0].ground.strays < ONE):
         return False
     more = rest.search.rank()[0].gain - FURTHER
-    rival = selected(full.search, FURTHER, plan.causes).fit
+    rival = select(full.search, FURTHER, plan.causes).fit
     return rival is None or gain + max(more, 0.0) > rival.gain

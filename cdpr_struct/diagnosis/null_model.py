@@ -40,6 +40,12 @@ class NullModel:
         result: np.ndarray = solve_triangular(self.lower, value, lower=True, check_finite=False)
         return result
 
+    def white_among(self, rows: np.ndarray, value: np.ndarray) -> np.ndarray:
+        """Some rows of a value (n,) or (n, d), whitened by the covariance that they have without the others."""
+        lower = np.linalg.cholesky(self.covariance[np.ix_(rows, rows)])
+        result: np.ndarray = solve_triangular(lower, value[rows], lower=True, check_finite=False)
+        return result
+
     @property
     def log_volume(self) -> float:
         """Half the logarithm of the covariance's determinant."""
@@ -223,14 +229,11 @@ def null_with_bending(
     return NullModel(null.r, columns, _lower(setting, columns)), extra
 
 
-def likeliest_tolerances(setting: Setting, null: NullModel, white: np.ndarray | None = None) -> np.ndarray:
-    """(t,) tolerances that explain the residuals of a null best, in sigmas; none beyond `_FARTHEST`.
-
-    white : (n,) whitened residuals to explain, where causes have taken their part already
-    """
+def likeliest_tolerances(setting: Setting, null: NullModel, white: np.ndarray) -> np.ndarray:
+    """(t,) tolerances that explain whitened residuals (n,) best, in sigmas; none beyond `_FARTHEST`."""
     noise = reading_count(setting)
     columns = null.white(null.columns[:, noise : noise + tolerance_count(setting)])
-    likeliest = -columns.T @ (null.white(null.r) if white is None else white)
+    likeliest = -columns.T @ white
     result: np.ndarray = likeliest * min(1.0, _FARTHEST / max(float(np.abs(likeliest).max()), 1e-9))
     return result
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.diagnosis.causes.registry import causes_for, require_known
-from cdpr_struct.diagnosis.evidence import Candidate, candidates, choices, largest_gains, screen
+from cdpr_struct.diagnosis.evidence import Candidate, Screened, candidates, choices, screen
 from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
 from cdpr_struct.diagnosis.null_model import (
     NullModel,
@@ -17,12 +17,12 @@ from cdpr_struct.diagnosis.null_model import (
 )
 from cdpr_struct.diagnosis.ranking import Search
 from cdpr_struct.diagnosis.readings import Readings
-from cdpr_struct.diagnosis.refit import Fit, Ground
+from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.remainder import channels
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.setting import anchored, make_setting, paired_with, with_equilibria
 from cdpr_struct.diagnosis.significance import OUTSIDE, SEED, p_of_noise, p_of_null
-from cdpr_struct.diagnosis.stray_peaks import ONE, SEVERAL, caught, p_of_strays
+from cdpr_struct.diagnosis.stray_peaks import ONE, SEVERAL, p_of_strays
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
@@ -46,16 +46,22 @@ BUDGETS = {"small": Budget(24, 3), "full": Budget(200, 6, 3)}
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Prepared:
-    """Ground for hypotheses, null paired as if the entered world were right, channels, largest log evidence of any
-    law (`best`), p-value of the null, and the search for causes on the ground, which remembers what it has ranked."""
+    """Ground for hypotheses, null paired as if the entered world were right, channels and the best law outside the
+    library through them (None without), p-value of the null, and the search for causes on the ground."""
 
     ground: Ground
     fine: NullModel
     channels: list[Candidate]
-    best: float
+    outside: Screened | None
     p_value: float
     search: Search
     not_testable: dict[str, str]
+
+    @property
+    def best(self) -> float:
+        """Largest log evidence of any law."""
+        cause = self.search.screened()[0].gain
+        return cause if self.outside is None else max(cause, self.outside.gain + OUTSIDE)
 
 
 def prepare(campaign: Campaign, plan: Budget) -> Prepared:
@@ -93,7 +99,7 @@ def _paired_as_entered(near: Setting, first: NullModel, fine: NullModel) -> bool
 def _ground(setting: Setting, near: Setting, world: World, fine: NullModel, extra: np.ndarray, budget: int) -> Ground:
     """The ground about the likeliest tolerances, no candidates yet."""
     readings = Readings.of(setting.campaign.states)
-    u = likeliest_tolerances(near, fine)
+    u = likeliest_tolerances(near, fine, fine.white(fine.r))
     likeliest = tolerated(setting, world, u)
     setting = paired_with(with_equilibria(setting, likeliest), likeliest, wary=setting is not near)
     null, offset = relinearised(setting, likeliest, readings, extra, u)
@@ -106,22 +112,19 @@ def _ground(setting: Setting, near: Setting, world: World, fine: NullModel, extr
 
 
 def _judged(ground: Ground, fine: NullModel, outside: list[Candidate], not_testable: dict[str, str]) -> Prepared:
-    best = float(largest_gains(ground.candidates, ground.z[:, None])[0])
-    if outside:
-        best = max(best, float(largest_gains(outside, ground.z[:, None])[0]) + OUTSIDE)
-    p_value, large = _p_value(ground, outside)
-    return Prepared(ground, fine, outside, best, p_value, Search(ground, large), not_testable)
+    search, law = Search(ground), screen(outside, ground.z)[0] if outside else None
+    return Prepared(ground, fine, outside, law, _p_value(search, outside), search, not_testable)
 
 
-def _p_value(ground: Ground, outside: list[Candidate]) -> tuple[float, list[Fit] | None]:
-    """Of the null; by large changes that explain a stray peak, which are returned, only where nothing else tells."""
+def _p_value(search: Search, outside: list[Candidate]) -> float:
+    """Of the null; by large changes that explain a stray peak only where nothing else tells."""
+    ground = search.ground
     strays = p_of_strays(ground.strays, len(ground.setting.robot_log))
     p_value = p_of_null(ground.candidates, outside, ground.null, strays)
     if p_value < SIGNIFICANT or ground.strays < ONE:
-        return p_value, None
-    large = caught(ground, None, screen(ground.candidates, ground.z))
-    best = max((fit.gain for fit in large), default=-np.inf)
-    return p_of_null(ground.candidates, outside, ground.null, strays, best), large
+        return p_value
+    best = max((fit.gain for fit in search.caught()), default=-np.inf)
+    return p_of_null(ground.candidates, outside, ground.null, strays, best)
 
 
 def _strength(candidate: Candidate) -> float:

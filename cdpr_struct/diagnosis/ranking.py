@@ -21,21 +21,25 @@ _SETTLED_SHARE = 0.5  # of the best gain: large effects move frequencies past ea
 _HOPELESS = 2.0  # nats at screening below which a further cause is not refitted
 
 
-class Search:
-    """Rankings of causes on a ground, each computed once; `large` are single large changes where known already."""
+_Key = tuple[tuple[str, str, float], ...]
 
-    def __init__(self, ground: Ground, large: list[Fit] | None = None) -> None:
-        self.ground, self._large = ground, large
-        self._known: dict[tuple[tuple[str, str, float], ...], list[Fit]] = {}
-        self._fits: dict[tuple[tuple[str, str, float], ...], Fit] = {}
-        self._screened: dict[tuple[tuple[str, str, float], ...], list[Screened]] = {}
+
+class Search:
+    """Rankings of causes on a ground, and what they rest on, each computed once and when it is asked for."""
+
+    def __init__(self, ground: Ground) -> None:
+        self.ground = ground
+        self._known: dict[_Key, list[Fit]] = {}
+        self._fits: dict[_Key, Fit] = {}
+        self._screened: dict[_Key, list[Screened]] = {}
+        self._caught: dict[_Key, list[Fit]] = {}
 
     def rank(self, accepted: tuple[Choice, ...] = ()) -> list[Fit]:
         """Refits of accepted causes plus one more, best first; causes far from the best at screening are left out."""
         key = _key(accepted)
         if key not in self._known:
-            before, large = self.fitted(accepted), None if accepted else self._large
-            self._known[key] = _ranked(self.ground, before, self.screened(accepted), large)
+            before, rows, large = self.fitted(accepted), self.screened(accepted), self.caught(accepted)
+            self._known[key] = _ranked(self.ground, before, rows, large)
             self._fits |= {_key(fit.choices): fit for fit in self._known[key]}
         return self._known[key]
 
@@ -53,11 +57,15 @@ class Search:
         """
         key = _key(accepted)
         if key not in self._screened:
-            before = self.fitted(accepted)
-            self._screened[key] = (
-                screen(self.ground.candidates, self.ground.z) if before is None else _beyond(self.ground, before)
-            )
+            self._screened[key] = _screened(self.ground, self.fitted(accepted))
         return self._screened[key]
+
+    def caught(self, accepted: tuple[Choice, ...] = ()) -> list[Fit]:
+        """Fits of one more cause whose large change explains peaks that no mode explains yet."""
+        key = _key(accepted)
+        if key not in self._caught:
+            self._caught[key] = caught(self.ground, self.fitted(accepted), self.screened(accepted))
+        return self._caught[key]
 
     def promise(self, accepted: tuple[Choice, ...]) -> float:
         """Log evidence that accepted causes seem to have with one more, which may also explain every stray peak."""
@@ -68,14 +76,12 @@ class Search:
         return fit.gain + further + STRAY_NATS * fit.ground.strays
 
 
-def _key(picked: tuple[Choice, ...]) -> tuple[tuple[str, str, float], ...]:
+def _key(picked: tuple[Choice, ...]) -> _Key:
     return tuple(sorted((c.candidate.name, c.pattern.label, c.scale) for c in picked))
 
 
-def _ranked(ground: Ground, before: Fit | None, rows: list[Screened], large: list[Fit] | None) -> list[Fit]:
-    """Refits of the causes of a fit and one more, or of one alone; best first."""
-    if large is None:
-        large = caught(ground, before, rows)
+def _ranked(ground: Ground, before: Fit | None, rows: list[Screened], large: list[Fit]) -> list[Fit]:
+    """Refits of the causes of a fit and one more, or of one alone, and fits of large changes; best first."""
     if before is not None and rows[0].gain < _HOPELESS and not large:
         return []
     fits = []
@@ -91,8 +97,10 @@ def _ranked(ground: Ground, before: Fit | None, rows: list[Screened], large: lis
     return list(alone.values())
 
 
-def _beyond(ground: Ground, before: Fit) -> list[Screened]:
-    """Gains of further causes, with their signatures in the world of the fit."""
+def _screened(ground: Ground, before: Fit | None) -> list[Screened]:
+    """Gains of causes; of further ones with their signatures in the world of the fit."""
+    if before is None:
+        return screen(ground.candidates, ground.z)
     left, there = [c.cause for c in ground.candidates if c.name not in before.names], before.ground
     return screen_beyond(before, candidates(there.setting, before.world, there.readings, there.null, left))
 

@@ -173,6 +173,7 @@ def settled(ground: Ground, fit: Fit) -> Fit:
 
 
 def _settled_once(ground: Ground, fit: Fit) -> Fit:
+    """One pass; a guess, which has explained nothing yet, says nothing of tolerances and keeps those of the ground."""
     if np.isfinite(fit.gain):
         ground = _beside(ground, fit)
     world = world_with(ground.world, fit.choices, fit.theta)

@@ -34,18 +34,11 @@ class Selection:
     caught: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
 
 
-def select(
-    ground: Ground, further: float, most: int, large: list[Fit] | None = None, outside: float = -np.inf
-) -> Selection:
+def select(search: Search, further: float, most: int, outside: float = -np.inf) -> Selection:
     """The best cause, and more (`most` in all) that each raise the log evidence by `further`, in all parts of data.
 
     outside : log evidence of the best law outside the library; causes that would stay far behind it are not looked for
     """
-    return selected(Search(ground, large), further, most, outside)
-
-
-def selected(search: Search, further: float, most: int, outside: float = -np.inf) -> Selection:
-    """As `select`, from a search that may have ranked causes already."""
     best = _grown(search, further, most, outside)
     rivals = _rivals(search, best)
     better = max((fit for row in rivals for fit in row), key=lambda fit: fit.gain, default=best)
@@ -93,9 +86,8 @@ def _in_its_place(ground: Ground, best: Fit, i: int, rivals: list[Fit]) -> list[
     """
     if ground.level == ground.null.level:
         return rivals
-    parts, found = best.parts(), list(rivals)
-    kept = _without(best, i)
-    sizes = [part for j, part in enumerate(parts) if j != i]
+    kept, found = _without(best, i), list(rivals)
+    sizes = [part for j, part in enumerate(best.parts()) if j != i]
     for j, rival in enumerate(rivals[: ground.budget]):
         picked = rival.choices[-1]
         begun = refit(best.ground, (*kept, picked), np.concatenate([*sizes, np.zeros(len(picked.prior))]))

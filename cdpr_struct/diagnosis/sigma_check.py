@@ -70,7 +70,7 @@ def warnings(found: Diagnosis) -> list[str]:
     null, labels, read = found.entered, found.entered_setting.labels, rows_read(found)
     for kind in dict.fromkeys(labels.kind[read & ~np.isin(labels.block.astype(str), ("RF", "FA"))].tolist()):
         rows = np.flatnonzero((labels.kind == kind) & read)
-        z = np.linalg.solve(np.linalg.cholesky(null.covariance[np.ix_(rows, rows)]), null.r[rows])
+        z = null.white_among(rows, null.r)
         p = float(chi2.cdf(float(z @ z), len(z)))
         if p < _TOO_SMALL:
             said.append(

@@ -80,8 +80,5 @@ def _of_patterns(patterns: list[Pattern], gram: np.ndarray, b: np.ndarray) -> It
 
 def p_of_noise(null: NullModel, rows: np.ndarray | None = None) -> float:
     """Probability of a chi^2 at least as large as that of the null's residuals, or of some of their rows."""
-    if rows is None:
-        z = null.white(null.r)
-    else:
-        z = np.linalg.solve(np.linalg.cholesky(null.covariance[np.ix_(rows, rows)]), null.r[rows])
+    z = null.white(null.r) if rows is None else null.white_among(rows, null.r)
     return float(chi2.sf(float(z @ z), len(z)))

@@ -133,8 +133,7 @@ def location(found: Diagnosis) -> str:
     score = {}
     for block in dict.fromkeys(labels.block.tolist()):
         rows = labels.block == block
-        lower = np.linalg.cholesky(null.covariance[np.ix_(rows, rows)])
-        before, left = (float(z @ z) for z in np.linalg.solve(lower, np.stack([null.r, after])[:, rows].T).T)
+        before, left = (float(z @ z) for z in null.white_among(rows, np.stack([null.r, after], axis=1)).T)
         score[block] = (before - (left if explained else rows.sum())) / np.sqrt(2.0 * rows.sum())
     worst = max(score, key=lambda b: score[b])
     rows = np.flatnonzero(labels.block == worst)

@@ -7,6 +7,7 @@ import pytest
 
 from cdpr_struct.diagnosis.causes.registry import LIBRARY, causes_for
 from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
+from cdpr_struct.diagnosis.ranking import Search
 from cdpr_struct.diagnosis.selection import select
 from cdpr_struct.diagnosis.setting import make_setting
 from cdpr_struct.errors import InputError
@@ -34,7 +35,7 @@ def test_of_two_causes_that_look_alike_the_one_that_was_not_checked_is_left():
     for checked in ({}, {"joint_compliance": 1e-7}):
         prepared = prepare(replace(campaign, checked=checked), BUDGETS["small"])
         ground = replace(prepared.ground, candidates=[c for c in prepared.ground.candidates if c.name in pair])
-        fits = {fit.names[0]: fit.gain for fit in select(ground, 6.0, 1).first}
+        fits = {fit.names[0]: fit.gain for fit in select(Search(ground), 6.0, 1).first}
         gains[bool(checked)] = fits["dead_length"] - fits.get("joint_compliance", 0.0)
     assert abs(gains[False]) < 3.0
     assert gains[True] > 10.0

@@ -112,12 +112,13 @@ def test_a_force_that_is_alike_everywhere_is_no_hose():
     """A hose without stiffness says no more than the force; one with stiffness does, and is chosen."""
     names = ["external_force", "hose_stiffness"]
     force = hidden(lambda world: world.plus(force=np.array([20.0, 0.0, 0.0])))
-    found = select(ground_of(force, names), 6.0, 1)
+    found = select(Search(ground_of(force, names)), 6.0, 1)
     assert found.fit.names == ("external_force",)
     assert {fit.names for fit in found.first} == {("external_force",), ("hose_stiffness",)}
     assert found.rivals == [[]]
     stiff = np.array([60.0, 0.0, 0.0, 0.0])
-    hose = select(ground_of(hidden(lambda world: LIBRARY["hose_stiffness"].apply(world, stiff)), names), 6.0, 1)
+    bent = ground_of(hidden(lambda world: LIBRARY["hose_stiffness"].apply(world, stiff)), names)
+    hose = select(Search(bent), 6.0, 1)
     assert hose.fit.names == ("hose_stiffness",)
     assert [fit.names for fit in hose.rivals[0]] == [("external_force",)]
 

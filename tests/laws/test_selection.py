@@ -7,6 +7,7 @@ import pytest
 
 from cdpr_struct.diagnosis.evidence import choices
 from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
+from cdpr_struct.diagnosis.ranking import Search
 from cdpr_struct.diagnosis.refit import refit, settled
 from cdpr_struct.diagnosis.selection import FURTHER, select
 from tests.laws.crime_campaign import hidden
@@ -23,20 +24,20 @@ def ground():
 
 
 def test_two_causes_are_found(ground):
-    names = select(ground, FURTHER, 2).fit.names
+    names = select(Search(ground), FURTHER, 2).fit.names
     assert "load_cell_bias" in names
     assert set(names) & {"joint_compliance", "dead_length", "axial_stiffness"}
 
 
 def test_no_second_cause_is_sought_where_a_law_outside_the_library_is_far_better(ground):
-    both = select(ground, FURTHER, 2).fit
-    assert len(select(ground, FURTHER, 2, outside=both.gain + 15.0).fit.names) == 2
-    assert len(select(ground, FURTHER, 2, outside=both.gain + 100.0).fit.names) == 1
+    both = select(Search(ground), FURTHER, 2).fit
+    assert len(select(Search(ground), FURTHER, 2, outside=both.gain + 15.0).fit.names) == 2
+    assert len(select(Search(ground), FURTHER, 2, outside=both.gain + 100.0).fit.names) == 1
 
 
 def test_a_single_candidate_needs_no_second(ground):
     alone = replace(ground, candidates=[c for c in ground.candidates if c.name == "load_cell_bias"])
-    assert select(alone, FURTHER, 2).fit.names == ("load_cell_bias",)
+    assert select(Search(alone), FURTHER, 2).fit.names == ("load_cell_bias",)
 
 
 def test_a_fit_stands_about_the_tolerances_that_are_likeliest_beside_it():

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from cdpr_struct.diagnosis.null_model import NullModel
 from cdpr_struct.diagnosis.sigma_check import sigmas_used, warnings
 from cdpr_struct.measurement.campaign import Sheet, Sigmas
 from cdpr_struct.reports.diagnosis_tables import default_sigmas, sigma_table
@@ -24,7 +25,7 @@ def found(campaign, spread=1.0):
         block=np.array(["EQ"] * 60, dtype=object), kind=np.array(["static_state"] * 60, dtype=object),
         state=np.zeros(60, dtype=int),
     )  # fmt: skip
-    null = SimpleNamespace(r=noise, covariance=np.eye(60))
+    null = NullModel(noise, np.eye(60), np.eye(60))
     return SimpleNamespace(campaign=campaign, entered=null, entered_setting=SimpleNamespace(labels=labels))
 
 
