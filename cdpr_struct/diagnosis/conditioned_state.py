@@ -12,7 +12,7 @@ import numpy as np
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span
-from cdpr_struct.statics.catenary_length import solve_length
+from cdpr_struct.statics.catenary_length import CatenaryLength, solve_length
 from cdpr_struct.statics.equilibrium import rotation_from_vector
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 
@@ -120,14 +120,15 @@ def hold(
     weight = world.linear_density * world.gravity[..., None] * (1.0 if known.sagging else 0.0)
     stiff = series_stiffness(world, np.linalg.norm(offset, axis=-1), tension, known)
     if not np.any(world.pulley_radius > 0.0):
-        return _between(offset, tension, stiff, weight, np.zeros(offset.shape[:-1]))
+        return _between(offset, tension, stiff, weight, np.zeros(offset.shape[:-1]))[0]
     lead = np.broadcast_shapes(offset.shape[:-1], world.pulley_radius.shape)
     offset = np.broadcast_to(offset, (*lead, 3))
     axis, radius = np.broadcast_to(world.pulley_axis, offset.shape), np.broadcast_to(world.pulley_radius, lead)
-    direction = straight_exit(offset, axis, radius)
+    direction, held = straight_exit(offset, axis, radius), None
     for _ in range(_EXIT_ITERATIONS):
         leaving = pulley_exit(direction, axis, radius)
-        cables = _between(offset - leaving.point, tension, stiff, weight, radius * leaving.wrap_angle)
+        free = offset - leaving.point
+        cables, held = _between(free, tension, stiff, weight, radius * leaving.wrap_angle, held)
         turned = cables.force_at_frame / cables.tension_at_frame[..., None]
         settled = np.abs(turned - direction).max() < _SAME_DIRECTION
         direction = turned
@@ -137,10 +138,15 @@ def hold(
 
 
 def _between(
-    offset: np.ndarray, tension: np.ndarray, stiff: np.ndarray, weight: np.ndarray, wrap: np.ndarray
-) -> CableStates:
+    offset: np.ndarray,
+    tension: np.ndarray,
+    stiff: np.ndarray,
+    weight: np.ndarray,
+    wrap: np.ndarray,
+    near: CatenaryLength | None = None,
+) -> tuple[CableStates, CatenaryLength]:
     heading, span = heading_and_span(offset)
-    held = solve_length(span, offset[..., 2], tension, stiff, weight)
+    held = solve_length(span, offset[..., 2], tension, stiff, weight, near)
     weight = np.broadcast_to(weight, held.length.shape)
     stiff = np.broadcast_to(stiff, held.length.shape)
     whole = (*held.length.shape, 3)
@@ -156,7 +162,7 @@ def _between(
         held.status,
         np.zeros_like(held.length),
     )
-    return replace(cables, wrapped_length=wrap / (1.0 + cables.tension_at_frame / stiff))
+    return replace(cables, wrapped_length=wrap / (1.0 + cables.tension_at_frame / stiff)), held
 
 
 def load_wrench(world: World, position: np.ndarray, rotation: np.ndarray, known: Circumstances) -> np.ndarray:

@@ -9,14 +9,15 @@ from cdpr_struct.diagnosis.causes.internal_mode import NAME
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.extended_robot import extensions_of, robot_of
 from cdpr_struct.diagnosis.refit import world_with
+from cdpr_struct.diagnosis.whole_change import whole_change
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.robot.robot import Robot
 
 
 def extended_world(found: Diagnosis) -> World:
-    """The world with the chosen causes."""
-    fit = found.selection.fit
-    return found.ground.entered if fit is None else _embodied(world_with(found.ground.entered, fit.choices, fit.theta))
+    """The world with the chosen causes, their parameters as a whole."""
+    fit, entered = found.selection.fit, found.ground.entered
+    return entered if fit is None else _embodied(world_with(entered, fit.choices, whole_change(fit)[0]))
 
 
 def _embodied(world: World) -> World:

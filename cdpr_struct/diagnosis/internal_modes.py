@@ -11,7 +11,7 @@ import numpy as np
 from cdpr_struct.diagnosis.causes.handling import Correction
 from cdpr_struct.diagnosis.causes.internal_mode import MOVING, POSES, Steady, correction, poses
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, Prepared, prepare
-from cdpr_struct.diagnosis.ranking import explains
+from cdpr_struct.diagnosis.ranking import clears
 from cdpr_struct.diagnosis.robot_rows import pairing_of
 from cdpr_struct.diagnosis.selection import FURTHER, select
 from cdpr_struct.diagnosis.setting import modes_in
@@ -92,8 +92,9 @@ def _stands(full: Prepared, gain: float, rest: Prepared, plan: Budget) -> bool:
     alone = full.search.rank()
     if gain > max(alone[0].gain, 0.0):
         return True
-    if rest.p_value >= SIGNIFICANT or (explains(alone[0]) and alone[0].ground.strays < ONE):
+    if rest.p_value >= SIGNIFICANT or clears(alone[0]):
         return False
-    more = rest.search.rank()[0].gain - FURTHER
     rival = select(full.search, FURTHER, plan.causes).fit
-    return rival is None or gain + max(more, 0.0) > rival.gain
+    if rival is None or gain > rival.gain:
+        return True
+    return not clears(rival) and gain + max(rest.search.rank()[0].gain - FURTHER, 0.0) > rival.gain

@@ -5,7 +5,7 @@ that they share, so each pair taken for granted sharpens the expectation of the 
 The best few pairings are followed; where they disagree, the frequency is in doubt by as much as they differ.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -49,11 +49,12 @@ class Pairing:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Path:
-    """Pairing of the peaks so far (-1: a stray), its log weight, and the modes' expected ln f with covariance."""
+class _Paths:
+    """Pairings (p,) of the peaks so far, best first: log weight (p,), chosen (p, i) modes (-1: a stray), and for each
+    the modes' expected ln f (p, k) with covariance (p, k, k)."""
 
-    weight: float
-    chosen: tuple[int, ...]
+    weight: np.ndarray
+    chosen: np.ndarray
     mean: np.ndarray
     covariance: np.ndarray
 
@@ -75,13 +76,11 @@ def paired(
     unlike : (r, k) 1 - modal assurance of measured and model shapes, nan where no shape was measured
     """
     order = np.lexsort((hertz, state))
-    paths = [_Path(0.0, (), np.log(modes.hertz), covariance)]
+    paths = _Paths(np.zeros(1), np.zeros((1, 0), dtype=int), np.log(modes.hertz)[None], covariance[None])
     odds, shapes = _log_odds(modes.energy), _SHAPE * np.nan_to_num(unlike)
     for i in order:
-        log, seen = np.log(hertz[i]), odds - shapes[i]
-        grown = [new for path in paths for new in _grown(path, state[i], log, noise[i], modes, seen)]
-        grown.sort(key=lambda new: -new[0])
-        paths = [_taken(path, j, weight, np.log(hertz[i]), noise[i]) for weight, j, path in grown[:_BEAM]]
+        logs = _weights(paths, modes.state == state[i], np.log(hertz[i]), noise[i], odds - shapes[i])
+        paths = _grown(paths, logs, np.log(hertz[i]), noise[i])
     chosen, doubt, stray = np.zeros(len(order), dtype=int), np.zeros(len(order)), np.zeros(len(order))
     chosen[order], doubt[order], stray[order] = _agreed(paths, state[order], hertz[order], modes)
     return Pairing(chosen, doubt, stray)
@@ -94,34 +93,36 @@ def _log_odds(energy: np.ndarray) -> np.ndarray:
     return np.log(chance / (1.0 - chance))
 
 
-def _grown(
-    path: _Path, state: int, log: float, noise: float, modes: Modes, odds: np.ndarray
-) -> list[tuple[float, int, _Path]]:
-    """Weights of a path with the next peak given to each later mode of its state, or to none."""
-    used = [j for j in path.chosen if j >= 0 and modes.state[j] == state]
-    free = np.flatnonzero((modes.state == state) & (np.arange(len(odds)) > max(used, default=-1)))
-    variance = path.covariance[free, free] + noise**2
-    gap = log - path.mean[free]
-    logs = path.weight + odds[free] - 0.5 * (gap**2 / variance + np.log(2.0 * np.pi * variance))
-    found = [(float(weight), int(j), path) for weight, j in zip(logs, free, strict=True)]
-    return [*found, (path.weight + STRAY, -1, path)]
+def _weights(paths: _Paths, own: np.ndarray, log: float, noise: float, odds: np.ndarray) -> np.ndarray:
+    """(p, k + 1) log weights with the next peak given to each later mode of its state, or, last, to none."""
+    last = np.where(own[paths.chosen] & (paths.chosen >= 0), paths.chosen, -1).max(axis=1, initial=-1)
+    free = own & (np.arange(len(own)) > last[:, None])
+    variance = np.diagonal(paths.covariance, axis1=1, axis2=2) + noise**2
+    logs = odds - 0.5 * ((log - paths.mean) ** 2 / variance + np.log(2.0 * np.pi * variance))
+    given = np.where(free, logs, -np.inf)
+    return paths.weight[:, None] + np.concatenate([given, np.full((len(given), 1), STRAY)], axis=1)
 
 
-def _taken(path: _Path, j: int, weight: float, log: float, noise: float) -> _Path:
-    if j < 0:
-        return replace(path, weight=weight, chosen=(*path.chosen, j))
-    column = path.covariance[:, j]
-    gain = column / (column[j] + noise**2)
-    mean = path.mean + gain * (log - path.mean[j])
-    return _Path(weight, (*path.chosen, j), mean, path.covariance - np.outer(gain, column))
+def _grown(paths: _Paths, logs: np.ndarray, log: float, noise: float) -> _Paths:
+    """The best of the longer paths, those with a mode for the peak sharpened by it."""
+    best = np.argsort(-logs, axis=None, kind="stable")[:_BEAM]
+    best = best[np.isfinite(logs.ravel()[best])]
+    before, j = np.unravel_index(best, logs.shape)
+    paired, stray = np.flatnonzero(j < logs.shape[1] - 1), j == logs.shape[1] - 1
+    chosen = np.concatenate([paths.chosen[before], np.where(stray, -1, j)[:, None]], axis=1)
+    mean, covariance = paths.mean[before], paths.covariance[before]
+    column = covariance[paired, :, j[paired]]
+    gain = column / (column[np.arange(len(paired)), j[paired]] + noise**2)[:, None]
+    mean[paired] += gain * (log - mean[paired, j[paired]])[:, None]
+    covariance[paired] -= gain[:, :, None] * column[:, None, :]
+    return _Paths(logs.ravel()[best], chosen, mean, covariance)
 
 
 def _agreed(
-    paths: list[_Path], state: np.ndarray, hertz: np.ndarray, modes: Modes
+    paths: _Paths, state: np.ndarray, hertz: np.ndarray, modes: Modes
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The best path, how far the others are from it, and how probably each peak is a stray."""
-    table = np.array([path.chosen for path in paths])
-    logs = np.array([path.weight for path in paths])
+    table, logs = paths.chosen, paths.weight
     weight = np.exp(logs - logs.max())
     weight /= weight.sum()
     near = np.array([_nearest(s, f, modes) for s, f in zip(state, hertz, strict=True)])

@@ -7,9 +7,10 @@ from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.evidence import Choice, Screened, candidates, choices, screen
 from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
-from cdpr_struct.diagnosis.refit import Fit, Ground, refit, screen_beyond, settled
+from cdpr_struct.diagnosis.refit import ASTRAY, Fit, Ground, refit, screen_beyond, settled
 from cdpr_struct.diagnosis.residuals import residuals
-from cdpr_struct.diagnosis.stray_peaks import caught
+from cdpr_struct.diagnosis.side_by_side import side_by_side
+from cdpr_struct.diagnosis.stray_peaks import ONE, caught
 
 _NEAR = 12.0  # nats from the best at screening: refitted
 _NEAR_SHARE = 0.2  # of the best gain, which screening misjudges by a share where effects are large
@@ -33,6 +34,7 @@ class Search:
         self._fits: dict[_Key, Fit] = {}
         self._screened: dict[_Key, list[Screened]] = {}
         self._caught: dict[_Key, list[Fit]] = {}
+        self._replacing: dict[_Key, list[Fit]] = {}
 
     def rank(self, accepted: tuple[Choice, ...] = ()) -> list[Fit]:
         """Refits of accepted causes plus one more, best first; causes far from the best at screening are left out."""
@@ -67,6 +69,13 @@ class Search:
             self._caught[key] = caught(self.ground, self.fitted(accepted), self.screened(accepted))
         return self._caught[key]
 
+    def replacing(self, fit: Fit, i: int) -> list[Fit]:
+        """Fits of other causes in place of the i-th of a fit that clears the data, best first."""
+        key = (*_key(fit.choices), *_key(fit.choices[i : i + 1]))
+        if key not in self._replacing:
+            self._replacing[key] = _replacing(self.ground, fit, i)
+        return self._replacing[key]
+
     def promise(self, accepted: tuple[Choice, ...]) -> float:
         """Log evidence that accepted causes seem to have with one more, which may also explain every stray peak."""
         fit = self.fitted(accepted)
@@ -84,13 +93,22 @@ def _ranked(ground: Ground, before: Fit | None, rows: list[Screened], large: lis
     """Refits of the causes of a fit and one more, or of one alone, and fits of large changes; best first."""
     if before is not None and rows[0].gain < _HOPELESS and not large:
         return []
-    fits = []
-    for row in _promising(ground, rows, before is not None):
-        for picked in _worth_trying(row):
-            fit = refit(ground, (picked,)) if before is None else _with_one_more(before, picked)
-            fits.append(replace(fit, gain=fit.gain + row.spread, spread=row.spread))
-    if ground.level != ground.null.level:
-        fits = large + _settled(ground, sorted(fits, key=lambda fit: -fit.gain))
+
+    def fitted(tried: tuple[Screened, Choice]) -> Fit:
+        row, picked = tried
+        fit = refit(ground, (picked,)) if before is None else _with_one_more(before, picked)
+        return replace(fit, gain=fit.gain + row.spread, spread=row.spread)
+
+    tried = [(row, picked) for row in _promising(ground, rows, before is not None) for picked in _worth_trying(row)]
+    fits = side_by_side(fitted, tried, ground.known)
+    if ground.paired:
+        base = 0.0 if before is None else before.gain
+        fits = large + _settled(ground, sorted(fits, key=lambda fit: -fit.gain), large, base)
+    return _best_of_each(fits)
+
+
+def _best_of_each(fits: list[Fit]) -> list[Fit]:
+    """The best fit of each set of causes, best first."""
     alone: dict[tuple[str, ...], Fit] = {}
     for fit in sorted(fits, key=lambda fit: -fit.gain):
         alone.setdefault(fit.names, fit)
@@ -118,19 +136,66 @@ def _promising(ground: Ground, rows: list[Screened], further: bool) -> list[Scre
     return list(chosen.values())
 
 
-def _settled(ground: Ground, fits: list[Fit]) -> list[Fit]:
-    """The fits, those settled that may be the best: all if none of the near ones explains the data."""
-    margin = max(_SETTLED, _SETTLED_SHARE * fits[0].gain)
-    near = max(2, sum(fit.gain > fits[0].gain - margin for fit in fits))
-    first = [settled(ground, fit) for fit in fits[:near]]
-    if any(explains(fit) for fit in first):
-        return first + [replace(fit, gain=fit.gain - ground.ahead) for fit in fits[near:]]
-    return first + [settled(ground, fit) for fit in fits[near:]]
+def _settled(ground: Ground, fits: list[Fit], large: list[Fit], base: float) -> list[Fit]:
+    """The fits, those settled that may be the best: all if the best explains neither the data nor every peak.
+
+    large : fits of large changes, settled already;  base : log evidence without the last cause
+    """
+    ahead = max(fit.gain for fit in [*large, fits[0]])
+    reach = ahead - max(_SETTLED, _SETTLED_SHARE * (ahead - base))
+    near = max(2, sum(fit.gain > reach for fit in fits))
+
+    def again(fit: Fit) -> Fit:
+        return settled(ground, fit, reach)
+
+    first, far = side_by_side(again, fits[:near], ground.known), fits[near:]
+    best = max([*large, *first], key=lambda fit: fit.gain)
+    if best.ground.strays < ASTRAY or any(explains(fit) for fit in first):
+        return first + [replace(fit, gain=fit.gain - ground.ahead) for fit in far]
+    return first + side_by_side(again, far, ground.known)
 
 
 def explains(fit: Fit) -> bool:
     """Whether what a fit leaves may be noise."""
     return float(chi2.sf(fit.adequacy(), len(fit.white))) > _ADEQUATE
+
+
+def clears(fit: Fit) -> bool:
+    """Whether a fit explains the data and every peak."""
+    return explains(fit) and fit.ground.strays < ONE
+
+
+def _replacing(ground: Ground, fit: Fit, i: int) -> list[Fit]:
+    """Fits of other causes in place of the i-th, looked for in the world of the fit: what else does what it does."""
+    kept, there = without(fit, i), fit.ground
+    left = [c.cause for c in ground.candidates if c.name not in fit.names]
+    found = candidates(there.setting, fit.world, there.readings, there.null, left)
+    z, own = (
+        fit.white + fit.signature @ fit.theta,
+        np.hstack([c for j, c in enumerate(fit.split(fit.signature)) if j != i]),
+    )
+
+    def fitted(tried: tuple[Screened, Choice]) -> list[Fit]:
+        row, picked = tried
+        lowest = np.concatenate([c.pattern.lowest for c in (*kept, picked)])
+        start = np.maximum(_at_once(np.hstack([own, -picked.signature]), z), lowest)
+        other = refit(there, (*kept, picked), start)
+        other = replace(other, gain=other.gain + row.spread, spread=row.spread)
+        return [other, *([settled(ground, other)] if other.gain > fit.gain - _NEAR else [])]
+
+    tried = [(row, c) for row in _promising(there, screen(found, z, own), True) for c in _worth_trying(row)]
+    return _best_of_each([one for fits in side_by_side(fitted, tried, ground.known) for one in fits])
+
+
+def _at_once(signature: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """(d,) sizes that explain whitened residuals best, to first order."""
+    result: np.ndarray = np.linalg.solve(np.eye(signature.shape[1]) + signature.T @ signature, signature.T @ z)
+    return result
+
+
+def without(fit: Fit, i: int) -> tuple[Choice, ...]:
+    """The causes of a fit but for the i-th."""
+    return tuple(c for j, c in enumerate(fit.choices) if j != i)
 
 
 def _by_large_steps(ground: Ground, rows: list[Screened]) -> list[Screened]:

@@ -18,7 +18,8 @@ from cdpr_struct.diagnosis.world import World
 
 _ITERATIONS = 8
 _STEP = 0.02  # of the prior's sigma
-_ASTRAY, _FEWER = 0.5, 0.3  # strays of a world that is not right yet; by which another must be better
+ASTRAY = 0.5  # strays of a world that is not right yet
+_FEWER = 0.3  # strays by which another must be better
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,6 +49,18 @@ class Ground:
     def z(self) -> np.ndarray:
         """(n,) whitened residuals as entered."""
         return self.null.white(self.null.r)
+
+    @property
+    def known(self) -> list[object]:
+        """What fits on this ground share with it."""
+        causes = [candidate.cause for candidate in self.candidates]
+        fixed = [self.setting, self.setting.campaign, self.world, self.null, self.candidates]
+        return [self, *fixed, *self.candidates, *causes]
+
+    @property
+    def paired(self) -> bool:
+        """Whether there are robot frequencies, which each world pairs with its own modes."""
+        return self.setting.robot_log.size > 0
 
     @property
     def strays(self) -> float:
@@ -95,7 +108,11 @@ class Fit:
 
     def parts(self) -> list[np.ndarray]:
         """theta of each cause."""
-        return np.split(self.theta, np.cumsum([c.signature.shape[1] for c in self.choices])[:-1])
+        return self.split(self.theta)
+
+    def split(self, value: np.ndarray) -> list[np.ndarray]:
+        """Parts of (..., d) numbers, those of each cause."""
+        return np.split(value, np.cumsum([len(c.prior) for c in self.choices])[:-1], axis=-1)
 
     def explained(self, z: np.ndarray) -> float:
         """Share of the whitened sum of squares beyond noise that the causes take away, 0 to 1."""
@@ -157,14 +174,14 @@ def refit(ground: Ground, picked: tuple[Choice, ...], start: np.ndarray | None =
     return Fit(picked, theta, np.linalg.inv(matrix), float(gain), white, signature, ground)
 
 
-def settled(ground: Ground, fit: Fit) -> Fit:
+def settled(ground: Ground, fit: Fit, reach: float = -np.inf) -> Fit:
     """The fit again in its own world: frequencies paired and the null linearised there; strays cost evidence.
 
     Its tolerances are those that are likeliest beside the causes. Where peaks stay astray the world was not right yet,
-    and it is settled again as long as fewer are left.
+    and it is settled again as long as fewer are left, and its log evidence is within reach of what is better.
     """
     fits = [_settled_once(ground, fit)]
-    while fits[-1].ground.strays > _ASTRAY:
+    while fits[-1].ground.strays > ASTRAY and fits[-1].gain > reach:
         again = _settled_once(ground, fits[-1])
         if again.ground.strays > fits[-1].ground.strays - _FEWER:
             break

@@ -167,7 +167,7 @@ def _modes(setting: Setting, point: OperatingPoint, state: int, highest: float) 
     name = "static" if setting.massless else "exact" if setting.known.sagging else "dsm"
     way = "consistent" if setting.geometric else "thesis"
     omega = 2.0 * np.pi * highest
-    cables = cable_dynamics(point, name, omega)  # type: ignore[arg-type]
+    cables = cable_dynamics(point, name, omega, rough=True)  # type: ignore[arg-type]
     count = 6 if setting.massless else int(count_below(point, cables, np.array([omega]), way)[0]) + 3  # type: ignore[arg-type]
     found = ritz_modes(point, cables.expansion(omega), count, way)  # type: ignore[arg-type]
     modes = Modes(np.full(len(found.omega), state), found.omega / (2.0 * np.pi), found.platform, found.platform_energy)

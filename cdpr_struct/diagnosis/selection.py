@@ -7,7 +7,7 @@ import numpy as np
 from cdpr_struct.diagnosis.causes.cause import SCALES
 from cdpr_struct.diagnosis.evidence import Choice, choice, gains_of, screen
 from cdpr_struct.diagnosis.heldout import groups_of, weakest
-from cdpr_struct.diagnosis.ranking import Search
+from cdpr_struct.diagnosis.ranking import Search, clears, without
 from cdpr_struct.diagnosis.refit import Fit, Ground, refit
 
 FURTHER = 6.0  # nats that each further cause must bring
@@ -44,7 +44,7 @@ def select(search: Search, further: float, most: int, outside: float = -np.inf) 
     better = max((fit for row in rivals for fit in row), key=lambda fit: fit.gain, default=best)
     if better.gain > best.gain + _BETTER:  # with the pairing of what was best
         best, rivals = better, _rivals(search, better)
-    before = [search.fitted(_without(best, i)) for i in range(len(best.names))]
+    before = [search.fitted(without(best, i)) for i in range(len(best.names))]
     caught_by = np.array([_fewer_strays(search.ground, fit, best) for fit in before])
     return Selection(best, search.rank(), rivals, caught_by)
 
@@ -58,35 +58,35 @@ def _grown(search: Search, further: float, most: int, outside: float) -> Fit:
         more = [fit for one in hopeful for fit in _one_more(search, one) if fit.gain > best.gain + further]
         if not more:
             break
-        best = _exchanged(search, max(more, key=lambda fit: fit.gain))
+        best = max(more, key=lambda fit: fit.gain)
+        best = best if clears(best) else _exchanged(search, best)
         begun = [best.choices]
     return best
-
-
-def _without(fit: Fit, i: int) -> tuple[Choice, ...]:
-    """The causes of a fit but for the i-th."""
-    return tuple(c for j, c in enumerate(fit.choices) if j != i)
 
 
 def _rivals(search: Search, best: Fit) -> list[list[Fit]]:
     """Per cause of a fit, the fits in which another takes its place and says something else, best first."""
     found = []
     for i, name in enumerate(best.names):
-        alike = [fit for fit in search.rank(_without(best, i)) if fit.names[-1] != name]
-        others = _in_its_place(search.ground, best, i, alike)
+        if len(best.names) > 1 and search.ground.paired and clears(best):
+            others = search.replacing(best, i)
+        else:
+            others = _in_its_place(search, best, i)
         gains = {name: best.gain, **{fit.names[-1]: fit.gain for fit in others}}
         found.append([fit for fit in others if _says_more(fit, gains)])
     return found
 
 
-def _in_its_place(ground: Ground, best: Fit, i: int, rivals: list[Fit]) -> list[Fit]:
+def _in_its_place(search: Search, best: Fit, i: int) -> list[Fit]:
     """Rivals of the i-th cause of a fit, best first, the near ones also with the fit's pairing of the frequencies.
 
     Which mode a peak is may change by a hair's breadth of a world; that is no evidence between causes.
     """
-    if ground.level == ground.null.level:
+    ground, kept = search.ground, without(best, i)
+    rivals = [fit for fit in search.rank(kept) if fit.names[-1] != best.names[i]]
+    if not ground.paired:
         return rivals
-    kept, found = _without(best, i), list(rivals)
+    found = list(rivals)
     sizes = [part for j, part in enumerate(best.parts()) if j != i]
     for j, rival in enumerate(rivals[: ground.budget]):
         picked = rival.choices[-1]
@@ -143,7 +143,7 @@ def _holds(ground: Ground, before: Fit | None, fit: Fit) -> bool:
 def _exchanged(search: Search, fit: Fit) -> Fit:
     """The fit after each cause but the last had its chance to be replaced by a better one."""
     for i in range(len(fit.choices) - 1):
-        other = search.rank(_without(fit, i))
+        other = search.rank(without(fit, i))
         if other and other[0].gain > fit.gain + _BETTER:
             fit = other[0]
     return fit

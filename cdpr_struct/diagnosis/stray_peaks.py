@@ -14,6 +14,7 @@ from cdpr_struct.diagnosis.evidence import Candidate, Choice, Screened, choice
 from cdpr_struct.diagnosis.mode_pairing import STRAY
 from cdpr_struct.diagnosis.refit import Fit, Ground, settled
 from cdpr_struct.diagnosis.setting import strays_in
+from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.world import World
 
 SEVERAL = 1.5  # expected strays that are more than one
@@ -42,23 +43,26 @@ def caught(ground: Ground, before: Fit | None, rows: list[Screened]) -> list[Fit
         return []
     spread = {row.candidate.name: row.spread for row in rows}
     first, start = ((), np.zeros(0)) if before is None else (before.choices, before.theta)
-    fits = []
-    for picked, theta in _catching(ground, before):
-        guess = Fit.guessed(ground, (*first, picked), np.concatenate([start, theta]), spread[picked.candidate.name])
-        fits.append(settled(ground, guess))
-    return fits
+
+    def caught_by(tried: tuple[Choice, np.ndarray]) -> Fit:
+        picked, theta = tried
+        sizes = np.concatenate([start, theta])
+        return settled(ground, Fit.guessed(ground, (*first, picked), sizes, spread[picked.candidate.name]))
+
+    return side_by_side(caught_by, _catching(ground, before), ground.known)
 
 
 def _catching(ground: Ground, before: Fit | None) -> list[tuple[Choice, np.ndarray]]:
     """Sizes of single causes that explain strays on top of a fit, of the `budget` causes that explain most."""
     world = ground.world if before is None else before.world
     taken = () if before is None else before.names
-    found = []
-    for candidate in ground.candidates:
-        if candidate.name not in taken and _moves_modes(ground, candidate):
-            tried = [choice(candidate, pattern, _SCALE) for pattern in candidate.patterns[:2]]
-            trials = [_best_along(ground, world, picked, d) for picked in tried for d in _directions(picked)]
-            found += [trials] if trials else []
+
+    def large(candidate: Candidate) -> list[_Trial]:
+        tried = [choice(candidate, pattern, _SCALE) for pattern in candidate.patterns[:2]]
+        return [_best_along(ground, world, picked, d) for picked in tried for d in _directions(picked)]
+
+    moving = [c for c in ground.candidates if c.name not in taken and _moves_modes(ground, c)]
+    found = [trials for trials in side_by_side(large, moving, ground.known) if trials]
     left = strays_in(ground.setting, world)
     first = sorted(found, key=lambda trials: min(map(_fewest, trials)))[: ground.budget]
     return [(one.picked, one.theta) for trials in first for one in trials if one.strays < left - _FEWER]

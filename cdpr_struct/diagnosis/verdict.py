@@ -13,6 +13,7 @@ from cdpr_struct.diagnosis.refit import Fit
 from cdpr_struct.diagnosis.significance import OUTSIDE
 from cdpr_struct.diagnosis.stray_peaks import SEVERAL, strays_left
 from cdpr_struct.diagnosis.suspect_reading import in_words
+from cdpr_struct.diagnosis.whole_change import whole_change
 from cdpr_struct.diagnosis.wording import agreement, corrected, described, rest_words
 
 LARGEST_CLASS = 4
@@ -193,7 +194,8 @@ def _within(names: tuple[str, ...], classes: list[tuple[str, ...]]) -> bool:
 def _sentence(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
     fit, parts = found.selection.fit, corrected(found)
     if fit is not None:
-        for choice, theta, names in zip(fit.choices, fit.parts(), classes[len(parts) :], strict=True):
+        whole = fit.split(whole_change(fit)[0])
+        for choice, theta, names in zip(fit.choices, whole, classes[len(parts) :], strict=True):
             lead = "best candidate of its class: " if len(names) > 1 else ""
             parts.append(lead + described(choice, theta))
     text = "; ".join(parts)
@@ -234,8 +236,8 @@ def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
 
 
 def _fit_rows(found: Diagnosis, fit: Fit) -> list[dict[str, Any]]:
-    sizes = np.cumsum([c.signature.shape[1] for c in fit.choices])[:-1]
-    sigmas = np.split(np.sqrt(np.diagonal(fit.covariance)), sizes)
+    whole, covariance = whole_change(fit)
+    sigmas = np.sqrt(np.diagonal(covariance))
     chosen = fit is found.selection.fit
     after = found.held.after / found.held.sigma if chosen and found.held is not None else None
     return [
@@ -249,5 +251,5 @@ def _fit_rows(found: Diagnosis, fit: Fit) -> list[dict[str, Any]]:
             "log_evidence_gain": fit.gain, "explained_fraction": fit.explained(found.ground.z),
             "heldout_rms": None if after is None else float(np.sqrt(np.mean(after**2))),
         }
-        for choice, theta, sigma in zip(fit.choices, fit.parts(), sigmas, strict=True)
+        for choice, theta, sigma in zip(fit.choices, fit.split(whole), fit.split(sigmas), strict=True)
     ]  # fmt: skip

@@ -6,7 +6,7 @@ tau x / chord, and the unknowns (fz, L) come from a two-by-two Newton on the end
 horizontal one is divided by fx, which keeps it regular for a vertical cable.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +20,7 @@ MAX_ITERATIONS = 60
 STEEPEST = 1e-9  # cos(inclination) below this is treated as this: error in the force of the same relative size
 SLACKEST = 6.0  # largest q = w chord / (2 tau); sinh(q)/q is then 34 times the span
 _TOLERANCE = 1e-13
+_NEAR = 0.1  # of tau: a cable nearer than this is a better start than the inextensible catenary
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,12 +73,21 @@ def length_at_chord_tension(
     arrays = np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in (x, z, chord_tension, axial_stiffness, weight)))
     shape = arrays[0].shape
     x_, z_, tau, stiff, w = (np.atleast_1d(a).reshape(-1) for a in arrays)
-    chord = np.hypot(x_, z_)
-    for name, values in (("chord", chord), ("chord_tension", tau)):
-        if not (values > 0.0).all():
-            raise ValueError(f"{name} must be > 0, got {values[~(values > 0.0)][0]!r}")
-    solved = _newton(np.maximum(x_, STEEPEST * chord), z_, chord, tau, stiff, w)
-    return CatenaryLength(*(np.reshape(a, shape) for a in solved))
+    if not (tau > 0.0).all():
+        raise ValueError(f"chord_tension must be > 0, got {tau[~(tau > 0.0)][0]!r}")
+    chord = _checked_chord(x_, z_)
+    return _shaped(_newton(np.maximum(x_, STEEPEST * chord), z_, chord, tau, stiff, w), shape)
+
+
+def _checked_chord(x: np.ndarray, z: np.ndarray) -> np.ndarray:
+    chord = np.hypot(x, z)
+    if not (chord > 0.0).all():
+        raise ValueError(f"chord must be > 0, got {chord[~(chord > 0.0)][0]!r}")
+    return chord
+
+
+def _shaped(cable: CatenaryLength, shape: tuple[int, ...]) -> CatenaryLength:
+    return CatenaryLength(*(np.reshape(getattr(cable, name), shape) for name in CatenaryLength.__slots__))
 
 
 def solve_length(
@@ -86,6 +96,7 @@ def solve_length(
     tension_at_platform: npt.ArrayLike,
     axial_stiffness: npt.ArrayLike,
     weight: npt.ArrayLike,
+    near: CatenaryLength | None = None,
 ) -> CatenaryLength:
     """Unstrained length with which a cable pulls with a given tension at its platform end.
 
@@ -94,6 +105,7 @@ def solve_length(
     x, z : (...) platform end relative to the frame end [m], x >= 0
     tension_at_platform : (...) T > 0 [N]
     axial_stiffness, weight : (...) EA [N], w [N/m]
+    near : the answer (...) to almost the same question, to begin with
 
     Returns
     -------
@@ -107,17 +119,19 @@ def solve_length(
     arrays = np.broadcast_arrays(
         *(np.asarray(a, dtype=float) for a in (x, z, tension_at_platform, axial_stiffness, weight))
     )
-    x_, z_, wanted, stiff, w = (np.atleast_1d(a) for a in arrays)
+    x_, z_, wanted, stiff, w = (np.atleast_1d(a).reshape(-1) for a in arrays)
     if not (wanted > 0.0).all():
         raise ValueError(f"tension_at_platform must be > 0, got {wanted[~(wanted > 0.0)][0]!r}")
-    chord = np.hypot(x_, z_)
+    chord = _checked_chord(x_, z_)
     half = 0.5 * w * chord
     cos, sin = x_ / chord, z_ / chord
     floor = np.maximum(half / SLACKEST, 1e-9 * wanted)
     tau = -sin * half + np.sqrt(np.maximum(wanted**2 - (cos * half) ** 2, 0.0))
     tau = np.maximum(tau, np.maximum(floor, 0.5 * half))
+    near = None if near is None else _shaped(near, x_.shape)
+    tau = tau if near is None else np.where(near.converged, near.chord_tension, tau)
     for _ in range(MAX_ITERATIONS):
-        cable = length_at_chord_tension(x_, z_, tau, stiff, w)
+        near = cable = _newton(np.maximum(x_, STEEPEST * chord), z_, chord, tau, stiff, w, near)
         tension = np.hypot(cable.force_x, cable.force_z)
         slope = (cos**2 * tau + cable.force_z * cable.force_z_rate) / tension
         step = (wanted - tension) / np.maximum(slope, 0.05)
@@ -128,9 +142,7 @@ def solve_length(
         tau = np.where(met, tau, np.clip(tau + step, np.maximum(0.3 * tau, floor), 3.0 * tau + half))
     met = np.abs(wanted - tension) <= 1e-10 * (wanted + half)
     status = np.where(cable.converged & ~met, CableStatus.TENSION_TOO_LOW, cable.status)
-    fields = (cable.length, cable.length_rate, cable.force_x, cable.force_z, cable.force_z_rate, cable.chord_tension)
-    shape = arrays[0].shape
-    return CatenaryLength(*(np.reshape(a, shape) for a in (*fields, cable.residual, cable.iterations, status)))
+    return _shaped(replace(cable, status=status), arrays[0].shape)
 
 
 def force_z_curvature(x: np.ndarray, z: np.ndarray, chord_tension: np.ndarray, weight: np.ndarray) -> np.ndarray:
@@ -155,11 +167,22 @@ def force_z_curvature(x: np.ndarray, z: np.ndarray, chord_tension: np.ndarray, w
 
 
 def _newton(
-    x: np.ndarray, z: np.ndarray, chord: np.ndarray, tau: np.ndarray, stiff: np.ndarray, w: np.ndarray
-) -> tuple[np.ndarray, ...]:
-    """Fields of `CatenaryLength` for a flat batch."""
+    x: np.ndarray,
+    z: np.ndarray,
+    chord: np.ndarray,
+    tau: np.ndarray,
+    stiff: np.ndarray,
+    w: np.ndarray,
+    near: CatenaryLength | None = None,
+) -> CatenaryLength:
+    """Cables of a flat batch with the chord tension tau, begun from near ones where these are near enough."""
     fx = tau * x / chord
     length, fz = _start(x, z, chord, tau, stiff, w)
+    if near is not None:
+        more = tau - near.chord_tension
+        useful = near.converged & (np.abs(more) < _NEAR * tau)
+        length = np.where(useful, near.length + more * near.length_rate, length)
+        fz = np.where(useful, near.force_z + more * near.force_z_rate, fz)
     iterations = np.zeros(x.shape, dtype=int)
     best = np.full(x.shape, np.inf)
     todo = np.ones(x.shape, dtype=bool)
@@ -180,7 +203,7 @@ def _newton(
     c_axial, c_sag, c_xz, _ = compliance(fx, fz, length, stiff, w)
     fz_rate, length_rate = _solve_two(matrix, -(c_axial + c_sag) / tau, -c_xz * x / chord)
     status = np.where(best <= 1e-10, CableStatus.CONVERGED, CableStatus.NOT_CONVERGED)
-    return length, length_rate, fx, fz, fz_rate, tau, best * length, iterations, status
+    return CatenaryLength(length, length_rate, fx, fz, fz_rate, tau, best * length, iterations, status)
 
 
 def _start(
