@@ -74,7 +74,7 @@ def exact_log_frequencies(points: dict[int, OperatingPoint], rows: CableFrequenc
         if int(state) not in points:
             continue
         highest = 2.0 * np.pi * _BAND * float(np.exp(closed[rows.state == state].max()))
-        full = cable_dynamics(points[int(state)], "exact", highest).expansion(highest)
+        full = cable_dynamics(points[int(state)], "exact", highest, rough=True).expansion(highest)
         across = np.abs(full.coupling[..., 1]) > 0.5 * np.linalg.norm(full.coupling, axis=-1)
         for i in np.flatnonzero(rows.state == state):
             cable = rows.cable[i]

@@ -15,6 +15,7 @@ from cdpr_struct.diagnosis.causes.cause import SCALES, Cause, Pattern
 from cdpr_struct.diagnosis.null_model import NullModel
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, residuals
+from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.world import World
 
 _STEP = 0.05  # of the prior's sigma
@@ -54,12 +55,14 @@ def candidates(
 ) -> list[Candidate]:
     """Causes with their whitened signatures at a world."""
     base = residuals(setting, world, readings, small=True)
-    found = []
-    for cause in causes:
+
+    def signature(cause: Cause) -> np.ndarray:
         prior = np.array([p.prior for p in cause.basic(setting)])
         moved = residuals(setting, cause.apply(world, _STEP * np.diag(prior)), readings, small=True)
-        found.append(Candidate(cause, null.white((moved - base).T / (_STEP * prior)), cause.patterns(setting)))
-    return found
+        return null.white((moved - base).T / (_STEP * prior))
+
+    signatures = side_by_side(signature, causes, ())
+    return [Candidate(cause, own, cause.patterns(setting)) for cause, own in zip(causes, signatures, strict=True)]
 
 
 def choice(candidate: Candidate, pattern: Pattern, scale: float) -> Choice:

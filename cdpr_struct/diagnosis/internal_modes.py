@@ -15,6 +15,7 @@ from cdpr_struct.diagnosis.ranking import clears
 from cdpr_struct.diagnosis.robot_rows import pairing_of
 from cdpr_struct.diagnosis.selection import FURTHER, select
 from cdpr_struct.diagnosis.setting import modes_in
+from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.steady_peaks import moves_alone, steady_peaks
 from cdpr_struct.diagnosis.stray_peaks import ONE
 from cdpr_struct.errors import InputError
@@ -64,8 +65,11 @@ def _candidates(campaign: Campaign, full: Prepared) -> list[Steady]:
 def _tried(campaign: Campaign, full: Prepared, steady: Steady, plan: Budget) -> Found | None:
     """The campaign without the peaks; where that is not noise, also with doubt of the others, if that is likelier."""
     best: Found | None = None
-    for moving in MOVING:
-        found = _without(campaign, full, steady, moving, plan)
+
+    def without(moving: float) -> Found | None:
+        return _without(campaign, full, steady, moving, plan)
+
+    for found in side_by_side(without, MOVING, ()):
         if found is not None and (best is None or found.gain > best.gain):
             best = found
         if found is not None and found.rest.p_value >= SIGNIFICANT:

@@ -12,6 +12,7 @@ from scipy.linalg import solve_triangular
 
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, residuals
+from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.wandering_noise import remembered, runs
 from cdpr_struct.diagnosis.world import World
 
@@ -123,12 +124,16 @@ def misread(setting: Setting, readings: Readings, u: np.ndarray) -> Readings:
 
 def null_model(setting: Setting, world: World, readings: Readings, extra: np.ndarray | None = None) -> NullModel:
     """The null linearised at a world and readings; `extra` (n,) is further noise of each residual."""
-    r = residuals(setting, world, readings)
-    base = residuals(setting, world, readings, small=True)
-    noise = _reading_columns(setting, world, readings, base)
-    t = tolerance_count(setting)
-    moved = residuals(setting, tolerated(setting, world, STEP * np.eye(t)), readings, small=True)
-    tolerance = (moved - base).T / STEP
+    off = tolerated(setting, world, STEP * np.eye(tolerance_count(setting)))
+    noisy = misread(setting, readings, reading_steps(setting))
+
+    def computed(at: tuple[World, Readings, bool]) -> np.ndarray:
+        return residuals(setting, at[0], at[1], small=at[2])
+
+    places = [(off, readings, True), (world, noisy, True), (world, readings, True), (world, readings, False)]
+    by_tolerance, by_reading, base, r = side_by_side(computed, places, ())
+    noise = _reading_columns(setting, (by_reading - base).T / STEP)
+    tolerance = (by_tolerance - base).T / STEP
     more = np.zeros((len(base), 0)) if extra is None else np.diag(extra)
     columns = np.concatenate([noise, tolerance, _own_noise(setting), more], axis=1)
     return NullModel(r, columns, _lower(setting, columns))
@@ -146,14 +151,12 @@ def sensors(setting: Setting) -> list[np.ndarray]:
     return runs(setting.campaign.states, setting.campaign.cable_frequencies, start)
 
 
-def _reading_columns(setting: Setting, world: World, readings: Readings, base: np.ndarray) -> np.ndarray:
-    """(n, k): the same reading of every state is moved at once, and its effect given to each state's own column."""
+def _reading_columns(setting: Setting, effect: np.ndarray) -> np.ndarray:
+    """(n, k): the effect (n, 6 + 2 m) of the same reading of every state, given to each state's own column."""
     states, m = setting.campaign.states, setting.campaign.robot.platform_anchors.shape[0]
     s, locks = len(states.names), int(states.lock.max()) + 1
-    moved = residuals(setting, world, misread(setting, readings, reading_steps(setting)), small=True)
-    effect = (moved - base).T / STEP
-    columns = np.zeros((len(base), reading_count(setting)))
-    row, state = np.arange(len(base)), setting.labels.state
+    columns = np.zeros((len(effect), reading_count(setting)))
+    row, state = np.arange(len(effect)), setting.labels.state
     for j in range(6):
         columns[row, 6 * state + j] = effect[:, j]
     for i in range(m):

@@ -178,12 +178,12 @@ def settled(ground: Ground, fit: Fit, reach: float = -np.inf) -> Fit:
     """The fit again in its own world: frequencies paired and the null linearised there; strays cost evidence.
 
     Its tolerances are those that are likeliest beside the causes. Where peaks stay astray the world was not right yet,
-    and it is settled again as long as fewer are left, and its log evidence is within reach of what is better.
+    and it is settled again as long as fewer are left, its log evidence rises, and is within reach of what is better.
     """
     fits = [_settled_once(ground, fit)]
     while fits[-1].ground.strays > ASTRAY and fits[-1].gain > reach:
         again = _settled_once(ground, fits[-1])
-        if again.ground.strays > fits[-1].ground.strays - _FEWER:
+        if again.ground.strays > fits[-1].ground.strays - _FEWER or again.gain < fits[-1].gain:
             break
         fits.append(again)
     return max(fits, key=lambda one: one.gain)

@@ -6,31 +6,41 @@ import pickle
 import signal
 import sys
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TypeVar
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
+_WIDTH = 4  # bytes of a number in the queue
+_MOST = 10_000  # numbers that a pipe holds
 _alone = False  # whether this process is one of several already
 
 
 def side_by_side(work: Callable[[Item], Result], items: Sequence[Item], known: Sequence[object]) -> list[Result]:
     """work(item) of each, in order; known objects in results are these objects themselves, whatever they hold.
 
-    What another process does not deliver is done here. Without forks or with one core, all is done here.
+    Each process takes the next piece when it is free. What another one does not deliver is done here. Without forks or
+    with one core, all is done here.
     """
     several = min(cores(), len(items))
-    if several < 2:
+    if several < 2 or len(items) > _MOST:
         return [work(item) for item in items]
-    names = {id(thing): thing for thing in known}
-    others = [_Other(work, items[i::several], names) for i in range(1, several)]
+    queue, names = _queue(len(items)), {id(thing): thing for thing in known}
+
+    def taken() -> dict[int, Any]:
+        return {i: work(items[i]) for i in _numbers(queue)}
+
+    others = [_Other(taken, names) for _ in range(several - 1)]
     try:
-        parts = [[work(item) for item in items[::several]], *(other.results() for other in others)]
+        found = taken()
+        for other in others:
+            found |= other.results()
     finally:
+        os.close(queue)
         for other in others:
             other.end()
-    return [parts[i % several][i // several] for i in range(len(items))]
+    return [found[i] if i in found else work(item) for i, item in enumerate(items)]
 
 
 def cores() -> int:
@@ -38,28 +48,41 @@ def cores() -> int:
     return 1 if _alone or sys.platform != "linux" else len(os.sched_getaffinity(0))
 
 
-class _Other:
-    """A forked process that does a part of the work."""
+def _queue(count: int) -> int:
+    """A pipe from which each number below a count is read once, by whoever comes first."""
+    queue, write = os.pipe()
+    os.write(write, b"".join(i.to_bytes(_WIDTH, "little") for i in range(count)))
+    os.close(write)
+    return queue
 
-    def __init__(self, work: Callable[[Any], Any], items: Sequence[Any], names: dict[int, object]) -> None:
-        self.work, self.items, self.names = work, items, names
+
+def _numbers(queue: int) -> Iterator[int]:
+    while number := os.read(queue, _WIDTH):
+        yield int.from_bytes(number, "little")
+
+
+class _Other:
+    """A forked process that takes a part of the work."""
+
+    def __init__(self, taken: Callable[[], dict[int, Any]], names: dict[int, object]) -> None:
+        self.names = names
         self.pipe, write = os.pipe()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # of forks beside threads, which the work does not use
             self.process = os.fork()
         if not self.process:
-            self._deliver(write)
+            self._deliver(taken, write)
         os.close(write)
 
-    def results(self) -> list[Any]:
-        """What it found; found here if it ended without."""
+    def results(self) -> dict[int, Any]:
+        """What it found, by number; nothing where it failed."""
         with os.fdopen(os.dup(self.pipe), "rb") as pipe:
             reader = pickle.Unpickler(pipe)
             reader.persistent_load = self.names.__getitem__  # type: ignore[method-assign]
             try:
-                found: list[Any] = reader.load()
+                found: dict[int, Any] = reader.load()
             except (EOFError, pickle.UnpicklingError):
-                found = [self.work(item) for item in self.items]
+                found = {}
         return found
 
     def end(self) -> None:
@@ -68,7 +91,7 @@ class _Other:
         os.kill(self.process, signal.SIGKILL)
         os.waitpid(self.process, 0)
 
-    def _deliver(self, write: int) -> None:
+    def _deliver(self, taken: Callable[[], dict[int, Any]], write: int) -> None:
         """In the forked process, which ends here: results, or nothing where anything goes wrong."""
         global _alone
         _alone = True
@@ -77,7 +100,7 @@ class _Other:
             text = io.BytesIO()
             writer = pickle.Pickler(text, pickle.HIGHEST_PROTOCOL)
             writer.persistent_id = lambda thing: id(thing) if id(thing) in self.names else None  # type: ignore[method-assign]
-            writer.dump([self.work(item) for item in self.items])
+            writer.dump(taken())
             with os.fdopen(write, "wb") as pipe:
                 pipe.write(text.getbuffer())
         finally:

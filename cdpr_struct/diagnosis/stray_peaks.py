@@ -57,14 +57,17 @@ def _catching(ground: Ground, before: Fit | None) -> list[tuple[Choice, np.ndarr
     world = ground.world if before is None else before.world
     taken = () if before is None else before.names
 
-    def large(candidate: Candidate) -> list[_Trial]:
-        tried = [choice(candidate, pattern, _SCALE) for pattern in candidate.patterns[:2]]
-        return [_best_along(ground, world, picked, d) for picked in tried for d in _directions(picked)]
+    def best_along(direction: tuple[Choice, np.ndarray]) -> _Trial:
+        return _best_along(ground, world, *direction)
 
     moving = [c for c in ground.candidates if c.name not in taken and _moves_modes(ground, c)]
-    found = [trials for trials in side_by_side(large, moving, ground.known) if trials]
+    tried = [choice(candidate, pattern, _SCALE) for candidate in moving for pattern in candidate.patterns[:2]]
+    directions = [(picked, direction) for picked in tried for direction in _directions(picked)]
+    by_cause: dict[str, list[_Trial]] = {}
+    for trial in side_by_side(best_along, directions, ground.known):
+        by_cause.setdefault(trial.picked.candidate.name, []).append(trial)
     left = strays_in(ground.setting, world)
-    first = sorted(found, key=lambda trials: min(map(_fewest, trials)))[: ground.budget]
+    first = sorted(by_cause.values(), key=lambda trials: min(map(_fewest, trials)))[: ground.budget]
     return [(one.picked, one.theta) for trials in first for one in trials if one.strays < left - _FEWER]
 
 

@@ -1,5 +1,7 @@
 """What the readings do to the truth."""
 
+from functools import partial
+
 import numpy as np
 
 from cdpr_struct.diagnosis.causes.cause import Cause, Parameter
@@ -95,6 +97,11 @@ CAUSES = (
 )
 
 
+def _pulled(q: int, world: World, theta: np.ndarray) -> World:
+    """Forces of q directions first, then lengths."""
+    return world.plus(internal_force=theta[..., :q], internal=theta[..., q:])
+
+
 def internal_force(setting: Setting) -> Cause:
     """The measured tensions sit elsewhere in the null space of these states."""
     return internal_forces(setting.sent.null_space.shape[-1], len(setting.campaign.states.names))
@@ -108,7 +115,7 @@ def internal_forces(q: int, states: int) -> Cause:
         "internal_force",
         "internal force other than commanded",
         named,
-        lambda world, theta: world.plus(internal_force=theta[..., :q], internal=theta[..., q:]),
+        partial(_pulled, q),
         seen_in=("NS",),
         needs=_null_space,
         sentence="the cables pull against each other differently from the simulation, by {rms} {unit} in the mean",
