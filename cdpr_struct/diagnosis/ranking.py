@@ -170,10 +170,8 @@ def _replacing(ground: Ground, fit: Fit, i: int) -> list[Fit]:
     kept, there = without(fit, i), fit.ground
     left = [c.cause for c in ground.candidates if c.name not in fit.names]
     found = candidates(there.setting, fit.world, there.readings, there.null, left)
-    z, own = (
-        fit.white + fit.signature @ fit.theta,
-        np.hstack([c for j, c in enumerate(fit.split(fit.signature)) if j != i]),
-    )
+    z = fit.white + fit.signature @ fit.theta
+    own = np.hstack([columns for j, columns in enumerate(fit.split(fit.signature)) if j != i])
 
     def fitted(tried: tuple[Screened, Choice]) -> list[Fit]:
         row, picked = tried

@@ -10,6 +10,8 @@ import fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.prepared import BUDGETS, SIGNIFICANT, prepare
+from cdpr_struct.diagnosis.ranking import clears
+from cdpr_struct.diagnosis.selection import FURTHER, select
 from cdpr_struct.diagnosis.verdict import verdict
 from cdpr_struct.measurement.campaign_file import load_campaign
 from tests.conftest import at_rest
@@ -72,6 +74,26 @@ def test_one_stray_peak_is_enough_to_find_a_large_change_about_one_axis(tmp_path
     assert found.p_value < SIGNIFICANT
     assert found.selection.fit.names == ("platform_inertia",)
     assert found.selection.fit.ground.strays == pytest.approx(0.0, abs=0.1)
+
+
+def test_rivals_are_looked_for_in_the_world_that_explains_everything(tmp_path):
+    """A cell 15 N too high beside half the inertia: gain or zero in three states, and nothing does what inertia does.
+
+    The modes are those of half the inertia then, so no rival is held against peaks of another body.
+    """
+    campaign = written(tmp_path, 0.5)
+    high = campaign.states.tension + 15.0 * np.eye(campaign.states.tension.shape[1])[1]
+    campaign = replace(campaign, states=replace(campaign.states, tension=high))
+    search = prepare(campaign, BUDGETS["small"]).search
+    found = select(search, FURTHER, 2)
+    cell, other = "load_cell_gain", "load_cell_bias"
+    cell, other = (cell, other) if cell in found.fit.names else (other, cell)
+    assert set(found.fit.names) == {"platform_inertia", cell}
+    assert clears(found.fit)
+    for i, name in enumerate(found.fit.names):
+        behind = {fit.names[-1]: found.fit.gain - fit.gain for fit in search.replacing(found.fit, i)}
+        nearest = min(behind, key=lambda rival: behind[rival])
+        assert (behind[nearest] < 6.0, nearest == other) == (name == cell, name == cell), behind
 
 
 def test_frequencies_near_those_of_a_cable_are_followed_from_the_likeliest_tolerances(tmp_path):

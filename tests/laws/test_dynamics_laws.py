@@ -15,6 +15,7 @@ from cdpr_struct.dynamics.natural_frequencies import (
     static_frequencies,
 )
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     attachment,
     geometric_stiffness,
@@ -51,6 +52,17 @@ def test_platform_stiffness_is_symmetric(point, model):
     cables = cable_dynamics(point, model)
     for stiffness in (platform_static_stiffness(point), platform_dynamic_stiffness(point, cables, np.array([300.0]))):
         np.testing.assert_allclose(stiffness, stiffness.T, atol=1e-9 * np.abs(stiffness).max())
+
+
+def test_rough_cables_have_the_modes_of_fine_ones(point):
+    """To seven digits, with fewer polynomials."""
+    omega = 60.0
+    fine, rough = (cable_dynamics(point, "exact", omega, rough=r).expansion(omega) for r in (False, True))
+    count = int(count_below(point, cable_dynamics(point, "exact", omega), np.array([omega]))[0])
+    assert count > 6
+    np.testing.assert_allclose(ritz_modes(point, rough, count).omega, ritz_modes(point, fine, count).omega, rtol=1e-7)
+    sizes = [cable_dynamics(point, "exact", omega, rough=r).full.omega_squared.shape[-1] for r in (False, True)]
+    assert sizes[1] < 0.7 * sizes[0]
 
 
 def test_dsm_at_rest_is_near_the_static_stiffness(point):

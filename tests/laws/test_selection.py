@@ -29,6 +29,16 @@ def test_two_causes_are_found(ground):
     assert set(names) & {"joint_compliance", "dead_length", "axial_stiffness"}
 
 
+def test_rivals_are_those_that_do_the_same(ground):
+    """What cables all alike softer do, other softness does as well; what one cell's zero does, only its gain does."""
+    soft = {"joint_compliance", "dead_length", "axial_stiffness", "temperature", "drum_scale"}
+    selection = select(Search(ground), FURTHER, 2)
+    for name, rivals in zip(selection.fit.names, selection.rivals, strict=True):
+        near = {fit.names[-1] for fit in rivals if fit.gain > selection.fit.gain - 5.0}
+        assert near
+        assert near <= ({"load_cell_gain"} if name == "load_cell_bias" else soft - {name})
+
+
 def test_no_second_cause_is_sought_where_a_law_outside_the_library_is_far_better(ground):
     both = select(Search(ground), FURTHER, 2).fit
     assert len(select(Search(ground), FURTHER, 2, outside=both.gain + 15.0).fit.names) == 2

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cdpr_struct.generated.catenary import end_point, sag
+from cdpr_struct.statics import catenary_length
 from cdpr_struct.statics.catenary import RESIDUAL_TOLERANCE, CableStatus, solve_end_forces
 from cdpr_struct.statics.catenary_length import force_z_curvature, length_at_chord_tension, solve_length
 
@@ -182,6 +183,20 @@ def test_solve_length_gives_the_wanted_tension(slope, tension):
     else:
         assert cable.status == CableStatus.TENSION_TOO_LOW
         assert np.hypot(cable.force_x, cable.force_z) > wanted
+
+
+@pytest.mark.parametrize(("factor", "fewer"), [(1.001, True), (30.0, False), (1e-3, False)])
+def test_a_near_cable_changes_the_way_and_not_the_answer(factor, fewer, monkeypatch):
+    """From a cable of almost the same tension fewer steps do; one far away is no harm."""
+    x, z, wanted = np.array([10.0, 10.0, 3.0]), np.array([0.0, 4.0, -6.0]), np.array([60.0, 400.0, 9.0])
+    near = solve_length(x - 1e-4, z, factor * wanted, 1e5, 0.8)
+    steps, jacobian = [0], catenary_length._jacobian
+    monkeypatch.setattr(catenary_length, "_jacobian", lambda *args: (steps.append(1), jacobian(*args))[1])
+    cold, before = solve_length(x, z, wanted, 1e5, 0.8), len(steps)
+    warm = solve_length(x, z, wanted, 1e5, 0.8, near)
+    np.testing.assert_allclose(warm.length, cold.length, rtol=1e-12)
+    assert warm.converged.all()
+    assert not fewer or len(steps) - before < 0.7 * before
 
 
 def test_solve_length_says_when_the_cable_weighs_more_than_the_tension():
