@@ -11,7 +11,7 @@ from cdpr_struct.cli.progress import steps
 from cdpr_struct.errors import InputError
 
 NAME = "diagnose"
-BUDGET_HELP = "small (10 s for static states, a minute with loads and frequencies, minutes with signals) or full."
+BUDGET_HELP = "small (10 s, half a minute where much is wrong, minutes with signals) or full."
 
 
 def run(
