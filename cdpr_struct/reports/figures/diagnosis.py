@@ -1,6 +1,7 @@
 """Residuals before and after, and the evidence for each candidate."""
 
 from collections.abc import Mapping
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from cdpr_struct.reports.figures.style import BLUE, GREY, LIGHT, ORANGE, plain_n
 RESIDUAL_SIZE, EVIDENCE_SIZE, MEASURED_SIZE = (9.6, 4.2), (9.6, 3.2), (9.6, 3.2)
 
 _BARS, _MOST_NAMES, _LETTERS = 10, 30, 18
+_NARROW = 0.3  # of the width: two blocks together on which their names would touch
 _TENS = tuple(10.0**n for n in range(1, 16))
 _TICKS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, *_TENS[1:])
 _WORDS = {
@@ -58,12 +60,17 @@ def draw_residuals(figure: Figure, found: Diagnosis) -> None:
 
 
 def _name_blocks(axes: Axes, blocks: np.ndarray) -> None:
-    """Lines between blocks of residuals, their names below."""
+    """Lines between blocks of residuals, their names below, on two levels where narrow ones follow each other."""
     place = np.arange(len(blocks))
     for edge in np.flatnonzero(blocks[1:] != blocks[:-1]) + 0.5:
         axes.axvline(edge, color=GREY, linewidth=0.6)
     present = [b for b in _WORDS if (blocks == b).any()]
-    axes.set_xticks([float(place[blocks == b].mean()) for b in present], [_WORDS[b] for b in present])
+    share = [float((blocks == b).mean()) for b in present]
+    low = [False]
+    for left, right in pairwise(share):
+        low.append(left + right < _NARROW and not low[-1])
+    words = ["\n" * below + _WORDS[b] for below, b in zip(low, present, strict=True)]
+    axes.set_xticks([float(place[blocks == b].mean()) for b in present], words)
     axes.tick_params(axis="x", length=0)
 
 
