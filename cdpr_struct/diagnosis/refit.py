@@ -15,6 +15,7 @@ from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, residuals
 from cdpr_struct.diagnosis.setting import anchored
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.errors import CdprError
 
 _ITERATIONS = 8
 _STEP = 0.02  # of the prior's sigma
@@ -196,7 +197,7 @@ def _settled_once(ground: Ground, fit: Fit) -> Fit:
     world = world_with(ground.world, fit.choices, fit.theta)
     try:
         setting = anchored(ground.setting, world)
-    except ValueError:  # a body or a cable that cannot exist
+    except (ValueError, CdprError):  # a body or a cable that cannot exist, or a pose that does not hold
         return replace(fit, gain=-np.inf)
     null, offset = relinearised(setting, world, ground.readings, ground.extra, ground.likeliest)
     there = replace(ground, setting=setting, null=null, offset=offset, stray=setting.stray)

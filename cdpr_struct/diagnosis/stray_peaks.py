@@ -16,6 +16,7 @@ from cdpr_struct.diagnosis.refit import Fit, Ground, settled
 from cdpr_struct.diagnosis.setting import strays_in
 from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.errors import CdprError
 
 SEVERAL = 1.5  # expected strays that are more than one
 ONE = 0.7  # expected strays from which large changes are tried
@@ -122,5 +123,5 @@ def _trial(ground: Ground, world: World, picked: Choice, theta: np.ndarray) -> _
     try:
         changed = picked.candidate.cause.apply(world, (theta * picked.prior) @ picked.pattern.basis.T)
         return _Trial(picked, theta, strays_in(ground.setting, changed))
-    except ValueError:  # a body or a cable that cannot exist
+    except (ValueError, CdprError):  # a body or a cable that cannot exist, or a pose that does not hold
         return _Trial(picked, theta, np.inf)

@@ -1,13 +1,16 @@
 """Unlabelled peaks and modes: shared tolerances sharpen the pairing, competing pairings raise the doubt."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from cdpr_struct.diagnosis.causes.registry import LIBRARY
+from cdpr_struct.diagnosis.evidence import Candidate, choice
 from cdpr_struct.diagnosis.mode_pairing import Modes, paired
 from cdpr_struct.diagnosis.setting import make_setting, modes_in, paired_with, strays_in
-from cdpr_struct.diagnosis.stray_peaks import p_of_strays
+from cdpr_struct.diagnosis.stray_peaks import _trial, p_of_strays
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.measurement.campaign import RobotFrequencies
 from tests.laws.crime_campaign import clean_campaign
@@ -100,3 +103,18 @@ def test_strays_of_a_world_are_counted_roughly_without_following_its_modes():
     assert strays_in(setting, true) < 0.2
     assert paired_with(setting, entered).strays > 1.5
     assert strays_in(setting, entered) == pytest.approx(paired_with(setting, entered).strays, rel=0.3)
+
+
+def test_a_large_change_that_no_pose_would_stand_is_no_explanation():
+    """With its centre of mass 30 m above it the platform tips over: no modes, so no peak is explained; 1 cm is one."""
+    campaign = clean_campaign()
+    guess = RobotFrequencies(np.array([0, 1, 2]), np.full(3, 6.5), np.full(3, 0.02))
+    setting, _ = make_setting(replace(campaign, robot_frequencies=guess))
+    entered, cause = World.of(campaign.robot, len(campaign.states.names)), LIBRARY["center_of_mass"]
+    pattern = cause.patterns(setting)[0]
+    candidate = Candidate(cause, np.zeros((len(setting.labels), len(pattern.basis))), [pattern])
+    up = np.eye(len(pattern.prior))[-1] / pattern.prior[-1]
+    ground = SimpleNamespace(setting=setting)
+    tried = [_trial(ground, entered, choice(candidate, pattern, 1.0), height * up) for height in (0.01, 30.0)]
+    assert np.isfinite(tried[0].strays)
+    assert tried[1].strays == np.inf
