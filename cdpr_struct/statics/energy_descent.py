@@ -71,7 +71,8 @@ class EnergyDescent:
             self.position[kept], self.rotation[kept] = position[accepted], rotation[accepted]
             self.wrench[kept], self.tangent[kept] = there.wrench[accepted], there.tangent[accepted]
             self.converged[kept] = small[accepted]
-            shorter = np.clip(before / np.maximum(before - after, 1e-300), 0.1, 0.6)
+            with np.errstate(over="ignore"):  # power that hardly falls: the longest step will do
+                shorter = np.clip(before / np.maximum(before - after, 1e-300), 0.1, 0.6)
             step = np.where(accepted[:, None], step, shorter[:, None] * step)
             going = ~self.converged[items]
             items, step, fresh = items[going], step[going], accepted[going]
