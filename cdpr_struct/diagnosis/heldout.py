@@ -84,7 +84,7 @@ def weakest(fit: Fit, groups: np.ndarray, caught: np.ndarray) -> np.ndarray:
     the robot.
     """
     null, peaks = fit.ground.null, groups[fit.ground.setting.labels.block == "RF"]
-    zero, signature = null.lower @ (fit.white + fit.signature @ fit.theta), null.lower @ fit.signature
+    zero, signature = null.lower @ fit.bare, null.lower @ fit.signature
     owner = np.repeat(np.arange(len(fit.choices)), [c.signature.shape[1] for c in fit.choices])
     least = np.full(len(fit.choices), np.inf)
     for group in np.unique(groups):

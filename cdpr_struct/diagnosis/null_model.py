@@ -232,11 +232,15 @@ def null_with_bending(
     return NullModel(null.r, columns, _lower(setting, columns)), extra
 
 
+def tolerance_columns(setting: Setting, null: NullModel) -> np.ndarray:
+    """(n, t) what each tolerance does to the whitened residuals."""
+    noise = reading_count(setting)
+    return null.white(null.columns[:, noise : noise + tolerance_count(setting)])
+
+
 def likeliest_tolerances(setting: Setting, null: NullModel, white: np.ndarray) -> np.ndarray:
     """(t,) tolerances that explain whitened residuals (n,) best, in sigmas; none beyond `_FARTHEST`."""
-    noise = reading_count(setting)
-    columns = null.white(null.columns[:, noise : noise + tolerance_count(setting)])
-    likeliest = -columns.T @ white
+    likeliest = -tolerance_columns(setting, null).T @ white
     result: np.ndarray = likeliest * min(1.0, _FARTHEST / max(float(np.abs(likeliest).max()), 1e-9))
     return result
 

@@ -97,7 +97,7 @@ def _ranked(ground: Ground, before: Fit | None, rows: list[Screened], large: lis
     def fitted(tried: tuple[Screened, Choice]) -> Fit:
         row, picked = tried
         fit = refit(ground, (picked,)) if before is None else _with_one_more(before, picked)
-        return replace(fit, gain=fit.gain + row.spread, spread=row.spread)
+        return fit.also_by(row.spread)
 
     tried = [(row, picked) for row in _promising(ground, rows, before is not None) for picked in _worth_trying(row)]
     fits = side_by_side(fitted, tried, ground.known)
@@ -170,18 +170,16 @@ def _replacing(ground: Ground, fit: Fit, i: int) -> list[Fit]:
     kept, there = without(fit, i), fit.ground
     left = [c.cause for c in ground.candidates if c.name not in fit.names]
     found = candidates(there.setting, fit.world, there.readings, there.null, left)
-    z = fit.white + fit.signature @ fit.theta
     own = np.hstack([columns for j, columns in enumerate(fit.split(fit.signature)) if j != i])
 
     def fitted(tried: tuple[Screened, Choice]) -> list[Fit]:
         row, picked = tried
         lowest = np.concatenate([c.pattern.lowest for c in (*kept, picked)])
-        start = np.maximum(_at_once(np.hstack([own, -picked.signature]), z), lowest)
-        other = refit(there, (*kept, picked), start)
-        other = replace(other, gain=other.gain + row.spread, spread=row.spread)
+        start = np.maximum(_at_once(np.hstack([own, -picked.signature]), fit.bare), lowest)
+        other = refit(there, (*kept, picked), start).also_by(row.spread)
         return [other, *([settled(ground, other)] if other.gain > fit.gain - _NEAR else [])]
 
-    tried = [(row, c) for row in _promising(there, screen(found, z, own), True) for c in _worth_trying(row)]
+    tried = [(row, c) for row in _promising(there, screen(found, fit.bare, own), True) for c in _worth_trying(row)]
     return _best_of_each([one for fits in side_by_side(fitted, tried, ground.known) for one in fits])
 
 

@@ -98,9 +98,18 @@ class Fit:
         blank = np.zeros((len(ground.null.r), len(theta)))
         return cls(choices, theta, np.eye(len(theta)), -np.inf, ground.z, blank, ground, spread)
 
+    def also_by(self, spread: float) -> "Fit":
+        """The fit with what its other patterns add to the gain."""
+        return replace(self, gain=self.gain + spread, spread=spread)
+
     @property
     def names(self) -> tuple[str, ...]:
         return tuple(c.candidate.name for c in self.choices)
+
+    @property
+    def bare(self) -> np.ndarray:
+        """(n,) whitened residuals without the causes, to first order at the fit."""
+        return self.white + self.signature @ self.theta
 
     @property
     def world(self) -> World:
@@ -201,8 +210,7 @@ def _settled_once(ground: Ground, fit: Fit) -> Fit:
         return replace(fit, gain=-np.inf)
     null, offset = relinearised(setting, world, ground.readings, ground.extra, ground.likeliest)
     there = replace(ground, setting=setting, null=null, offset=offset, stray=setting.stray)
-    again = refit(there, fit.choices, fit.theta)
-    return replace(again, gain=again.gain + fit.spread, spread=fit.spread)
+    return refit(there, fit.choices, fit.theta).also_by(fit.spread)
 
 
 def _beside(ground: Ground, fit: Fit) -> Ground:
@@ -213,7 +221,7 @@ def _beside(ground: Ground, fit: Fit) -> Ground:
 
 def screen_beyond(fit: Fit, found: list[Candidate]) -> list[Screened]:
     """Gain of each cause, with its signature in the fit's world, on top of the fit's own; best first."""
-    return screen(found, fit.white + fit.signature @ fit.theta, fit.signature)
+    return screen(found, fit.bare, fit.signature)
 
 
 def _residuals(ground: Ground, picked: tuple[Choice, ...], theta: np.ndarray) -> np.ndarray:

@@ -1,6 +1,6 @@
 """One cause, several causes, or nothing: forward selection, every step with all sizes free, and exchange."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -91,8 +91,7 @@ def _in_its_place(search: Search, best: Fit, i: int) -> list[Fit]:
     for j, rival in enumerate(rivals[: ground.budget]):
         picked = rival.choices[-1]
         begun = refit(best.ground, (*kept, picked), np.concatenate([*sizes, np.zeros(len(picked.prior))]))
-        begun = replace(begun, gain=begun.gain + rival.spread, spread=rival.spread)
-        found[j] = max(rival, begun, key=lambda fit: fit.gain)
+        found[j] = max(rival, begun.also_by(rival.spread), key=lambda fit: fit.gain)
     return sorted(found, key=lambda fit: -fit.gain)
 
 

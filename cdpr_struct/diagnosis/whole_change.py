@@ -9,7 +9,7 @@ from dataclasses import fields
 import numpy as np
 
 from cdpr_struct.diagnosis.evidence import Choice
-from cdpr_struct.diagnosis.null_model import reading_count, tolerance_count, tolerated
+from cdpr_struct.diagnosis.null_model import tolerance_columns, tolerance_count, tolerated
 from cdpr_struct.diagnosis.refit import Fit
 from cdpr_struct.diagnosis.residuals import Setting
 from cdpr_struct.diagnosis.world import World
@@ -24,12 +24,11 @@ def whole_change(fit: Fit) -> tuple[np.ndarray, np.ndarray]:
     Residuals are z - S theta + C u with tolerances u, so for a given theta these have the mean -C'(z - S theta) and the
     covariance 1 - C'C. With shares M of the tolerances in the parameters the whole change is theta + M u.
     """
-    setting, null = fit.ground.setting, fit.ground.null
-    first, count = reading_count(setting), tolerance_count(setting)
-    columns = null.white(null.columns[:, first : first + count])
+    setting = fit.ground.setting
+    columns = tolerance_columns(setting, fit.ground.null)
     shares = np.concatenate([_shares(setting, fit.world, choice) for choice in fit.choices])
     slope = np.eye(len(fit.theta)) + shares @ columns.T @ fit.signature
-    alone = shares @ (np.eye(count) - columns.T @ columns) @ shares.T
+    alone = shares @ (np.eye(columns.shape[1]) - columns.T @ columns) @ shares.T
     return fit.theta - shares @ columns.T @ fit.white, slope @ fit.covariance @ slope.T + alone
 
 
