@@ -54,7 +54,7 @@ def verdict(found: Diagnosis) -> Verdict:
     fit, mended = found.selection.fit, [c for c, _ in found.corrections]
     place = location(found)
     if is_unknown(found):
-        repeat = "; ".join(filter(None, ("repeat the worst state; see location", _next(found, ()))))
+        repeat = "; ".join(filter(None, (f"repeat what is worst: {place}", _next(found, ()))))
         return Verdict("unknown", (), (), _probability(found), place, repeat, _unknown_sentence(found, place))
     names = tuple(c.cause for c in mended) + (fit.names if fit else ())
     classes = tuple((c.cause, *c.rivals) for c in mended) + tuple(

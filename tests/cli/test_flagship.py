@@ -15,7 +15,7 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "soft-masts"
 
 def later() -> tuple[str, np.ndarray]:
     """Pose and frequencies that are no part of the campaign."""
-    rows = list(csv.DictReader((EXAMPLE / "later.csv").open()))
+    rows = list(csv.DictReader((EXAMPLE / "later.csv").read_text("utf-8").splitlines()))
     pose = ",".join(rows[0][name] for name in ("x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"))
     return pose, np.array([float(row["frequency_hz"]) for row in rows])
 

@@ -140,6 +140,8 @@ def test_a_cell_that_is_not_linear_is_not_told_as_gain_and_zero():
     bent = replace(campaign, states=replace(campaign.states, tension=tension + 15.0 * (tension / 300.0) ** 2))
     said = verdict(diagnose(bent))
     assert said.status == "unknown"
+    assert said.location
+    assert f"repeat what is worst: {said.location}" in said.next_measurement
     assert "One law explains it better" in said.sentence
     assert "the load cells: a law other than gain and zero" in said.sentence
 
