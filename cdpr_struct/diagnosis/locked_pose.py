@@ -26,7 +26,8 @@ from cdpr_struct.statics.equilibrium import (
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
-_MAST_ITERATIONS = 4
+_MOST_ROUNDS = 8  # of masts and stiffness that follow the tensions
+_STILL, _SAME = 1e-7, 1e-6  # [m], share of the stiffness: rounds end when they change less
 _STEPS, _BALANCED = 8, 1e-3  # most steps near a reference; imbalance left, in the largest load
 
 
@@ -41,27 +42,35 @@ def robot_arrays(world: World, stiffness: np.ndarray, anchors: np.ndarray, known
     )  # fmt: skip
 
 
-def locked_pose(world: World, readings: Readings, known: Circumstances) -> tuple[ForwardSolution, np.ndarray]:
-    """Equilibria (..., S) at the encoder's lengths, and the arrays' effective stiffness; `world` per state."""
+def locked_pose(
+    world: World, readings: Readings, known: Circumstances, about: "Reference | None" = None
+) -> tuple[ForwardSolution, np.ndarray]:
+    """Equilibria (..., S) at the encoder's lengths, and the arrays' effective stiffness; `world` per state.
+
+    about : equilibria of a world like this one, to begin from; else the measured poses
+    """
     position, rotation = true_pose(world, readings)
     length = paid_out(world, readings, known)
     extra = load_wrench(world, position, rotation, known) - _own_weight(world, rotation)
-    tension = np.full(length.shape, known.mean_tension)
-    stiff = series_stiffness(world, length, tension, known)
-    anchors = world.frame_anchors
+    anchors, tension = world.frame_anchors, np.full(length.shape, known.mean_tension)
     moving = bool(np.any(world.frame_compliance))
     bending = bool(np.any(world.nonlinearity))
-    shape = np.broadcast_shapes(position.shape[:-1], length.shape[:-1], stiff.shape[:-1], extra.shape[:-1])
-    start = np.broadcast_to(position, (*shape, 3)), np.broadcast_to(rotation, (*shape, 3, 3))
+    start = position, rotation
+    if about is not None:
+        start, tension = (about.position, about.rotation), np.maximum(about.cables.tension_at_platform, 1.0)
+        anchors = moved_anchors(world, about.cables) if moving else anchors
+    stiff = series_stiffness(world, length, tension, known)
     model = "sagging" if known.sagging else "spring"
-    for i in range(_MAST_ITERATIONS if moving or bending else 1):
+    for _ in range(_MOST_ROUNDS):
         found = forward(robot_arrays(world, stiff, anchors, known), length, *start, model, extra)
-        if i == _MAST_ITERATIONS - 1:
+        if not (moving or bending):
             break
-        if moving:
-            anchors = moved_anchors(world, found.cables)
-        stiff = series_stiffness(world, length, np.maximum(found.tensions, 1.0), known)
-        start = found.position, found.rotation
+        there = moved_anchors(world, found.cables) if moving else anchors
+        stiffer = series_stiffness(world, length, np.maximum(found.tensions, 1.0), known)
+        same = np.abs(there - anchors).max() <= _STILL and np.abs(stiffer / stiff - 1.0).max() <= _SAME
+        if same:
+            break
+        anchors, stiff, start = there, stiffer, (found.position, found.rotation)
     return found, stiff
 
 

@@ -159,7 +159,7 @@ class States:
             if small and setting.locked_at is not None:
                 found = nearby_pose(own, part, known, setting.locked_at)
             else:
-                found, _ = locked_pose(own, part, known)
+                found, _ = locked_pose(own, part, known, setting.locked_at)
             self.missed = missed_pose(own, part, found)
             arms = world.platform_anchors @ np.swapaxes(found.rotation, -1, -2)
             parts.append(

@@ -9,9 +9,9 @@ from typing import Protocol
 
 import numpy as np
 
-from cdpr_struct.statics.cable_response import cable_response, let_out
+from cdpr_struct.statics.cable_response import cable_response, exit_jacobian, let_out
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span
-from cdpr_struct.statics.catenary import CableStatus, solve_end_forces
+from cdpr_struct.statics.catenary import CableStatus, CatenaryForces, solve_end_forces
 from cdpr_struct.statics.catenary_length import force_z_curvature, length_at_chord_tension
 from cdpr_struct.statics.masts import with_settled_masts
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
@@ -159,7 +159,7 @@ def _hanging(arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> Cab
     offset = points - arrays.frame_anchors
     if not arrays.has_yielding_frame_ends:
         zero = np.zeros_like(length)
-        return _catenary(arrays, offset, length, zero, zero)
+        return _catenary(arrays, offset, length, zero, zero)[0]
     return _catenary_over_pulley(arrays, offset, length)
 
 
@@ -222,40 +222,51 @@ def _straight_states(
 
 
 def _catenary(
-    arrays: RobotArrays, offset: np.ndarray, length: np.ndarray, wrapped: np.ndarray, passed: np.ndarray
-) -> CableStates:
+    arrays: RobotArrays,
+    offset: np.ndarray,
+    length: np.ndarray,
+    wrapped: np.ndarray,
+    passed: np.ndarray,
+    near: CatenaryForces | None = None,
+) -> tuple[CableStates, CatenaryForces]:
     heading, span = heading_and_span(offset)
     stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
     weight = np.broadcast_to(arrays.weight, length.shape)
-    forces = solve_end_forces(span, offset[..., 2], length, stiff, weight)
+    forces = solve_end_forces(span, offset[..., 2], length, stiff, weight, near)
     pull = forces.force_x, forces.force_z
-    return CableStates(offset, heading, length, wrapped, *pull, stiff, weight, forces.status, passed)
+    return CableStates(offset, heading, length, wrapped, *pull, stiff, weight, forces.status, passed), forces
 
 
 def _catenary_over_pulley(arrays: RobotArrays, offset: np.ndarray, length: np.ndarray) -> CableStates:
     """Newton on the tension vector at the frame end: its direction places the exit from the pulley, its size strains
     the wrapped piece and what is in line behind it."""
     direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
-    vector = _leaving(arrays, offset, length, direction, np.zeros(length.shape)).force_at_frame
+    states, near = _leaving(arrays, offset, length, direction, np.zeros(length.shape))
+    vector = states.force_at_frame
     for _ in range(_EXIT_ITERATIONS):
         tension = np.linalg.norm(vector, axis=-1)
-        states = _leaving(arrays, offset, length, vector / tension[..., None], tension)
+        states, near = _leaving(arrays, offset, length, vector / tension[..., None], tension, near)
         error = states.force_at_frame - vector
         if (np.abs(error).max(axis=-1) <= _EXIT_TOLERANCE * (tension + arrays.axial_stiffness)).all():
             break
-        vector = vector + np.linalg.solve(cable_response(arrays, states).frame_matrix, error[..., None])[..., 0]
+        vector = vector + np.linalg.solve(exit_jacobian(arrays, states), error[..., None])[..., 0]
     return states
 
 
 def _leaving(
-    arrays: RobotArrays, offset: np.ndarray, length: np.ndarray, direction: np.ndarray, tension: np.ndarray
-) -> CableStates:
+    arrays: RobotArrays,
+    offset: np.ndarray,
+    length: np.ndarray,
+    direction: np.ndarray,
+    tension: np.ndarray,
+    near: CatenaryForces | None = None,
+) -> tuple[CableStates, CatenaryForces]:
     """Free catenary of a cable that leaves its pulley in `direction` under `tension`."""
     exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
     wrapped = arrays.pulley_radius * exit_.wrap_angle / (1.0 + tension / arrays.axial_stiffness)
     passed = np.broadcast_to(let_out(arrays, tension, arrays.axial_stiffness), length.shape)
     free = np.maximum(length - wrapped + passed, 1e-3 * length)
-    return _catenary(arrays, offset - exit_.point, free, wrapped, passed)
+    return _catenary(arrays, offset - exit_.point, free, wrapped, passed, near)
 
 
 def _catenary_at_tension(

@@ -20,12 +20,10 @@ class CableResponse:
 
     stiffness    : (..., m, 3, 3) with respect to the position of the platform end [N/m]
     length_rate  : (..., m, 3) with respect to the unstrained length paid out beyond the frame anchor [N/m]
-    frame_matrix : (..., m, 3, 3) Jacobian of the exit equation (identity without a pulley)
     """
 
     stiffness: np.ndarray
     length_rate: np.ndarray
-    frame_matrix: np.ndarray
 
 
 def end_stiffness(arrays: RobotArrays, states: CableStates) -> np.ndarray:
@@ -50,28 +48,43 @@ def cable_response(arrays: RobotArrays, states: CableStates) -> CableResponse:
     cable as the tension grows, which enters that system alike.
     """
     free = cable_stiffness(states)
-    tension = np.where(states.slack, 1.0, states.tension_at_frame)
-    direction = states.force_at_frame / tension[..., None]
-    stretch = 1.0 + states.tension_at_frame / states.axial_stiffness
-    free_rate = -stretch[..., None] * np.einsum("...ij,...j->...i", free, direction)
     if not arrays.has_yielding_frame_ends:
-        return CableResponse(free, free_rate, np.broadcast_to(np.eye(3), free.shape))
-    top_rate = free_rate - states.weight[..., None] * _UP
-    length_from_tension, matrix = _exit_matrix(arrays, states, free, top_rate, tension)
+        return CableResponse(free, _free_rate(states, free))
+    top_rate = _free_rate(states, free) - states.weight[..., None] * _UP
+    length_from_tension, matrix = _exit_equation(arrays, states, free, top_rate)
     inverse = np.linalg.inv(matrix)
     weight_row = states.weight[..., None, None] * _UP[:, None] * length_from_tension[..., None, :]
     back = np.eye(3) + weight_row
     stiffness = back @ inverse @ free
     at_exit = np.einsum("...ij,...j->...i", inverse, top_rate)
     length_rate = np.einsum("...ij,...j->...i", back, at_exit) + states.weight[..., None] * _UP
-    return CableResponse(stiffness, length_rate, matrix)
+    return CableResponse(stiffness, length_rate)
 
 
-def _exit_matrix(
-    arrays: RobotArrays, states: CableStates, free: np.ndarray, top_rate: np.ndarray, tension: np.ndarray
+def exit_jacobian(arrays: RobotArrays, states: CableStates) -> np.ndarray:
+    """(..., m, 3, 3) Jacobian of the exit equation: the tension vector at E less the pull that follows from it."""
+    free = cable_stiffness(states)
+    return _exit_equation(arrays, states, free, _free_rate(states, free) - states.weight[..., None] * _UP)[1]
+
+
+def _pull_at_frame(states: CableStates) -> tuple[np.ndarray, np.ndarray]:
+    """Tension (..., m) [N], of one newton where the cable is slack, and unit direction (..., m, 3) at the frame end."""
+    tension = np.where(states.slack, 1.0, states.tension_at_frame)
+    return tension, states.force_at_frame / tension[..., None]
+
+
+def _free_rate(states: CableStates, free: np.ndarray) -> np.ndarray:
+    """(..., m, 3) derivative of the pull of the free cable by its unstrained length [N/m]."""
+    stretch = 1.0 + states.tension_at_frame / states.axial_stiffness
+    rate: np.ndarray = -stretch[..., None] * np.einsum("...ij,...j->...i", free, _pull_at_frame(states)[1])
+    return rate
+
+
+def _exit_equation(
+    arrays: RobotArrays, states: CableStates, free: np.ndarray, top_rate: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """d(free length)/d(tension vector at E) (..., m, 3) and the Jacobian of the exit equation (..., m, 3, 3)."""
-    direction = states.force_at_frame / tension[..., None]
+    tension, direction = _pull_at_frame(states)
     turn = (np.eye(3) - direction[..., :, None] * direction[..., None, :]) / tension[..., None, None]
     moves, winds = exit_rates(direction, arrays.pulley_axis, arrays.pulley_radius)
     stretch = (1.0 + states.tension_at_frame / states.axial_stiffness)[..., None]
