@@ -1,12 +1,11 @@
 """Masts that give way: the frame anchors of a mast move with the pull of all its cables, alike in all directions.
 
-With U the motion of the cable ends per mast and C = R R the masts' compliances, cables of stiffness K at held frame
-ends are
+With U the motion of the cable ends per mast and C the masts' compliances, cables of stiffness K at held frame ends are
 
-    K - K U R (1 + R U^T K U R)^-1 R U^T K
+    K - K U (1 + C U^T K U)^-1 C U^T K
 
-behind masts; a rigid mast (zero in C) changes nothing. In vibration the cables' inertia adds to both blocks that the
-masts take part in.
+behind masts; a rigid mast (zero in C) changes nothing. A cable hangs on one mast, so that U^T K U has a block of 3 x 3
+for each. In vibration the cables' inertia adds to both blocks that the masts take part in.
 """
 
 from collections.abc import Callable
@@ -67,12 +66,11 @@ def with_settled_masts(
 
 
 def _newton_step(arrays: RobotArrays, states: CableStates, together: np.ndarray, miss: np.ndarray) -> np.ndarray:
-    ends = end_stiffness(arrays, states)
-    m = ends.shape[-3]
-    give = arrays.frame_compliance[..., None, None, None]
-    matrix = give * together[:, None, :, None] * np.moveaxis(ends, -3, -2)[..., None, :, :, :]
-    matrix = matrix.reshape((*matrix.shape[:-4], 3 * m, 3 * m)) + np.eye(3 * m)
-    return np.linalg.solve(matrix, miss.reshape((*miss.shape[:-2], 3 * m, 1))).reshape(miss.shape)
+    """(..., m, 3) by which the anchors move; those of a mast miss alike, so each mast is solved for by itself."""
+    give = arrays.frame_compliance[..., None, None]
+    matrix = np.eye(3) + give * np.einsum("ij,...jab->...iab", together, end_stiffness(arrays, states))
+    step: np.ndarray = np.linalg.solve(matrix, miss[..., None])[..., 0]
+    return step
 
 
 Inertia = tuple[np.ndarray, np.ndarray]
@@ -99,7 +97,8 @@ def behind_masts(
     if not compliance.any():
         return own
     on_mast, junction = _mast_blocks(stiffness, cable_ends, masts, compliance, inertia)
-    return own - np.swapaxes(on_mast, -1, -2) @ np.linalg.solve(junction, on_mast)
+    moved = np.linalg.solve(junction, of_each_mast(masts, compliance)[..., None, None] * on_mast)
+    return own - np.einsum("...qai,...qaj->...ij", on_mast, moved)
 
 
 def negative_junctions(
@@ -111,7 +110,7 @@ def negative_junctions(
     """
     nothing = np.zeros((stiffness.shape[-3], 3, 0))
     _, junction = _mast_blocks(stiffness, nothing, masts, compliance, inertia)
-    return np.asarray((np.linalg.eigvalsh(junction) < 0.0).sum(axis=-1))
+    return np.asarray((np.linalg.eigvalsh(junction) < 0.0).sum(axis=(-2, -1)))
 
 
 def _mast_blocks(
@@ -121,17 +120,11 @@ def _mast_blocks(
     compliance: np.ndarray,
     inertia: Inertia | None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """R U^T K A (..., 3 n, k) and 1 + R U^T K U R (..., 3 n, 3 n)."""
-    carried, root = carriers(masts), np.sqrt(of_each_mast(masts, compliance))[..., None, None]
-    count = carried.shape[1]
+    """U^T K A (..., n, 3, k) and 1 + C U^T K U (..., n, 3, 3) of the n masts."""
+    carried, give = carriers(masts), of_each_mast(masts, compliance)[..., None, None]
     across, own_stiffness = stiffness, stiffness
     if inertia is not None:
         back = np.swapaxes(inertia[0], -1, -2)
         across, own_stiffness = stiffness - back, stiffness - inertia[0] - back + inertia[1]
-    on_mast = root * np.einsum("mq,...mak->...qak", carried, across @ cable_ends)
-    own = root**2 * np.einsum("mq,...mab->...qab", carried, own_stiffness)
-    junction = np.zeros((*own.shape[:-3], count, 3, count, 3), dtype=own.dtype)
-    for q in range(count):
-        junction[..., q, :, q, :] = np.eye(3) + own[..., q, :, :]
-    flat = junction.reshape((*own.shape[:-3], 3 * count, 3 * count))
-    return on_mast.reshape((*on_mast.shape[:-3], 3 * count, on_mast.shape[-1])), flat
+    on_mast = np.einsum("mq,...mak->...qak", carried, across @ cable_ends)
+    return on_mast, np.eye(3) + give * np.einsum("mq,...mab->...qab", carried, own_stiffness)
