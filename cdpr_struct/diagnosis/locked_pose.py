@@ -7,7 +7,6 @@ import numpy as np
 from cdpr_struct.diagnosis.conditioned_state import (
     Circumstances,
     load_wrench,
-    moved_anchors,
     paid_out,
     series_stiffness,
     true_pose,
@@ -26,19 +25,18 @@ from cdpr_struct.statics.equilibrium import (
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
-_MOST_ROUNDS = 8  # of masts and stiffness that follow the tensions
-_STILL, _SAME = 1e-7, 1e-6  # [m], share of the stiffness: rounds end when they change less
+_MOST_ROUNDS, _SAME = 8, 1e-6  # of a stiffness that follows the tensions; share of it that ends them
 _STEPS, _BALANCED = 8, 1e-3  # most steps near a reference; imbalance left, in the largest load
 
 
-def robot_arrays(world: World, stiffness: np.ndarray, anchors: np.ndarray, known: Circumstances) -> RobotArrays:
+def robot_arrays(world: World, stiffness: np.ndarray, known: Circumstances) -> RobotArrays:
     """The world's robot for the statics room; weight of the platform is left to the load wrench."""
     sag = 1.0 if known.sagging else 0.0
     return RobotArrays(
-        platform_anchors=world.platform_anchors, frame_anchors=anchors, axial_stiffness=stiffness,
+        platform_anchors=world.platform_anchors, frame_anchors=world.frame_anchors, axial_stiffness=stiffness,
         weight=world.linear_density * world.gravity[..., None] * sag, pulley_radius=world.pulley_radius,
         pulley_axis=world.pulley_axis, mass=np.asarray(world.mass), center_of_mass=world.center_of_mass,
-        gravity=np.asarray(world.gravity),
+        gravity=np.asarray(world.gravity), frame_compliance=world.frame_compliance, masts=world.masts,
     )  # fmt: skip
 
 
@@ -52,25 +50,17 @@ def locked_pose(
     position, rotation = true_pose(world, readings)
     length = paid_out(world, readings, known)
     extra = load_wrench(world, position, rotation, known) - _own_weight(world, rotation)
-    anchors, tension = world.frame_anchors, np.full(length.shape, known.mean_tension)
-    moving = bool(np.any(world.frame_compliance))
-    bending = bool(np.any(world.nonlinearity))
-    start = position, rotation
+    start, tension = (position, rotation), np.full(length.shape, known.mean_tension)
     if about is not None:
         start, tension = (about.position, about.rotation), np.maximum(about.cables.tension_at_platform, 1.0)
-        anchors = moved_anchors(world, about.cables) if moving else anchors
     stiff = series_stiffness(world, length, tension, known)
     model = "sagging" if known.sagging else "spring"
     for _ in range(_MOST_ROUNDS):
-        found = forward(robot_arrays(world, stiff, anchors, known), length, *start, model, extra)
-        if not (moving or bending):
-            break
-        there = moved_anchors(world, found.cables) if moving else anchors
+        found = forward(robot_arrays(world, stiff, known), length, *start, model, extra)
         stiffer = series_stiffness(world, length, np.maximum(found.tensions, 1.0), known)
-        same = np.abs(there - anchors).max() <= _STILL and np.abs(stiffer / stiff - 1.0).max() <= _SAME
-        if same:
+        if np.abs(stiffer / stiff - 1.0).max() <= _SAME:
             break
-        anchors, stiff, start = there, stiffer, (found.position, found.rotation)
+        stiff, start = stiffer, (found.position, found.rotation)
     return found, stiff
 
 
@@ -108,7 +98,7 @@ class Nearby:
 def reference(world: World, readings: Readings, known: Circumstances) -> Reference:
     """Equilibria of a world without batch axes."""
     found, stiff = locked_pose(world, readings, known)
-    arrays = robot_arrays(world, stiff, moved_anchors(world, found.cables), known)
+    arrays = robot_arrays(world, stiff, known)
     arms = PlatformArms.at(arrays, found.position, found.rotation)
     tangent = tangent_stiffness(arrays, found.cables, arms)
     return Reference(found.position, found.rotation, np.linalg.inv(tangent), found.cables)
@@ -124,10 +114,7 @@ def nearby_pose(world: World, readings: Readings, known: Circumstances, about: R
     load = load_wrench(world, position, rotation, known) - _own_weight(world, rotation)
     tension = about.cables.tension_at_platform
     stiff = series_stiffness(world, length, np.maximum(tension, 1.0), known)
-    anchors = world.frame_anchors
-    if np.any(world.frame_compliance):
-        anchors = moved_anchors(world, about.cables)
-    arrays = robot_arrays(world, stiff, anchors, known)
+    arrays = robot_arrays(world, stiff, known)
     model = cable_model("sagging" if known.sagging else "spring")
     shape = np.broadcast_shapes(
         position.shape[:-1], length.shape[:-1], stiff.shape[:-1], load.shape[:-1], arrays.batch_shape
@@ -154,6 +141,15 @@ def nearby_pose(world: World, readings: Readings, known: Circumstances, about: R
         *(getattr(states, n).reshape((*shape, *getattr(states, n).shape[1:])) for n in states.__slots__)
     )
     return Nearby(place, turn, whole)
+
+
+def equilibria(
+    world: World, readings: Readings, known: Circumstances, about: Reference | None, small: bool
+) -> ForwardSolution | Nearby:
+    """Equilibria (..., S) at the encoder's lengths; small: to first order about those known, if there are any."""
+    if small and about is not None:
+        return nearby_pose(world, readings, known, about)
+    return locked_pose(world, readings, known, about)[0]
 
 
 def missed_pose(world: World, readings: Readings, found: ForwardSolution | Nearby) -> np.ndarray:

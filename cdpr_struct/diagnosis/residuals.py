@@ -19,14 +19,13 @@ from cdpr_struct.diagnosis import robot_pitch
 from cdpr_struct.diagnosis.cable_pitch import cable_log_frequencies
 from cdpr_struct.diagnosis.commanded import Commanded
 from cdpr_struct.diagnosis.conditioned_state import Circumstances, Conditioned, condition, incompatible, unbalanced
-from cdpr_struct.diagnosis.locked_pose import Nearby, Reference, locked_pose, missed_pose, nearby_pose
+from cdpr_struct.diagnosis.locked_pose import Reference, equilibria, missed_pose
 from cdpr_struct.diagnosis.modal_constants import Constants, log_gain, modelled_constants
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.vibrating_state import raised, vibrating
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.measurement.campaign import CableFrequencies, Campaign
 from cdpr_struct.statics.cable_state import CableStates
-from cdpr_struct.statics.forward_kinematics import ForwardSolution
 
 BLOCKS = ("EQ", "CO", "NS", "LP", "CF", "RF", "FA")
 UNITS = {"EQ": "N", "CO": "mm", "NS": "mm", "LP": "mm", "CF": "%", "RF": "%", "FA": "%"}
@@ -66,7 +65,8 @@ class Setting:
     nearness (r, m) : of the rows to the cables' own frequencies, as in `robot_pitch`
     robot_doubt : extra noise of each robot frequency [%]
     constants, constant_gap, constant_doubt : modal constants of FRFs, ln(exact / closed form), extra noise [%]
-    locked_at : equilibria of the `locked` states in the world that this setting is about
+    locked_at, sent_at : equilibria in the world that this setting is about, of the `locked` states and, at the lengths
+        sent, of the `held` states without lengths; None where there are none, or no first-order change starts there
     stray : probability of each robot frequency to belong to no mode of that world
     """
 
@@ -94,6 +94,7 @@ class Setting:
     massless: bool = False
     geometric: bool = True
     locked_at: Reference | None = None
+    sent_at: Reference | None = None
     stray: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     @property
@@ -111,7 +112,7 @@ def residuals(setting: Setting, world: World, readings: Readings, small: bool = 
     batch = _batch(world, readings)
     wide = world.per_state()
     states = States(setting, wide, readings, small)
-    blocks = _static_blocks(setting, wide, states, readings) if setting.held.size else []
+    blocks = _static_blocks(setting, wide, states, readings, small) if setting.held.size else []
     if setting.locked.size:
         blocks.append(1e3 * _scaled(states.missed, setting.radius))
     flat = [np.broadcast_to(b, (*batch, *b.shape[-2:])).reshape((*batch, -1)) for b in blocks]
@@ -155,11 +156,7 @@ class States:
         if setting.locked.size:
             part, known = readings_of_states(readings, setting.locked), at_states(setting, setting.locked)
             own = world_of_states(world, setting.locked)
-            found: ForwardSolution | Nearby
-            if small and setting.locked_at is not None:
-                found = nearby_pose(own, part, known, setting.locked_at)
-            else:
-                found, _ = locked_pose(own, part, known, setting.locked_at)
+            found = equilibria(own, part, known, setting.locked_at, small)
             self.missed = missed_pose(own, part, found)
             arms = world.platform_anchors @ np.swapaxes(found.rotation, -1, -2)
             parts.append(
@@ -219,32 +216,43 @@ def _scaled(twist: np.ndarray, radius: float) -> np.ndarray:
     return np.concatenate([twist[..., :3], twist[..., 3:] * radius], axis=-1)
 
 
-def _static_blocks(setting: Setting, world: World, states: States, readings: Readings) -> list[np.ndarray]:
+def _static_blocks(setting: Setting, world: World, states: States, readings: Readings, small: bool) -> list[np.ndarray]:
     part, known = readings_of_states(readings, setting.held), at_states(setting, setting.held)
     wrench = unbalanced(world, states.held, known)
     blocks = [np.concatenate([wrench[..., :3], wrench[..., 3:] / setting.radius], axis=-1)]
     if setting.with_length.any():
         gap = incompatible(world, states.held, part, known)
         blocks.append(1e3 * np.take(gap, np.flatnonzero(setting.with_length), axis=-2))
-    if not setting.with_length.all() and setting.sent.null_space.any():
-        blocks.append(1e3 * _internal(setting, world, states, part, known))
+    if commands_count(setting):
+        blocks.append(1e3 * _internal(setting, world, states, readings, small))
     return blocks
 
 
-def _internal(setting: Setting, world: World, states: States, readings: Readings, known: Circumstances) -> np.ndarray:
+def commands_count(setting: Setting) -> bool:
+    """Whether tensions are held against lengths that the simulation commands."""
+    return bool(not setting.with_length.all() and setting.sent.null_space.any())
+
+
+def as_sent(setting: Setting, world: World, readings: Readings) -> tuple[World, Readings, Circumstances]:
+    """The held states without lengths, at those that the simulation commands; `world` per state."""
+    free = np.flatnonzero(~setting.with_length)
+    where = setting.held[free]
+    aimed = replace(readings_of_states(readings, where), length=setting.sent.lengths[free])
+    return world_of_states(world, where), aimed, at_states(setting, where)
+
+
+def _internal(setting: Setting, world: World, states: States, readings: Readings, small: bool) -> np.ndarray:
     """(..., free, q) commanded lengths less those that the tensions mean, along the null space [m].
 
     The pose that was commanded is not the one measured: it is as far from it as this world's robot, sent to the
     measured pose by the simulation, would miss it.
     """
     free = np.flatnonzero(~setting.with_length)
-    sent = setting.sent
+    sent, where = setting.sent, setting.held[free]
     gap = np.take(sent.lengths * world.length_scale + world.length_offset - states.held.cables.total_length, free, -2)
     seen = np.einsum("smq,...sm->...sq", sent.null_space[free], gap)
-    where = setting.held[free]
-    aimed = replace(readings_of_states(readings, free), length=sent.lengths[free])
-    own = world_of_states(world, where)
-    found, _ = locked_pose(own, aimed, at_states(setting, where))
+    own, aimed, known = as_sent(setting, world, readings)
+    found = equilibria(own, aimed, known, setting.sent_at, small)
     seen = seen + np.einsum("sqj,...sj->...sq", sent.slope[free], missed_pose(own, aimed, found))
     q = seen.shape[-1]
     apart = world.internal.reshape((*world.internal.shape[:-1], -1, q))[..., where, :]

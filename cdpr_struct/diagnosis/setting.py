@@ -12,7 +12,16 @@ from cdpr_struct.diagnosis.extended_robot import robot_of
 from cdpr_struct.diagnosis.locked_pose import reference
 from cdpr_struct.diagnosis.modal_constants import measured_constants
 from cdpr_struct.diagnosis.readings import Readings, cell_reading, exit_turns
-from cdpr_struct.diagnosis.residuals import Labels, Setting, States, at_states, readings_of_states, world_of_states
+from cdpr_struct.diagnosis.residuals import (
+    Labels,
+    Setting,
+    States,
+    as_sent,
+    at_states,
+    commands_count,
+    readings_of_states,
+    world_of_states,
+)  # fmt: skip
 from cdpr_struct.diagnosis.robot_rows import ModelModes, model_modes, rough_strays, with_robot_rows
 from cdpr_struct.diagnosis.vibrating_state import vibrating
 from cdpr_struct.diagnosis.world import World
@@ -136,12 +145,15 @@ def strays_in(setting: Setting, world: World) -> float:
 
 
 def with_equilibria(setting: Setting, world: World) -> Setting:
-    """First-order changes of locked poses start from their equilibria in this world."""
-    if not setting.locked.size or np.any(world.frame_compliance) or np.any(world.nonlinearity):
-        return replace(setting, locked_at=None)
-    own = world_of_states(world.per_state(), setting.locked)
-    readings = readings_of_states(Readings.of(setting.campaign.states), setting.locked)
-    return replace(setting, locked_at=reference(own, readings, at_states(setting, setting.locked)))
+    """First-order changes of locked poses and of those that commands mean start from equilibria in this world."""
+    locked_at = sent_at = None
+    wide, readings = world.per_state(), Readings.of(setting.campaign.states)
+    if setting.locked.size and not np.any(world.nonlinearity):
+        own, part = world_of_states(wide, setting.locked), readings_of_states(readings, setting.locked)
+        locked_at = reference(own, part, at_states(setting, setting.locked))
+    if commands_count(setting) and not np.any(world.nonlinearity):
+        sent_at = reference(*as_sent(setting, wide, readings))
+    return replace(setting, locked_at=locked_at, sent_at=sent_at)
 
 
 def _conditioned(setting: Setting, world: World) -> Conditioned:

@@ -9,10 +9,11 @@ from typing import Protocol
 
 import numpy as np
 
-from cdpr_struct.statics.cable_response import cable_response, exit_jacobian, let_out
+from cdpr_struct.statics.cable_response import cable_response, let_out
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span
-from cdpr_struct.statics.catenary import CableStatus, CatenaryForces, solve_end_forces
-from cdpr_struct.statics.catenary_length import force_z_curvature, length_at_chord_tension
+from cdpr_struct.statics.catenary import CableStatus
+from cdpr_struct.statics.catenary_length import force_z_curvature
+from cdpr_struct.statics.hanging_cables import hanging, held_hanging
 from cdpr_struct.statics.masts import with_settled_masts
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 from cdpr_struct.statics.robot_arrays import RobotArrays
@@ -21,8 +22,6 @@ IDEAL_STIFFENING = 1e6  # an ideal cable at given length: spring with EA this ma
 SLACKEST_HELD = (
     3.0  # largest w chord / (2 tau) of a cable chosen by `inverse`: sag over span 1.5, far past the least tension
 )
-_EXIT_ITERATIONS = 30
-_EXIT_TOLERANCE = 1e-14  # of the tension, or of the unit direction
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -122,14 +121,21 @@ class SaggingModel:
         return arrays
 
     def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
-        return with_settled_masts(arrays, lambda moved: _hanging(moved, points, length))[0]
+        near = None
+
+        def on_masts(moved: RobotArrays) -> CableStates:
+            nonlocal near
+            states, near = hanging(moved, points, length, near)
+            return states
+
+        return with_settled_masts(arrays, on_masts)[0]
 
     def hold(self, arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> HeldCables:
         def states_of(moved: RobotArrays) -> CableStates:
-            return _held_hanging(moved, points, chord_tension)[0]
+            return held_hanging(moved, points, chord_tension)[0]
 
         _, arrays = with_settled_masts(arrays, states_of, locked=False)
-        states, length_rate = _held_hanging(arrays, points, chord_tension)
+        states, length_rate = held_hanging(arrays, points, chord_tension)
         response = cable_response(replace(arrays, series_compliance=np.zeros(1)), states)
         bend = -force_z_curvature(states.span, states.offset[..., 2], chord_tension, states.weight)
         return HeldCables(states, -response.length_rate * length_rate[..., None], bend)
@@ -153,22 +159,6 @@ def _held_spring(arrays: RobotArrays, points: np.ndarray, tension: np.ndarray) -
     exit_ = _straight(arrays, points)
     stretch = 1.0 + tension / arrays.axial_stiffness
     return _straight_states(arrays, exit_, tension, exit_.chord / stretch, exit_.wrapped / stretch)
-
-
-def _hanging(arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
-    offset = points - arrays.frame_anchors
-    if not arrays.has_yielding_frame_ends:
-        zero = np.zeros_like(length)
-        return _catenary(arrays, offset, length, zero, zero)[0]
-    return _catenary_over_pulley(arrays, offset, length)
-
-
-def _held_hanging(arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> tuple[CableStates, np.ndarray]:
-    """State, and rate of the length with the chord tension."""
-    offset = points - arrays.frame_anchors
-    if not arrays.has_pulleys:
-        return _catenary_at_tension(arrays, offset, chord_tension, np.zeros(offset.shape[:-1]))
-    return _held_over_pulley(arrays, offset, chord_tension)
 
 
 MODELS: dict[str, CableModel] = {m.name: m for m in (SaggingModel(), SpringModel(), IdealModel())}
@@ -219,84 +209,3 @@ def _straight_states(
         exit_.offset, heading, length, wrapped, share * span, share * exit_.offset[..., 2], stiff,
         np.zeros_like(length), status, passed,
     )  # fmt: skip
-
-
-def _catenary(
-    arrays: RobotArrays,
-    offset: np.ndarray,
-    length: np.ndarray,
-    wrapped: np.ndarray,
-    passed: np.ndarray,
-    near: CatenaryForces | None = None,
-) -> tuple[CableStates, CatenaryForces]:
-    heading, span = heading_and_span(offset)
-    stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
-    weight = np.broadcast_to(arrays.weight, length.shape)
-    forces = solve_end_forces(span, offset[..., 2], length, stiff, weight, near)
-    pull = forces.force_x, forces.force_z
-    return CableStates(offset, heading, length, wrapped, *pull, stiff, weight, forces.status, passed), forces
-
-
-def _catenary_over_pulley(arrays: RobotArrays, offset: np.ndarray, length: np.ndarray) -> CableStates:
-    """Newton on the tension vector at the frame end: its direction places the exit from the pulley, its size strains
-    the wrapped piece and what is in line behind it."""
-    direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
-    states, near = _leaving(arrays, offset, length, direction, np.zeros(length.shape))
-    vector = states.force_at_frame
-    for _ in range(_EXIT_ITERATIONS):
-        tension = np.linalg.norm(vector, axis=-1)
-        states, near = _leaving(arrays, offset, length, vector / tension[..., None], tension, near)
-        error = states.force_at_frame - vector
-        if (np.abs(error).max(axis=-1) <= _EXIT_TOLERANCE * (tension + arrays.axial_stiffness)).all():
-            break
-        vector = vector + np.linalg.solve(exit_jacobian(arrays, states), error[..., None])[..., 0]
-    return states
-
-
-def _leaving(
-    arrays: RobotArrays,
-    offset: np.ndarray,
-    length: np.ndarray,
-    direction: np.ndarray,
-    tension: np.ndarray,
-    near: CatenaryForces | None = None,
-) -> tuple[CableStates, CatenaryForces]:
-    """Free catenary of a cable that leaves its pulley in `direction` under `tension`."""
-    exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
-    wrapped = arrays.pulley_radius * exit_.wrap_angle / (1.0 + tension / arrays.axial_stiffness)
-    passed = np.broadcast_to(let_out(arrays, tension, arrays.axial_stiffness), length.shape)
-    free = np.maximum(length - wrapped + passed, 1e-3 * length)
-    return _catenary(arrays, offset - exit_.point, free, wrapped, passed, near)
-
-
-def _catenary_at_tension(
-    arrays: RobotArrays, offset: np.ndarray, chord_tension: np.ndarray, wrap: np.ndarray
-) -> tuple[CableStates, np.ndarray]:
-    """State, and rate of the length with the chord tension; `wrap` is the strained length on the pulley."""
-    heading, span = heading_and_span(offset)
-    cable = length_at_chord_tension(span, offset[..., 2], chord_tension, arrays.axial_stiffness, arrays.weight)
-    bottom = np.hypot(cable.force_x, cable.force_z - arrays.weight * cable.length)
-    wrapped = wrap / (1.0 + bottom / arrays.axial_stiffness)
-    stiff = np.broadcast_to(arrays.axial_stiffness, wrapped.shape)
-    weight = np.broadcast_to(arrays.weight, wrapped.shape)
-    states = CableStates(
-        offset, heading, cable.length, wrapped, np.where(span > 0.0, cable.force_x, 0.0), cable.force_z, stiff,
-        weight, cable.status, np.broadcast_to(let_out(arrays, bottom, stiff), wrapped.shape),
-    )  # fmt: skip
-    return states, cable.length_rate
-
-
-def _held_over_pulley(
-    arrays: RobotArrays, offset: np.ndarray, chord_tension: np.ndarray
-) -> tuple[CableStates, np.ndarray]:
-    """Fixed point of the exit direction; contracts by about radius over chord."""
-    direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
-    for _ in range(_EXIT_ITERATIONS):
-        exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
-        wrap = arrays.pulley_radius * exit_.wrap_angle
-        states, length_rate = _catenary_at_tension(arrays, offset - exit_.point, chord_tension, wrap)
-        before = direction
-        direction = states.force_at_frame / states.tension_at_frame[..., None]
-        if np.abs(direction - before).max(initial=0.0) <= _EXIT_TOLERANCE:
-            break
-    return states, length_rate * (1.0 + states.wrapped_length / states.length)  # the wrapped piece stretches alike

@@ -1,0 +1,118 @@
+"""Sagging cables at given length or given tension, over pulleys and with what is elastic in line behind them."""
+
+import numpy as np
+
+from cdpr_struct.statics.cable_response import exit_jacobian, let_out
+from cdpr_struct.statics.cable_state import CableStates, heading_and_span
+from cdpr_struct.statics.catenary import CatenaryForces, solve_end_forces
+from cdpr_struct.statics.catenary_length import length_at_chord_tension
+from cdpr_struct.statics.pulley import pulley_exit, straight_exit
+from cdpr_struct.statics.robot_arrays import RobotArrays
+
+_EXIT_ITERATIONS = 30
+_EXIT_TOLERANCE = 1e-14  # of the tension, or of the unit direction
+
+
+def hanging(
+    arrays: RobotArrays, points: np.ndarray, length: np.ndarray, near: CatenaryForces | None
+) -> tuple[CableStates, CatenaryForces]:
+    """Cables of unstrained `length` (..., m) [m] that end at `points` (..., m, 3), and their catenaries.
+
+    near : those of cables nearly like these, to begin from
+    """
+    offset = points - arrays.frame_anchors
+    if not arrays.has_yielding_frame_ends:
+        zero = np.zeros_like(length)
+        return _catenary(arrays, offset, length, zero, zero, near)
+    return _catenary_over_pulley(arrays, offset, length, near)
+
+
+def held_hanging(arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> tuple[CableStates, np.ndarray]:
+    """Cables of chord tension (..., m) [N], and the rate of their length with it [m/N]."""
+    offset = points - arrays.frame_anchors
+    if not arrays.has_pulleys:
+        return _catenary_at_tension(arrays, offset, chord_tension, np.zeros(offset.shape[:-1]))
+    return _held_over_pulley(arrays, offset, chord_tension)
+
+
+def _catenary(
+    arrays: RobotArrays,
+    offset: np.ndarray,
+    length: np.ndarray,
+    wrapped: np.ndarray,
+    passed: np.ndarray,
+    near: CatenaryForces | None,
+) -> tuple[CableStates, CatenaryForces]:
+    heading, span = heading_and_span(offset)
+    stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
+    weight = np.broadcast_to(arrays.weight, length.shape)
+    forces = solve_end_forces(span, offset[..., 2], length, stiff, weight, near)
+    pull = forces.force_x, forces.force_z
+    return CableStates(offset, heading, length, wrapped, *pull, stiff, weight, forces.status, passed), forces
+
+
+def _catenary_over_pulley(
+    arrays: RobotArrays, offset: np.ndarray, length: np.ndarray, near: CatenaryForces | None
+) -> tuple[CableStates, CatenaryForces]:
+    """Newton on the tension vector at the frame end: its direction places the exit from the pulley, its size strains
+    the wrapped piece and what is in line behind it."""
+    direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
+    states, near = _leaving(arrays, offset, length, direction, np.zeros(length.shape), near)
+    vector = states.force_at_frame
+    for _ in range(_EXIT_ITERATIONS):
+        tension = np.linalg.norm(vector, axis=-1)
+        states, near = _leaving(arrays, offset, length, vector / tension[..., None], tension, near)
+        error = states.force_at_frame - vector
+        if (np.abs(error).max(axis=-1) <= _EXIT_TOLERANCE * (tension + arrays.axial_stiffness)).all():
+            break
+        vector = vector + np.linalg.solve(exit_jacobian(arrays, states), error[..., None])[..., 0]
+    return states, near
+
+
+def _leaving(
+    arrays: RobotArrays,
+    offset: np.ndarray,
+    length: np.ndarray,
+    direction: np.ndarray,
+    tension: np.ndarray,
+    near: CatenaryForces | None,
+) -> tuple[CableStates, CatenaryForces]:
+    """Free catenary of a cable that leaves its pulley in `direction` under `tension`."""
+    exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
+    wrapped = arrays.pulley_radius * exit_.wrap_angle / (1.0 + tension / arrays.axial_stiffness)
+    passed = np.broadcast_to(let_out(arrays, tension, arrays.axial_stiffness), length.shape)
+    free = np.maximum(length - wrapped + passed, 1e-3 * length)
+    return _catenary(arrays, offset - exit_.point, free, wrapped, passed, near)
+
+
+def _catenary_at_tension(
+    arrays: RobotArrays, offset: np.ndarray, chord_tension: np.ndarray, wrap: np.ndarray
+) -> tuple[CableStates, np.ndarray]:
+    """State, and rate of the length with the chord tension; `wrap` is the strained length on the pulley."""
+    heading, span = heading_and_span(offset)
+    cable = length_at_chord_tension(span, offset[..., 2], chord_tension, arrays.axial_stiffness, arrays.weight)
+    bottom = np.hypot(cable.force_x, cable.force_z - arrays.weight * cable.length)
+    wrapped = wrap / (1.0 + bottom / arrays.axial_stiffness)
+    stiff = np.broadcast_to(arrays.axial_stiffness, wrapped.shape)
+    weight = np.broadcast_to(arrays.weight, wrapped.shape)
+    states = CableStates(
+        offset, heading, cable.length, wrapped, np.where(span > 0.0, cable.force_x, 0.0), cable.force_z, stiff,
+        weight, cable.status, np.broadcast_to(let_out(arrays, bottom, stiff), wrapped.shape),
+    )  # fmt: skip
+    return states, cable.length_rate
+
+
+def _held_over_pulley(
+    arrays: RobotArrays, offset: np.ndarray, chord_tension: np.ndarray
+) -> tuple[CableStates, np.ndarray]:
+    """Fixed point of the exit direction; contracts by about radius over chord."""
+    direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
+    for _ in range(_EXIT_ITERATIONS):
+        exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
+        wrap = arrays.pulley_radius * exit_.wrap_angle
+        states, length_rate = _catenary_at_tension(arrays, offset - exit_.point, chord_tension, wrap)
+        before = direction
+        direction = states.force_at_frame / states.tension_at_frame[..., None]
+        if np.abs(direction - before).max(initial=0.0) <= _EXIT_TOLERANCE:
+            break
+    return states, length_rate * (1.0 + states.wrapped_length / states.length)  # the wrapped piece stretches alike
