@@ -104,10 +104,11 @@ def reference(world: World, readings: Readings, known: Circumstances) -> Referen
     return Reference(found.position, found.rotation, np.linalg.inv(tangent), found.cables)
 
 
-def nearby_pose(world: World, readings: Readings, known: Circumstances, about: Reference) -> Nearby:
+def nearby_pose(world: World, readings: Readings, known: Circumstances, about: Reference) -> Nearby | None:
     """Equilibria (..., S) of worlds near that of a reference: Newton's method from there, its stiffness kept.
 
-    One step does, except for cables that hardly stretch: there the square of a small turn is a large force.
+    One step does, except for cables that hardly stretch: there the square of a small turn is a large force, and the
+    steps may lead nowhere. None if so.
     """
     position, rotation = true_pose(world, readings)
     length = paid_out(world, readings, known)
@@ -129,11 +130,13 @@ def nearby_pose(world: World, readings: Readings, known: Circumstances, about: R
 
     place, turn = start
     states, arms = cables_at(place, turn)
-    for _ in range(_STEPS):
+    for taken in range(_STEPS + 1):
         weight = weight_wrench(flat, arms).reshape((*shape, 6))
         wrench = cable_wrench(states, arms).reshape((*shape, 6)) + weight + load
-        if place is not start[0] and np.abs(wrench).max() < _BALANCED * np.abs(weight + load).max():
+        if taken and np.abs(wrench).max() < _BALANCED * np.abs(weight + load).max():
             break
+        if taken == _STEPS or not np.isfinite(wrench).all():
+            return None
         step = (about.flexibility @ wrench[..., None])[..., 0]
         place, turn = place + step[..., :3], rotation_from_vector(step[..., 3:]) @ turn
         states, arms = cables_at(place, turn)
@@ -147,9 +150,8 @@ def equilibria(
     world: World, readings: Readings, known: Circumstances, about: Reference | None, small: bool
 ) -> ForwardSolution | Nearby:
     """Equilibria (..., S) at the encoder's lengths; small: to first order about those known, if there are any."""
-    if small and about is not None:
-        return nearby_pose(world, readings, known, about)
-    return locked_pose(world, readings, known, about)[0]
+    near = nearby_pose(world, readings, known, about) if small and about is not None else None
+    return near if near is not None else locked_pose(world, readings, known, about)[0]
 
 
 def missed_pose(world: World, readings: Readings, found: ForwardSolution | Nearby) -> np.ndarray:

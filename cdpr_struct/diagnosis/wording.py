@@ -13,7 +13,10 @@ _DOUBT = (2.0, 2.0)  # of its own sigmas, and per cent of its frequency, by whic
 
 
 def described(choice: Choice, theta: np.ndarray) -> str:
-    """The cause's sentence with its size; a single number with its sign, and what the sign means."""
+    """The cause's sentence with its size; a single number with its sign, and what the sign means.
+
+    far : mean square length of vectors of three numbers, or of the only one of fewer;  parts : one length a unit
+    """
     cause, value = choice.candidate.cause, theta * choice.prior
     first = choice.pattern.parameters[0].shown(float(value[0]), 0.0)
     rms, norm = float(np.sqrt(np.mean(value**2))), float(np.linalg.norm(value))
@@ -21,12 +24,20 @@ def described(choice: Choice, theta: np.ndarray) -> str:
     words = {
         "value": f"{first['value']:.3g}", "percent": _per_cent(float(np.exp(value.mean()))),
         "rms": f"{value[0]:+.2g}" if single else f"{rms:.2g}", "norm": f"{norm:.2g}", "unit": str(first["unit"]),
+        "far": f"{value[0]:+.2g}" if single else f"{norm / np.sqrt(max(len(value) // 3, 1)):.2g}", "parts": _by_unit(choice, value),
     }  # fmt: skip
     text = cause.sentence.format(**words)
     text = text.replace(" in the mean", "") if single else text
     notes = [choice.pattern.label, cause.sign if single else ""]
     note = ", ".join(filter(None, notes))
     return f"{text} ({note})" if note else text
+
+
+def _by_unit(choice: Choice, value: np.ndarray) -> str:
+    """Length of the vector that the numbers of each unit make, as "0.002 m and 0.001 rad"."""
+    units = np.array([p.unit for p in choice.pattern.parameters])
+    sizes = {str(unit): np.linalg.norm(value[units == unit]) for unit in dict.fromkeys(units.tolist())}
+    return " and ".join(f"{size:.2g} {unit}" for unit, size in sizes.items())
 
 
 def _per_cent(ratio: float) -> str:

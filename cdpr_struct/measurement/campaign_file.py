@@ -13,6 +13,7 @@ from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.signal_cases import join_signals
+from cdpr_struct.measurement.unit_scale import check_scale
 from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import LARGEST, Matrix, Positive, Vector, builtin_names, input_error, load_robot
@@ -94,6 +95,7 @@ def load_campaign(path: str | Path) -> Campaign:
         gathering.add(rows, sigmas)
         sheets.append(_sheet(entry, rows, sigmas))
     _check_poses(gathering)
+    check_scale(str(path), robot, gathering.states())
     identified = join_signals(gathering, robot, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(

@@ -50,6 +50,19 @@ def test_numbers_of_each_cable_are_a_mean(clean):
     assert said == "the load cells' zero is off, by 3 N in the mean (each its own)"
 
 
+@pytest.mark.parametrize(
+    ("name", "label", "values", "words"),
+    [
+        ("gravity_tilt", "", [0.003, -0.004], "out of level by 0.005 rad"),
+        ("frame_anchor_position", "each its own", [0.002, 0.0, 0.0] * 8, "off, by 0.002 m in the mean"),
+        ("tracker_frame", "shifted and turned", [0.003, 0.0, 0.004, 0.0, 0.002, 0.0], "by 0.005 m and 0.002 rad"),
+    ],
+)
+def test_vectors_are_told_by_their_length(clean, name, label, values, words):
+    found = chosen(name, label, clean)
+    assert words in described(found, np.array(values) / found.prior)
+
+
 def test_a_ratio_near_one_keeps_its_digits(clean):
     """A drum 0.04 % too large is no 100.0 %."""
     found = chosen("drum_scale", "all alike", clean)

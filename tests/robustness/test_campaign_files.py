@@ -45,6 +45,20 @@ def test_bad_rows(rows, words, tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
+    ("rows", "words"),
+    [
+        (HEAD + ROWS.replace("0,0,1,", "0,0,1000,"), ["case a: x_m, y_m, z_m", "1000.0", "mm"]),
+        (HEAD + ROWS.replace(",300", ",0.3"), ["case a: tension_N", "2.4", "kN"]),
+        (HEAD.strip() + ",length_m\n" + ROWS.replace(",300", ",300,9500"), ["case a: length_m", "9500", "mm"]),
+    ],
+    ids=["position", "tension", "length"],
+)
+def test_readings_a_thousand_times_off_are_asked_for_their_unit(rows, words, tmp_path, capsys):
+    line = complaint(tmp_path, capsys, rows=rows)
+    assert all(word in line for word in words), line
+
+
+@pytest.mark.parametrize(
     ("campaign", "words"),
     [
         (CAMPAIGN.replace("cogiro", "no-robot"), ["no-robot"]),

@@ -1,0 +1,50 @@
+"""Readings that are hundreds of times what the robot allows are in another unit; that is said before any simulation."""
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from cdpr_struct.errors import InputError
+from cdpr_struct.measurement.campaign import States
+from cdpr_struct.robot.robot import Robot
+
+_TIMES = 30.0  # beyond this no robot or reading is: mm instead of m is a thousand times, kN instead of N as well
+
+
+def check_scale(source: str, robot: Robot, states: States) -> None:
+    """Hold poses, lengths and tensions against the size and weight of the robot.
+
+    Raises
+    ------
+    InputError : a state whose pose, lengths or tensions cannot be in m and N.
+    """
+    middle = robot.frame_anchors.mean(axis=0)
+    reach = float(np.linalg.norm(robot.frame_anchors - middle, axis=1).max())
+    turn = Rotation.from_euler("ZYX", states.angles[:, ::-1]).as_matrix()
+    for i, name in enumerate(states.names):
+        _check_position(source, name, states.position[i], middle, reach)
+        points = states.position[i] + robot.platform_anchors @ turn[i].T
+        _check_lengths(source, name, states.length[i], np.linalg.norm(points - robot.frame_anchors, axis=1))
+        weight = (robot.platform.mass + float(states.payload[i])) * robot.gravity
+        _check_tensions(source, name, states.tension[i], weight)
+
+
+def _check_position(source: str, name: str, position: np.ndarray, middle: np.ndarray, reach: float) -> None:
+    if np.linalg.norm(position - middle) > _TIMES * reach:
+        expected = f"a position in m: the frame anchors lie within {reach:.3g} m of their middle (is it in mm?)"
+        raise InputError(source, f"case {name}: x_m, y_m, z_m", position.tolist(), expected)
+
+
+def _check_lengths(source: str, name: str, length: np.ndarray, chord: np.ndarray) -> None:
+    if not np.isfinite(length).all():
+        return
+    times = float(np.median(length / chord))
+    if not 1.0 / _TIMES < times < _TIMES:
+        expected = f"lengths in m: at this pose the anchors are {np.median(chord):.3g} m apart (are they in mm?)"
+        raise InputError(source, f"case {name}: length_m", float(np.median(length)), expected)
+
+
+def _check_tensions(source: str, name: str, tension: np.ndarray, weight: float) -> None:
+    """All tensions together pull at least as much as the platform weighs."""
+    if np.isfinite(tension).all() and tension.sum() * _TIMES < weight:
+        expected = f"tensions in N: all together hold at least the weight of {weight:.3g} N (are they in kN?)"
+        raise InputError(source, f"case {name}: tension_N", float(tension.sum()), expected)
