@@ -25,6 +25,7 @@ from cdpr_struct.dynamics.natural_frequencies import static_frequencies
 from cdpr_struct.measurement.campaign import Campaign, Tolerances
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.reports.diagnosis_result import diagnosis_json
+from cdpr_struct.reports.diagnosis_tables import hypotheses
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.thesis import cable_tables, cogiro_vibration
 from cdpr_struct.thesis.reproduction import printed_table
@@ -120,13 +121,13 @@ VERDICT_HEAD = ["p", "status", "cause", "nats", "next", "nats", "left out, ratio
 
 
 def verdict_cells(result: dict[str, Any]) -> list[str]:
-    """p-value, status, best cause and the runner-up with their evidence, held-out ratio."""
+    """p-value, status, best causes and the runner-up with their evidence on the data as mended, held-out ratio."""
     said, ratio = result["verdict"], result["gain"]["ratio"]
-    gains = [(c["cause"], f"{c['log_evidence_gain']:.1f}") for c in result["candidates"]]
-    chosen = max(len(said["causes"]), 1)
-    best = (" + ".join(said["causes"]), gains[0][1]) if said["causes"] else (f"({gains[0][0]})", gains[0][1]) if gains \
-        else ("-", "-")  # fmt: skip
-    second = gains[chosen] if len(gains) > chosen else ("-", "-")
+    tried = hypotheses(result["candidates"])
+    fits = [h for h in tried if not h.words] or tried
+    first, second = [(h.name, f"{h.gain:.1f}") for h in fits[:2]] + [("-", "-")] * (2 - len(fits[:2]))
+    name = " + ".join(said["causes"]) or (f"({first[0]})" if fits else "-")
+    best = (name, first[1])
     held = "-" if ratio is None else f"{ratio:.2f}"
     return [f"{result['p_value']:.1g}", said["status"], *best, *second, held]
 

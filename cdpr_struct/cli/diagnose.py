@@ -34,8 +34,9 @@ def run(
         found = diagnose(measured, budget, progress)
     result = with_extensions(diagnosis_json(found), measured.robot, NAME)
     if out is not None:
-        from cdpr_struct.reports.diagnosis_page import diagnosis_files
+        from cdpr_struct.reports.diagnosis_page import SOMETIMES, diagnosis_files
 
-        write_files(out, noted(result, {"result.json": result_json(result), **diagnosis_files(found, result)}))
+        files = noted(result, {"result.json": result_json(result), **diagnosis_files(found, result)})
+        write_files(out, files, SOMETIMES)
     emit(result, json, lambda: print(diagnosis_text(result)))
     return 0

@@ -4,7 +4,7 @@ import json
 import math
 import os
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -34,8 +34,10 @@ def emit(result: Mapping[str, Any], as_json: bool, text: Callable[[], None]) -> 
         print("\n" + "\n".join(result["extensions"]["sentences"]))
 
 
-def write_files(directory: Path, files: Mapping[str, str | bytes]) -> None:
+def write_files(directory: Path, files: Mapping[str, str | bytes], sometimes: Iterable[str] = ()) -> None:
     """Write the files of a result; each appears whole under its name or not at all.
+
+    sometimes : names that the command writes for other results; what an earlier run left there is removed
 
     Raises
     ------
@@ -45,6 +47,8 @@ def write_files(directory: Path, files: Mapping[str, str | bytes]) -> None:
         directory.mkdir(parents=True, exist_ok=True)
         for name, content in files.items():
             write_whole(directory / name, content)
+        for name in set(sometimes) - set(files):
+            (directory / name).unlink(missing_ok=True)
     except OSError as error:
         raise InputError("--out", "", str(directory), f"a directory that can be written ({error.strerror})") from error
 

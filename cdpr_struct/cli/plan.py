@@ -24,7 +24,7 @@ def run(
 
     entered = load_campaign(campaign)
     result = with_extensions(plan_json(planned(entered)), entered.robot, NAME)
-    emit(result, json, lambda: print(plan_text(result)))
     if out is not None:
         write_files(out, {"result.json": result_json(result)})
+    emit(result, json, lambda: print(plan_text(result)))
     return 0

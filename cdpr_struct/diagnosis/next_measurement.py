@@ -127,7 +127,10 @@ def _answer(found: Diagnosis, question: Question, measured: Sequence[tuple[str, 
     if never:
         hint = _hint(found, [name for pair in never for name in pair])
         told = " nor ".join(" from ".join(_plain(n) for n in pair) for pair in never)
-        said.append(f"no measurement that was simulated tells {told}" + (f"; a hint: {hint}" if hint else ""))
+        said.append(
+            f"no measurement that was simulated tells {told}"
+            + (f" (perhaps {hint.replace('; ', ' or ')})" if hint else "")
+        )
     return "; ".join(said)
 
 

@@ -1,5 +1,6 @@
 """Independent pieces of work on all cores: forked processes, which begin with everything computed so far."""
 
+import ctypes
 import io
 import os
 import pickle
@@ -14,6 +15,7 @@ Result = TypeVar("Result")
 
 _WIDTH = 4  # bytes of a number in the queue
 _MOST = 10_000  # numbers that a pipe holds
+_DEATH_SIGNAL = 1  # PR_SET_PDEATHSIG of Linux
 _alone = False  # whether this process is one of several already
 
 
@@ -97,6 +99,7 @@ class _Other:
         _alone = True
         try:
             signal.signal(signal.SIGINT, signal.SIG_DFL)
+            _end_with_parent()
             text = io.BytesIO()
             writer = pickle.Pickler(text, pickle.HIGHEST_PROTOCOL)
             writer.persistent_id = lambda thing: id(thing) if id(thing) in self.names else None  # type: ignore[method-assign]
@@ -105,3 +108,8 @@ class _Other:
                 pipe.write(text.getbuffer())
         finally:
             os._exit(0)
+
+
+def _end_with_parent() -> None:
+    """Let a forked process end when its parent is killed: it could not deliver any more."""
+    ctypes.CDLL(None).prctl(_DEATH_SIGNAL, signal.SIGKILL)

@@ -16,6 +16,7 @@ _UNIT = {
     "acceleration": "m/s^2",
 }  # fmt: skip
 _POSE = ("position_m", "rotation_deg")
+SIGNALS = ("frf", "free_decay", "platform_motion")
 _NEEDED = {
     "static_state": ("tension_N", "length_m", *_POSE), "loaded_pose": ("length_m", *_POSE),
     "cable_frequency": ("frequency_hz", *_POSE), "robot_frequency": ("frequency_hz", *_POSE),
@@ -52,6 +53,8 @@ def _used(sheet: Sheet, name: str) -> Used:
     value = getattr(sheet.sigmas, name)
     words = _DEFAULT_FREQUENCY if value is None else f"{value:g} {_UNIT[name]}"
     source = "stated" if name in sheet.stated else "default"
+    if value is None and sheet.kind in SIGNALS:
+        words, source = "of each identified mode", "signal"
     if "sigma" in sheet.columns and name == _main(sheet):
         source = f"column sigma, else {source}"
     return Used(sheet.kind, sheet.file, name, value, words, source)

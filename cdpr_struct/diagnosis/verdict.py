@@ -194,9 +194,9 @@ def _within(names: tuple[str, ...], classes: list[tuple[str, ...]]) -> bool:
 def _sentence(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
     fit, parts = found.selection.fit, corrected(found)
     if fit is not None:
-        whole = fit.split(whole_change(fit)[0])
+        whole, alone = fit.split(whole_change(fit)[0]), "" if confirmed(found) else "best candidate: "
         for choice, theta, names in zip(fit.choices, whole, classes[len(parts) :], strict=True):
-            lead = "best candidate of its class: " if len(names) > 1 else ""
+            lead = "best candidate of its class: " if len(names) > 1 else alone
             parts.append(lead + described(choice, theta))
     text = "; ".join(parts)
     text = text[:1].upper() + text[1:] + "."
@@ -221,11 +221,11 @@ def _standing(found: Diagnosis, fit: Fit) -> str:
 
 
 def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
-    """Every cause that was fitted, best first, with its parameters."""
+    """What was mended in the data, in the order of its discovery, then every cause that was fitted, best first."""
     rows: list[dict[str, Any]] = [
         {
             "cause": c.cause, "with": [], "parameters": c.sizes, "description": c.sentence, "log_evidence_gain": gain,
-            "heldout_rms": None, "explained_fraction": 1.0,
+            "heldout_rms": None, "explained_fraction": _mended_share(found),
         }
         for c, gain in found.corrections
     ]  # fmt: skip
@@ -233,6 +233,15 @@ def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
         f for f in found.selection.first if found.selection.fit is None or f.names != found.selection.fit.names
     ]
     return rows + [row for fit in fits for row in _fit_rows(found, fit)]
+
+
+def _mended_share(found: Diagnosis) -> float | None:
+    """Share of the significant error that went with the only correction; of several each one's is not known."""
+    if len(found.corrections) != 1:
+        return None
+    z, left = found.entered.white(found.entered.r), found.ground.z
+    before, after = float(z @ z) - len(z), max(float(left @ left) - len(left), 0.0)
+    return float(np.clip(1.0 - after / before, 0.0, 1.0)) if before > 0.0 else None
 
 
 def _fit_rows(found: Diagnosis, fit: Fit) -> list[dict[str, Any]]:

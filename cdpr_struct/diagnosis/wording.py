@@ -24,7 +24,8 @@ def described(choice: Choice, theta: np.ndarray) -> str:
     words = {
         "value": f"{first['value']:.3g}", "percent": _per_cent(float(np.exp(value.mean()))),
         "rms": f"{value[0]:+.2g}" if single else f"{rms:.2g}", "norm": f"{norm:.2g}", "unit": str(first["unit"]),
-        "far": f"{value[0]:+.2g}" if single else f"{norm / np.sqrt(max(len(value) // 3, 1)):.2g}", "parts": _by_unit(choice, value),
+        "far": f"{value[0]:+.2g}" if single else f"{norm / np.sqrt(max(len(value) // 3, 1)):.2g}",
+        "parts": _by_unit(choice, value),
     }  # fmt: skip
     text = cause.sentence.format(**words)
     text = text.replace(" in the mean", "") if single else text

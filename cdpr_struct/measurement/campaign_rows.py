@@ -61,9 +61,14 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
         return _universal(kind, path)
     try:
         table = pd.read_csv(path, dtype=str, keep_default_na=False, skipinitialspace=True, comment="#")
-    except (OSError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError as error:
+        raise InputError(str(path), "", f"byte {error.object[error.start]:#x}", "a text file in UTF-8") from error
+    except OSError as error:
         raise InputError(str(path), "", path.name, "a CSV file that can be read") from error
-    except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
+    except pd.errors.ParserError as error:
+        told = str(error).strip().rpartition("error: ")[2]
+        raise InputError(str(path), "", told, "as many values as in the header, decimals with a point") from error
+    except pd.errors.EmptyDataError as error:
         raise InputError(str(path), "", str(error).strip(), "a CSV file with a header line") from error
     if not isinstance(table.index, pd.RangeIndex):
         row = ", ".join([str(table.index[0]), *table.iloc[0]])

@@ -7,8 +7,9 @@ import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.extended_model import extended_robot_toml
+from cdpr_struct.diagnosis.residuals import UNITS
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.diagnosis_signals import signal_plates, signal_tables
+from cdpr_struct.reports.diagnosis_signals import SIGNAL_FILES, signal_plates, signal_tables
 from cdpr_struct.reports.diagnosis_tables import (
     candidate_table,
     error_table,
@@ -21,6 +22,9 @@ from cdpr_struct.reports.diagnosis_tables import (
 from cdpr_struct.reports.figures import diagnosis as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+
+SOMETIMES = ("extended_robot.toml", *SIGNAL_FILES)
+"""Files that not every diagnosis has."""
 
 
 def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, str | bytes]:
@@ -49,7 +53,7 @@ def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, st
         "report.html": render_page(diagnosis_page(found, result, plates)),
     }
     if result["extended_model"]:
-        files["extended_robot.toml"] = extended_robot_toml(found, robot_comments(result))
+        files["extended_robot.toml"] = extended_robot_toml(found, [*robot_comments(result), *_left_out(found)])
     return files
 
 
@@ -64,6 +68,13 @@ def robot_comments(result: Mapping[str, Any]) -> list[str]:
     if said["status"] == "class" and not gain["confirmed"] and gain["ratio"] is not None:
         lines.append("WARNING: not confirmed by anything that was left out of the fit; do not rely on it.")
     return lines
+
+
+def _left_out(found: Diagnosis) -> list[str]:
+    """A line for causes that no robot file can hold: they are of the commands, the tracker or the notes."""
+    fit = found.selection.fit
+    names = [c.candidate.name for c in fit.choices if not c.candidate.cause.extension] if fit else []
+    return [f"Not in this file, which has no place for it: {', '.join(names)}."] if names else []
 
 
 def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Plate]) -> Page:
@@ -126,13 +137,17 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
 
 
 def _residuals_csv(found: Diagnosis) -> str:
+    """Residuals as entered, block by block as in docs/diagnosis.md; a row's number within its state and block."""
     labels, null = found.entered_setting.labels, found.entered
+    places = list(zip(labels.block.tolist(), labels.state.tolist(), strict=True))
     return csv_text(
         {
             "block": labels.block,
             "case": [found.campaign.states.names[i] for i in labels.state],
-            "cable": labels.cable + 1,
+            "row": [places[:i].count(place) + 1 for i, place in enumerate(places)],
+            "cable": [cable + 1 if cable >= 0 else "" for cable in labels.cable.tolist()],
             "residual": null.r,
+            "unit": [UNITS[block] for block in labels.block.tolist()],
             "sigma": np.sqrt(np.diagonal(null.covariance)),
         }
     )

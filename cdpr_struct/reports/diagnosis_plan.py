@@ -48,5 +48,11 @@ def plan_text(result: Mapping[str, Any]) -> str:
     blocks = [plain_table("Smallest size found 4 times out of 5", ["cause", "size", "unit", "pattern"], sizes)]
     if pairs:
         blocks.append(plain_table("Would be taken for each other", ["cause", "for"], pairs))
-    blocks += [f"Would help, {row['gain_nats']:.1f} nats in all: {row['sentence']}." for row in result["next"][:SHOWN]]
+    hidden = [[cause, why] for cause, why in sorted(result["not_testable"].items())]
+    if hidden:
+        blocks.append(plain_table("Would not be found with this campaign", ["cause", "why"], hidden))
+    if result["next"]:
+        head = "Would help (nats over all pairs, each counted up to 5; then those of the pair that it helps most)"
+        helps = [f"{row['gain_nats']:.1f} nats: {row['sentence']}" for row in result["next"][:SHOWN]]
+        blocks.append("\n".join([head, *helps]))
     return paragraphs(*blocks)

@@ -38,7 +38,11 @@ def sigma_table(sigmas: Sequence[Mapping[str, Any]]) -> HtmlTable | None:
 
 def default_sigmas(sigmas: Sequence[Mapping[str, Any]]) -> str:
     """One line for a terminal about sigmas that nobody gave."""
-    given = [f"{s['sigma']} {s['words']} ({s['file']})" for s in sigmas if s["source"] == "default"]
+    files: dict[str, list[str]] = {}
+    for s in sigmas:
+        if s["source"] == "default":
+            files.setdefault(f"{s['sigma']} {s['words']}", []).append(s["file"])
+    given = [f"{sigma} ({', '.join(names)})" for sigma, names in files.items()]
     return f"Sigmas not given, defaults used: {', '.join(given)}." if given else ""
 
 
@@ -69,6 +73,7 @@ class Hypothesis:
     gain: float
     explained: float | None
     sizes: dict[str, Mapping[str, Any]]
+    words: str = ""
 
     @property
     def name(self) -> str:
@@ -85,17 +90,20 @@ def hypotheses(candidates: Sequence[Mapping[str, Any]]) -> list[Hypothesis]:
         if last and set(causes) == set(last.causes) and row["log_evidence_gain"] == last.gain:
             last.sizes.update(row["parameters"])
             continue
-        found.append(Hypothesis(causes, row["log_evidence_gain"], row["explained_fraction"], dict(row["parameters"])))
+        sizes, words = dict(row["parameters"]), row.get("description", "")
+        found.append(Hypothesis(causes, row["log_evidence_gain"], row["explained_fraction"], sizes, words))
     return found
 
 
 def candidate_table(candidates: Sequence[Mapping[str, Any]], most: int, sizes: int) -> HtmlTable | None:
-    """The likeliest `most` hypotheses, with the first few sizes of each."""
+    """What was mended and the likeliest hypotheses, `most` in all, with the clearest few sizes of each."""
     rows = [
         [h.name, figure(h.gain), f"{100.0 * h.explained:.0f}" if h.explained else "", _first(h, sizes)]
         for h in hypotheses(candidates)[:most]
     ]
     note = "Evidence is against nothing being wrong; three nats are a factor of twenty in probability."
+    if any(row.get("description") for row in candidates):
+        note += " That of corrections, which stand first, is against the data before them."
     columns = ["cause", "evidence [nats]", "explains [%]", "size"]
     return HtmlTable("Candidates", columns, rows, note) if rows else None
 
@@ -111,11 +119,20 @@ def size_table(candidates: Sequence[Mapping[str, Any]]) -> HtmlTable | None:
 
 
 def _first(hypothesis: Hypothesis, count: int) -> str:
-    shown = [
-        f"{name} {with_sigma(p['value'], p['sigma'])} {p['unit']}" for name, p in list(hypothesis.sizes.items())[:count]
-    ]
+    """The sizes that are largest in sigmas, or what a correction does."""
+    if not hypothesis.sizes:
+        return hypothesis.words
+    clearest = sorted(hypothesis.sizes.items(), key=lambda item: -_sigmas(item[1]))[:count]
+    kept = [(name, p) for name, p in hypothesis.sizes.items() if name in dict(clearest)]
+    shown = [f"{name} {with_sigma(p['value'], p['sigma'])} {p['unit']}" for name, p in kept]
     more = len(hypothesis.sizes) - count
     return "; ".join(shown) + (f"; {more} more" if more > 0 else "")
+
+
+def _sigmas(size: Mapping[str, Any]) -> float:
+    """How many sigmas a size is off what was entered; zero without a sigma."""
+    off = abs(size["value"] - (1.0 if size["unit"] == "ratio" else 0.0))
+    return off / size["sigma"] if size["sigma"] and math.isfinite(size["sigma"]) and size["sigma"] > 0.0 else 0.0
 
 
 def with_sigma(value: float, sigma: float) -> str:
@@ -139,7 +156,8 @@ def gain_table(gain: Mapping[str, Any]) -> HtmlTable | None:
     ]  # fmt: skip
     together = [gain["heldout_rms_before"], gain["heldout_rms_after"], gain["ratio"]]
     rows.append(["all of these", f"{gain['counted']} of {gain['of']}", *(f"{v:.2f}" for v in together)])
-    note = "Counted are the readings that the causes, fitted to the rest, change by more than one sigma."
+    note = "Counted are the readings that the causes, fitted to the rest, change by more than one sigma. "
+    note += "Sigmas are those once the causes are known; chi2/n has those before, wider where peaks were in doubt."
     if not gain["confirmed"]:
         note += " This does not confirm the causes, so nothing is claimed from it."
     title = f"Each {gain['left_out']} predicted from the others, rms error in sigmas"

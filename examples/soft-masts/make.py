@@ -120,6 +120,7 @@ def tables(noise: np.random.Generator) -> dict[str, pd.DataFrame]:
 
 if __name__ == "__main__":
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent
+    folder.mkdir(parents=True, exist_ok=True)
     for name, table in tables(np.random.default_rng(SEED)).items():
         table.round(6).to_csv(folder / name, index=False, lineterminator="\n")
         print(f"wrote {folder / name}, {len(table)} rows")
