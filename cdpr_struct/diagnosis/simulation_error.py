@@ -35,37 +35,44 @@ def rows_read(found: Diagnosis) -> np.ndarray:
 
 
 def simulation_error(found: Diagnosis) -> list[dict[str, Any]]:
-    """Per kind of data that was read: root mean square, unit, chi^2 over its count, and the worst reading."""
+    """Per kind of data that was read: root mean square, unit, chi^2 over its count, and the worst reading.
+
+    expected : root mean square that noise and tolerances let expect; None of tensions held against the simulation's
+    """
     null, setting, read = found.entered, found.entered_setting, rows_read(found)
     labels, rows = setting.labels, []
     for kind in dict.fromkeys(labels.kind[read].tolist()):
         own = np.flatnonzero((labels.kind == kind) & read)
-        values, worst = _in_units(kind, setting, null, own)
+        values, sigma, worst = _in_units(kind, setting, null, own)
+        expected = None if sigma is None else float(np.sqrt(np.mean(sigma**2)))
         rows.append(
-            {"kind": kind, "rms": float(np.sqrt(np.nanmean(values**2))), "unit": UNIT[kind],
+            {"kind": kind, "rms": float(np.sqrt(np.nanmean(values**2))), "expected": expected, "unit": UNIT[kind],
              "chi2_per_n": _chi2_per_n(null, own), "worst": worst}
         )  # fmt: skip
     return rows
 
 
-def _in_units(kind: str, setting: Setting, null: NullModel, own: np.ndarray) -> tuple[np.ndarray, dict[str, Any]]:
+def _in_units(
+    kind: str, setting: Setting, null: NullModel, own: np.ndarray
+) -> tuple[np.ndarray, np.ndarray | None, dict[str, Any]]:
+    """Errors, their sigmas, and where the worst is."""
     labels, names = setting.labels, setting.campaign.states.names
     if kind == "static_state":
         errors = tension_errors(setting)
         if np.isfinite(errors).any():
             state, cable = np.unravel_index(int(np.nanargmax(np.abs(errors))), errors.shape)
-            return errors, {"case": names[state], "cable": int(cable) + 1}
-        return null.r[own], {"case": names[labels.state[own[np.abs(null.r[own]).argmax()]]]}
-    values = null.r[own]
+            return errors, None, {"case": names[state], "cable": int(cable) + 1}
+        return null.r[own], None, {"case": names[labels.state[own[np.abs(null.r[own]).argmax()]]]}
+    values, sigma = null.r[own], np.sqrt(np.diagonal(null.covariance)[own])
     if kind.endswith("_frequency"):
         campaign = setting.campaign
         rows = campaign.cable_frequencies if kind == "cable_frequency" else campaign.robot_frequencies
-        values = rows.hertz * -np.expm1(-values / 100.0)
+        values, sigma = rows.hertz * -np.expm1(-values / 100.0), 0.01 * rows.hertz * sigma
     worst = own[np.abs(values).argmax()]
     found: dict[str, Any] = {"case": names[labels.state[worst]]}
     if labels.cable[worst] >= 0:
         found["cable"] = int(labels.cable[worst]) + 1
-    return values, found
+    return values, sigma, found
 
 
 def _chi2_per_n(null: NullModel, rows: np.ndarray) -> float:

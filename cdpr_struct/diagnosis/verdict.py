@@ -213,6 +213,8 @@ def _standing(found: Diagnosis, fit: Fit) -> str:
     joint, outcome = "", ""
     if found.held is not None and not confirmed(found):
         joint, outcome = ", but ", "it hangs on one state: nothing that was left out confirms it"
+        if len(found.campaign.states.names) == 1:
+            outcome = "with a single state nothing can be left out to confirm it"
     elif found.held is not None:
         ratio = found.held.ratio(found.held.concerned)
         joint, outcome = "; ", f"what it concerns is predicted {ratio:.1f} times better in states that were not fitted"

@@ -23,7 +23,7 @@ from cdpr_struct.reports.figures import diagnosis as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 
-SOMETIMES = ("extended_robot.toml", *SIGNAL_FILES)
+SOMETIMES = ("extended_robot.toml", "evidence.svg", *SIGNAL_FILES)
 """Files that not every diagnosis has."""
 
 
@@ -39,13 +39,11 @@ def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, st
             "The shaded band is +-2 sigma: inside it there is nothing to explain. Faint lines part the states, whose "
             "names stand above where there is room; values of all points: residuals.csv.",
         ),
-        Plate(
-            "evidence",
-            "Which cause explains it",
-            svg("evidence", figures.EVIDENCE_SIZE, lambda f: figures.draw_evidence(f, result)),
-            "Three nats are a factor of twenty in probability.",
-        ),
     ]
+    if result["candidates"]:
+        drawn = svg("evidence", figures.EVIDENCE_SIZE, lambda f: figures.draw_evidence(f, result))
+        said = "Three nats are a factor of twenty in probability."
+        plates.append(Plate("evidence", "Which cause explains it", drawn, said))
     plates += signal_plates(found, result)
     files: dict[str, str | bytes] = {
         "residuals.csv": _residuals_csv(found),
@@ -83,7 +81,7 @@ def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Pla
     more = [line[:1].upper() + line[1:] for line in standing(result)]
     more += [f"Where: {said['location']}."] if said["location"] else []
     facts = [
-        (f"{row['rms']:.3g} {row['unit']}", f"rms error, {row['kind'].replace('_', ' ')}")
+        (f"{row['rms']:.3g} {row['unit']}", f"rms error, {row['kind'].replace('_', ' ')}{_of_expected(row)}")
         for row in result["simulation_error"]
     ]
     if result["gain"]["confirmed"]:
@@ -94,7 +92,7 @@ def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Pla
         facts.append((fudge, "the same by a generic fit of common EA and cell gain, all readings"))
     return Page(
         title=f"{found.campaign.robot_name}: what the simulation gets wrong, and why",
-        subtitle=f"model {found.campaign.model}, {len(found.campaign.states.names)} states, {found.campaign.source}",
+        subtitle=f"model {found.campaign.model}, {_counted(found)}, {found.campaign.source}",
         verdict=[said["sentence"], *more],
         holds=said["status"] == "adequate",
         facts=facts,
@@ -103,6 +101,16 @@ def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Pla
         notes=[("How it was computed", [_METHOD])],
         command=f"cdpr-struct diagnose {found.campaign.source} --out=DIR",
     )
+
+
+def _counted(found: Diagnosis) -> str:
+    count = len(found.campaign.states.names)
+    return "1 state" if count == 1 else f"{count} states"
+
+
+def _of_expected(row: Mapping[str, Any]) -> str:
+    """What noise and tolerances let expect, in brackets."""
+    return "" if row["expected"] is None else f" ({row['expected']:.3g} {row['unit']} expected of noise and tolerances)"
 
 
 _METHOD = (

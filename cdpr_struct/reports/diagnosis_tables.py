@@ -49,11 +49,24 @@ def default_sigmas(sigmas: Sequence[Mapping[str, Any]]) -> str:
 def error_table(result: Mapping[str, Any]) -> HtmlTable:
     """Simulation against measurement, kind by kind; the note says what the p-value counts instead."""
     rows = [
-        [row["kind"], f"{row['rms']:.3g}", row["unit"], figure(row["chi2_per_n"], 2), _place(row["worst"])]
+        [
+            row["kind"],
+            f"{row['rms']:.3g}",
+            _expected(row),
+            row["unit"],
+            figure(row["chi2_per_n"], 2),
+            _place(row["worst"]),
+        ]
         for row in result["simulation_error"]
     ]
     note = _DECIDED[result["p_value_of"]] if result["significant"] else ""
-    return HtmlTable("Simulation against measurement", ["kind", "rms", "unit", "chi2/n", "worst"], rows, note)
+    return HtmlTable(
+        "Simulation against measurement", ["kind", "rms", "expected", "unit", "chi2/n", "worst"], rows, note
+    )
+
+
+def _expected(row: Mapping[str, Any]) -> str:
+    return "" if row["expected"] is None else f"{row['expected']:.3g}"
 
 
 def _place(worst: Mapping[str, Any]) -> str:
@@ -101,7 +114,8 @@ def candidate_table(candidates: Sequence[Mapping[str, Any]], most: int, sizes: i
         [h.name, figure(h.gain), f"{100.0 * h.explained:.0f}" if h.explained else "", _first(h, sizes)]
         for h in hypotheses(candidates)[:most]
     ]
-    note = "Evidence is against nothing being wrong; three nats are a factor of twenty in probability."
+    note = "Evidence is against nothing being wrong; three nats are a factor of twenty in probability. "
+    note += "Explained is the share of chi2 beyond what noise lets expect."
     if any(row.get("description") for row in candidates):
         note += " That of corrections, which stand first, is against the data before them."
     columns = ["cause", "evidence [nats]", "explains [%]", "size"]

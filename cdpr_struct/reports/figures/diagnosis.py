@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from cdpr_struct.diagnosis.diagnose import Diagnosis
+from cdpr_struct.diagnosis.simulation_error import rows_read
 from cdpr_struct.reports.diagnosis_tables import figure as shown
 from cdpr_struct.reports.diagnosis_tables import hypotheses
 from cdpr_struct.reports.figures.style import BLUE, GREY, LIGHT, ORANGE, plain_number, quiet
@@ -32,28 +33,23 @@ _WORDS = {
 
 
 def draw_residuals(figure: Figure, found: Diagnosis) -> None:
-    """Each residual in its own sigma, as entered and with the causes found, block by block."""
+    """Each residual that holds a reading, in its own sigma, as entered and with the causes found, block by block."""
     axes = figure.subplots()
     labels, null = found.entered_setting.labels, found.entered
     sigma = np.sqrt(np.diagonal(null.covariance))
     order = np.argsort([list(_WORDS).index(b) for b in labels.block], kind="stable")
+    order = order[rows_read(found)[order]]
     place = np.arange(len(order))
     axes.axhspan(-2.0, 2.0, color="#f4f7f5", linewidth=0)
     axes.plot(place, (null.r / sigma)[order], ".", color=ORANGE, markersize=7, label="as entered")
     fit = found.selection.fit
     if fit is not None:
         after = fit.ground.null.lower @ fit.white / np.sqrt(np.diagonal(fit.ground.null.covariance))
-        axes.plot(
-            place[: len(after)],
-            after[order] if len(after) == len(order) else after,
-            ".",
-            color=BLUE,
-            markersize=4,
-            label="with causes",
-        )
+        mended = after[order] if len(after) == len(null.r) else after
+        axes.plot(np.arange(len(mended)), mended, ".", color=BLUE, markersize=4, label="with causes")
     _name_blocks(axes, labels.block[order])
     _name_states(axes, labels.block[order], [found.campaign.states.names[i] for i in labels.state[order]])
-    _plain_sigmas(axes, [null.r / sigma, *([] if fit is None else [after])])
+    _plain_sigmas(axes, [(null.r / sigma)[order], *([] if fit is None else [mended])])
     axes.set_ylabel("residual / its sigma [-]")
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper right", ncols=2)
     quiet(axes)
@@ -117,7 +113,7 @@ def draw_evidence(figure: Figure, result: Mapping[str, Any]) -> None:
     rows = hypotheses(result["candidates"])[:_BARS][::-1]
     if rows:
         bars = axes.barh([_plain(h.name) for h in rows], [max(h.gain, 0.0) for h in rows], color=BLUE)
-        axes.bar_label(bars, [f" {shown(h.gain)}" for h in rows], fontsize=8.5)
+        axes.bar_label(bars, [f" {shown(h.gain)}" for h in rows], fontsize=8.5, padding=3)
     axes.axvline(5.0, color=GREY, linewidth=0.9, linestyle="--")
     axes.set_xlabel("log evidence against nothing being wrong [nats]; dashed: needed to be named")
     quiet(axes, "x")
