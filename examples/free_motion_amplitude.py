@@ -14,6 +14,7 @@ size is a small share of the frequency, so that this matters little.
 """
 
 import argparse
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -68,14 +69,38 @@ def large_motion_shifts(rest: fem.RobotEquilibrium, amplitudes: np.ndarray, reac
     return share
 
 
-def changes(item: Identified) -> list[tuple[int, float, float, float, float]]:
-    """Per mode clear in the first and last window: its number, amplitudes [m] there, and by which share the
-    frequency rises between them, as recorded and as the FEM has it."""
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A mode in the first and in the last window of a decay, and how it changes between them.
+
+    amplitude : [m], turns at the anchors' mean radius;  model : measured over modelled frequency less one
+    large : by which share large motion of that amplitude shifts the frequency;  damping : ratio of the two ratios
+    """
+
+    mode: int
+    amplitude: np.ndarray
+    model: np.ndarray
+    large: np.ndarray
+    damping: float
+
+    @property
+    def recorded(self) -> float:
+        """By which share the recorded frequency rises."""
+        return float((1.0 + self.model[1]) / (1.0 + self.model[0]) - 1.0)
+
+    @property
+    def expected(self) -> float:
+        """By which share it would rise without friction."""
+        return float(self.large[1] - self.large[0])
+
+
+def changes(item: Identified) -> list[Change]:
+    """Every mode that is clear in the first and in the last window."""
     if item.state is None or item.windows is None or len(item.windows.middle) < 2:
         return []
     weight = channel_weight(item.state, item.record)
     size = np.linalg.norm(item.windows.amplitude * weight, axis=2)[[0, -1]]
-    hertz = item.windows.hertz[[0, -1]]
+    hertz, damping = item.windows.hertz[[0, -1]], item.windows.damping[[0, -1]]
     clear = [i for i in np.flatnonzero(item.used) if item.partner[i] >= 0 and np.isfinite(hertz[:, i]).all()]
     if not clear:
         return []
@@ -83,11 +108,29 @@ def changes(item: Identified) -> list[tuple[int, float, float, float, float]]:
     amplitudes = np.zeros((2, number.max() + 1))
     amplitudes[:, number] = size[:, clear]
     rest = without_pulleys(item.state.point)
-    first, last = (large_motion_shifts(rest, each, float(weight[-1])) for each in amplitudes)
+    large = np.array([large_motion_shifts(rest, each, float(weight[-1])) for each in amplitudes])
+    model = item.state.hertz
     return [
-        (int(p), *size[:, i].tolist(), float(hertz[1, i] / hertz[0, i] - 1.0), float(last[p] - first[p]))
+        Change(int(p), size[:, i], hertz[:, i] / model[p] - 1.0, large[:, p], float(damping[1, i] / damping[0, i]))
         for i, p in zip(clear, number, strict=True)
     ]
+
+
+def _middle(values: np.ndarray) -> str:
+    return f"median {np.median(values):+.2f} %, of the size {np.median(np.abs(values)):.2f} %"
+
+
+def print_summary(rows: list[Change]) -> None:
+    """Medians over all modes, in per cent."""
+    recorded, expected = (100.0 * np.array([getattr(r, name) for r in rows]) for name in ("recorded", "expected"))
+    model, large = (100.0 * np.array([getattr(r, name) for r in rows]) for name in ("model", "large"))
+    damping, rest = np.array([r.damping for r in rows]), recorded - expected
+    print(f"median {np.median(recorded):+.2f} % recorded, {np.median(expected):+.2f} % by the motion's size;")
+    print(f"what is left: {np.median(rest):+.2f} %, upwards in {(rest > 0.0).sum()} of {len(rows)} modes")
+    for k, when in enumerate(("first", "last")):
+        off, left = _middle(model[:, k]), _middle((model - large)[:, k])
+        print(f"{when} window against the model: {off}; with large motion taken off {left}")
+    print(f"damping ratio: {np.median(damping):.2f} times, larger in {(damping > 1.0).sum()} of {len(rows)} modes")
 
 
 def main() -> None:
@@ -106,13 +149,11 @@ def main() -> None:
     for item in items:
         for row in changes(item):
             rows.append(row)
-            case, values = item.record.case, (row[0] + 1, *(1e3 * np.array(row[1:3])), *(100.0 * np.array(row[3:])))
-            print(f"{case:12}{values[0]:6d}{values[1]:11.1f}{values[2]:9.1f}{values[3]:+14.2f}{values[4]:+18.2f}")
+            first, last = 1e3 * row.amplitude
+            moved = f"{100.0 * row.recorded:+14.2f}{100.0 * row.expected:+18.2f}"
+            print(f"{item.record.case:12}{row.mode + 1:6d}{first:11.1f}{last:9.1f}{moved}")
     if rows:
-        recorded, expected = 100.0 * np.array(rows)[:, 3:].T
-        rest = recorded - expected
-        print(f"median {np.median(recorded):+.2f} % recorded, {np.median(expected):+.2f} % by the motion's size;")
-        print(f"what is left: {np.median(rest):+.2f} %, upwards in {(rest > 0.0).sum()} of {len(rest)} modes")
+        print_summary(rows)
 
 
 if __name__ == "__main__":
