@@ -56,9 +56,9 @@ def test_what_a_measurement_adds_grows_with_the_square_of_the_effect(found, ques
 def test_where_nothing_simulated_separates_the_hint_is_what_is_left(found, question, monkeypatch):
     monkeypatch.setattr(following, "_measurements", lambda *_: [])
     said = following.next_measurement(found, (MASSES,))
-    assert said.startswith("no measurement that was simulated tells platform mass from joint mass; a hint: ")
+    assert said.startswith("no measurement that was simulated tells platform mass from joint mass (perhaps ")
     assert found.ground.candidates
-    assert said.endswith("weighing it; a payload series")
+    assert said.endswith("weighing it or a payload series)")
 
 
 def test_a_second_measurement_is_for_what_the_first_leaves_open(found):

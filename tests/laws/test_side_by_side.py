@@ -1,6 +1,10 @@
 """Work shared among processes has the results, and the errors, of work done by one."""
 
 import os
+import signal
+import time
+import warnings
+from pathlib import Path
 
 import pytest
 
@@ -69,7 +73,58 @@ def test_work_within_work_is_done_by_its_own_process():
     assert all(inner == {own} for inner, own in apart)
 
 
+def children() -> set[str]:
+    """Processes that this one has started, whoever asked for them."""
+    tasks = Path("/proc/self/task").glob("*/children")
+    return {number for task in tasks for number in task.read_text().split()}
+
+
+@several
 def test_no_process_is_left():
+    before = children()
     side_by_side(where, range(4), ())
-    with pytest.raises(ChildProcessError):
-        os.waitpid(-1, os.WNOHANG)
+    assert children() <= before
+
+
+@several
+def test_other_processes_end_with_a_killed_one():
+    """A process that is killed while it works leaves none of its forks behind."""
+    read, write = os.pipe()
+
+    def told(item):
+        os.write(write, os.getpid().to_bytes(4, "little"))
+        time.sleep(60.0)
+        return item
+
+    first = subprocess_of(lambda: side_by_side(told, range(2), ()))
+    workers = {int.from_bytes(os.read(read, 4), "little") for _ in range(2)}
+    os.kill(first, signal.SIGKILL)
+    os.waitpid(first, 0)
+    for _ in range(100):
+        if not any(alive(worker) for worker in workers):
+            break
+        time.sleep(0.05)
+    assert len(workers) == 2
+    assert not any(alive(worker) for worker in workers)
+
+
+def subprocess_of(work) -> int:
+    """Number of a fork that does some work and ends."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        process = os.fork()
+    if not process:
+        try:
+            work()
+        finally:
+            os._exit(0)
+    return process
+
+
+def alive(process: int) -> bool:
+    """Whether a process still runs; one that ended and waits to be asked for does not."""
+    status = Path(f"/proc/{process}/stat")
+    try:
+        return status.read_text().rpartition(")")[2].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False
