@@ -51,7 +51,7 @@ def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, st
         "report.html": render_page(diagnosis_page(found, result, plates)),
     }
     if result["extended_model"]:
-        files["extended_robot.toml"] = extended_robot_toml(found, [*robot_comments(result), *_left_out(found)])
+        files["extended_robot.toml"] = extended_robot_toml(found, [*robot_comments(result), *_without_place(found)])
     return files
 
 
@@ -68,7 +68,7 @@ def robot_comments(result: Mapping[str, Any]) -> list[str]:
     return lines
 
 
-def _left_out(found: Diagnosis) -> list[str]:
+def _without_place(found: Diagnosis) -> list[str]:
     """A line for causes that no robot file can hold: they are of the commands, the tracker or the notes."""
     fit = found.selection.fit
     names = [c.candidate.name for c in fit.choices if not c.candidate.cause.extension] if fit else []
