@@ -122,13 +122,12 @@ def nearby_pose(world: World, readings: Readings, known: Circumstances, about: R
     )
     length = np.broadcast_to(length, (*shape, length.shape[-1]))
     flat = arrays.flattened(shape)
-    start = tuple(np.broadcast_to(v, (*shape, *v.shape[1:])) for v in (about.position, about.rotation))
+    place, turn = (np.broadcast_to(v, (*shape, *v.shape[1:])) for v in (about.position, about.rotation))
 
     def cables_at(place: np.ndarray, turn: np.ndarray) -> tuple[CableStates, PlatformArms]:
         arms = PlatformArms.at(flat, place.reshape((-1, 3)), turn.reshape((-1, 3, 3)))
         return model.states(flat, arms.points, length.reshape((-1, length.shape[-1]))), arms
 
-    place, turn = start
     states, arms = cables_at(place, turn)
     for taken in range(_STEPS + 1):
         weight = weight_wrench(flat, arms).reshape((*shape, 6))

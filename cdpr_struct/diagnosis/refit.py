@@ -126,13 +126,17 @@ class Fit:
 
     def explained(self, z: np.ndarray) -> float:
         """Share of the whitened sum of squares beyond noise that the causes take away, 0 to 1."""
-        excess = float(z @ z) - len(z)
-        left = float(self.white @ self.white) - len(z)
-        return float(np.clip(1.0 - left / excess, 0.0, 1.0)) if excess > 0.0 else 0.0
+        return explained_share(z, self.white)
 
     def adequacy(self) -> float:
         """chi^2 of what is left, sizes marginalised."""
         return float(self.white @ self.white + self.theta @ self.theta)
+
+
+def explained_share(before: np.ndarray, after: np.ndarray) -> float:
+    """Share of a whitened sum of squares beyond noise that is gone afterwards, 0 to 1; 0 where there was none."""
+    excess, left = (float(z @ z) - len(z) for z in (before, after))
+    return float(np.clip(1.0 - left / excess, 0.0, 1.0)) if excess > 0.0 else 0.0
 
 
 def world_with(world: World, picked: tuple[Choice, ...], theta: np.ndarray) -> World:

@@ -223,14 +223,9 @@ def _static_blocks(setting: Setting, world: World, states: States, readings: Rea
     if setting.with_length.any():
         gap = incompatible(world, states.held, part, known)
         blocks.append(1e3 * np.take(gap, np.flatnonzero(setting.with_length), axis=-2))
-    if commands_count(setting):
+    if setting.sent.null_space.any():
         blocks.append(1e3 * _internal(setting, world, states, readings, small))
     return blocks
-
-
-def commands_count(setting: Setting) -> bool:
-    """Whether tensions are held against lengths that the simulation commands."""
-    return bool(not setting.with_length.all() and setting.sent.null_space.any())
 
 
 def as_sent(setting: Setting, world: World, readings: Readings) -> tuple[World, Readings, Circumstances]:

@@ -18,7 +18,6 @@ from cdpr_struct.diagnosis.residuals import (
     States,
     as_sent,
     at_states,
-    commands_count,
     readings_of_states,
     world_of_states,
 )  # fmt: skip
@@ -146,12 +145,14 @@ def strays_in(setting: Setting, world: World) -> float:
 
 def with_equilibria(setting: Setting, world: World) -> Setting:
     """First-order changes of locked poses and of those that commands mean start from equilibria in this world."""
+    if np.any(world.nonlinearity):
+        return replace(setting, locked_at=None, sent_at=None)
     locked_at = sent_at = None
     wide, readings = world.per_state(), Readings.of(setting.campaign.states)
-    if setting.locked.size and not np.any(world.nonlinearity):
+    if setting.locked.size:
         own, part = world_of_states(wide, setting.locked), readings_of_states(readings, setting.locked)
         locked_at = reference(own, part, at_states(setting, setting.locked))
-    if commands_count(setting) and not np.any(world.nonlinearity):
+    if setting.sent.null_space.any():
         sent_at = reference(*as_sent(setting, wide, readings))
     return replace(setting, locked_at=locked_at, sent_at=sent_at)
 

@@ -8,7 +8,7 @@ from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.simulation_error import rows_read
-from cdpr_struct.measurement.campaign import Campaign, Sheet
+from cdpr_struct.measurement.campaign import SIGNALS, Campaign, Sheet
 
 _TOO_SMALL = 1e-3  # probability of residuals so small, below which sigmas are doubted
 _UNIT = {
@@ -16,7 +16,6 @@ _UNIT = {
     "acceleration": "m/s^2",
 }  # fmt: skip
 _POSE = ("position_m", "rotation_deg")
-SIGNALS = ("frf", "free_decay", "platform_motion")
 _NEEDED = {
     "static_state": ("tension_N", "length_m", *_POSE), "loaded_pose": ("length_m", *_POSE),
     "cable_frequency": ("frequency_hz", *_POSE), "robot_frequency": ("frequency_hz", *_POSE),

@@ -9,7 +9,7 @@ import numpy as np
 from cdpr_struct.diagnosis.diagnose import ADEQUATE, NAMED, Diagnosis
 from cdpr_struct.diagnosis.next_measurement import next_measurement
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT
-from cdpr_struct.diagnosis.refit import Fit
+from cdpr_struct.diagnosis.refit import Fit, explained_share
 from cdpr_struct.diagnosis.significance import OUTSIDE
 from cdpr_struct.diagnosis.stray_peaks import SEVERAL, strays_left
 from cdpr_struct.diagnosis.suspect_reading import in_words
@@ -241,9 +241,7 @@ def _mended_share(found: Diagnosis) -> float | None:
     """Share of the significant error that went with the only correction; of several each one's is not known."""
     if len(found.corrections) != 1:
         return None
-    z, left = found.entered.white(found.entered.r), found.ground.z
-    before, after = float(z @ z) - len(z), max(float(left @ left) - len(left), 0.0)
-    return float(np.clip(1.0 - after / before, 0.0, 1.0)) if before > 0.0 else None
+    return explained_share(found.entered.white(found.entered.r), found.ground.z)
 
 
 def _fit_rows(found: Diagnosis, fit: Fit) -> list[dict[str, Any]]:

@@ -11,9 +11,9 @@ from cdpr_struct.robot.robot import Robot
 if TYPE_CHECKING:
     from cdpr_struct.measurement.identified import Identified
 
-KINDS = (
-    "static_state", "loaded_pose", "cable_frequency", "robot_frequency", "frf", "free_decay", "platform_motion",
-)  # fmt: skip
+SIGNALS = ("frf", "free_decay", "platform_motion")
+"""Kinds of data whose frequencies are identified in records."""
+KINDS = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency", *SIGNALS)
 MODELS = ("static", "dsm", "exact", "spring")
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cdpr_struct.errors import InputError
-from cdpr_struct.measurement.campaign import CableFrequencies, RobotFrequencies, Series, Sigmas, States
+from cdpr_struct.measurement.campaign import SIGNALS, CableFrequencies, RobotFrequencies, Series, Sigmas, States
 from cdpr_struct.measurement.campaign_rows import POSE, Rows, length_columns
 
 _SAME_POSE = (1e-9, 1e-9)
@@ -52,7 +52,7 @@ class Gathering:
         ------
         InputError : a case with two poses or payloads, a cable given twice or not at all.
         """
-        if rows.kind in ("frf", "free_decay", "platform_motion"):
+        if rows.kind in SIGNALS:
             labels = {k: tuple(v) for k, v in rows.words.items() if k != "case"}
             signals = Series(rows.kind, rows.file, tuple(rows.words["case"]), dict(rows.numbers), labels)
             self.series.append((signals, sigmas))

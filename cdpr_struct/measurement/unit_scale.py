@@ -1,9 +1,9 @@
 """Readings that are hundreds of times what the robot allows are in another unit; that is said before any simulation."""
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from cdpr_struct.errors import InputError
+from cdpr_struct.generated.platform import rotation
 from cdpr_struct.measurement.campaign import States
 from cdpr_struct.robot.robot import Robot
 
@@ -19,10 +19,9 @@ def check_scale(source: str, robot: Robot, states: States) -> None:
     """
     middle = robot.frame_anchors.mean(axis=0)
     reach = float(np.linalg.norm(robot.frame_anchors - middle, axis=1).max())
-    turn = Rotation.from_euler("ZYX", states.angles[:, ::-1]).as_matrix()
     for i, name in enumerate(states.names):
         _check_position(source, name, states.position[i], middle, reach)
-        points = states.position[i] + robot.platform_anchors @ turn[i].T
+        points = states.position[i] + robot.platform_anchors @ rotation(*states.angles[i]).T
         _check_lengths(source, name, states.length[i], np.linalg.norm(points - robot.frame_anchors, axis=1))
         weight = (robot.platform.mass + float(states.payload[i])) * robot.gravity
         _check_tensions(source, name, states.tension[i], weight)

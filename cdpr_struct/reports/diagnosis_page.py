@@ -1,6 +1,8 @@
 """The files of a diagnosis: residuals as CSV, figures, extended robot, and the report page."""
 
-from collections.abc import Mapping
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -104,8 +106,8 @@ def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Pla
 
 
 def _counted(found: Diagnosis) -> str:
-    count = len(found.campaign.states.names)
-    return "1 state" if count == 1 else f"{count} states"
+    states = len(found.campaign.states.names)
+    return "1 state" if states == 1 else f"{states} states"
 
 
 def _of_expected(row: Mapping[str, Any]) -> str:
@@ -147,12 +149,13 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
 def _residuals_csv(found: Diagnosis) -> str:
     """Residuals as entered, block by block as in docs/diagnosis.md; a row's number within its state and block."""
     labels, null = found.entered_setting.labels, found.entered
-    places = list(zip(labels.block.tolist(), labels.state.tolist(), strict=True))
+    rows: defaultdict[tuple[str, int], Iterator[int]] = defaultdict(lambda: count(1))
+    places = zip(labels.block.tolist(), labels.state.tolist(), strict=True)
     return csv_text(
         {
             "block": labels.block,
             "case": [found.campaign.states.names[i] for i in labels.state],
-            "row": [places[:i].count(place) + 1 for i, place in enumerate(places)],
+            "row": [next(rows[place]) for place in places],
             "cable": [cable + 1 if cable >= 0 else "" for cable in labels.cable.tolist()],
             "residual": null.r,
             "unit": [UNITS[block] for block in labels.block.tolist()],

@@ -136,8 +136,8 @@ def _first(hypothesis: Hypothesis, count: int) -> str:
     """The sizes that are largest in sigmas, or what a correction does."""
     if not hypothesis.sizes:
         return hypothesis.words
-    clearest = sorted(hypothesis.sizes.items(), key=lambda item: -_sigmas(item[1]))[:count]
-    kept = [(name, p) for name, p in hypothesis.sizes.items() if name in dict(clearest)]
+    clearest = sorted(hypothesis.sizes, key=lambda name: -_sigmas(hypothesis.sizes[name]))[:count]
+    kept = [(name, p) for name, p in hypothesis.sizes.items() if name in clearest]
     shown = [f"{name} {with_sigma(p['value'], p['sigma'])} {p['unit']}" for name, p in kept]
     more = len(hypothesis.sizes) - count
     return "; ".join(shown) + (f"; {more} more" if more > 0 else "")

@@ -40,8 +40,9 @@ def _times(setting: Setting) -> str:
 
 
 def _null_space(setting: Setting) -> str:
-    free = (~setting.with_length).any() and setting.sent.null_space.any()
-    return "" if free else "needs tensions of a redundant robot at states without encoder lengths"
+    return (
+        "" if setting.sent.null_space.any() else "needs tensions of a redundant robot at states without encoder lengths"
+    )
 
 
 CAUSES = (

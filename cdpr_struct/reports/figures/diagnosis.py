@@ -111,9 +111,8 @@ def draw_evidence(figure: Figure, result: Mapping[str, Any]) -> None:
     """Log evidence of every cause that was fitted, against nothing being wrong."""
     axes = figure.subplots()
     rows = hypotheses(result["candidates"])[:_BARS][::-1]
-    if rows:
-        bars = axes.barh([_plain(h.name) for h in rows], [max(h.gain, 0.0) for h in rows], color=BLUE)
-        axes.bar_label(bars, [f" {shown(h.gain)}" for h in rows], fontsize=8.5, padding=3)
+    bars = axes.barh([_plain(h.name) for h in rows], [max(h.gain, 0.0) for h in rows], color=BLUE)
+    axes.bar_label(bars, [f" {shown(h.gain)}" for h in rows], fontsize=8.5, padding=3)
     axes.axvline(5.0, color=GREY, linewidth=0.9, linestyle="--")
     axes.set_xlabel("log evidence against nothing being wrong [nats]; dashed: needed to be named")
     quiet(axes, "x")
