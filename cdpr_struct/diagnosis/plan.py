@@ -1,15 +1,13 @@
 """Before measuring: the smallest sizes that would be detected, and what would be confused."""
 
-from functools import cache
 from typing import Any
 
 import numpy as np
-from scipy.stats import chi2, ncx2
 
+from cdpr_struct.diagnosis.detectable import noncentrality
 from cdpr_struct.diagnosis.evidence import Candidate, Choice, choices
 from cdpr_struct.diagnosis.refit import Ground
 
-ALPHA, POWER = 1e-3, 0.8
 WIDE = 2.5  # prior sigmas that a rival's size may have
 SAME = 3.0  # nats: expected evidence below which two causes are one class
 
@@ -33,16 +31,6 @@ def minimum_detectable(candidates: list[Candidate]) -> dict[str, dict[str, Any]]
             "pattern": choice.pattern.label or "as a whole",
         }
     return table
-
-
-@cache
-def noncentrality(d: int) -> float:
-    """Noncentrality at which a chi^2 test of d degrees of freedom has the wanted power."""
-    limit, low, high = chi2.isf(ALPHA, d), 0.0, 400.0
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if ncx2.sf(limit, d, middle) < POWER else (low, middle)
-    return high
 
 
 def plainest(candidate: Candidate) -> Choice:

@@ -12,9 +12,10 @@ from itertools import chain
 import numpy as np
 
 from cdpr_struct.diagnosis.causes.sensors import COMMON, internal_force
+from cdpr_struct.diagnosis.detectable import noncentrality
 from cdpr_struct.diagnosis.evidence import Choice
 from cdpr_struct.diagnosis.null_model import null_with_bending, reading_count, tolerance_count, tolerated
-from cdpr_struct.diagnosis.plan import WIDE, left_over, noncentrality, plainest
+from cdpr_struct.diagnosis.plan import WIDE, left_over, plainest
 from cdpr_struct.diagnosis.planned_checks import CHECKS, Check
 from cdpr_struct.diagnosis.planned_series import series
 from cdpr_struct.diagnosis.planned_states import Proposal, proposals

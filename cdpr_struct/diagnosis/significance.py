@@ -1,7 +1,7 @@
-"""Is anything wrong at all? Every law at once, each as large as it must be to be just seen.
+"""Is anything wrong at all? Every law at once, each at its smallest detectable size.
 
 How large a cause is when it occurs, its prior says; whether something is there should not depend on it. Here each
-pattern of a cause is given the size that stands out of noise and tolerances by a few sigmas, in any direction that it
+pattern of a cause is given the size at which it would be found if it alone were in question, in any direction that it
 can show. The mean over directions, patterns, causes and channels is one likelihood ratio against the null, the most
 powerful test for a law drawn so. Draws from the null say how large it gets by chance.
 """
@@ -9,19 +9,20 @@ powerful test for a law drawn so. Draws from the null say how large it gets by c
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.special import logsumexp
+from scipy.special import gammaln, hyp0f1, ive, logsumexp
 from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.causes.cause import SCALES, Pattern
-from cdpr_struct.diagnosis.evidence import Candidate, log_factors_of_pattern
+from cdpr_struct.diagnosis.detectable import noncentrality
+from cdpr_struct.diagnosis.evidence import Candidate
 from cdpr_struct.diagnosis.null_model import NullModel
 
 OUTSIDE = -2.0  # ln prior of a law outside the library, beside that of a cause
 SEED = 20240229
 DRAWS = 1000
-_JUST_SEEN = 3.0  # sigmas
 _SHOWN = 1.0  # sigmas by which a large occurrence must show in a direction
-LAW_SHARE, NOISE_SHARE, STRAY_SHARE = 0.87, 0.08, 0.05  # of the false alarms: laws, chi^2, stray peaks
+_LARGE = 100.0  # argument beyond which a Bessel function is scaled
+LAW_SHARE, NOISE_SHARE, STRAY_SHARE = 0.92, 0.05, 0.03  # of the false alarms: laws, chi^2, stray peaks
 
 
 def p_of_null(
@@ -74,8 +75,27 @@ def _of_patterns(patterns: list[Pattern], gram: np.ndarray, b: np.ndarray) -> It
         if not shown.any():
             continue
         along = (vectors[:, shown].T @ (basis.T @ b)) / np.sqrt(values[shown])[:, None]
-        size = _JUST_SEEN / np.sqrt(len(along))  # of signatures of unit length, each at right angles to the others
-        yield pattern, log_factors_of_pattern(pattern, np.eye(len(along)), along, (size,))[0]
+        yield pattern, _of_size(float(np.sqrt(noncentrality(len(along)))), along, _one_sided(pattern))
+
+
+def _one_sided(pattern: Pattern) -> bool:
+    return len(pattern.parameters) == 1 and pattern.parameters[0].positive
+
+
+def _of_size(size: float, along: np.ndarray, one_sided: bool) -> np.ndarray:
+    """(k,) ln likelihood ratio of a change of known size and unknown direction, by its components along (d, k) [sigma].
+
+    The mean of exp(size u'along - size^2 / 2) over all unit vectors u, a Bessel function of |along|. What explains a
+    residual has the sign of minus its component: a one-sided number has that direction only.
+    """
+    if one_sided:
+        return -size * along[0] - 0.5 * size**2
+    order, x = 0.5 * len(along) - 1.0, size * np.linalg.norm(along, axis=0)
+    mean = np.log(hyp0f1(order + 1.0, 0.25 * np.minimum(x, _LARGE) ** 2))
+    y = np.maximum(x, _LARGE)
+    large = gammaln(order + 1.0) - order * np.log(0.5 * y) + np.log(ive(order, y)) + y
+    result: np.ndarray = np.where(x < _LARGE, mean, large) - 0.5 * size**2
+    return result
 
 
 def p_of_noise(null: NullModel, rows: np.ndarray | None = None) -> float:

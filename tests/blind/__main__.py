@@ -38,7 +38,7 @@ from tests.blind.suite import composed, record_final_use, set_seed
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "blind_tests.md"
 MESH = Path(__file__).with_name("mesh_error.json")
 FOLLOW_UPS = "followups"
-WHOLE = {"dev": 200, "final": 200, "ci": 12, "unseen": 24}
+WHOLE = {"dev": 200, "final": 200, "ci": 12, "unseen": 24, "rates": 800}
 
 
 def campaigns_of(out: Path) -> Path:

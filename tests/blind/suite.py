@@ -17,7 +17,8 @@ FULL = {"null": 40, "single": 80, "pair": 24, "ambiguous": 20, "outside": 20, "h
 CI = {"null": 3, "single": 3, "pair": 1, "ambiguous": 2, "outside": 2, "handling": 1}
 MULTIPLES = (0.5, 1.0, 2.0, 4.0)
 CLEAR = 4.0  # multiple of effects whose size is not the question
-SET_SEEDS = {"dev": 20_101, "ci": 20_102, "unseen": 20_103}
+NULLS = 0.6  # share of nulls in a set of rates; the rest is just detectable
+SET_SEEDS = {"dev": 20_101, "ci": 20_102, "unseen": 20_103, "rates": 20_104}
 USES = Path(__file__).with_name("final_uses.json")
 
 
@@ -44,10 +45,13 @@ def counts(total: int) -> dict[str, int]:
 def composed(name: str, total: int, base: int) -> list[CaseKind]:
     """Kinds of all cases in the order in which they are numbered, which tells nothing about them."""
     rng = np.random.default_rng([base, 0])
-    numbers = CI if name == "ci" else {"unseen": total} if name == "unseen" else counts(total)
+    nulls = round(NULLS * total)
+    special = {"ci": CI, "unseen": {"unseen": total}, "rates": {"null": nulls, "just": total - nulls}}
+    numbers = special.get(name) or counts(total)
     makers = {
         "null": _nulls,
         "single": _singles,
+        "just": _just_detectable,
         "pair": _pairs,
         "ambiguous": _ambiguous,
         "outside": _outside,
@@ -73,6 +77,10 @@ def _dealt(names: Sequence[str], count: int, rng: np.random.Generator) -> list[s
 def _singles(count: int, rng: np.random.Generator) -> list[CaseKind]:
     multiples = [MULTIPLES[(3 - n) % 4] for n in range(count)]
     return [CaseKind("single", ((n, m),)) for n, m in zip(_dealt([*LIBRARY], count, rng), multiples, strict=True)]
+
+
+def _just_detectable(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    return [CaseKind("single", ((name, 1.0),)) for name in _dealt([*LIBRARY], count, rng)]
 
 
 def _pairs(count: int, rng: np.random.Generator) -> list[CaseKind]:

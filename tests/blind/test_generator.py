@@ -4,6 +4,7 @@ import ast
 import csv
 import json
 import tomllib
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -195,6 +196,14 @@ def test_full_suite_has_its_composition_and_an_order_that_tells_nothing():
     sizes = [kind.effects[0][1] for kind in kinds if kind.kind == "single"]
     assert {size: sizes.count(size) for size in set(sizes)} == {0.5: 20, 1.0: 20, 2.0: 20, 4.0: 20}
     assert composed("dev", 200, 5) == kinds
+
+
+def test_a_set_of_rates_holds_nulls_and_what_is_just_detectable():
+    kinds = composed("rates", 100, 5)
+    assert Counter(kind.kind for kind in kinds) == {"null": 60, "single": 40}
+    hidden = [effect for kind in kinds for effect in kind.effects]
+    assert {multiple for _, multiple in hidden} == {1.0}
+    assert {name for name, _ in hidden} == set(LIBRARY)
 
 
 def test_the_final_set_of_a_release_is_used_once(tmp_path):

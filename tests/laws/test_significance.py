@@ -4,8 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.causes.cause import Cause, Parameter, Pattern
+from cdpr_struct.diagnosis.detectable import FALSE_ALARMS, POWER, noncentrality
 from cdpr_struct.diagnosis.evidence import Candidate
 from cdpr_struct.diagnosis.significance import log_ratio
 
@@ -51,6 +53,42 @@ def test_one_sided_causes_are_seen_on_their_side_only():
     both = log_ratio([candidate("a", 1.0, 2)], [], towards)[0]
     assert right == pytest.approx(both + np.log(2.0), abs=1e-3)
     assert wrong < -2.0
+
+
+@pytest.mark.parametrize("numbers", [2, 3, 24])
+def test_a_law_has_its_smallest_detectable_size_in_any_direction(numbers):
+    """The mean over the sphere, one angle counts; its cosine has the density (1 - t^2)^((d - 3) / 2)."""
+    law, z = candidate("a", 1.0, 2, numbers), 1.5 * draws(3, 1)
+    basis, _ = np.linalg.qr(law.signature)
+    size, seen = np.sqrt(noncentrality(numbers)), np.linalg.norm(basis.T @ z)
+    angles = (np.arange(20_000) + 0.5) * np.pi / 20_000
+    weight = np.sin(angles) ** (numbers - 2)
+    expected = np.log((weight * np.exp(size * seen * np.cos(angles))).sum() / weight.sum()) - 0.5 * size**2
+    assert log_ratio([law], [], z)[0] == pytest.approx(expected, abs=1e-6)
+
+
+def test_a_single_number_has_two_directions():
+    law, z = candidate("a", 1.0, 2), draws(3, 5)
+    size, seen = np.sqrt(noncentrality(1)), (law.signature / np.linalg.norm(law.signature)).T @ z
+    np.testing.assert_allclose(log_ratio([law], [], z), np.log(np.cosh(size * seen[0])) - 0.5 * size**2, atol=1e-9)
+
+
+def test_the_smallest_detectable_size_is_found_with_its_power():
+    limit = chi2.isf(FALSE_ALARMS, 6)
+    shift = np.full((6, 1), np.sqrt(noncentrality(6) / 6.0))
+    found = ((np.random.default_rng(6).standard_normal((6, DRAWS)) + shift) ** 2).sum(axis=0) > limit
+    assert found.mean() == pytest.approx(POWER, abs=0.01)
+
+
+@pytest.mark.parametrize("numbers", [1, 3, 24])
+def test_no_size_is_too_large(numbers):
+    """As large as a unit error makes it, and without a step where the Bessel function is scaled."""
+    law = candidate("a", 1.0, 2, numbers)
+    along = law.signature[:, :1] / np.linalg.norm(law.signature[:, 0])
+    ratio = log_ratio([law], [], along * np.concatenate([np.linspace(0.0, 60.0, 6001), [1e4, 1e6]]))
+    assert np.isfinite(ratio).all()
+    assert (np.diff(ratio) > -1e-9).all()
+    assert np.diff(ratio[:-2]).max() < 1.001 * np.sqrt(noncentrality(numbers)) * 0.01
 
 
 def test_finds_what_is_just_detectable_more_often_than_chance():

@@ -1,0 +1,16 @@
+"""How far a change must stand out of noise and tolerances to be found, if it alone were in question."""
+
+from functools import cache
+
+from scipy.optimize import brentq
+from scipy.stats import chi2, ncx2
+
+FALSE_ALARMS, POWER = 1e-3, 0.8
+_MOST = 400.0
+
+
+@cache
+def noncentrality(numbers: int) -> float:
+    """Squared sigmas of a change of so many unknown numbers that a chi^2 test finds with `POWER`: 17.1 for one."""
+    limit = chi2.isf(FALSE_ALARMS, numbers)
+    return float(brentq(lambda value: ncx2.sf(limit, numbers, value) - POWER, 1e-9, _MOST))
