@@ -16,7 +16,6 @@ from cdpr_struct.crosscheck.validity_limits import (
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.taut_cables import taut_cables
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, InverseStatus, inverse
 
 CHUNK = 512
@@ -105,7 +104,7 @@ def _batch(
     numbers = np.flatnonzero(held)
     values = {name: np.full(solution.tensions.shape, np.nan) for name in PARAMETERS}
     if len(numbers):
-        own = CableStates(*(getattr(solution.cables, name)[numbers] for name in CableStates.__slots__))
+        own = solution.cables.at(numbers)
         for name, value in _parameters(OperatingPoint(robot, position[numbers], rotation[numbers], own)).items():
             values[name][numbers] = value
     reason = np.array(["" if h else _reason(solution, i) for i, h in enumerate(held)], dtype=object)
@@ -114,7 +113,7 @@ def _batch(
 
 def audit_rest(point: OperatingPoint) -> PoseAudit:
     """The same for one robot at rest, however it came there."""
-    cables = CableStates(*(getattr(point.cables, name)[None] for name in CableStates.__slots__))
+    cables = point.cables.at(None)
     one = OperatingPoint(point.robot, point.position[None], point.rotation[None], cables)
     values = _parameters(one)
     held = np.ones(1, dtype=bool)

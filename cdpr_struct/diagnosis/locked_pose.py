@@ -80,6 +80,11 @@ class Reference:
     flexibility: np.ndarray
     cables: CableStates
 
+    def some(self, index: np.ndarray) -> "Reference":
+        """Those of some of the states."""
+        cables = self.cables.at(index)
+        return Reference(self.position[index], self.rotation[index], self.flexibility[index], cables)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Nearby:

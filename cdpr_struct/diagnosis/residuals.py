@@ -165,6 +165,13 @@ class States:
         self.all = _merged(parts)
 
 
+def among(setting: Setting, some: np.ndarray) -> Setting:
+    """The setting of some states only, for `States`; its rows are those of all."""
+    kept = np.isin(setting.locked, some)
+    about = None if setting.locked_at is None or not kept.any() else setting.locked_at.some(np.flatnonzero(kept))
+    return replace(setting, held=np.intersect1d(setting.held, some), locked=setting.locked[kept], locked_at=about)
+
+
 def world_of_states(world: World, index: np.ndarray) -> World:
     """World per state whose pose offsets are those of the chosen states."""
     offset = world.pose_offset

@@ -12,7 +12,7 @@ from cdpr_struct.diagnosis.modal_constants import log_constants, modelled_consta
 from cdpr_struct.diagnosis.mode_pairing import Modes, Pairing, paired
 from cdpr_struct.diagnosis.null_model import STEP, misread, reading_steps, tolerance_count, tolerated
 from cdpr_struct.diagnosis.readings import Readings
-from cdpr_struct.diagnosis.residuals import Setting, States, at_states
+from cdpr_struct.diagnosis.residuals import Setting, States, among, at_states
 from cdpr_struct.diagnosis.vibrating_state import raised, vibrating
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
@@ -204,9 +204,8 @@ def _dynamics_and_rise(
 ) -> tuple[robot_pitch.Dynamics, np.ndarray]:
     """D(omega) of rows at their states, and (..., r, m) what sensors raise the cables' own frequencies by there."""
     some = np.unique(state)
-    part = replace(setting, held=np.intersect1d(setting.held, some), locked=np.intersect1d(setting.locked, some))
     wide, known = world.per_state(), at_states(setting, some)
-    conditioned, local = States(part, wide, readings).all, np.searchsorted(some, state)
+    conditioned, local = States(among(setting, some), wide, readings).all, np.searchsorted(some, state)
     moving = vibrating(wide, conditioned, known)
     rise = raised(conditioned, moving)
     at = robot_pitch.Dynamics.at(wide, moving, known, local, setting.massless, setting.geometric)

@@ -16,6 +16,7 @@ from cdpr_struct.diagnosis.residuals import (
     Labels,
     Setting,
     States,
+    among,
     as_sent,
     at_states,
     readings_of_states,
@@ -29,7 +30,6 @@ from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.energy_descent import arm_scale
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.robot_arrays import RobotArrays
@@ -114,9 +114,9 @@ def _with_tensions(campaign: Campaign) -> Campaign:
 
 def _cable_gap(setting: Setting, world: World) -> np.ndarray:
     """ln(exact / closed form) of each measured cable frequency."""
-    rows = setting.cable_rows
+    rows, everywhere = setting.cable_rows, np.arange(len(setting.campaign.states.names))
     world = replace(world, bending_stiffness=0.0 * world.bending_stiffness, added_mass=0.0 * world.added_mass)
-    closed = cable_log_frequencies(world.per_state(), _conditioned(setting, world).cables, rows)
+    closed = cable_log_frequencies(world.per_state(), _conditioned(setting, world, everywhere).cables, rows)
     exact = exact_log_frequencies(_points(setting, world, rows.state), rows, closed)
     return np.where(np.isfinite(exact), exact - closed, 0.0)
 
@@ -157,26 +157,28 @@ def with_equilibria(setting: Setting, world: World) -> Setting:
     return replace(setting, locked_at=locked_at, sent_at=sent_at)
 
 
-def _conditioned(setting: Setting, world: World) -> Conditioned:
-    """The states while vibration is measured."""
+def _conditioned(setting: Setting, world: World, some: np.ndarray) -> Conditioned:
+    """Some states, in ascending order, while vibration is measured."""
     wide = world.per_state()
-    return vibrating(wide, States(setting, wide, Readings.of(setting.campaign.states)).all, setting.known)
+    states = States(among(setting, some), wide, Readings.of(setting.campaign.states)).all
+    return vibrating(wide, states, at_states(setting, some))
 
 
 def _points(setting: Setting, world: World, states: np.ndarray) -> dict[int, OperatingPoint]:
     """Operating point of each state."""
-    campaign, state = setting.campaign, _conditioned(setting, world)
+    some = np.unique(states)
+    campaign, state = setting.campaign, _conditioned(setting, world, some)
     robot = robot_of(campaign.robot, world)
     given = {"frame_compliance": np.maximum(world.frame_compliance, 0.0), "hose": np.maximum(world.hose, 0.0)}
     if any(np.any(value) for value in given.values()):
         more = Extensions.of(world.cables, {**given, "hose_center": setting.known.center})
         robot = replace(robot, extensions=more)
     payload = campaign.states.payload + np.maximum(world.sensor_mass, 0.0)
-    return {int(i): _point(robot, state, int(i), payload[i]) for i in np.unique(states)}
+    return {int(i): _point(robot, state, k, payload[i]) for k, i in enumerate(some)}
 
 
 def _point(robot: Robot, state: Conditioned, i: int, payload: float) -> OperatingPoint:
-    cables = CableStates(*(getattr(state.cables, name)[i] for name in CableStates.__slots__))
+    cables = state.cables.at(i)
     return OperatingPoint(robot.with_load(float(payload)), state.position[i], state.rotation[i], cables)
 
 

@@ -37,6 +37,10 @@ class CableStates:
     status: np.ndarray
     let_out: np.ndarray
 
+    def at(self, index: int | np.ndarray | None) -> "CableStates":
+        """The states at an index of the batch: a number, an array of numbers, or None for one more axis."""
+        return CableStates(*(getattr(self, name)[index] for name in CableStates.__slots__))
+
     @property
     def force_on_platform(self) -> np.ndarray:
         """(..., m, 3) force the cable exerts on the platform, world [N]."""

@@ -11,7 +11,6 @@ import numpy as np
 
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.statics.static_stiffness import static_stiffness
@@ -82,7 +81,7 @@ def stiffnesses(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Co
     values = {name: np.full(len(positions), np.nan) for name in names}
     good = np.flatnonzero(solution.held)
     if good.size:
-        states = CableStates(*(getattr(solution.cables, name)[good] for name in CableStates.__slots__))
+        states = solution.cables.at(good)
         stiffness = static_stiffness(robot, positions[good], rotation, states)
         compliance = stiffness.compliance[:, :3, :3]
         softest = np.linalg.eigvalsh(0.5 * (compliance + np.swapaxes(compliance, -1, -2)))[:, -1]

@@ -7,7 +7,6 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_static_stiffness
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 
 _ORDER = 24
@@ -42,7 +41,7 @@ def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray)
 def _points(
     robot: Robot, positions: np.ndarray, rotation: np.ndarray, solution: InverseSolution, chosen: np.ndarray
 ) -> OperatingPoint:
-    states = CableStates(*(getattr(solution.cables, name)[chosen] for name in CableStates.__slots__))
+    states = solution.cables.at(chosen)
     return OperatingPoint(robot, positions[chosen], np.broadcast_to(rotation, (len(chosen), 3, 3)), states)
 
 
