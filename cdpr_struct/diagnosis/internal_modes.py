@@ -23,6 +23,7 @@ from cdpr_struct.measurement.campaign import Campaign
 
 _CLEAR = (6.0, 12.0)  # nats beyond the best of the library, seen at enough poses, and at one fewer
 _OWN = 3.0  # nats beyond a mode of the model that is off by one factor
+_FAR = 10.0  # nats
 _TRIED = 2  # groups of peaks
 _LOST = 0.5 + float(np.log(100.0 * np.sqrt(2.0 * np.pi)))  # nats of a modal constant of which nothing is known [%]
 
@@ -38,7 +39,8 @@ class Found:
 
 def internal_mode(campaign: Campaign, full: Prepared, plan: Budget) -> Found | None:
     """The internal mode that explains steady stray peaks, if nothing else does."""
-    tried = [(steady, _tried(campaign, full, steady, plan)) for steady in _candidates(campaign, full)]
+    groups = [steady for steady in _candidates(campaign, full) if not _outdone(full, steady)]
+    tried = [(steady, _tried(campaign, full, steady, plan)) for steady in groups]
     steady, best = max(tried, key=lambda row: row[1].gain if row[1] else -np.inf, default=(None, None))
     if steady is None or best is None or best.gain < min(_CLEAR):
         return None
@@ -60,6 +62,30 @@ def _candidates(campaign: Campaign, full: Prepared) -> list[Steady]:
         if poses(campaign.states, peaks.state[steady.rows]) >= POSES - 1
         and moves_alone(peaks, steady, pairing, model.modes) > _OWN
     ][:_TRIED]
+
+
+def _outdone(full: Prepared, steady: Steady) -> bool:
+    """Whether a cause alone explains everything, by far better than an internal mode can explain it."""
+    best = full.search.rank()[0]
+    return clears(best) and best.gain > _most_gain(full, steady) + _FAR
+
+
+def _most_gain(full: Prepared, steady: Steady) -> float:
+    """Log evidence against the null if the peaks were an internal mode's, and all others just where they should be."""
+    ground = full.ground
+    vibration = np.isin(ground.setting.labels.block, ("RF", "FA"))
+    own = np.flatnonzero(ground.setting.labels.block == "RF")[steady.rows]
+    rest, others = np.flatnonzero(~vibration), np.setdiff1d(np.flatnonzero(vibration), own)
+    order = np.concatenate([rest, others])
+    lower = np.linalg.cholesky(ground.null.covariance[np.ix_(order, order)])
+    z = ground.null.white_among(rest, ground.null.r)
+    level = 0.5 * float(z @ z) + float(np.log(np.diagonal(lower)).sum())
+    return ground.level - level + _of_frequencies(steady, len(own))
+
+
+def _of_frequencies(steady: Steady, rows: int) -> float:
+    """Log density of the peaks' frequencies, and what the evidence of the other residuals lacks without `rows`."""
+    return steady.log_density - len(steady.rows) * float(np.log(100.0)) + 0.5 * rows * float(np.log(2.0 * np.pi))
 
 
 def _tried(campaign: Campaign, full: Prepared, steady: Steady, plan: Budget) -> Found | None:
@@ -86,8 +112,7 @@ def _without(campaign: Campaign, full: Prepared, steady: Steady, moving: float, 
         return None
     constants = len(full.ground.setting.constants) - len(rest.ground.setting.constants)
     rows = len(full.ground.null.r) - len(rest.ground.null.r)
-    gain = full.ground.level - rest.ground.level + 0.5 * rows * float(np.log(2.0 * np.pi))
-    gain += steady.log_density - len(steady.rows) * float(np.log(100.0)) - constants * _LOST
+    gain = full.ground.level - rest.ground.level + _of_frequencies(steady, rows) - constants * _LOST
     return Found(made, gain, rest)
 
 

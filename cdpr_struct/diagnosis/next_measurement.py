@@ -15,8 +15,9 @@ from cdpr_struct.diagnosis.evidence import Choice
 from cdpr_struct.diagnosis.planned_checks import CHECKS
 from cdpr_struct.diagnosis.planned_gain import ENOUGH, Judge, NewRows, checked, simulated
 from cdpr_struct.diagnosis.planned_series import series
-from cdpr_struct.diagnosis.planned_states import of_lacking_kinds
+from cdpr_struct.diagnosis.planned_states import Proposal, of_lacking_kinds
 from cdpr_struct.diagnosis.refit import Fit, Ground
+from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.errors import CdprError
 
 NEAR = 10.0  # nats from a named cause within which its next rival is worth telling apart
@@ -100,14 +101,20 @@ def _measurements(ground: Ground, asked: Sequence[Question]) -> list[tuple[str, 
     campaign = ground.setting.campaign
     rows = [(check.text, True, checked(ground, check)) for check in CHECKS]
     found = [row for row in rows if not any(np.any(row[2].signature.get(name, 0.0)) for name in campaign.checked)]
-    for proposal in chain(of_lacking_kinds(campaign), series(campaign)):
-        if proposal.acts and not named & set(proposal.acts):
-            continue  # nothing in question acts otherwise there
+    acting = [
+        proposal
+        for proposal in chain(of_lacking_kinds(campaign), series(campaign))
+        if not proposal.acts or named & set(proposal.acts)  # else nothing in question acts otherwise there
+    ]
+
+    def measured(proposal: Proposal) -> NewRows | None:
         try:
-            found.append((proposal.text, False, simulated(ground, proposal)))
+            return simulated(ground, proposal)
         except (CdprError, ValueError):
-            continue  # a state that the model cannot compute is not proposed
-    return found
+            return None  # a state that the model cannot compute is not proposed
+
+    simulations = zip(acting, side_by_side(measured, acting, ground.known), strict=True)
+    return found + [(proposal.text, False, rows) for proposal, rows in simulations if rows is not None]
 
 
 def _answer(found: Diagnosis, question: Question, measured: Sequence[tuple[str, bool, NewRows]]) -> str:

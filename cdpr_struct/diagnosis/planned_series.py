@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from cdpr_struct.diagnosis.planned_states import (
     new_states,
     rounded,
 )
+from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.measurement.campaign import Campaign
 
@@ -30,8 +32,11 @@ Place = tuple[np.ndarray, np.ndarray, float]
 def series(campaign: Campaign) -> Iterator[Proposal]:
     """All series of states that the robot can hold."""
     home = home_of(campaign)
-    for make in (_tilts, _poses, _payloads, _other_side, _clamped):
-        yield from make(campaign, home)
+
+    def made(make: Callable[[Campaign, int], Iterator[Proposal]]) -> list[Proposal]:
+        return list(make(campaign, home))
+
+    yield from chain(*side_by_side(made, (_tilts, _poses, _payloads, _other_side, _clamped), (campaign,)))
 
 
 def _tilts(campaign: Campaign, home: int) -> Iterator[Proposal]:

@@ -1,5 +1,6 @@
 """Rankings: each cause refitted alone, or on top of causes that are accepted already, best first."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -51,6 +52,12 @@ class Search:
         if accepted and key not in self._fits:
             self._fits[key] = settled(self.ground, refit(self.ground, accepted))
         return self._fits.get(key)
+
+    def fits(self, several: list[tuple[Choice, ...]]) -> list[Fit | None]:
+        """`fitted` of each."""
+        found = side_by_side(self.fitted, several, self.ground.known)
+        self._fits |= {_key(accepted): fit for accepted, fit in zip(several, found, strict=True) if fit is not None}
+        return found
 
     def screened(self, accepted: tuple[Choice, ...] = ()) -> list[Screened]:
         """Gains of one more cause by linear evidence, best first; those of further ones in the world of the fit.
@@ -200,21 +207,26 @@ def _by_large_steps(ground: Ground, rows: list[Screened]) -> list[Screened]:
     Robot frequencies are left out if that is better: they may be paired wrongly as entered.
     """
     clear = ~np.isin(ground.setting.labels.block, ("RF", "FA"))
-    gains = []
-    for row in rows:
-        best = -np.inf
-        for pattern in row.candidate.patterns:
-            if pattern.basis.shape[1] == 1:
-                theta = _LARGE_STEPS[:, None] * pattern.prior
-                world = row.candidate.cause.apply(ground.world, theta @ pattern.basis.T)
-                white = ground.null.white((residuals(ground.setting, world, ground.readings) + ground.offset).T)
-                for part in (np.ones_like(clear), clear):
-                    drop = (ground.z[part] ** 2).sum() - (white[part] ** 2).sum(axis=0) - _LARGE_STEPS**2
-                    best = max(best, float(np.nan_to_num(drop, nan=-np.inf).max()))
-            if pattern.label in ("all alike", ""):
-                break
-        gains.append(best)
+
+    def best(row: Screened) -> float:
+        return max(_drops(ground, row, (np.ones_like(clear), clear)), default=-np.inf)
+
+    gains = side_by_side(best, rows, ground.known)
     return [rows[i] for i in np.argsort(-np.array(gains)) if gains[i] > 0.0]
+
+
+def _drops(ground: Ground, row: Screened, parts: tuple[np.ndarray, ...]) -> Iterator[float]:
+    """By how much chi^2 of some parts of the residuals drops, at best, by large steps of a cause."""
+    for pattern in row.candidate.patterns:
+        if pattern.basis.shape[1] == 1:
+            theta = _LARGE_STEPS[:, None] * pattern.prior
+            world = row.candidate.cause.apply(ground.world, theta @ pattern.basis.T)
+            white = ground.null.white((residuals(ground.setting, world, ground.readings) + ground.offset).T)
+            for part in parts:
+                drop = (ground.z[part] ** 2).sum() - (white[part] ** 2).sum(axis=0) - _LARGE_STEPS**2
+                yield float(np.nan_to_num(drop, nan=-np.inf).max())
+        if pattern.label in ("all alike", ""):
+            break
 
 
 def _worth_trying(row: Screened) -> list[Choice]:

@@ -44,7 +44,7 @@ def select(search: Search, further: float, most: int, outside: float = -np.inf) 
     better = max((fit for row in rivals for fit in row), key=lambda fit: fit.gain, default=best)
     if better.gain > best.gain + _BETTER:  # with the pairing of what was best
         best, rivals = better, _rivals(search, better)
-    before = [search.fitted(without(best, i)) for i in range(len(best.names))]
+    before = search.fits([without(best, i) for i in range(len(best.names))])
     caught_by = np.array([_fewer_strays(search.ground, fit, best) for fit in before])
     return Selection(best, search.rank(), rivals, caught_by)
 
@@ -55,7 +55,7 @@ def _grown(search: Search, further: float, most: int, outside: float) -> Fit:
     begun = [best.choices, *(_other_beginnings(search, further) if most > 1 else [])]
     while len(best.choices) < most:
         hopeful = [one for one in begun if search.promise(one) > outside - _BEHIND]
-        more = [fit for one in hopeful for fit in _one_more(search, one) if fit.gain > best.gain + further]
+        more = [fit for one in hopeful for fit in _one_more(search, one, best.gain + further)]
         if not more:
             break
         best = max(more, key=lambda fit: fit.gain)
@@ -115,10 +115,10 @@ def _other_beginnings(search: Search, further: float) -> list[tuple[Choice, ...]
     return [one for one in begun if search.promise(one) > best + further - _MISJUDGED]
 
 
-def _one_more(search: Search, accepted: tuple[Choice, ...]) -> list[Fit]:
-    """Accepted causes and one more that does not hang on one group of states."""
+def _one_more(search: Search, accepted: tuple[Choice, ...], least: float) -> list[Fit]:
+    """Accepted causes and one more, of more log evidence than `least`, that does not hang on one group of states."""
     before = search.fitted(accepted)
-    return [fit for fit in search.rank(accepted) if _holds(search.ground, before, fit)]
+    return [fit for fit in search.rank(accepted) if fit.gain > least and _holds(search.ground, before, fit)]
 
 
 def _fewer_strays(ground: Ground, before: Fit | None, fit: Fit) -> np.ndarray:

@@ -91,11 +91,11 @@ def _of_size(size: float, along: np.ndarray, one_sided: bool) -> np.ndarray:
     if one_sided:
         return -size * along[0] - 0.5 * size**2
     order, x = 0.5 * len(along) - 1.0, size * np.linalg.norm(along, axis=0)
-    mean = np.log(hyp0f1(order + 1.0, 0.25 * np.minimum(x, _LARGE) ** 2))
-    y = np.maximum(x, _LARGE)
-    large = gammaln(order + 1.0) - order * np.log(0.5 * y) + np.log(ive(order, y)) + y
-    result: np.ndarray = np.where(x < _LARGE, mean, large) - 0.5 * size**2
-    return result
+    large, result = x > _LARGE, np.log(hyp0f1(order + 1.0, 0.25 * np.minimum(x, _LARGE) ** 2))
+    if large.any():
+        y = x[large]
+        result[large] = gammaln(order + 1.0) - order * np.log(0.5 * y) + np.log(ive(order, y)) + y
+    return np.asarray(result - 0.5 * size**2)
 
 
 def p_of_noise(null: NullModel, rows: np.ndarray | None = None) -> float:
