@@ -14,13 +14,14 @@ from cdpr_struct.diagnosis.sigma_check import sigmas_used, warnings
 from cdpr_struct.diagnosis.significance import NOISE_SHARE, STRAY_SHARE, p_of_noise
 from cdpr_struct.diagnosis.simulation_error import rows_read, simulation_error
 from cdpr_struct.diagnosis.stray_peaks import p_of_strays
-from cdpr_struct.diagnosis.verdict import candidate_rows, confirmed, is_unknown, verdict
+from cdpr_struct.diagnosis.verdict import Verdict, candidate_rows, confirmed, is_unknown, verdict
 from cdpr_struct.reports.diagnosis_signals import with_signals
 
 
 def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
     """result.json of `diagnose`."""
     said = verdict(found)
+    hidden = _hidden(found, said)
     result = {
         "campaign": found.campaign.source,
         "robot": found.campaign.robot_name,
@@ -47,8 +48,8 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
         "outside_library": {"law": found.outside.words, "log_evidence_gain": _number(found.outside.gain)},
         "gain": _gain(found),
         "extended_model": "extended_robot.toml" if set(said.causes) - {NAME} else None,
-        "not_testable": sorted(found.not_testable),
-        "why_not_testable": found.not_testable,
+        "not_testable": sorted(hidden),
+        "why_not_testable": hidden,
         "minimum_detectable": minimum_detectable(found.ground.candidates),
         "tolerances": {
             name: {"value": getattr(found.campaign.tolerances, name), "stated": name in found.campaign.stated}
@@ -59,6 +60,12 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
         "not_used": sorted({s.kind for s in found.campaign.series}),
     }  # fmt: skip
     return with_signals(result, found)
+
+
+def _hidden(found: Diagnosis, said: Verdict) -> dict[str, str]:
+    """Why these data cannot show a cause, of those that the verdict does not leave open: larger than usual it shows."""
+    open_ones = {name for names in said.classes for name in names}
+    return {name: why for name, why in found.not_testable.items() if name not in open_ones}
 
 
 def _decided_by(found: Diagnosis) -> str:

@@ -3,12 +3,14 @@
 import json
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from cdpr_struct.cli import diagnose as diagnose_command
 from cdpr_struct.cli.main import run
+from cdpr_struct.reports import diagnosis_result
 from cdpr_struct.reports.diagnosis_tables import next_table
 
 CAMPAIGN = str(Path(__file__).parents[2] / "examples" / "table-4-4" / "campaign.toml")
@@ -235,3 +237,9 @@ def test_a_closed_screen_loses_no_files(monkeypatch, tmp_path):
         diagnose_command.run(LEVEL, "small", tmp_path)
     assert (tmp_path / "result.json").exists()
     assert (tmp_path / "report.html").exists()
+
+
+def test_a_cause_that_the_verdict_leaves_open_is_not_called_hidden():
+    found = SimpleNamespace(not_testable={"dead_length": "it hides", "platform_inertia": "it hides"})
+    said = SimpleNamespace(classes=(("joint_compliance", "dead_length"),))
+    assert diagnosis_result._hidden(found, said) == {"platform_inertia": "it hides"}

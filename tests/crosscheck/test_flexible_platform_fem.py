@@ -1,12 +1,16 @@
 """A mode inside the platform, in the FEM: a mass on a spring, of which the model under test knows nothing."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
+import pytest
 from scipy.sparse import block_array, csc_array
 
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
+from cdpr_struct.diagnosis import internal_modes
+from cdpr_struct.diagnosis.causes.internal_mode import MOVING
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.extended_model import extended_robot
 from cdpr_struct.diagnosis.prepared import BUDGETS, SIGNIFICANT, prepare
@@ -142,6 +146,27 @@ def test_a_mode_inside_the_platform_is_found_with_its_frequency(tmp_path):
     assert "flexible_platform" not in extended_robot(found).extensions.causes
     left = found.ground.setting.campaign.robot_frequencies
     assert len(left.hertz) == len(campaign.robot_frequencies.hertz) - len(POSES)
+
+
+def test_no_internal_mode_explains_more_than_it_is_allowed_to(tmp_path):
+    """Of the same data: the bound that spares the trial lies above every trial, and not by a hundred nats."""
+    campaign, _ = written(tmp_path, seed=3, mass=6.0, hertz=7.8)
+    plan = BUDGETS["small"]
+    full = prepare(campaign, plan)
+    ((group, _),) = steady(campaign)
+    most = internal_modes._most_gain(full, group)
+    for moving in MOVING:
+        gain = internal_modes._without(campaign, full, group, moving, plan).gain
+        assert most - 100.0 < gain < most
+    assert not internal_modes._outdone(full, group)
+
+
+@pytest.mark.parametrize(("gain", "clear", "outdone"), [(61.0, True, True), (59.0, True, False), (61.0, False, False)])
+def test_a_cause_outdoes_an_internal_mode_by_explaining_everything_far_better(monkeypatch, gain, clear, outdone):
+    full = SimpleNamespace(search=SimpleNamespace(rank=lambda: [SimpleNamespace(gain=gain)]))
+    monkeypatch.setattr(internal_modes, "clears", lambda fit: clear)
+    monkeypatch.setattr(internal_modes, "_most_gain", lambda full, steady: 50.0)
+    assert internal_modes._outdone(full, None) is outdone
 
 
 def test_a_rigid_platform_is_adequate(tmp_path):
