@@ -7,7 +7,8 @@ import pytest
 
 from cdpr_struct.diagnosis.locked_pose import equilibria, locked_pose, missed_pose, nearby_pose, reference
 from cdpr_struct.diagnosis.readings import Readings
-from cdpr_struct.diagnosis.setting import circumstances
+from cdpr_struct.diagnosis.residuals import States, among
+from cdpr_struct.diagnosis.setting import circumstances, make_setting
 from cdpr_struct.diagnosis.world import World
 from tests.laws.crime_campaign import clean_campaign
 
@@ -62,3 +63,19 @@ def test_steps_that_lead_nowhere_are_replaced_by_the_whole_equilibrium(campaign)
     found = equilibria(drawn, readings, known, about, small=True)
     whole, _ = locked_pose(drawn, readings, known)
     np.testing.assert_allclose(found.position, whole.position, atol=1e-6)
+
+
+@pytest.mark.parametrize("small", [False, True])
+@pytest.mark.parametrize("some", [[3], [0, 2], [1, 2, 4]])
+def test_some_of_the_states_are_those_among_all(some, small):
+    """Two held states and three locked ones, in a world beside that of the reference."""
+    whole = clean_campaign(5)
+    tension = np.where(np.arange(5)[:, None] < 2, whole.states.tension, np.nan)
+    sigma = np.where(np.isnan(tension), np.nan, 2.0)
+    known = replace(whole, states=replace(whole.states, tension=tension, tension_sigma=sigma))
+    setting, readings = make_setting(known)[0], Readings.of(known.states)
+    world = World.of(known.robot, 5).plus(length_offset=np.full(8, 1e-3)).per_state()
+    alone = States(among(setting, np.array(some)), world, readings, small).all
+    for name in ("position", "rotation", "tension"):
+        every = getattr(States(setting, world, readings, small).all, name)
+        np.testing.assert_allclose(getattr(alone, name), every[some], rtol=1e-7, atol=1e-9)
