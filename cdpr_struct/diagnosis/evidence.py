@@ -103,7 +103,7 @@ def _bounded(gram: np.ndarray, b: np.ndarray, scales: Sequence[float]) -> np.nda
 def log_factors_of_pattern(pattern: Pattern, gram: np.ndarray, b: np.ndarray, scales: Sequence[float]) -> np.ndarray:
     """ln B (s, ...) of a pattern at several scales, from G'G (d, d) and G'z (d, ...); a single size keeps its sign."""
     logs = scaled_log_bayes_factors(gram, b, scales)
-    if len(pattern.parameters) == 1 and pattern.parameters[0].positive:
+    if pattern.one_sided:
         logs = logs + _bounded(gram, b, scales)
     return logs
 

@@ -23,7 +23,7 @@ from cdpr_struct.measurement.campaign import Campaign
 
 _CLEAR = (6.0, 12.0)  # nats beyond the best of the library, seen at enough poses, and at one fewer
 _OWN = 3.0  # nats beyond a mode of the model that is off by one factor
-_FAR = 10.0  # nats
+_FAR = 10.0  # nats beyond the most that an internal mode can bring
 _TRIED = 2  # groups of peaks
 _LOST = 0.5 + float(np.log(100.0 * np.sqrt(2.0 * np.pi)))  # nats of a modal constant of which nothing is known [%]
 

@@ -6,19 +6,17 @@ causes of any size. A pair is told apart by as many nats as whichever of the two
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, combinations
+from itertools import combinations
 
 import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.evidence import Choice
 from cdpr_struct.diagnosis.planned_checks import CHECKS
-from cdpr_struct.diagnosis.planned_gain import ENOUGH, Judge, NewRows, checked, simulated
+from cdpr_struct.diagnosis.planned_gain import ENOUGH, Judge, NewRows, checked, possible
 from cdpr_struct.diagnosis.planned_series import series
-from cdpr_struct.diagnosis.planned_states import Proposal, of_lacking_kinds
+from cdpr_struct.diagnosis.planned_states import of_lacking_kinds
 from cdpr_struct.diagnosis.refit import Fit, Ground
-from cdpr_struct.diagnosis.side_by_side import side_by_side
-from cdpr_struct.errors import CdprError
 
 NEAR = 10.0  # nats from a named cause within which its next rival is worth telling apart
 APART = 2.0  # nats below which a measurement does not tell a pair apart
@@ -103,18 +101,10 @@ def _measurements(ground: Ground, asked: Sequence[Question]) -> list[tuple[str, 
     found = [row for row in rows if not any(np.any(row[2].signature.get(name, 0.0)) for name in campaign.checked)]
     acting = [
         proposal
-        for proposal in chain(of_lacking_kinds(campaign), series(campaign))
+        for proposal in (*of_lacking_kinds(campaign), *series(campaign))
         if not proposal.acts or named & set(proposal.acts)  # else nothing in question acts otherwise there
     ]
-
-    def measured(proposal: Proposal) -> NewRows | None:
-        try:
-            return simulated(ground, proposal)
-        except (CdprError, ValueError):
-            return None  # a state that the model cannot compute is not proposed
-
-    simulations = zip(acting, side_by_side(measured, acting, ground.known), strict=True)
-    return found + [(proposal.text, False, rows) for proposal, rows in simulations if rows is not None]
+    return found + [(proposal.text, False, rows) for proposal, rows in possible(ground, acting)]
 
 
 def _answer(found: Diagnosis, question: Question, measured: Sequence[tuple[str, bool, NewRows]]) -> str:

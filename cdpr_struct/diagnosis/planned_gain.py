@@ -7,7 +7,6 @@ evidence of a cause of given size against a rival of any size is then `left_over
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain
 
 import numpy as np
 
@@ -23,6 +22,7 @@ from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.residuals import Setting, residuals
 from cdpr_struct.diagnosis.setting import make_setting, with_equilibria
+from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import CdprError
 
@@ -74,16 +74,25 @@ def next_measurements(ground: Ground, pairs: list[tuple[str, str]]) -> list[Gain
     judge = Judge(ground, pairs)
     found = [judge.gain(c.text, c.text, checked(ground, c)) for c in CHECKS]
     campaign = ground.setting.campaign
-    for proposal in chain(proposals(campaign), series(campaign)):
-        try:
-            rows = simulated(ground, proposal)
-        except (CdprError, ValueError):
-            continue  # a state that the model cannot compute is not proposed
+    for proposal, rows in possible(ground, [*proposals(campaign), *series(campaign)]):
         found.append(judge.gain(proposal.text, proposal.family, rows))
     best: dict[str, Gain] = {}
     for gain in sorted(found, key=lambda g: -g.nats):
         best.setdefault(gain.family, gain)
     return [gain for gain in best.values() if gain.nats > 0.1]
+
+
+def possible(ground: Ground, several: list[Proposal]) -> list[tuple[Proposal, NewRows]]:
+    """Proposals with their rows; a state that the model cannot compute is not proposed."""
+
+    def rows(proposal: Proposal) -> NewRows | None:
+        try:
+            return simulated(ground, proposal)
+        except (CdprError, ValueError):
+            return None
+
+    found = zip(several, side_by_side(rows, several, ground.known), strict=True)
+    return [(proposal, own) for proposal, own in found if own is not None]
 
 
 class Judge:

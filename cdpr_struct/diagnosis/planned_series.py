@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from itertools import chain
 
 import numpy as np
 
@@ -29,14 +28,15 @@ Place = tuple[np.ndarray, np.ndarray, float]
 """Position (3,) [m], angles (3,) [rad], payload [kg]."""
 
 
-def series(campaign: Campaign) -> Iterator[Proposal]:
+def series(campaign: Campaign) -> list[Proposal]:
     """All series of states that the robot can hold."""
     home = home_of(campaign)
 
     def made(make: Callable[[Campaign, int], Iterator[Proposal]]) -> list[Proposal]:
         return list(make(campaign, home))
 
-    yield from chain(*side_by_side(made, (_tilts, _poses, _payloads, _other_side, _clamped), (campaign,)))
+    families = side_by_side(made, (_tilts, _poses, _payloads, _other_side, _clamped), (campaign,))
+    return [proposal for family in families for proposal in family]
 
 
 def _tilts(campaign: Campaign, home: int) -> Iterator[Proposal]:

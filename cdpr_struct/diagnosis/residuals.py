@@ -172,6 +172,14 @@ def among(setting: Setting, some: np.ndarray) -> Setting:
     return replace(setting, held=np.intersect1d(setting.held, some), locked=setting.locked[kept], locked_at=about)
 
 
+def resting_and_vibrating(
+    setting: Setting, world: World, readings: Readings, some: np.ndarray
+) -> tuple[Conditioned, Conditioned]:
+    """Some states, in ascending order, as they were read and while vibration is measured; `world` per state."""
+    rest = States(among(setting, some), world, readings).all
+    return rest, vibrating(world, rest, at_states(setting, some))
+
+
 def world_of_states(world: World, index: np.ndarray) -> World:
     """World per state whose pose offsets are those of the chosen states."""
     offset = world.pose_offset

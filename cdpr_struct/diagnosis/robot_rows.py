@@ -12,8 +12,8 @@ from cdpr_struct.diagnosis.modal_constants import log_constants, modelled_consta
 from cdpr_struct.diagnosis.mode_pairing import Modes, Pairing, paired
 from cdpr_struct.diagnosis.null_model import STEP, misread, reading_steps, tolerance_count, tolerated
 from cdpr_struct.diagnosis.readings import Readings
-from cdpr_struct.diagnosis.residuals import Setting, States, among, at_states
-from cdpr_struct.diagnosis.vibrating_state import raised, vibrating
+from cdpr_struct.diagnosis.residuals import Setting, at_states, resting_and_vibrating
+from cdpr_struct.diagnosis.vibrating_state import raised
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.natural_frequencies import count_below
@@ -205,9 +205,8 @@ def _dynamics_and_rise(
     """D(omega) of rows at their states, and (..., r, m) what sensors raise the cables' own frequencies by there."""
     some = np.unique(state)
     wide, known = world.per_state(), at_states(setting, some)
-    conditioned, local = States(among(setting, some), wide, readings).all, np.searchsorted(some, state)
-    moving = vibrating(wide, conditioned, known)
-    rise = raised(conditioned, moving)
+    rest, moving = resting_and_vibrating(setting, wide, readings, some)
+    rise, local = raised(rest, moving), np.searchsorted(some, state)
     at = robot_pitch.Dynamics.at(wide, moving, known, local, setting.massless, setting.geometric)
     return at, np.zeros((local.size, world.cables)) if rise is None else np.take(rise, local, axis=-2)
 

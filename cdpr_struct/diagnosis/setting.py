@@ -15,15 +15,13 @@ from cdpr_struct.diagnosis.readings import Readings, cell_reading, exit_turns
 from cdpr_struct.diagnosis.residuals import (
     Labels,
     Setting,
-    States,
-    among,
-    as_sent,
+        as_sent,
     at_states,
     readings_of_states,
+    resting_and_vibrating,
     world_of_states,
 )  # fmt: skip
 from cdpr_struct.diagnosis.robot_rows import ModelModes, model_modes, rough_strays, with_robot_rows
-from cdpr_struct.diagnosis.vibrating_state import vibrating
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import InputError
@@ -159,9 +157,7 @@ def with_equilibria(setting: Setting, world: World) -> Setting:
 
 def _conditioned(setting: Setting, world: World, some: np.ndarray) -> Conditioned:
     """Some states, in ascending order, while vibration is measured."""
-    wide = world.per_state()
-    states = States(among(setting, some), wide, Readings.of(setting.campaign.states)).all
-    return vibrating(wide, states, at_states(setting, some))
+    return resting_and_vibrating(setting, world.per_state(), Readings.of(setting.campaign.states), some)[1]
 
 
 def _points(setting: Setting, world: World, states: np.ndarray) -> dict[int, OperatingPoint]:

@@ -75,11 +75,7 @@ def _of_patterns(patterns: list[Pattern], gram: np.ndarray, b: np.ndarray) -> It
         if not shown.any():
             continue
         along = (vectors[:, shown].T @ (basis.T @ b)) / np.sqrt(values[shown])[:, None]
-        yield pattern, _of_size(float(np.sqrt(noncentrality(len(along)))), along, _one_sided(pattern))
-
-
-def _one_sided(pattern: Pattern) -> bool:
-    return len(pattern.parameters) == 1 and pattern.parameters[0].positive
+        yield pattern, _of_size(float(np.sqrt(noncentrality(len(along)))), along, pattern.one_sided)
 
 
 def _of_size(size: float, along: np.ndarray, one_sided: bool) -> np.ndarray:

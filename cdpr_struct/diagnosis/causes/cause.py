@@ -54,6 +54,11 @@ class Pattern:
         return np.array([p.prior for p in self.parameters])
 
     @property
+    def one_sided(self) -> bool:
+        """Whether it is one number that cannot be negative."""
+        return len(self.parameters) == 1 and self.parameters[0].positive
+
+    @property
     def lowest(self) -> np.ndarray:
         """(d,) lower bound of theta."""
         return np.array([0.0 if p.positive else -np.inf for p in self.parameters])
