@@ -109,8 +109,7 @@ def _ranked(ground: Ground, before: Fit | None, rows: list[Screened], large: lis
     tried = [(row, picked) for row in _promising(ground, rows, before is not None) for picked in _worth_trying(row)]
     fits = side_by_side(fitted, tried, ground.known)
     if ground.paired:
-        base = 0.0 if before is None else before.gain
-        fits = large + _settled(ground, sorted(fits, key=lambda fit: -fit.gain), large, base)
+        fits = large + _settled(ground, before, sorted(fits, key=lambda fit: -fit.gain), large)
     return _best_of_each(fits)
 
 
@@ -143,11 +142,14 @@ def _promising(ground: Ground, rows: list[Screened], further: bool) -> list[Scre
     return list(chosen.values())
 
 
-def _settled(ground: Ground, fits: list[Fit], large: list[Fit], base: float) -> list[Fit]:
+def _settled(ground: Ground, before: Fit | None, fits: list[Fit], large: list[Fit]) -> list[Fit]:
     """The fits, those settled that may be the best: all if the best explains neither the data nor every peak.
 
-    large : fits of large changes, settled already;  base : log evidence without the last cause
+    What is far off stays unsettled, without what the frequencies of a first cause gain by being paired more freely.
+
+    before : fit without the last cause, None for a first one;  large : fits of large changes, settled already
     """
+    base, lead = (0.0, max(ground.ahead, 0.0)) if before is None else (before.gain, 0.0)
     ahead = max(fit.gain for fit in [*large, fits[0]])
     reach = ahead - max(_SETTLED, _SETTLED_SHARE * (ahead - base))
     near = max(2, sum(fit.gain > reach for fit in fits))
@@ -158,7 +160,7 @@ def _settled(ground: Ground, fits: list[Fit], large: list[Fit], base: float) -> 
     first, far = side_by_side(again, fits[:near], ground.known), fits[near:]
     best = max([*large, *first], key=lambda fit: fit.gain)
     if best.ground.strays < ASTRAY or any(explains(fit) for fit in first):
-        return first + [replace(fit, gain=fit.gain - ground.ahead) for fit in far]
+        return first + [replace(fit, gain=fit.gain - lead) for fit in far]
     return first + side_by_side(again, far, ground.known)
 
 

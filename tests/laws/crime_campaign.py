@@ -10,7 +10,7 @@ import numpy as np
 from cdpr_struct.diagnosis.conditioned_state import condition, unbalanced
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import residuals
-from cdpr_struct.diagnosis.setting import make_setting
+from cdpr_struct.diagnosis.setting import make_setting, modes_in
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.generated.platform import rotation
 from cdpr_struct.measurement.campaign import CableFrequencies, Campaign, RobotFrequencies, States, Tolerances
@@ -50,6 +50,16 @@ def with_cable_frequencies(campaign: Campaign, states: tuple[int, ...]) -> Campa
     guess = 4.0 * mode  # near enough to say how many modes must be resolved
     rows = CableFrequencies(state, cable, mode, np.ones(state.size, dtype=bool), guess, 0.003 * guess)
     return measured_in(replace(campaign, cable_frequencies=rows), World.of(campaign.robot, len(campaign.states.names)))
+
+
+def with_robot_frequencies(campaign: Campaign, states: tuple[int, ...], truth: World) -> Campaign:
+    """Frequencies of a world at some states: those of modes in which the platform moves."""
+    state = np.array(states)
+    guess = RobotFrequencies(state, np.full(state.size, 6.5), np.full(state.size, 0.02))
+    setting, _ = make_setting(replace(campaign, robot_frequencies=guess))
+    own = modes_in(setting, truth).modes
+    own = own.some(np.flatnonzero(own.energy > 0.4))
+    return replace(campaign, robot_frequencies=RobotFrequencies(own.state, own.hertz, 0.003 * own.hertz))
 
 
 def measured_in(campaign: Campaign, world: World) -> Campaign:

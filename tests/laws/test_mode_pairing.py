@@ -9,11 +9,11 @@ import pytest
 from cdpr_struct.diagnosis.causes.registry import LIBRARY
 from cdpr_struct.diagnosis.evidence import Candidate, choice
 from cdpr_struct.diagnosis.mode_pairing import Modes, paired
-from cdpr_struct.diagnosis.setting import make_setting, modes_in, paired_with, strays_in
+from cdpr_struct.diagnosis.setting import make_setting, paired_with, strays_in
 from cdpr_struct.diagnosis.stray_peaks import _trial, p_of_strays
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.measurement.campaign import RobotFrequencies
-from tests.laws.crime_campaign import clean_campaign
+from tests.laws.crime_campaign import clean_campaign, with_robot_frequencies
 
 HERTZ = np.array([1.0, 1.06, 1.5, 1.9, 2.02, 3.0])
 
@@ -93,13 +93,7 @@ def test_strays_of_a_world_are_counted_roughly_without_following_its_modes():
     campaign = clean_campaign()
     entered = World.of(campaign.robot, len(campaign.states.names))
     true = replace(entered, inertia=1.7 * entered.inertia)
-    guess = RobotFrequencies(np.array([0, 1, 2]), np.full(3, 6.5), np.full(3, 0.02))
-    campaign = replace(campaign, robot_frequencies=guess)
-    setting, _ = make_setting(campaign)
-    own = modes_in(setting, true).modes
-    own = own.some(np.flatnonzero(own.energy > 0.4))
-    peaks = RobotFrequencies(own.state, own.hertz, 0.003 * own.hertz)
-    setting, _ = make_setting(replace(campaign, robot_frequencies=peaks))
+    setting, _ = make_setting(with_robot_frequencies(campaign, (0, 1, 2), true))
     assert strays_in(setting, true) < 0.2
     assert paired_with(setting, entered).strays > 1.5
     assert strays_in(setting, entered) == pytest.approx(paired_with(setting, entered).strays, rel=0.3)

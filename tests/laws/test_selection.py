@@ -10,7 +10,8 @@ from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
 from cdpr_struct.diagnosis.ranking import Search
 from cdpr_struct.diagnosis.refit import refit, settled
 from cdpr_struct.diagnosis.selection import FURTHER, select
-from tests.laws.crime_campaign import hidden
+from cdpr_struct.diagnosis.world import World
+from tests.laws.crime_campaign import hidden, with_robot_frequencies
 
 
 def two_causes(world):
@@ -37,6 +38,18 @@ def test_rivals_are_those_that_do_the_same(ground):
         near = {fit.names[-1] for fit in rivals if fit.gain > selection.fit.gain - 5.0}
         assert near
         assert near <= ({"load_cell_gain"} if name == "load_cell_bias" else soft - {name})
+
+
+def test_second_causes_are_all_held_against_the_same_null():
+    """Those too far off to be settled, too: what peaks paired more freely bring the null is none of theirs."""
+    campaign = hidden(two_causes)
+    truth = two_causes(World.of(campaign.robot, len(campaign.states.names)))
+    near = prepare(with_robot_frequencies(campaign, (0, 1), truth), BUDGETS["small"]).ground
+    worse = replace(near, level=near.level + 100.0)
+    first = Search(near).rank()[0].choices
+    gains, against_worse = ({fit.names: fit.gain for fit in Search(one).rank(first)} for one in (near, worse))
+    assert len(gains) > 3
+    assert against_worse == pytest.approx({names: gain + 100.0 for names, gain in gains.items()})
 
 
 def test_no_second_cause_is_sought_where_a_law_outside_the_library_is_far_better(ground):
