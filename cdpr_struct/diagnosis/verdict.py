@@ -223,7 +223,10 @@ def _standing(found: Diagnosis, fit: Fit) -> str:
 
 
 def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
-    """What was mended in the data, in the order of its discovery, then every cause that was fitted, best first."""
+    """What was mended in the data, in the order of its discovery, then every cause that was fitted, best first.
+
+    A cause whose fitted size is none is left out: its evidence is that of other modes for the peaks, not its own.
+    """
     rows: list[dict[str, Any]] = [
         {
             "cause": c.cause, "with": [], "parameters": c.sizes, "description": c.sentence, "log_evidence_gain": gain,
@@ -232,9 +235,15 @@ def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
         for c, gain in found.corrections
     ]  # fmt: skip
     fits = ([found.selection.fit] if found.selection.fit else []) + [
-        f for f in found.selection.first if found.selection.fit is None or f.names != found.selection.fit.names
-    ]
+        f for f in found.selection.first
+        if (found.selection.fit is None or f.names != found.selection.fit.names) and _is_change(f)
+    ]  # fmt: skip
     return rows + [row for fit in fits for row in _fit_rows(found, fit)]
+
+
+def _is_change(fit: Fit) -> bool:
+    """Whether sizes, all together, are a sigma or more from what was entered."""
+    return float(fit.theta @ np.linalg.solve(fit.covariance, fit.theta)) > 1.0
 
 
 def _mended_share(found: Diagnosis) -> float | None:

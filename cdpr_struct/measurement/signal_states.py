@@ -16,6 +16,7 @@ from cdpr_struct.measurement.peak_kinds import MODE, assurance, peak_kinds
 from cdpr_struct.measurement.response_modes import response_modes
 from cdpr_struct.measurement.signal_records import SignalRecord, records
 from cdpr_struct.measurement.state_modes import StateModes, state_modes
+from cdpr_struct.measurement.unit_scale import check_pose_scale
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.energy_descent import arm_scale
 from cdpr_struct.statics.robot_arrays import RobotArrays
@@ -40,9 +41,12 @@ def identify(
 
     Raises
     ------
-    InputError : rows that do not make records.
+    InputError : rows that do not make records, or whose pose or lengths cannot be in m.
     """
-    return [_identify(_placed(r, poses), robot, model, sigmas) for r in records(series, len(robot.cables))]
+    placed = [_placed(record, poses) for record in records(series, len(robot.cables))]
+    for r in placed:
+        check_pose_scale(r.file, r.case, robot, r.position, r.angles, r.lengths)
+    return [_identify(record, robot, model, sigmas) for record in placed]
 
 
 def held_against(item: Identified, robot: Robot, model: str) -> Identified:

@@ -17,17 +17,29 @@ def check_scale(source: str, robot: Robot, states: States) -> None:
     ------
     InputError : a state whose pose, lengths or tensions cannot be in m and N.
     """
-    middle = robot.frame_anchors.mean(axis=0)
-    reach = float(np.linalg.norm(robot.frame_anchors - middle, axis=1).max())
     for i, name in enumerate(states.names):
-        _check_position(source, name, states.position[i], middle, reach)
-        points = states.position[i] + robot.platform_anchors @ rotation(*states.angles[i]).T
-        _check_lengths(source, name, states.length[i], np.linalg.norm(points - robot.frame_anchors, axis=1))
+        check_pose_scale(source, name, robot, states.position[i], states.angles[i], states.length[i])
         weight = (robot.platform.mass + float(states.payload[i])) * robot.gravity
         _check_tensions(source, name, states.tension[i], weight)
 
 
-def _check_position(source: str, name: str, position: np.ndarray, middle: np.ndarray, reach: float) -> None:
+def check_pose_scale(
+    source: str, name: str, robot: Robot, position: np.ndarray, angles: np.ndarray, length: np.ndarray
+) -> None:
+    """Hold one pose (3,) [m], (3,) [rad], and its lengths (m,) [m], against the size of the robot.
+
+    Raises
+    ------
+    InputError : a pose or lengths that cannot be in m.
+    """
+    _check_position(source, name, robot, position)
+    points = position + robot.platform_anchors @ rotation(*angles).T
+    _check_lengths(source, name, length, np.linalg.norm(points - robot.frame_anchors, axis=1))
+
+
+def _check_position(source: str, name: str, robot: Robot, position: np.ndarray) -> None:
+    middle = robot.frame_anchors.mean(axis=0)
+    reach = float(np.linalg.norm(robot.frame_anchors - middle, axis=1).max())
     if np.linalg.norm(position - middle) > _TIMES * reach:
         expected = f"a position in m: the frame anchors lie within {reach:.3g} m of their middle (is it in mm?)"
         raise InputError(source, f"case {name}: x_m, y_m, z_m", position.tolist(), expected)

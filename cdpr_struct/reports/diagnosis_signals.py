@@ -35,6 +35,7 @@ def with_signals(result: dict[str, Any], found: Diagnosis) -> dict[str, Any]:
         "why_not_testable": why,
         "not_testable": sorted(why),
         "not_used": sorted({i.record.kind for i in campaign.identified if not i.used.any()}),
+        "warnings": [*result["warnings"], *map(_silent, (i for i in campaign.identified if not i.used.any()))],
         "verdict": _spoken(result["verdict"], finding),
     }
     if finding.causes:
@@ -49,6 +50,12 @@ def judged_signals(found: Diagnosis, result: Mapping[str, Any]) -> tuple[Identif
         return campaign.identified
     robot = extended_robot(found)
     return tuple(held_against(item, robot, campaign.model) for item in campaign.identified)
+
+
+def _silent(item: Identified) -> str:
+    """Why a record adds no frequency."""
+    why = item.note or f"{len(item.modes)} peaks, none of them clear and the robot's own (see the table of peaks)"
+    return f"{item.record.kind} {item.record.case} adds no frequency: {why}".rstrip(".")
 
 
 def _left_out(judged: tuple[Identified, ...]) -> list[dict[str, Any]]:

@@ -1,5 +1,7 @@
 """Unusable signals: one line naming file, case, value and what would be right; exit code 2."""
 
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -38,13 +40,36 @@ def decay(time) -> pd.DataFrame:
         (lambda t: t.drop(index=50), ["case a", "time_s", "even steps"]),
         (lambda t: t.assign(x_m=np.linspace(0.0, 1.0, len(t))), ["case a", "one pose a case"]),
         (lambda t: t.assign(ax="much"), ["row 1", "ax", "much", "a number"]),
+        (lambda t: t.assign(z_m=500.0), ["case a", "x_m, y_m, z_m", "500.0", "in mm"]),
+        (lambda t: t.assign(**{f"length_{i}_m": 9000.0 for i in range(1, 9)}), ["case a", "length_m", "in mm"]),
     ],
-    ids=range(4),
+    ids=range(6),
 )
 def test_bad_decays(change, words, tmp_path, capsys):
     change(decay(np.arange(400) * 0.01)).to_csv(tmp_path / "decay.csv", index=False)
     line = complaint(tmp_path, capsys, "free_decay", "decay.csv")
     assert all(word in line for word in ["decay.csv", *words]), line
+
+
+def test_a_tracked_motion_in_mm_is_refused(tmp_path, capsys):
+    """It used to be left out, and only the table of peaks said so."""
+    track = decay(np.arange(400) * 0.01).rename(columns={"ax": "x_m", "ay": "y_m", "az": "z_m"})
+    track = track.loc[:, ~track.columns.duplicated(keep="last")]
+    track[["x_m", "y_m", "z_m"]] = 1000.0 * (0.01 * track[["x_m", "y_m", "z_m"]] + [0.0, 0.0, 0.5])
+    track.to_csv(tmp_path / "track.csv", index=False)
+    assert "is it in mm?" in complaint(tmp_path, capsys, "platform_motion", "track.csv")
+
+
+def test_a_record_that_adds_nothing_is_told(tmp_path, capsys):
+    noise = np.random.default_rng(5).standard_normal((400, 3))
+    quiet = decay(np.arange(400) * 0.01).assign(**dict(zip(("ax", "ay", "az"), noise.T, strict=True)))
+    quiet.to_csv(tmp_path / "decay.csv", index=False)
+    states = (Path(__file__).parents[2] / "examples" / "table-4-4" / "level.csv").resolve()
+    path = tmp_path / "campaign.toml"
+    more = f'[[measurement]]\nkind = "static_state"\nfile = "{states}"\n'
+    path.write_text(CAMPAIGN.format(kind="free_decay", file="decay.csv").replace("thesis-3-1", "cogiro") + more)
+    assert run(["diagnose", str(path)]) == 0
+    assert "warning: free_decay a adds no frequency: " in capsys.readouterr().out
 
 
 def test_a_decay_without_a_pose_says_so(tmp_path):
