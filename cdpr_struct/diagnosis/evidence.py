@@ -15,8 +15,8 @@ from cdpr_struct.diagnosis.causes.cause import SCALES, Cause, Pattern
 from cdpr_struct.diagnosis.null_model import NullModel
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, residuals
-from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.side_by_side import side_by_side
 
 _STEP = 0.05  # of the prior's sigma
 

@@ -15,11 +15,11 @@ from cdpr_struct.diagnosis.ranking import clears
 from cdpr_struct.diagnosis.robot_rows import pairing_of
 from cdpr_struct.diagnosis.selection import FURTHER, select
 from cdpr_struct.diagnosis.setting import modes_in
-from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.steady_peaks import moves_alone, steady_peaks
 from cdpr_struct.diagnosis.stray_peaks import ONE
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.side_by_side import side_by_side
 
 _CLEAR = (6.0, 12.0)  # nats beyond the best of the library, seen at enough poses, and at one fewer
 _OWN = 3.0  # nats beyond a mode of the model that is off by one factor

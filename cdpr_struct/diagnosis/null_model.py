@@ -12,9 +12,9 @@ from scipy.linalg import solve_triangular
 
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import Setting, residuals
-from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.wandering_noise import remembered, runs
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.side_by_side import side_by_side
 
 STEP = 0.1  # of a sigma
 _WILD = 5.0  # times the median miss

@@ -22,9 +22,9 @@ from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.residuals import Setting, residuals
 from cdpr_struct.diagnosis.setting import make_setting, with_equilibria
-from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import CdprError
+from cdpr_struct.side_by_side import side_by_side
 
 ENOUGH = 5.0  # nats of a pair beyond which more are worth nothing: a cause is named then
 _DRAWS, _SEED, _STEP = 12, 20240229, 0.05

@@ -17,9 +17,9 @@ from cdpr_struct.diagnosis.planned_states import (
     new_states,
     rounded,
 )
-from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.side_by_side import side_by_side
 
 MOST = 4  # states of a series
 _PAYLOADS = (0.15, 0.3, 0.45)  # of the platform's mass

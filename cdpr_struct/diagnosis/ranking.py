@@ -10,8 +10,8 @@ from cdpr_struct.diagnosis.evidence import Choice, Screened, candidates, choices
 from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
 from cdpr_struct.diagnosis.refit import ASTRAY, Fit, Ground, refit, screen_beyond, settled
 from cdpr_struct.diagnosis.residuals import residuals
-from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.stray_peaks import ONE, caught
+from cdpr_struct.side_by_side import side_by_side
 
 _NEAR = 12.0  # nats from the best at screening: refitted
 _NEAR_SHARE = 0.2  # of the best gain, which screening misjudges by a share where effects are large

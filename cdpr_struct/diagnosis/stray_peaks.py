@@ -14,9 +14,9 @@ from cdpr_struct.diagnosis.evidence import Candidate, Choice, Screened, choice
 from cdpr_struct.diagnosis.mode_pairing import STRAY
 from cdpr_struct.diagnosis.refit import Fit, Ground, settled
 from cdpr_struct.diagnosis.setting import strays_in
-from cdpr_struct.diagnosis.side_by_side import side_by_side
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import CdprError
+from cdpr_struct.side_by_side import side_by_side
 
 SEVERAL = 1.5  # expected strays that are more than one
 ONE = 0.7  # expected strays from which large changes are tried

@@ -16,12 +16,12 @@ LARGEST_DAMPING = 0.2
 _ORDERS = (12, 16, 20, 26, 32, 40)
 _SAME = (0.01, 0.3)  # relative change of a stable pole's frequency and damping between orders
 _LEAST_STABLE = 3  # orders
-_MOST_ADDED = 8
+_AT_ONCE, _TRIES = 8, 2  # poles added where the fit misses something; how often at one place
 _TOGETHER, _CERTAIN = 0.3, 4.5  # correlation of neighbouring residuals that noise does not have; in its sigma
 _NEIGHBOURS = 15  # lines on either side among which a mode would show in the residuals
 _REACH = 60  # lines on either side that tell how noisy this part of the band is
-_ROUNDS = 4
-_ROUGH = 1e-4  # relative change of the squares below which a fit ends whose weights are not yet final
+_ROUNDS, _FEW_ROUNDS = 4, 2  # of weighing, in the final fit and before
+_ROUGH, _FEW = 1e-4, 12  # relative change of the squares, and evaluations, with which a fit ends that is not final
 _LEAST_STRENGTH = 6.0
 
 
@@ -38,38 +38,37 @@ def response_modes(hertz: np.ndarray, response: np.ndarray) -> Modes:
     omega = 2.0 * np.pi * hertz
     size = np.sqrt((np.abs(response) ** 2).mean(axis=0))
     alive = size > 1e-12 * max(float(size.max()), 1e-300)
-    poles = stable_poles(omega, response[:, alive] / size[alive]) if alive.any() else np.zeros(0, dtype=complex)
+    poles = starting_poles(omega, response[:, alive] / size[alive]) if alive.any() else np.zeros(0, dtype=complex)
     basis, parts = _Resonances(omega), np.concatenate([response.real, response.imag])[:, alive]
-    added = 0
+    weight = np.broadcast_to(1.0 / size[alive], parts.shape)
+    tried, final = np.zeros(0, dtype=complex), False
     found = _none(len(alive))
     while len(poles):
-        fit, weight = _weighed_fit(basis, parts, np.broadcast_to(1.0 / size[alive], parts.shape), poles)
+        fit, weight = _weighed_fit(basis, parts, weight, poles, final)
         found = _estimates(basis, fit, weight, alive)
         good = _clear(found, hertz)
-        if not good.all():
-            poles = found.poles[good]
-            found = found.take(np.flatnonzero(good))
-            continue
-        missed = _overlooked(omega, fit)
-        if missed is None or added >= _MOST_ADDED:
+        found, all_clear = found.take(np.flatnonzero(good)), bool(good.all())
+        missed = _overlooked(omega, fit, tried) if all_clear else []
+        settled = all_clear and not missed
+        if final and settled:
             break
-        poles, added = np.append(found.poles, missed), added + 1
+        poles, tried, final = np.append(found.poles, missed), np.append(tried, missed), settled
     return found
 
 
 def _weighed_fit(
-    basis: "_Resonances", parts: np.ndarray, weight: np.ndarray, poles: np.ndarray
+    basis: "_Resonances", parts: np.ndarray, weight: np.ndarray, poles: np.ndarray, final: bool
 ) -> tuple[SeparableFit, np.ndarray]:
-    """Fit whose weights (2f, c) are one over the noise that its own residuals show."""
+    """Fit whose weights (2f, c) are one over the noise that its own residuals show; a rough one unless it is final."""
     lines = len(parts) // 2
-    for _ in range(_ROUNDS):
-        fit = separable_fit(basis, parts, weight, poles, _ROUGH)
+    for _ in range(_ROUNDS if final else _FEW_ROUNDS):
+        fit = separable_fit(basis, parts, weight, poles, _ROUGH, _FEW)
         poles, left = fit.poles, fit.residual / weight
         answer = parts - left
         power = 0.5 * (left[:lines] ** 2 + left[lines:] ** 2)
         spread = np.sqrt(_noise(power, answer[:lines] ** 2 + answer[lines:] ** 2))
         weight = 1.0 / np.concatenate([spread, spread])
-    return separable_fit(basis, parts, weight, poles), weight
+    return (separable_fit(basis, parts, weight, poles) if final else fit), weight
 
 
 def _noise(power: np.ndarray, squared: np.ndarray) -> np.ndarray:
@@ -101,21 +100,45 @@ def _clear(found: Modes, hertz: np.ndarray) -> np.ndarray:
     return clear
 
 
-def _overlooked(omega: np.ndarray, fit: SeparableFit) -> complex | None:
-    """A pole where the residuals of neighbouring lines go together, as those of noise do not."""
+def _overlooked(omega: np.ndarray, fit: SeparableFit, tried: np.ndarray) -> list[complex]:
+    """A few poles where neighbouring residuals go together, as those of noise do not, and not tried often before."""
     lines = len(omega)
     residual = fit.residual[:lines] + 1j * fit.residual[lines:]
     together = (residual[1:] * np.conj(residual[:-1])).real.sum(axis=1)
     alone = (np.abs(residual) ** 2).sum(axis=1)
     window = np.ones(2 * _NEIGHBOURS + 1)
     share = np.convolve(together, window, "same") / np.convolve(0.5 * (alone[1:] + alone[:-1]), window, "same")
-    limit = _CERTAIN / np.sqrt(2.0 * len(window) * residual.shape[1])
-    place = int(share.argmax())
-    if share[place] < max(limit, _TOGETHER):
-        return None
-    low, high = max(place - _NEIGHBOURS, 0), min(place + _NEIGHBOURS + 1, lines)
-    peak = omega[low + int(alone[low:high].argmax())]
-    return complex(peak * (-0.01 + 1j))
+    limit = max(_CERTAIN / np.sqrt(2.0 * len(window) * residual.shape[1]), _TOGETHER)
+    apart, found = _NEIGHBOURS * (omega[1] - omega[0]), list[complex]()
+    while share.max() >= limit and len(found) < _AT_ONCE:
+        place = int(share.argmax())
+        low, high = max(place - _NEIGHBOURS, 0), min(place + _NEIGHBOURS + 1, lines)
+        pole = _near(omega, residual, low + int(alone[low:high].argmax()))
+        if (np.abs(tried.imag - pole.imag) < 0.5 * apart).sum() < _TRIES:
+            found.append(pole)
+        share[max(place - 2 * _NEIGHBOURS, 0) : place + 2 * _NEIGHBOURS + 1] = -np.inf
+    return found
+
+
+def _near(omega: np.ndarray, response: np.ndarray, peak: int) -> complex:
+    """The stable pole nearest to a peak, of the lines about it alone; a lightly damped one where there is none."""
+    part = slice(max(peak - _REACH, 0), peak + _REACH + 1)
+    poles = stable_poles(omega[part], response[part])
+    apart = np.abs(poles.imag - omega[peak])
+    good = poles.size and apart.min() < _NEIGHBOURS * (omega[1] - omega[0])
+    return complex(poles[apart.argmin()]) if good else complex(omega[peak] * (-0.01 + 1j))
+
+
+def starting_poles(omega: np.ndarray, response: np.ndarray) -> np.ndarray:
+    """Stable poles (k,) [rad/s] of the whole band, or, where it is too wide to show any, of halves, quarters, ..."""
+    kept, width = list(stable_poles(omega, response)), len(omega) // 2
+    while not kept and width >= 2 * _REACH:
+        for low in range(0, len(omega) - width // 2, width // 2):
+            part = slice(low, low + width)
+            own = stable_poles(omega[part], response[part])
+            kept += [pole for pole in own if not any(_same(pole, other) for other in kept)]
+        width //= 2
+    return np.array(kept, dtype=complex)
 
 
 def stable_poles(omega: np.ndarray, response: np.ndarray) -> np.ndarray:

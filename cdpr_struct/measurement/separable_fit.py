@@ -50,8 +50,9 @@ class SeparableFit:
 
 
 def separable_fit(
-    basis: Basis, signal: np.ndarray, weight: np.ndarray, start: np.ndarray, tolerance: float = _TOLERANCE
-) -> SeparableFit:
+    basis: Basis, signal: np.ndarray, weight: np.ndarray, start: np.ndarray,
+    tolerance: float = _TOLERANCE, evaluations: int = _EVALUATIONS,
+) -> SeparableFit:  # fmt: skip
     """Poles and linear coefficients that fit a signal best.
 
     Parameters
@@ -60,6 +61,7 @@ def separable_fit(
             the real and the imaginary part of their pole (2k, n, 2)
     signal : (n, c);  weight : (n, c) or (1, c), one over the noise's standard deviation
     start : (k,) complex poles [rad/s];  tolerance : relative change of the squares below which it ends
+    evaluations : of the signal, at most
     """
     scale = np.repeat(np.abs(start), 2)
     shared, channels = weight.shape[0] == 1, signal.shape[1]
@@ -83,7 +85,7 @@ def separable_fit(
 
     first = np.stack([start.real, start.imag], axis=1).ravel() / scale
     with np.errstate(over="ignore"):
-        found = least_squares(rest, first, jac=slope, method="lm", ftol=tolerance, max_nfev=_EVALUATIONS)
+        found = least_squares(rest, first, jac=slope, method="lm", ftol=tolerance, max_nfev=evaluations)
         done = parts(found.x)
     information = sum(np.einsum("pcn,qcn->pq", p[1], p[1]) for p in done)
     linear = np.concatenate([p[2] for p in done], axis=1)
@@ -103,6 +105,7 @@ def _project(columns: np.ndarray, slopes: np.ndarray, target: np.ndarray) -> tup
     inside = q.T @ target
     linear = np.linalg.lstsq(r, inside, rcond=None)[0]
     pairs = np.repeat(linear[: len(slopes)].reshape((-1, 2, linear.shape[1])), 2, axis=0)
-    moved = slopes @ pairs
-    across = moved - q @ (q.T @ moved)
-    return target - q @ inside, -np.swapaxes(across, 1, 2), linear
+    moved = np.swapaxes(slopes @ pairs, 1, 2)
+    flat = moved.reshape((-1, moved.shape[-1]))
+    across = (flat - (flat @ q) @ q.T).reshape(moved.shape)
+    return target - q @ inside, -across, linear

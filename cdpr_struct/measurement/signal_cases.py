@@ -3,10 +3,13 @@
 import numpy as np
 
 from cdpr_struct.errors import InputError
+from cdpr_struct.measurement.campaign import Sigmas
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.identified import Identified
-from cdpr_struct.measurement.signal_states import identify, platform_shape
+from cdpr_struct.measurement.signal_records import SignalRecord
+from cdpr_struct.measurement.signal_states import held_against, own_modes, placed_records, platform_shape
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.side_by_side import side_by_side
 
 _SAME_POSE = 1e-6
 
@@ -21,26 +24,31 @@ def join_signals(gathering: Gathering, robot: Robot, model: str) -> tuple[Identi
     poses = {
         name: np.concatenate([s.pose[:3], np.radians(s.pose[3:]), [s.payload]]) for name, s in gathering.known.items()
     }
-    found: list[Identified] = []
-    for series, sigmas in gathering.series:
-        for item in identify(series, robot, model, sigmas, poses):
-            number = len(found)
-            found.append(item)
-            _check_pose(item, poses)
-            record = item.record
-            rows = [
-                (float(item.modes.hertz[i]), float(item.sigma[i]), platform_shape(record, shape), (number, i))
-                for i, shape in enumerate(item.modes.shape)
-                if item.used[i]
-            ]
-            if rows:
-                pose = np.concatenate([record.position, np.degrees(record.angles)])
-                gathering.add_frequencies(record.case, pose, record.payload, record.lengths, sigmas, rows)
+    placed = [
+        (record, sigmas) for series, sigmas in gathering.series for record in placed_records(series, robot, poses)
+    ]
+    for record, _ in placed:
+        _check_pose(record, poses)
+
+    def identified(one: tuple[SignalRecord, Sigmas]) -> Identified:
+        return own_modes(*one)
+
+    known = [thing for one in placed for thing in one]
+    found = [held_against(item, robot, model) for item in side_by_side(identified, placed, known)]
+    for number, item in enumerate(found):
+        record, sigmas = placed[number]
+        rows = [
+            (float(item.modes.hertz[i]), float(item.sigma[i]), platform_shape(record, shape), (number, i))
+            for i, shape in enumerate(item.modes.shape)
+            if item.used[i]
+        ]
+        if rows:
+            pose = np.concatenate([record.position, np.degrees(record.angles)])
+            gathering.add_frequencies(record.case, pose, record.payload, record.lengths, sigmas, rows)
     return tuple(found)
 
 
-def _check_pose(item: Identified, poses: dict[str, np.ndarray]) -> None:
-    record = item.record
+def _check_pose(record: SignalRecord, poses: dict[str, np.ndarray]) -> None:
     known = poses.get(record.case)
     if known is None or record.kind == "platform_motion":
         return

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from cdpr_struct.errors import CdprError
-from cdpr_struct.measurement.amplitude_windows import AmplitudeWindows, amplitude_windows
+from cdpr_struct.measurement.amplitude_windows import amplitude_windows
 from cdpr_struct.measurement.campaign import Series, Sigmas
 from cdpr_struct.measurement.decay_modes import decay_modes
 from cdpr_struct.measurement.identified import Identified
@@ -32,10 +32,8 @@ _SIZE_SPREAD = 0.5  # of ln of a mode's size; a peak that much smaller than a mo
 _OF_WIDTH = 0.25  # of a peak's half-width: modes nearer than their widths are fitted as one
 
 
-def identify(
-    series: Series, robot: Robot, model: str, sigmas: Sigmas, poses: dict[str, np.ndarray]
-) -> list[Identified]:
-    """Modes of every record of a signal file.
+def placed_records(series: Series, robot: Robot, poses: dict[str, np.ndarray]) -> list[SignalRecord]:
+    """Records of a signal file at their poses.
 
     poses : case to (7,) pose (m, rad) and payload [kg], of cases that other files describe
 
@@ -46,12 +44,7 @@ def identify(
     placed = [_placed(record, poses) for record in records(series, len(robot.cables))]
     for r in placed:
         check_pose_scale(r.file, r.case, robot, r.position, r.angles, r.lengths)
-    return [_identify(record, robot, model, sigmas) for record in placed]
-
-
-def held_against(item: Identified, robot: Robot, model: str) -> Identified:
-    """Identified modes held against another robot's, whose modes may join and pair differently."""
-    return _against_model(item.record, robot, model, item.modes, item.windows, item.sigma, list(item.kinds))
+    return placed
 
 
 def _placed(record: SignalRecord, poses: dict[str, np.ndarray]) -> SignalRecord:
@@ -62,7 +55,8 @@ def _placed(record: SignalRecord, poses: dict[str, np.ndarray]) -> SignalRecord:
     return replace(record, position=known[:3], angles=known[3:6], payload=float(known[6]))
 
 
-def _identify(record: SignalRecord, robot: Robot, model: str, sigmas: Sigmas) -> Identified:
+def own_modes(record: SignalRecord, sigmas: Sigmas) -> Identified:
+    """Modes of a record, not held against any model yet."""
     if record.kind == "frf":
         modes, windows = response_modes(record.axis, record.signal), None
         scatter, kinds = np.ones(len(modes)), [MODE] * len(modes)
@@ -77,13 +71,15 @@ def _identify(record: SignalRecord, robot: Robot, model: str, sigmas: Sigmas) ->
         sigma = np.hypot(sigma, _OF_WIDTH * modes.damping * modes.hertz)
     if sigmas.frequency_hz is not None:
         sigma = np.hypot(sigma, sigmas.frequency_hz)
-    return _against_model(record, robot, model, modes, windows, sigma, kinds)
+    k = len(modes)
+    return Identified(
+        record, modes, windows, sigma, tuple(kinds), np.full(k, -1), np.zeros(k, dtype=bool), ("",) * k, "", None
+    )
 
 
-def _against_model(
-    record: SignalRecord, robot: Robot, model: str, modes: Modes, windows: AmplitudeWindows | None,
-    sigma: np.ndarray, kinds: list[str],
-) -> Identified:  # fmt: skip
+def held_against(item: Identified, robot: Robot, model: str) -> Identified:
+    """Identified modes held against a robot's; against another's they may join and pair differently."""
+    record, modes, kinds = item.record, item.modes, item.kinds
     partner, state, note = np.full(len(modes), -1), None, ""
     seen = translation_share(modes, record, robot.platform.mass + record.payload)
     own = np.flatnonzero([kind == MODE for kind in kinds])
@@ -105,7 +101,7 @@ def _against_model(
         _reason(i, modes, kinds, partner, state, bool(seen[i] >= SEEN), bool(own_size[i])) for i in range(len(modes))
     ]
     used = np.array([not r for r in reason], dtype=bool) & (state is not None)
-    return Identified(record, modes, windows, sigma, tuple(kinds), partner, used, tuple(reason), note, state)
+    return replace(item, partner=partner, used=used, reason=tuple(reason), note=note, state=state)
 
 
 def _own_size(modes: Modes, partner: np.ndarray, state: StateModes | None, record: SignalRecord) -> np.ndarray:
@@ -117,7 +113,13 @@ def _own_size(modes: Modes, partner: np.ndarray, state: StateModes | None, recor
 
 
 def _reason(
-    i: int, modes: Modes, kinds: list[str], partner: np.ndarray, state: StateModes | None, seen: bool, own_size: bool
+    i: int,
+    modes: Modes,
+    kinds: tuple[str, ...],
+    partner: np.ndarray,
+    state: StateModes | None,
+    seen: bool,
+    own_size: bool,
 ) -> str:
     """Why a peak does not join, or nothing; one that is seen to move the platform needs no partner to do so."""
     if kinds[i] != MODE:

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from cdpr_struct.diagnosis import side_by_side as module
-from cdpr_struct.diagnosis.side_by_side import side_by_side
+from cdpr_struct import side_by_side as module
+from cdpr_struct.side_by_side import side_by_side
 
 several = pytest.mark.skipif(module.cores() < 2, reason="needs two cores, and forks")
 

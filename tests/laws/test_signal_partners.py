@@ -13,7 +13,7 @@ from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.modal_estimate import Modes
 from cdpr_struct.measurement.peak_kinds import MODE
 from cdpr_struct.measurement.signal_records import SignalRecord
-from cdpr_struct.measurement.signal_states import _identify, held_against, model_shapes
+from cdpr_struct.measurement.signal_states import held_against, model_shapes, own_modes
 from cdpr_struct.measurement.state_modes import state_modes
 from cdpr_struct.reports import diagnosis_signals
 from cdpr_struct.robot.robot_file import load_robot
@@ -58,7 +58,8 @@ def decay(robot, number, ratio_of, seed) -> Identified:
     push = state.modes.platform[:, :3] @ (60.0 * np.array([0.1, 0.06, 0.04]))
     signal = (np.exp(np.outer(time, pole)) * push * pole).real @ state.modes.platform[:, :3]
     signal = signal + 0.01 * generator.normal(size=signal.shape)
-    return _identify(record("free_decay", number, time, signal, ("ax", "ay", "az")), robot, "exact", Sigmas())
+    measured = record("free_decay", number, time, signal, ("ax", "ay", "az"))
+    return held_against(own_modes(measured, Sigmas()), robot, "exact")
 
 
 @pytest.mark.parametrize("number", range(3))
