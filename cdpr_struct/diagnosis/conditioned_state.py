@@ -38,6 +38,11 @@ class Circumstances:
     mean_tension: float
     sagging: bool = True
 
+    def at(self, some: np.ndarray) -> "Circumstances":
+        """Those of some states."""
+        own = {name: getattr(self, name)[some] for name in ("payload", "approach", "wrap", "hours")}
+        return replace(self, **own)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Conditioned:

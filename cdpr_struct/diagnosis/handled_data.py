@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from cdpr_struct.diagnosis.causes.handling import Correction
+from cdpr_struct.diagnosis.gross_reading import without_gross_tension
 from cdpr_struct.diagnosis.handling_screen import best_correction
 from cdpr_struct.diagnosis.internal_modes import internal_mode
 from cdpr_struct.diagnosis.null_model import sensors
@@ -37,8 +38,12 @@ class Handled:
 def handled(campaign: Campaign, plan: Budget, progress: Callable[[str], None]) -> Handled:
     """The campaign after everything that data alone explain; where nothing is significant, a wrong reading is told."""
     progress("simulating what was measured")
+    gross: list[Suspect] = []
+    while len(gross) < _MOST_ASIDE and (found := without_gross_tension(campaign)):
+        campaign, wrong_one = found
+        gross.append(wrong_one)
     first = prepare(campaign, plan)
-    data, again = Handled(campaign, first, first), True
+    data, again = Handled(campaign, first, first, aside=gross), True
     progress("checking units, signs, channels and single readings")
     while again and data.prepared.p_value < SIGNIFICANT:
         data, again = _next(data, plan)

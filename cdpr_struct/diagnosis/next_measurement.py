@@ -22,6 +22,7 @@ NEAR = 10.0  # nats from a named cause within which its next rival is worth tell
 APART = 2.0  # nats below which a measurement does not tell a pair apart
 LIKELY = 5.0  # nats from the best candidate of an unknown
 MOST = 5  # causes of one question
+_MOST_PROPOSED = 3
 _MANY = 50.0  # nats beyond which the number says nothing more
 
 Pair = tuple[str, str]
@@ -51,6 +52,10 @@ class Worth:
     def on(self, pairs: Sequence[Pair]) -> float:
         """Nats over pairs, each up to `ENOUGH`: that names a cause."""
         return sum(min(self.nats[pair], ENOUGH) for pair in pairs)
+
+    def tells(self, pair: Pair) -> bool:
+        """Whether it tells a pair apart."""
+        return self.nats[pair] >= APART
 
 
 def next_measurement(found: Diagnosis, classes: Sequence[tuple[str, ...]]) -> str:
@@ -108,27 +113,34 @@ def _measurements(ground: Ground, asked: Sequence[Question]) -> list[tuple[str, 
 
 
 def _answer(found: Diagnosis, question: Question, measured: Sequence[tuple[str, bool, NewRows]]) -> str:
-    """The best measurement, and another one for what it leaves open or instead of it."""
+    """The best measurement, others for what it leaves open or one instead of it, and what stays open."""
     judge = _Both(found.ground, question)
     worths = [Worth(text, aside, judge.gains(rows)) for text, aside, rows in measured]
-    never = [pair for pair in question.pairs if max((w.nats[pair] for w in worths), default=0.0) < APART]
+    never = [pair for pair in question.pairs if not any(w.tells(pair) for w in worths)]
     pairs = [pair for pair in question.pairs if pair not in never]
-    said = []
-    if pairs:
-        best, *others = sorted(worths, key=lambda w: (-round(w.on(pairs), 1), not w.aside, -w.on(pairs)))
-        said.append(_words(best, pairs))
-        left = [pair for pair in pairs if best.nats[pair] < APART]
-        second = max(others, key=lambda w: (w.on(left or pairs) >= APART, w.aside != best.aside, w.on(left or pairs)))
-        if second.on(left or pairs) >= APART:
-            said.append(("and " if left else "or ") + _words(second, left or pairs, short=not left and len(pairs) == 1))
+    said = _proposed(worths, pairs) if pairs else []
     if never:
         hint = _hint(found, [name for pair in never for name in pair])
-        told = " nor ".join(" from ".join(_plain(n) for n in pair) for pair in never)
         said.append(
-            f"no measurement that was simulated tells {told}"
+            f"no measurement that was simulated tells {_told(never)}"
             + (f" (perhaps {hint.replace('; ', ' or ')})" if hint else "")
         )
     return "; ".join(said)
+
+
+def _proposed(worths: Sequence[Worth], pairs: Sequence[Pair]) -> list[str]:
+    """Measurements for pairs each of which one of them tells apart: the best, then those for what is left."""
+    best, *others = sorted(worths, key=lambda w: (-round(w.on(pairs), 1), not w.aside, -w.on(pairs)))
+    said, left = [_words(best, pairs)], [pair for pair in pairs if not best.tells(pair)]
+    if not left:
+        other = max(others, key=lambda w: (w.on(pairs) >= APART, w.aside != best.aside, w.on(pairs)), default=best)
+        if other is not best and any(map(other.tells, pairs)):
+            said.append("or " + _words(other, pairs, short=len(pairs) == 1))
+    while left and len(said) < _MOST_PROPOSED:
+        more = max(worths, key=lambda w: w.on([pair for pair in left if w.tells(pair)]))
+        said.append("and " + _words(more, left))
+        left = [pair for pair in left if not more.tells(pair)]
+    return [*said, f"these do not tell {_told(left)}"] if left else said
 
 
 class _Both:
@@ -147,11 +159,15 @@ class _Both:
 
 def _words(worth: Worth, pairs: Sequence[Pair], short: bool = False) -> str:
     """A measurement with what it is expected to tell apart."""
-    seen = sorted((pair for pair in pairs if worth.nats[pair] >= APART), key=lambda p: -worth.nats[p])
+    seen = sorted(filter(worth.tells, pairs), key=lambda p: -worth.nats[p])
     if short:
         return f"{worth.text}: {_nats(worth.nats[seen[0]])}"
     told = [f"{_plain(a)} from {_plain(b)} by {_nats(worth.nats[a, b])}" for a, b in seen]
     return f"{worth.text}: expected to separate " + " and ".join(told)
+
+
+def _told(pairs: Sequence[Pair]) -> str:
+    return " nor ".join(f"{_plain(a)} from {_plain(b)}" for a, b in pairs)
 
 
 def _nats(nats: float) -> str:

@@ -196,14 +196,7 @@ def readings_of_states(readings: Readings, index: np.ndarray) -> Readings:
 
 def at_states(setting: Setting, index: np.ndarray) -> Circumstances:
     """What is known of some states."""
-    known = setting.known
-    return replace(
-        known,
-        payload=known.payload[index],
-        approach=known.approach[index],
-        wrap=known.wrap[index],
-        hours=known.hours[index],
-    )
+    return setting.known.at(index)
 
 
 def _merged(parts: list[tuple[np.ndarray, Conditioned]]) -> Conditioned:

@@ -7,6 +7,7 @@ import pytest
 
 from cdpr_struct.diagnosis.causes.handling import corrections
 from cdpr_struct.diagnosis.diagnose import diagnose
+from cdpr_struct.diagnosis.gross_reading import without_gross_tension
 from cdpr_struct.diagnosis.handled_data import handled
 from cdpr_struct.diagnosis.handling_screen import best_correction
 from cdpr_struct.diagnosis.null_model import null_model, reading_count, sensors
@@ -87,6 +88,34 @@ def test_a_wrong_length_and_a_wrong_frequency_are_found():
     rows = replace(campaign.cable_frequencies, hertz=hertz)
     (wrong,) = handled(replace(campaign, cable_frequencies=rows), SMALL, quiet).aside
     assert (wrong.kind, wrong.row) == ("cable_frequency", 7)
+
+
+@pytest.mark.parametrize("read", [0.0, 1e-3, 0.15, 3.0, 1000.0], ids=str)
+def test_a_tension_that_cannot_be_computed_with_is_replaced(read):
+    """A dead cell, kN for N, a digit too many: such a cable would sag or be another robot's, and hide the slip."""
+    campaign = noisy()
+    right = campaign.states.tension[2, 3]
+    mended, wrong = without_gross_tension(with_tension(campaign, 2, 3, (read - 1.0) * right))
+    assert (wrong.kind, wrong.state, wrong.cable) == ("tension", 2, 3)
+    assert wrong.sigmas == pytest.approx(abs(read - 1.0) * right / 2.0, rel=0.1)
+    assert mended.states.tension[2, 3] == pytest.approx(right, rel=0.05)
+    assert mended.states.tension_sigma[2, 3] > 30.0
+    assert without_gross_tension(mended) is None
+
+
+def test_what_several_readings_share_is_no_gross_tension():
+    campaign = noisy()
+    tension = campaign.states.tension
+    for wrong in (tension + 60.0 * np.eye(8)[3], 1.4 * tension, tension + 100.0 * np.eye(6)[2][:, None]):
+        assert without_gross_tension(replace(campaign, states=replace(campaign.states, tension=wrong))) is None
+    assert without_gross_tension(campaign) is None
+
+
+def test_a_dead_cell_is_told_and_nothing_else():
+    campaign = noisy()
+    said = verdict(diagnose(with_tension(campaign, 2, 3, 0.2 - campaign.states.tension[2, 3])))
+    assert said.status == "adequate"
+    assert "Contradicts all other readings: the tension of cable 4 in case s2" in said.sentence
 
 
 def test_a_load_cell_that_is_off_in_all_states_is_no_wrong_reading():

@@ -79,3 +79,22 @@ def test_what_was_checked_is_not_proposed_again(found, question):
     texts = {text for text, _, _ in following._measurements(ground, [question])}
     assert "weigh the platform (+-0.1 kg)" in texts
     assert "weigh the joints (+-0.01 kg)" not in texts
+
+
+def test_measurements_are_added_until_every_pair_is_told_apart_or_named():
+    """Three at most; one that adds a little to several pairs and tells none of them apart is none."""
+    pairs = [("a", "b"), ("a", "c"), ("a", "d"), ("a", "e")]
+
+    def worth(text, *nats):
+        return following.Worth(text, False, dict(zip(pairs, nats, strict=True)))
+
+    some = [worth("scales", 9.0, 0.0, 0.0, 0.0), worth("tilts", 0.0, 6.0, 0.0, 0.0), worth("a bit", 1.9, 1.9, 1.9, 1.9)]
+    gauges, survey = worth("gauges", 0.0, 0.0, 5.0, 0.0), worth("survey", 0.0, 0.0, 0.0, 4.0)
+    assert following._proposed([*some, gauges, survey], pairs) == [
+        "scales: expected to separate a from b by 9 nats",
+        "and tilts: expected to separate a from c by 6 nats",
+        "and gauges: expected to separate a from d by 5 nats",
+        "these do not tell a from e",
+    ]
+    assert following._proposed(some, pairs[:2])[1:] == ["and tilts: expected to separate a from c by 6 nats"]
+    assert following._proposed(some[:1], pairs[:1]) == ["scales: expected to separate a from b by 9 nats"]

@@ -49,9 +49,18 @@ def test_bad_rows(rows, words, tmp_path, capsys):
     [
         (HEAD + ROWS.replace("0,0,1,", "0,0,1000,"), ["case a: x_m, y_m, z_m", "1000.0", "mm"]),
         (HEAD + ROWS.replace(",300", ",0.3"), ["case a: tension_N", "2.4", "kN"]),
-        (HEAD.strip() + ",length_m\n" + ROWS.replace(",300", ",300,9500"), ["case a: length_m", "9500", "mm"]),
+        (
+            HEAD.strip() + ",length_m\n" + ROWS.replace(",300", ",300,9500"),
+            ["case a, every cable: length_m", "9500", "mm"],
+        ),
+        (
+            HEAD.strip()
+            + ",length_m\n"
+            + ROWS.replace(",300", ",300,9.5").replace("9.5", "9500", 2).replace("9500", "9.5", 1),
+            ["case a, cable 2: length_m", "9500", "mm"],
+        ),
     ],
-    ids=["position", "tension", "length"],
+    ids=["position", "tension", "length", "one length"],
 )
 def test_readings_a_thousand_times_off_are_asked_for_their_unit(rows, words, tmp_path, capsys):
     line = complaint(tmp_path, capsys, rows=rows)
