@@ -50,8 +50,8 @@ class Worth:
     nats: Mapping[Pair, float]
 
     def on(self, pairs: Sequence[Pair]) -> float:
-        """Nats over pairs, each up to `ENOUGH`: that names a cause."""
-        return sum(min(self.nats[pair], ENOUGH) for pair in pairs)
+        """Nats over the pairs that it tells apart, each up to `ENOUGH`: that names a cause."""
+        return sum(min(self.nats[pair], ENOUGH) for pair in filter(self.tells, pairs))
 
     def tells(self, pair: Pair) -> bool:
         """Whether it tells a pair apart."""
@@ -133,11 +133,11 @@ def _proposed(worths: Sequence[Worth], pairs: Sequence[Pair]) -> list[str]:
     best, *others = sorted(worths, key=lambda w: (-round(w.on(pairs), 1), not w.aside, -w.on(pairs)))
     said, left = [_words(best, pairs)], [pair for pair in pairs if not best.tells(pair)]
     if not left:
-        other = max(others, key=lambda w: (w.on(pairs) >= APART, w.aside != best.aside, w.on(pairs)), default=best)
-        if other is not best and any(map(other.tells, pairs)):
+        other = max(others, key=lambda w: (w.on(pairs) > 0.0, w.aside != best.aside, w.on(pairs)), default=best)
+        if other is not best and other.on(pairs):
             said.append("or " + _words(other, pairs, short=len(pairs) == 1))
     while left and len(said) < _MOST_PROPOSED:
-        more = max(worths, key=lambda w: w.on([pair for pair in left if w.tells(pair)]))
+        more = max(worths, key=lambda w: w.on(left))
         said.append("and " + _words(more, left))
         left = [pair for pair in left if not more.tells(pair)]
     return [*said, f"these do not tell {_told(left)}"] if left else said

@@ -24,12 +24,12 @@ from cdpr_struct.diagnosis.residuals import (
 from cdpr_struct.diagnosis.robot_rows import ModelModes, model_modes, rough_strays, with_robot_rows
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.errors import InputError
+from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.energy_descent import arm_scale
-from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 
@@ -101,13 +101,24 @@ def _with_tensions(campaign: Campaign) -> Campaign:
     for i in blind:
         turn = Readings.of(states).rotation[i]
         robot = campaign.robot.with_load(float(states.payload[i]))
-        held = inverse(robot, states.position[i], turn, campaign.cable_model)
+        held = _held(campaign, robot, int(i), turn)
         turns = exit_turns(robot, states.position[i], turn)
         computed = cell_reading(robot, held.tensions, states.approach[i], turns)
         known = np.isfinite(tension[i])
         tension[i] = np.where(known, tension[i], computed)
         sigma[i] = np.where(known, sigma[i], 0.1 * computed.mean())
     return replace(campaign, states=replace(states, tension=tension, tension_sigma=sigma))
+
+
+def _held(campaign: Campaign, robot: Robot, i: int, turn: np.ndarray) -> InverseSolution:
+    states = campaign.states
+    try:
+        return inverse(robot, states.position[i], turn, campaign.cable_model)
+    except CdprError as error:
+        expected = f"a pose in m and degrees that the robot can hold, or tensions: {error}"
+        raise InputError(
+            campaign.source, f"case {states.names[i]}: pose", states.position[i].tolist(), expected
+        ) from error
 
 
 def _cable_gap(setting: Setting, world: World) -> np.ndarray:

@@ -120,11 +120,14 @@ def load_campaign(path: str | Path) -> Campaign:
 
 def _table(source: Path) -> CampaignTable:
     try:
-        text = source.read_text("utf-8")
+        text = source.read_text("utf-8-sig")
     except (OSError, ValueError) as error:
         raise InputError("CAMPAIGN", "", str(source), "a campaign file (TOML) that can be read") from error
     try:
-        return CampaignTable.model_validate(tomllib.loads(text))
+        table = tomllib.loads(text)
+        if isinstance(table.get("measurement"), dict):
+            raise InputError(str(source), "[measurement]", "single brackets", "[[measurement]], one for each file")
+        return CampaignTable.model_validate(table)
     except tomllib.TOMLDecodeError as error:
         raise InputError(str(source), "", str(error), "a TOML file, each key and table given once") from error
     except ValidationError as error:

@@ -59,6 +59,7 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
     """
     if is_universal(path):
         return _universal(kind, path)
+    _check_separator(path)
     try:
         table = pd.read_csv(path, dtype=str, keep_default_na=False, skipinitialspace=True, comment="#")
     except UnicodeDecodeError as error:
@@ -75,7 +76,6 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
         raise InputError(
             str(path), "row 1", row, f"{len(table.columns)} values as in the header, decimals with a point"
         )
-    _check_separator(str(path), list(table.columns))
     table = table.drop(columns=[name for name in table.columns if name in COMMENTS])
     _check_columns(kind, str(path), list(table.columns), cables)
     if not len(table):
@@ -105,11 +105,13 @@ def length_columns(cables: int) -> list[str]:
     return [f"length_{i}_m" for i in range(1, cables + 1)]
 
 
-def _check_separator(source: str, columns: list[str]) -> None:
+def _check_separator(path: Path) -> None:
+    with path.open("rb") as file:
+        head = next((line for line in file if not line.startswith(b"#")), b"").decode("utf-8", "replace")
     for mark, name in ((";", "';'"), ("\t", "tabs")):
-        if len(columns) == 1 and mark in columns[0]:
+        if mark in head and "," not in head:
             expected = "columns separated by commas, decimals with a point"
-            raise InputError(source, "header", f"columns separated by {name}", expected)
+            raise InputError(str(path), "header", f"columns separated by {name}", expected)
 
 
 def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> None:

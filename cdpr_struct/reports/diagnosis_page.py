@@ -38,13 +38,15 @@ def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, st
             svg("residuals", figures.RESIDUAL_SIZE, lambda f: figures.draw_residuals(f, found)),
             "Each point is one residual at the measured state, in its own standard deviation under noise and "
             "tolerances. "
-            "The shaded band is +-2 sigma: inside it there is nothing to explain. Faint lines part the states, whose "
+            "Look for points outside the shaded band of +-2 sigma, and for several inside it that go together: one "
+            "alone says nothing there. Faint lines part the states, whose "
             "names stand above where there is room; values of all points: residuals.csv.",
         ),
     ]
     if result["candidates"]:
         drawn = svg("evidence", figures.EVIDENCE_SIZE, lambda f: figures.draw_evidence(f, result))
-        said = "Three nats are a factor of twenty in probability."
+        said = "See which bar is longest, and which end within three nats of it (a factor of twenty in probability): "
+        said += "these the data hardly tell apart. Nats: the logarithm of how much likelier a cause makes the data."
         plates.append(Plate("evidence", "Which cause explains it", drawn, said))
     plates += signal_plates(found, result)
     files: dict[str, str | bytes] = {

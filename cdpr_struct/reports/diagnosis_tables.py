@@ -19,6 +19,8 @@ def standing(result: Mapping[str, Any]) -> list[str]:
     said = result["verdict"]
     lines = [f"status: {said['status']}; probability {said['probability']:.2f}; p = {result['p_value']:.2g}"]
     lines += [f"class: {' | '.join(names)}" for names in said["class"] if len(names) > 1]
+    if said["status"] == "class" and len(lines) == 1:
+        lines.append("a class, not a name: nothing that was left out confirms it")
     return lines + [f"warning: {text}.".replace("?.", "?") for text in result["warnings"]]
 
 
@@ -117,7 +119,8 @@ def candidate_table(candidates: Sequence[Mapping[str, Any]], most: int, sizes: i
     note = "Evidence is against nothing being wrong; three nats are a factor of twenty in probability. "
     note += "Explained is the share of chi2 beyond what noise lets expect."
     if any(row.get("description") for row in candidates):
-        note += " That of corrections, which stand first, is against the data before them."
+        note += " That of corrections, which stand first, is against the data before them; where the verdict is "
+        note += "unknown, they were tried and do not suffice."
     columns = ["cause", "evidence [nats]", "explains [%]", "size"]
     return HtmlTable("Candidates", columns, rows, note) if rows else None
 

@@ -134,7 +134,7 @@ def _read(name: str) -> tuple[str, str]:
     if name in builtin_names():
         return resources.files("cdpr_struct.robot.builtin").joinpath(f"{name}.toml").read_text("utf-8"), name
     try:
-        return Path(name).read_text("utf-8"), name
+        return Path(name).read_text("utf-8-sig"), name
     except (OSError, ValueError) as error:
         known = ", ".join(builtin_names())
         raise InputError("ROBOT", "", name, f"a robot file that can be read, or one of: {known}") from error

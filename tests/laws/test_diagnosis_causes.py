@@ -1,12 +1,13 @@
 """Each cause, put into readings made by the same model (crime=True), is found again with its size."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from cdpr_struct.diagnosis.causes.handling import corrections
-from cdpr_struct.diagnosis.causes.registry import LIBRARY
+from cdpr_struct.diagnosis.causes.registry import LIBRARY, causes_for
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.evidence import candidates, choices
 from cdpr_struct.diagnosis.null_model import null_model, tolerance_count
@@ -17,6 +18,7 @@ from cdpr_struct.diagnosis.selection import select
 from cdpr_struct.diagnosis.setting import make_setting
 from cdpr_struct.diagnosis.verdict import verdict
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.measurement.campaign_file import load_campaign
 from tests.laws.crime_campaign import clean_campaign, hidden
 
 # cause, pattern, hidden size in SI of theta (logarithm for ratios)
@@ -146,3 +148,14 @@ def test_exchanged_load_cells_are_found():
     found = diagnose(swapped)
     assert [c.cause for c, _ in found.corrections] == ["swapped_channels"]
     assert "cables 2 and 5" in verdict(found).sentence
+
+
+def test_load_cells_that_nobody_read_are_no_cause():
+    """States known by pose and frequencies only stand with the simulation's tensions; no cell was there."""
+    campaign = load_campaign(Path(__file__).parents[2] / "examples" / "section-4-3-3" / "simulated.toml")
+    testable, why = causes_for(make_setting(campaign)[0])
+    assert {"load_cell_gain", "load_cell_bias"} <= why.keys()
+    assert "axial_stiffness" in {cause.name for cause in testable}
+    campaign = load_campaign(Path(__file__).parents[2] / "examples" / "table-4-4" / "level.toml")
+    testable, _ = causes_for(make_setting(campaign)[0])
+    assert {"load_cell_gain", "load_cell_bias"} <= {cause.name for cause in testable}

@@ -73,12 +73,13 @@ def test_readings_a_thousand_times_off_are_asked_for_their_unit(rows, words, tmp
         (CAMPAIGN.replace("cogiro", "no-robot"), ["no-robot"]),
         (CAMPAIGN.replace("static_state", "mood"), ["measurement[1].kind", "mood"]),
         (CAMPAIGN.replace("states.csv", "missing.csv"), ["missing.csv"]),
+        (CAMPAIGN.replace("[[measurement]]", "[measurement]"), ["[[measurement]]", "one for each file"]),
         ('robot = "cogiro"\n', ["measurement", "required"]),
         (CAMPAIGN + "sigma = { tension_N = -1.0 }\n", ["sigma.tension_N", "-1"]),
         (CAMPAIGN + "[tolerances]\nanchors = 1\n", ["tolerances.anchors"]),
         (CAMPAIGN.replace('"cogiro"', '"cogiro"\nmodel = "jelly"'), ["model", "jelly"]),
     ],
-    ids=range(7),
+    ids=range(8),
 )
 def test_bad_campaigns(campaign, words, tmp_path, capsys):
     line = complaint(tmp_path, capsys, campaign=campaign)

@@ -40,9 +40,10 @@ def test_known_keys_of_a_robot_file_too(tmp_path, capsys):
 
 
 def test_another_separator_is_named(tmp_path):
-    (tmp_path / "a.csv").write_text("case;x_m;y_m\na;0;0\n")
-    with pytest.raises(InputError, match=r"separated by ';'.*commas"):
-        read_rows("static_state", tmp_path / "a.csv", 8)
+    for row in ("a;0;0", "a;0,5;0,25"):
+        (tmp_path / "a.csv").write_text(f"# one line\ncase;x_m;y_m\n{row}\n")
+        with pytest.raises(InputError, match=r"separated by ';'.*commas"):
+            read_rows("static_state", tmp_path / "a.csv", 8)
 
 
 def test_remarks_are_allowed_and_misspelt_columns_are_not(tmp_path):

@@ -28,7 +28,9 @@ def _slip(world: World, theta: np.ndarray) -> World:
 
 
 def _cells(setting: Setting) -> str:
-    return "" if setting.held.size else "needs tensions"
+    sheets = setting.campaign.sheets
+    unread = bool(sheets) and not any("tension_N" in sheet.columns for sheet in sheets)
+    return "needs tensions" if unread or not setting.held.size else ""
 
 
 def _approach(setting: Setting) -> str:
