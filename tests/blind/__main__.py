@@ -57,6 +57,9 @@ def make(options: argparse.Namespace) -> int:
     total = options.count or WHOLE[options.set]
     kinds = composed(options.set, total, base)
     run = {"set": options.set, "release": options.release, "count": total}
+    if other := _other_set(out, run):
+        print(f"tests.blind: --out {out} holds {other}; give another directory", file=sys.stderr)
+        return 2
     if options.set == "final" and not (out / "run.json").exists():
         record_final_use(options.release)
     out.mkdir(parents=True, exist_ok=True)
@@ -68,6 +71,14 @@ def make(options: argparse.Namespace) -> int:
         for _ in track(made, "make", len(jobs), disable=not sys.stderr.isatty()):
             pass
     return 0
+
+
+def _other_set(out: Path, run: dict[str, Any]) -> str:
+    """What a directory holds, if that is not this set; there may be less or more of the same one."""
+    file = out / "run.json"
+    held = json.loads(file.read_text("utf-8")) if file.exists() else run
+    same = all(held[key] == run[key] for key in ("set", "release"))
+    return "" if same else f"the set {held['set']} {held['release']}".strip()
 
 
 def _made(job: tuple[CaseKind, str, tuple[int, ...], Path, Path]) -> None:
@@ -132,16 +143,17 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("step", choices=("make", "run", "score", "report", "sizes", "mesh"))
     parser.add_argument("--set", choices=tuple(WHOLE), default="dev")
     parser.add_argument("--count", type=int, default=0, help="cases (default: the whole set)")
-    parser.add_argument("--out", default="results/blind", help="directory of campaigns and answers")
+    parser.add_argument("--out", default="", help="directory of campaigns and answers (default: results/blind-SET)")
     parser.add_argument("--sealed", default="", help="directory of the truth (default: OUT-sealed)")
     parser.add_argument("--release", default="", help="name of the release, for the final set")
-    parser.add_argument("--budget", choices=("small", "full"), default="full")
+    parser.add_argument("--budget", choices=("small", "full"), default="small")
     parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--command", default="", help="what to run instead of cdpr-struct diagnose")
     parser.add_argument("--again", action="store_true", help="diagnose also what has an answer")
     parser.add_argument("--page", default=str(DOCS), help="page that report writes")
     parser.add_argument("--robot", default="", help="robot whose sizes are measured")
     options = parser.parse_args(arguments)
+    options.out = options.out or f"results/blind-{options.set}"
     steps = {"make": make, "run": run, "score": score, "report": report, "sizes": sizes, "mesh": mesh}
     return steps[options.step](options)
 

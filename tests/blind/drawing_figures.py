@@ -24,7 +24,7 @@ def accuracy_curve(axes: Axes, table: dict[str, Any], label: str, colour: str) -
     axes.fill_between(sizes, *np.array([row["band"] for _, row in known]).T, color=colour, alpha=0.15, linewidth=0)
     axes.plot(sizes, values, "o-", color=colour, label=label)
     for size, row in known:
-        axes.annotate(f"n={row['cases']}", (size, 0.02), ha="center", fontsize=7, color="0.4")
+        axes.annotate(f"n={row['cases']}", (size, -0.075), ha="center", fontsize=7, color="0.4")
 
 
 def draw_accuracy(figures: dict[str, Any], path: Path) -> None:
@@ -32,7 +32,7 @@ def draw_accuracy(figures: dict[str, Any], path: Path) -> None:
     figure, axes = plt.subplots(figsize=(6.0, 3.6), layout="constrained")
     accuracy_curve(axes, figures["detection"], "something found", "tab:blue")
     accuracy_curve(axes, figures["right_class_by_size"], "right class", "tab:orange")
-    axes.set(xlabel="size / smallest detectable size (referee)", ylabel="share of single causes", ylim=(-0.02, 1.02))
+    axes.set(xlabel="size / smallest detectable size (referee)", ylabel="share of single causes", ylim=(-0.1, 1.02))
     axes.set_xscale("log", base=2)
     axes.set_xticks([0.5, 1.0, 2.0, 4.0], ["0.5", "1", "2", "4"])
     if axes.get_legend_handles_labels()[0]:

@@ -12,6 +12,7 @@ import pytest
 
 from fem_reference import robot_modes
 from tests.blind import case_drawing
+from tests.blind.__main__ import main
 from tests.blind.campaign_files import opened_truth, write_case
 from tests.blind.case_drawing import Case, CaseKind, drawn_case, without_effect
 from tests.blind.catalogue import EQUIVALENT, HANDLING, LIBRARY, OUTSIDE, drawn_pattern
@@ -210,6 +211,14 @@ def test_the_final_set_of_a_release_is_used_once(tmp_path):
     record_final_use("1.0", tmp_path / "uses.json")
     with pytest.raises(ValueError, match="already used"):
         record_final_use("1.0", tmp_path / "uses.json")
+
+
+def test_a_directory_keeps_its_set(tmp_path, capsys):
+    held = '{"set": "ci", "release": "", "count": 12}\n'
+    (tmp_path / "run.json").write_text(held)
+    assert main(["make", "--set", "unseen", "--out", str(tmp_path)]) == 2
+    assert "holds the set ci" in capsys.readouterr().err
+    assert (tmp_path / "run.json").read_text() == held
 
 
 def test_generator_imports_nothing_of_the_package_under_test():
