@@ -149,9 +149,12 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
 
 
 def _residuals_csv(found: Diagnosis) -> str:
-    """Residuals as entered, block by block as in docs/diagnosis.md; a row's number within its state and block."""
+    """Residuals as entered and with the causes, block by block as in docs/diagnosis.md; a row's number within its state and block."""
     labels, null = found.entered_setting.labels, found.entered
     rows: defaultdict[tuple[str, int], Iterator[int]] = defaultdict(lambda: count(1))
+    fit, after = found.selection.fit, np.full(len(null.r), np.nan)
+    if fit is not None and len(fit.white) == len(null.r):
+        after = fit.ground.null.lower @ fit.white
     places = zip(labels.block.tolist(), labels.state.tolist(), strict=True)
     return csv_text(
         {
@@ -162,5 +165,6 @@ def _residuals_csv(found: Diagnosis) -> str:
             "residual": null.r,
             "unit": [UNITS[block] for block in labels.block.tolist()],
             "sigma": np.sqrt(np.diagonal(null.covariance)),
+            "with_causes": after,
         }
     )
