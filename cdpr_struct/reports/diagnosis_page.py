@@ -149,7 +149,7 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
 
 
 def _residuals_csv(found: Diagnosis) -> str:
-    """Residuals as entered and with the causes, block by block as in docs/diagnosis.md; rows count in state and block."""
+    """Residuals as entered and with the causes, block by block as in docs/diagnosis.md; rows are counted in each."""
     labels, null = found.entered_setting.labels, found.entered
     rows: defaultdict[tuple[str, int], Iterator[int]] = defaultdict(lambda: count(1))
     fit, after = found.selection.fit, np.full(len(null.r), np.nan)
