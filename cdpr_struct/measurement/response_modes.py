@@ -20,7 +20,7 @@ _AT_ONCE, _TRIES = 8, 2  # poles added where the fit misses something; how often
 _TOGETHER, _CERTAIN = 0.3, 4.5  # correlation of neighbouring residuals that noise does not have; in its sigma
 _NEIGHBOURS = 15  # lines on either side among which a mode would show in the residuals
 _REACH = 60  # lines on either side that tell how noisy this part of the band is
-_ROUNDS, _FEW_ROUNDS = 4, 2  # of weighing, in the final fit and before
+_ROUNDS, _FEW_ROUNDS = 4, 3  # of weighing, in the final fit and before
 _ROUGH, _FEW = 1e-4, 12  # relative change of the squares, and evaluations, with which a fit ends that is not final
 _LEAST_STRENGTH = 6.0
 
@@ -40,13 +40,13 @@ def response_modes(hertz: np.ndarray, response: np.ndarray) -> Modes:
     alive = size > 1e-12 * max(float(size.max()), 1e-300)
     poles = starting_poles(omega, response[:, alive] / size[alive]) if alive.any() else np.zeros(0, dtype=complex)
     basis, parts = _Resonances(omega), np.concatenate([response.real, response.imag])[:, alive]
-    weight = np.broadcast_to(1.0 / size[alive], parts.shape)
+    even = np.broadcast_to(1.0 / size[alive], parts.shape)
     tried, final = np.zeros(0, dtype=complex), False
     found = _none(len(alive))
     while len(poles):
-        fit, weight = _weighed_fit(basis, parts, weight, poles, final)
+        fit, weight = _weighed_fit(basis, parts, even, poles, final)
         found = _estimates(basis, fit, weight, alive)
-        good = _clear(found, hertz)
+        good = _clear(found, hertz) & ~_doubled(found)
         found, all_clear = found.take(np.flatnonzero(good)), bool(good.all())
         missed = _overlooked(omega, fit, tried) if all_clear else []
         settled = all_clear and not missed
@@ -98,6 +98,14 @@ def _clear(found: Modes, hertz: np.ndarray) -> np.ndarray:
     inside = (found.hertz > hertz[0]) & (found.hertz < hertz[-1]) & (found.hertz_sigma < 0.03 * found.hertz)
     clear: np.ndarray = good & inside
     return clear
+
+
+def _doubled(found: Modes) -> np.ndarray:
+    """(k,) whether a mode is the weaker of two whose peaks are one: nearer than the narrower's half-width."""
+    width = -found.poles.real
+    near = np.abs(found.poles.imag[:, None] - found.poles.imag) < np.minimum(width[:, None], width)
+    doubled: np.ndarray = (near & (found.strength[:, None] < found.strength)).any(axis=1)
+    return doubled
 
 
 def _overlooked(omega: np.ndarray, fit: SeparableFit, tried: np.ndarray) -> list[complex]:
