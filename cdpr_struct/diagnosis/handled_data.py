@@ -12,7 +12,7 @@ from cdpr_struct.diagnosis.internal_modes import internal_mode
 from cdpr_struct.diagnosis.null_model import sensors
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, Prepared, prepare
 from cdpr_struct.diagnosis.suspect_reading import Suspect, set_aside, suspect
-from cdpr_struct.diagnosis.wandering_noise import CLEAR, likeliest_memory
+from cdpr_struct.diagnosis.wandering_noise import CLEAR, FEWEST_READINGS, likeliest_memory
 from cdpr_struct.measurement.campaign import Campaign
 
 _MOST_CORRECTIONS = 2
@@ -70,6 +70,8 @@ def _next(data: Handled, plan: Budget) -> tuple[Handled, bool]:
         own = better[0].campaign
         found = [*data.corrections, better]
         return replace(data, campaign=own, prepared=prepare(own, plan), corrections=found), True
+    if len(data.campaign.states.names) < FEWEST_READINGS:
+        return data, False
     memory, gain = likeliest_memory(ground.null.columns, ground.null.r, sensors(ground.setting))
     if not data.campaign.memory and gain > max(CLEAR, rival):
         return _repeated(data, replace(data.campaign, memory=memory), plan), True

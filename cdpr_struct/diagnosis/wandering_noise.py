@@ -10,6 +10,7 @@ import numpy as np
 from cdpr_struct.measurement.campaign import CableFrequencies, States
 
 MEMORIES = (0.4, 0.7, 0.9)  # correlation of a sensor's noise in one reading with that in the next
+FEWEST_READINGS = 6  # of a sensor: in fewer, noise that wanders is no other than one that is off in all
 CLEAR = 8.0  # nats that wandering noise must bring, and bring more than any law
 
 

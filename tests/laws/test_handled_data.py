@@ -144,6 +144,15 @@ def test_noise_with_a_memory_is_told_from_noise_without():
         assert memory == 0.0 or found in (0.4, 0.7, 0.9)
 
 
+def test_a_few_readings_tell_no_memory():
+    """Four that are all off look alike whether the noise wanders or something is wrong."""
+    campaign = noisy(0.9, seed=3, count=4)
+    states = campaign.states
+    off = replace(campaign, states=replace(states, length=states.length + 0.004))
+    assert handled(off, SMALL, quiet).campaign.memory == 0.0
+    assert handled(off, SMALL, quiet).prepared.p_value < 1e-3
+
+
 def test_memory_correlates_a_sensor_with_itself_only():
     campaign = clean_campaign()
     setting, _ = make_setting(campaign)
