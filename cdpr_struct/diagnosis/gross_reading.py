@@ -49,8 +49,7 @@ def without_gross_tension(campaign: Campaign) -> tuple[Campaign, Suspect] | None
 
 def _imbalances(campaign: Campaign, held: np.ndarray, tried: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """chi^2 per number of the balance of states (s,), as read and (g, s, m) with each tried tension in each cable."""
-    world, states = World.of(campaign.robot, len(campaign.states.names)), campaign.states
-    wide = replace(world, internal=np.zeros(0), pose_offset=np.zeros(0)).per_state()
+    states, wide = campaign.states, World.of(campaign.robot).per_state()
     readings, known = readings_of_states(Readings.of(states), held), circumstances(campaign).at(held)
     read = condition(wide, readings, known)
     own = _wrenches(read.arms, read.cables.force_on_platform)

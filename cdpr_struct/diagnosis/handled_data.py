@@ -40,8 +40,8 @@ def handled(campaign: Campaign, plan: Budget, progress: Callable[[str], None]) -
     progress("simulating what was measured")
     gross: list[Suspect] = []
     while len(gross) < _MOST_ASIDE and (found := without_gross_tension(campaign)):
-        campaign, wrong_one = found
-        gross.append(wrong_one)
+        campaign = found[0]
+        gross.append(found[1])
     first = prepare(campaign, plan)
     data, again = Handled(campaign, first, first, aside=gross), True
     progress("checking units, signs, channels and single readings")
@@ -70,10 +70,10 @@ def _next(data: Handled, plan: Budget) -> tuple[Handled, bool]:
         own = better[0].campaign
         found = [*data.corrections, better]
         return replace(data, campaign=own, prepared=prepare(own, plan), corrections=found), True
-    if len(data.campaign.states.names) < FEWEST_READINGS:
+    if data.campaign.memory or len(data.campaign.states.names) < FEWEST_READINGS:
         return data, False
     memory, gain = likeliest_memory(ground.null.columns, ground.null.r, sensors(ground.setting))
-    if not data.campaign.memory and gain > max(CLEAR, rival):
+    if gain > max(CLEAR, rival):
         return _repeated(data, replace(data.campaign, memory=memory), plan), True
     return data, False
 

@@ -112,6 +112,12 @@ class Fit:
         return self.white + self.signature @ self.theta
 
     @property
+    def left(self) -> np.ndarray:
+        """(n,) residuals left, in their own units."""
+        result: np.ndarray = self.ground.null.lower @ self.white
+        return result
+
+    @property
     def world(self) -> World:
         """The world with the causes."""
         return world_with(self.ground.world, self.choices, self.theta)

@@ -130,7 +130,7 @@ def location(found: Diagnosis) -> str:
     if known and fit is None and not is_unknown(found):
         return known[0]
     explained = fit is not None and not found.corrections and not is_unknown(found)
-    after = fit.ground.null.lower @ fit.white if fit is not None and explained else np.zeros_like(null.r)
+    after = fit.left if fit is not None and explained else np.zeros_like(null.r)
     score = {}
     for block in dict.fromkeys(labels.block.tolist()):
         rows = labels.block == block

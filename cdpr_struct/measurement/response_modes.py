@@ -117,12 +117,12 @@ def _overlooked(omega: np.ndarray, fit: SeparableFit, tried: np.ndarray) -> list
     window = np.ones(2 * _NEIGHBOURS + 1)
     share = np.convolve(together, window, "same") / np.convolve(0.5 * (alone[1:] + alone[:-1]), window, "same")
     limit = max(_CERTAIN / np.sqrt(2.0 * len(window) * residual.shape[1]), _TOGETHER)
-    apart, found = _NEIGHBOURS * (omega[1] - omega[0]), list[complex]()
+    apart, found = 0.5 * _NEIGHBOURS * (omega[1] - omega[0]), list[complex]()
     while share.max() >= limit and len(found) < _AT_ONCE:
         place = int(share.argmax())
         low, high = max(place - _NEIGHBOURS, 0), min(place + _NEIGHBOURS + 1, lines)
         pole = _near(omega, residual, low + int(alone[low:high].argmax()))
-        if (np.abs(tried.imag - pole.imag) < 0.5 * apart).sum() < _TRIES:
+        if (np.abs(tried.imag - pole.imag) < apart).sum() < _TRIES:
             found.append(pole)
         share[max(place - 2 * _NEIGHBOURS, 0) : place + 2 * _NEIGHBOURS + 1] = -np.inf
     return found

@@ -3,7 +3,6 @@
 import numpy as np
 
 from cdpr_struct.errors import InputError
-from cdpr_struct.measurement.campaign import Sigmas
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.signal_records import SignalRecord
@@ -30,13 +29,10 @@ def join_signals(gathering: Gathering, robot: Robot, model: str) -> tuple[Identi
     for record, _ in placed:
         _check_pose(record, poses)
 
-    def identified(one: tuple[SignalRecord, Sigmas]) -> Identified:
-        return own_modes(*one)
-
     known = [thing for one in placed for thing in one]
-    found = [held_against(item, robot, model) for item in side_by_side(identified, placed, known)]
-    for number, item in enumerate(found):
-        record, sigmas = placed[number]
+    alone = side_by_side(lambda one: own_modes(*one), placed, known)
+    found = [held_against(item, robot, model) for item in alone]
+    for number, (item, (record, sigmas)) in enumerate(zip(found, placed, strict=True)):
         rows = [
             (float(item.modes.hertz[i]), float(item.sigma[i]), platform_shape(record, shape), (number, i))
             for i, shape in enumerate(item.modes.shape)

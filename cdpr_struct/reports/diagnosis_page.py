@@ -152,9 +152,8 @@ def _residuals_csv(found: Diagnosis) -> str:
     """Residuals as entered and with the causes, block by block as in docs/diagnosis.md; rows are counted in each."""
     labels, null = found.entered_setting.labels, found.entered
     rows: defaultdict[tuple[str, int], Iterator[int]] = defaultdict(lambda: count(1))
-    fit, after = found.selection.fit, np.full(len(null.r), np.nan)
-    if fit is not None and len(fit.white) == len(null.r):
-        after = fit.ground.null.lower @ fit.white
+    fit = found.selection.fit
+    after = fit.left if fit is not None and len(fit.white) == len(null.r) else np.full(len(null.r), np.nan)
     places = zip(labels.block.tolist(), labels.state.tolist(), strict=True)
     return csv_text(
         {

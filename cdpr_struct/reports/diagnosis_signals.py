@@ -28,14 +28,15 @@ def with_signals(result: dict[str, Any], found: Diagnosis) -> dict[str, Any]:
         return result | {"signals": [], "damping": None}
     judged = judged_signals(found, result)
     finding = damping_finding(damping_rows(judged), campaign.tolerances.damping)
+    silent = [item for item in campaign.identified if not item.used.any()]
     why = {k: v for k, v in result["why_not_testable"].items() if k not in _LAWS} | _untestable(finding)
     more = {
         "signals": [_signal(item) for item in campaign.identified],
         "damping": _damping(finding) | {"left_out": _left_out(judged)},
         "why_not_testable": why,
         "not_testable": sorted(why),
-        "not_used": sorted({i.record.kind for i in campaign.identified if not i.used.any()}),
-        "warnings": [*result["warnings"], *map(_silent, (i for i in campaign.identified if not i.used.any()))],
+        "not_used": sorted({item.record.kind for item in silent}),
+        "warnings": [*result["warnings"], *map(_silent, silent)],
         "verdict": _spoken(result["verdict"], finding),
     }
     if finding.causes:

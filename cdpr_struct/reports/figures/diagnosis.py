@@ -44,7 +44,7 @@ def draw_residuals(figure: Figure, found: Diagnosis) -> None:
     axes.plot(place, (null.r / sigma)[order], ".", color=ORANGE, markersize=7, label="as entered")
     fit = found.selection.fit
     if fit is not None:
-        after = fit.ground.null.lower @ fit.white / np.sqrt(np.diagonal(fit.ground.null.covariance))
+        after = fit.left / np.sqrt(np.diagonal(fit.ground.null.covariance))
         mended = after[order] if len(after) == len(null.r) else after
         axes.plot(np.arange(len(mended)), mended, ".", color=BLUE, markersize=4, label="with causes")
     _name_blocks(axes, labels.block[order])
