@@ -13,6 +13,7 @@ from cdpr_struct.diagnosis.setting import make_setting
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.measurement.campaign import Campaign, States
+from cdpr_struct.side_by_side import side_by_side
 
 MARGIN = 8.0  # nats that a correction must bring beyond the logarithm of the number of alternatives
 _WORTH = 20.0  # decrease of chi^2 on the static states that makes a correction worth the full computation
@@ -26,11 +27,12 @@ def best_correction(campaign: Campaign, level: float, made: Sequence[Correction]
     """
     said = {correction.sentence for correction in made}
     tried = [c for c in shortcuts(campaign) + _worthwhile(campaign) if c.sentence not in said]
-    scored = []
-    for correction in tried:
-        own = level_of(correction.campaign)
-        if own is not None:
-            scored.append((correction, level - own - float(np.log(correction.alternatives))))
+    levels = side_by_side(level_of, [correction.campaign for correction in tried], ())
+    scored = [
+        (correction, level - own - float(np.log(correction.alternatives)))
+        for correction, own in zip(tried, levels, strict=True)
+        if own is not None
+    ]
     best = max(scored, key=lambda row: row[1], default=None)
     return best if best is not None and best[1] > MARGIN else None
 

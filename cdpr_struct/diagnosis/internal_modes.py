@@ -4,19 +4,21 @@ A large change of a cause leaves strays, too. So the campaign without the peaks,
 is held against the best fits to all of it, large changes included.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from cdpr_struct.diagnosis.causes.handling import Correction
 from cdpr_struct.diagnosis.causes.internal_mode import MOVING, POSES, Steady, correction, poses
-from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, Prepared, prepare
-from cdpr_struct.diagnosis.ranking import clears
+from cdpr_struct.diagnosis.null_model import NullModel
+from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, Prepared, grounded, judged
+from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.robot_rows import pairing_of
 from cdpr_struct.diagnosis.selection import FURTHER, select
 from cdpr_struct.diagnosis.setting import modes_in
 from cdpr_struct.diagnosis.steady_peaks import moves_alone, steady_peaks
-from cdpr_struct.diagnosis.stray_peaks import ONE
+from cdpr_struct.diagnosis.stray_peaks import ONE, clears
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.side_by_side import side_by_side
@@ -40,10 +42,16 @@ class Found:
 def internal_mode(campaign: Campaign, full: Prepared, plan: Budget) -> Found | None:
     """The internal mode that explains steady stray peaks, if nothing else does."""
     groups = [steady for steady in _candidates(campaign, full) if not _outdone(full, steady)]
-    tried = [(steady, _tried(campaign, full, steady, plan)) for steady in groups]
-    steady, best = max(tried, key=lambda row: row[1].gain if row[1] else -np.inf, default=(None, None))
-    if steady is None or best is None or best.gain < min(_CLEAR):
+
+    def without(one: tuple[Steady, float]) -> _Trial | None:
+        return _without(campaign, full, *one, plan)
+
+    tried = side_by_side(without, [(steady, moving) for steady in groups for moving in MOVING], ())
+    each = [_likelier(tried[len(MOVING) * i : len(MOVING) * (i + 1)]) for i in range(len(groups))]
+    row = max(zip(groups, each, strict=True), key=lambda row: row[1].gain if row[1] else -np.inf, default=None)
+    if row is None or row[1] is None:
         return None
+    steady, best = row[0], row[1]
     seen = poses(campaign.states, campaign.robot_frequencies.state[steady.rows])
     margin = _CLEAR[0] if seen >= POSES else _CLEAR[1]
     return best if _stands(full, best.gain - margin, best.rest, plan) else None
@@ -88,32 +96,39 @@ def _of_frequencies(steady: Steady, rows: int) -> float:
     return steady.log_density - len(steady.rows) * float(np.log(100.0)) + 0.5 * rows * float(np.log(2.0 * np.pi))
 
 
-def _tried(campaign: Campaign, full: Prepared, steady: Steady, plan: Budget) -> Found | None:
-    """The campaign without the peaks; where that is not noise, also with doubt of the others, if that is likelier."""
+@dataclass(frozen=True, slots=True, eq=False)
+class _Trial:
+    """A campaign without the peaks, its log evidence against the null, and what its causes are judged on."""
+
+    correction: Correction
+    gain: float
+    ground: Ground
+    fine: NullModel
+
+
+def _likelier(tried: Sequence[_Trial | None]) -> Found | None:
+    """The first whose rest is noise, or the likeliest, of campaigns with more and more doubt of the other peaks."""
     best: Found | None = None
-
-    def without(moving: float) -> Found | None:
-        return _without(campaign, full, steady, moving, plan)
-
-    for found in side_by_side(without, MOVING, ()):
-        if found is not None and (best is None or found.gain > best.gain):
-            best = found
-        if found is not None and found.rest.p_value >= SIGNIFICANT:
+    for trial in tried:
+        if trial is None or trial.gain < max(min(_CLEAR), best.gain if best else -np.inf):
+            continue
+        best = Found(trial.correction, trial.gain, judged(trial.ground, trial.fine))
+        if best.rest.p_value >= SIGNIFICANT:
             break
     return best
 
 
-def _without(campaign: Campaign, full: Prepared, steady: Steady, moving: float, plan: Budget) -> Found | None:
+def _without(campaign: Campaign, full: Prepared, steady: Steady, moving: float, plan: Budget) -> _Trial | None:
     """The campaign without the peaks; None where it cannot be computed."""
     made = correction(campaign, steady, moving)
     try:
-        rest = prepare(made.campaign, plan)
+        ground, fine = grounded(made.campaign, plan)
     except (InputError, np.linalg.LinAlgError):
         return None
-    constants = len(full.ground.setting.constants) - len(rest.ground.setting.constants)
-    rows = len(full.ground.null.r) - len(rest.ground.null.r)
-    gain = full.ground.level - rest.ground.level + _of_frequencies(steady, rows) - constants * _LOST
-    return Found(made, gain, rest)
+    constants = len(full.ground.setting.constants) - len(ground.setting.constants)
+    rows = len(full.ground.null.r) - len(ground.null.r)
+    gain = full.ground.level - ground.level + _of_frequencies(steady, rows) - constants * _LOST
+    return _Trial(made, gain, ground, fine)
 
 
 def _stands(full: Prepared, gain: float, rest: Prepared, plan: Budget) -> bool:

@@ -66,6 +66,11 @@ class Prepared:
 
 def prepare(campaign: Campaign, plan: Budget) -> Prepared:
     """Everything before the first hypothesis."""
+    return judged(*grounded(campaign, plan))
+
+
+def grounded(campaign: Campaign, plan: Budget) -> tuple[Ground, NullModel]:
+    """The ground about the likeliest tolerances, no candidates yet, and the null paired as entered."""
     require_known(campaign)
     if not len(campaign.states.names):
         kinds = ", ".join(campaign.kinds())
@@ -76,13 +81,18 @@ def prepare(campaign: Campaign, plan: Budget) -> Prepared:
     fine = first if near is setting else null_model(near, world, readings, extra)
     if _paired_as_entered(near, first, fine):
         setting = near
-    ground = _ground(setting, near, world, fine, extra, plan.refits)
-    causes, not_testable = causes_for(setting)
-    library = candidates(ground.setting, ground.world, readings, ground.null, causes)
+    return _ground(setting, near, world, fine, extra, plan.refits), fine
+
+
+def judged(ground: Ground, fine: NullModel) -> Prepared:
+    """What causes and channels do on a ground, and whether anything is significant there."""
+    causes, not_testable = causes_for(ground.setting)
+    library = candidates(ground.setting, ground.world, ground.readings, ground.null, causes)
     hidden = "at its typical size it hides in noise and tolerances"
     not_testable |= {candidate.name: hidden for candidate in library if _strength(candidate) < _VISIBLE}
-    outside = channels(ground.setting, ground.world, readings, ground.null)
-    return _judged(replace(ground, candidates=library), fine, outside, not_testable)
+    outside = channels(ground.setting, ground.world, ground.readings, ground.null)
+    search, law = Search(replace(ground, candidates=library)), screen(outside, ground.z)[0] if outside else None
+    return Prepared(search.ground, fine, outside, law, _p_value(search, outside), search, not_testable)
 
 
 def _paired_as_entered(near: Setting, first: NullModel, fine: NullModel) -> bool:
@@ -97,7 +107,6 @@ def _paired_as_entered(near: Setting, first: NullModel, fine: NullModel) -> bool
 
 
 def _ground(setting: Setting, near: Setting, world: World, fine: NullModel, extra: np.ndarray, budget: int) -> Ground:
-    """The ground about the likeliest tolerances, no candidates yet."""
     readings = Readings.of(setting.campaign.states)
     u = likeliest_tolerances(near, fine, fine.white(fine.r))
     likeliest = tolerated(setting, world, u)
@@ -109,11 +118,6 @@ def _ground(setting: Setting, near: Setting, world: World, fine: NullModel, extr
         level, stray = relinearised(own, likeliest, readings, extra, u)[0].level, own.stray
         level += STRAY_NATS * own.strays
     return Ground(setting, likeliest, readings, null, [], budget, level, extra, u, offset, world, stray)
-
-
-def _judged(ground: Ground, fine: NullModel, outside: list[Candidate], not_testable: dict[str, str]) -> Prepared:
-    search, law = Search(ground), screen(outside, ground.z)[0] if outside else None
-    return Prepared(ground, fine, outside, law, _p_value(search, outside), search, not_testable)
 
 
 def _p_value(search: Search, outside: list[Candidate]) -> float:

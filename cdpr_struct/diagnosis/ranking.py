@@ -4,18 +4,16 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.evidence import Choice, Screened, candidates, choices, screen
 from cdpr_struct.diagnosis.mode_pairing import STRAY_NATS
 from cdpr_struct.diagnosis.refit import ASTRAY, Fit, Ground, refit, screen_beyond, settled
 from cdpr_struct.diagnosis.residuals import residuals
-from cdpr_struct.diagnosis.stray_peaks import ONE, caught
+from cdpr_struct.diagnosis.stray_peaks import caught, explains
 from cdpr_struct.side_by_side import side_by_side
 
 _NEAR = 12.0  # nats from the best at screening: refitted
 _NEAR_SHARE = 0.2  # of the best gain, which screening misjudges by a share where effects are large
-_ADEQUATE = 1e-3
 _LARGE = 150.0  # chi^2 beyond its mean from which small steps do not tell enough
 _LARGE_STEPS = np.array([-2.5, -1.0, 1.0, 2.5])  # prior sigmas
 _SETTLED = 4.0  # nats from the best refit: frequencies are paired again in its own world
@@ -31,19 +29,23 @@ class Search:
 
     def __init__(self, ground: Ground) -> None:
         self.ground = ground
-        self._known: dict[_Key, list[Fit]] = {}
+        self._known: dict[tuple[_Key, bool], list[Fit]] = {}
         self._fits: dict[_Key, Fit] = {}
         self._screened: dict[_Key, list[Screened]] = {}
         self._caught: dict[_Key, list[Fit]] = {}
         self._replacing: dict[_Key, list[Fit]] = {}
 
-    def rank(self, accepted: tuple[Choice, ...] = ()) -> list[Fit]:
-        """Refits of accepted causes plus one more, best first; causes far from the best at screening are left out."""
-        key = _key(accepted)
+    def rank(self, accepted: tuple[Choice, ...] = (), beside: Fit | None = None) -> list[Fit]:
+        """Refits of accepted causes plus one more, best first; causes far from the best at screening are left out.
+
+        beside : a fit of other causes that explains everything already: no large change needs to be tried then
+        """
+        key = (_key(accepted), beside is None)
         if key not in self._known:
-            before, rows, large = self.fitted(accepted), self.screened(accepted), self.caught(accepted)
-            self._known[key] = _ranked(self.ground, before, rows, large)
-            self._fits |= {_key(fit.choices): fit for fit in self._known[key]}
+            before, rows = self.fitted(accepted), self.screened(accepted)
+            found = _ranked(self.ground, before, rows, self.caught(accepted) if beside is None else [], beside)
+            self._known[key] = found
+            self._fits |= {_key(fit.choices): fit for fit in found}
         return self._known[key]
 
     def fitted(self, accepted: tuple[Choice, ...]) -> Fit | None:
@@ -96,7 +98,9 @@ def _key(picked: tuple[Choice, ...]) -> _Key:
     return tuple(sorted((c.candidate.name, c.pattern.label, c.scale) for c in picked))
 
 
-def _ranked(ground: Ground, before: Fit | None, rows: list[Screened], large: list[Fit]) -> list[Fit]:
+def _ranked(
+    ground: Ground, before: Fit | None, rows: list[Screened], large: list[Fit], beside: Fit | None
+) -> list[Fit]:
     """Refits of the causes of a fit and one more, or of one alone, and fits of large changes; best first."""
     if before is not None and rows[0].gain < _HOPELESS and not large:
         return []
@@ -109,7 +113,8 @@ def _ranked(ground: Ground, before: Fit | None, rows: list[Screened], large: lis
     tried = [(row, picked) for row in _promising(ground, rows, before is not None) for picked in _worth_trying(row)]
     fits = side_by_side(fitted, tried, ground.known)
     if ground.paired:
-        fits = large + _settled(ground, before, sorted(fits, key=lambda fit: -fit.gain), large)
+        others = large if beside is None else [beside]
+        fits = large + _settled(ground, before, sorted(fits, key=lambda fit: -fit.gain), others)
     return _best_of_each(fits)
 
 
@@ -142,15 +147,15 @@ def _promising(ground: Ground, rows: list[Screened], further: bool) -> list[Scre
     return list(chosen.values())
 
 
-def _settled(ground: Ground, before: Fit | None, fits: list[Fit], large: list[Fit]) -> list[Fit]:
+def _settled(ground: Ground, before: Fit | None, fits: list[Fit], others: list[Fit]) -> list[Fit]:
     """The fits, those settled that may be the best: all if the best explains neither the data nor every peak.
 
     What is far off stays unsettled, without what the frequencies of a first cause gain by being paired more freely.
 
-    before : fit without the last cause, None for a first one;  large : fits of large changes, settled already
+    before : fit without the last cause, None for a first one;  others : fits that are settled already
     """
     base, lead = (0.0, max(ground.ahead, 0.0)) if before is None else (before.gain, 0.0)
-    ahead = max(fit.gain for fit in [*large, fits[0]])
+    ahead = max(fit.gain for fit in [*others, fits[0]])
     reach = ahead - max(_SETTLED, _SETTLED_SHARE * (ahead - base))
     near = max(2, sum(fit.gain > reach for fit in fits))
 
@@ -158,20 +163,10 @@ def _settled(ground: Ground, before: Fit | None, fits: list[Fit], large: list[Fi
         return settled(ground, fit, reach)
 
     first, far = side_by_side(again, fits[:near], ground.known), fits[near:]
-    best = max([*large, *first], key=lambda fit: fit.gain)
+    best = max([*others, *first], key=lambda fit: fit.gain)
     if best.ground.strays < ASTRAY or any(explains(fit) for fit in first):
         return first + [replace(fit, gain=fit.gain - lead) for fit in far]
     return first + side_by_side(again, far, ground.known)
-
-
-def explains(fit: Fit) -> bool:
-    """Whether what a fit leaves may be noise."""
-    return float(chi2.sf(fit.adequacy(), len(fit.white))) > _ADEQUATE
-
-
-def clears(fit: Fit) -> bool:
-    """Whether a fit explains the data and every peak."""
-    return explains(fit) and fit.ground.strays < ONE
 
 
 def _replacing(ground: Ground, fit: Fit, i: int) -> list[Fit]:

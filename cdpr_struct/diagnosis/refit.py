@@ -210,23 +210,32 @@ def settled(ground: Ground, fit: Fit, reach: float = -np.inf) -> Fit:
 
 
 def _settled_once(ground: Ground, fit: Fit) -> Fit:
-    """One pass; a guess, which has explained nothing yet, says nothing of tolerances and keeps those of the ground."""
-    if np.isfinite(fit.gain):
-        ground = _beside(ground, fit)
-    world = world_with(ground.world, fit.choices, fit.theta)
-    try:
-        setting = anchored(ground.setting, world)
-    except (ValueError, CdprError):  # a body or a cable that cannot exist, or a pose that does not hold
-        return replace(fit, gain=-np.inf)
-    null, offset = relinearised(setting, world, ground.readings, ground.extra, ground.likeliest)
-    there = replace(ground, setting=setting, null=null, offset=offset, stray=setting.stray)
-    return refit(there, fit.choices, fit.theta).also_by(fit.spread)
+    """One pass; a guess, which has explained nothing yet, says nothing of tolerances and keeps those of the ground.
+
+    Sizes at the edge of what can exist may be beyond it with other tolerances: then those of the fit are kept.
+    """
+    grounds = [ground] if not np.isfinite(fit.gain) else [_beside(ground, fit), _as_in(ground, fit.ground)]
+    for about in grounds:
+        world = world_with(about.world, fit.choices, fit.theta)
+        try:
+            setting = anchored(about.setting, world)
+        except (ValueError, CdprError):  # a body or a cable that cannot exist, or a pose that does not hold
+            continue
+        null, offset = relinearised(setting, world, about.readings, about.extra, about.likeliest)
+        there = replace(about, setting=setting, null=null, offset=offset, stray=setting.stray)
+        return refit(there, fit.choices, fit.theta).also_by(fit.spread)
+    return replace(fit, gain=-np.inf)
 
 
 def _beside(ground: Ground, fit: Fit) -> Ground:
     """The ground about the tolerances that are likeliest beside the causes of a fit."""
     u = likeliest_tolerances(fit.ground.setting, fit.ground.null, fit.white)
     return replace(ground, likeliest=u, world=tolerated(ground.setting, ground.entered, u))
+
+
+def _as_in(ground: Ground, other: Ground) -> Ground:
+    """The ground about the tolerances of another one."""
+    return replace(ground, likeliest=other.likeliest, world=other.world)
 
 
 def screen_beyond(fit: Fit, found: list[Candidate]) -> list[Screened]:

@@ -7,8 +7,9 @@ import numpy as np
 from cdpr_struct.diagnosis.causes.cause import SCALES
 from cdpr_struct.diagnosis.evidence import Choice, choice, gains_of, screen
 from cdpr_struct.diagnosis.heldout import groups_of, weakest
-from cdpr_struct.diagnosis.ranking import Search, clears, without
+from cdpr_struct.diagnosis.ranking import Search, without
 from cdpr_struct.diagnosis.refit import Fit, Ground, refit
+from cdpr_struct.diagnosis.stray_peaks import clears
 
 FURTHER = 6.0  # nats that each further cause must bring
 _HOLDS = 1.0  # nats that a further cause keeps whichever group of states is left out
@@ -55,7 +56,9 @@ def _grown(search: Search, further: float, most: int, outside: float) -> Fit:
     begun = [best.choices, *(_other_beginnings(search, further) if most > 1 else [])]
     while len(best.choices) < most:
         hopeful = [one for one in begun if search.promise(one) > outside - _BEHIND]
-        more = [fit for one in hopeful for fit in _one_more(search, one, best.gain + further)]
+        more: list[Fit] = []
+        for one in hopeful:
+            more += _one_more(search, one, best.gain + further, next(filter(clears, more), None))
         if not more:
             break
         best = max(more, key=lambda fit: fit.gain)
@@ -115,10 +118,10 @@ def _other_beginnings(search: Search, further: float) -> list[tuple[Choice, ...]
     return [one for one in begun if search.promise(one) > best + further - _MISJUDGED]
 
 
-def _one_more(search: Search, accepted: tuple[Choice, ...], least: float) -> list[Fit]:
+def _one_more(search: Search, accepted: tuple[Choice, ...], least: float, beside: Fit | None) -> list[Fit]:
     """Accepted causes and one more, of more log evidence than `least`, that does not hang on one group of states."""
     before = search.fitted(accepted)
-    return [fit for fit in search.rank(accepted) if fit.gain > least and _holds(search.ground, before, fit)]
+    return [fit for fit in search.rank(accepted, beside) if fit.gain > least and _holds(search.ground, before, fit)]
 
 
 def _fewer_strays(ground: Ground, before: Fit | None, fit: Fit) -> np.ndarray:

@@ -16,6 +16,7 @@ from cdpr_struct.diagnosis.causes.cause import SCALES, Pattern
 from cdpr_struct.diagnosis.detectable import noncentrality
 from cdpr_struct.diagnosis.evidence import Candidate
 from cdpr_struct.diagnosis.null_model import NullModel
+from cdpr_struct.side_by_side import side_by_side
 
 OUTSIDE = -2.0  # ln prior of a law outside the library, beside that of a cause
 SEED = 20240229
@@ -44,13 +45,10 @@ def p_of_null(
 
 def log_ratio(library: list[Candidate], outside: list[Candidate], z: np.ndarray) -> np.ndarray:
     """(k,) logarithm of the likelihood ratio of any law against the null, for whitened residuals z (n, k)."""
-    logs, weights = [], []
-    for candidate, weight in [(c, 0.0) for c in library] + [(c, OUTSIDE) for c in outside]:
-        log = _of_law(candidate, z)
-        if log is not None:
-            logs.append(log)
-            weights.append(weight)
-    return _mean(logs, weights) if logs else np.zeros(z.shape[1])
+    found = side_by_side(lambda law: _of_law(law, z), [*library, *outside], ())
+    weighted = [0.0] * len(library) + [OUTSIDE] * len(outside)
+    shown = [(log, weight) for log, weight in zip(found, weighted, strict=True) if log is not None]
+    return _mean([log for log, _ in shown], [weight for _, weight in shown]) if shown else np.zeros(z.shape[1])
 
 
 def _mean(logs: list[np.ndarray], weights: list[float]) -> np.ndarray:

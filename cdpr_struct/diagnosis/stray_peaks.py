@@ -8,7 +8,7 @@ changes never catch a stray, so causes that move modes are tried by large ones.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import binom
+from scipy.stats import binom, chi2
 
 from cdpr_struct.diagnosis.evidence import Candidate, Choice, Screened, choice
 from cdpr_struct.diagnosis.mode_pairing import STRAY
@@ -24,7 +24,9 @@ _STEPS = (-2.5, -1.0, 1.0, 2.5)  # prior sigmas
 _MOVES = 4.0  # [%] by which the largest step must move a peak
 _SCALE = 2.5  # of the prior
 _FEWER = 0.5  # strays, by which a change must be better
+_BEHIND = 20.0  # nats by which a change that is not settled yet may be worse than none
 _MOST_NUMBERS = 3  # that are tried one by one
+_ADEQUATE = 1e-3
 
 
 def strays_left(ground: Ground, fit: Fit | None) -> float:
@@ -38,23 +40,42 @@ def p_of_strays(strays: float, peaks: int) -> float:
     return float(binom.sf(count - 1, peaks, np.exp(STRAY))) if count > 1 else 1.0
 
 
+def explains(fit: Fit) -> bool:
+    """Whether what a fit leaves may be noise."""
+    return float(chi2.sf(fit.adequacy(), len(fit.white))) > _ADEQUATE
+
+
+def clears(fit: Fit) -> bool:
+    """Whether a fit explains the data and every peak."""
+    return explains(fit) and fit.ground.strays < ONE
+
+
 def caught(ground: Ground, before: Fit | None, rows: list[Screened]) -> list[Fit]:
-    """Fits of a cause more, of those screened, whose large change explains peaks that no mode explains yet."""
+    """Fits of a cause more, of those screened, whose large change explains peaks that no mode explains yet.
+
+    Those that leave a peak more than the best need no fit if one of the best explains everything.
+    """
     if strays_left(ground, before) < ONE:
         return []
     spread = {row.candidate.name: row.spread for row in rows}
-    first, start = ((), np.zeros(0)) if before is None else (before.choices, before.theta)
+    first, start, base = ((), np.zeros(0), 0.0) if before is None else (before.choices, before.theta, before.gain)
 
-    def caught_by(tried: tuple[Choice, np.ndarray]) -> Fit:
-        picked, theta = tried
-        sizes = np.concatenate([start, theta])
-        return settled(ground, Fit.guessed(ground, (*first, picked), sizes, spread[picked.candidate.name]))
+    def caught_by(trial: _Trial) -> Fit:
+        sizes = np.concatenate([start, trial.theta])
+        guess = Fit.guessed(ground, (*first, trial.picked), sizes, spread[trial.picked.candidate.name])
+        return settled(ground, guess, base - _BEHIND)
 
-    return side_by_side(caught_by, _catching(ground, before), ground.known)
+    tried = _catching(ground, before)
+    fewest = min((trial.strays for trial in tried), default=0.0)
+    best = [trial for trial in tried if trial.strays < fewest + _FEWER]
+    fits = side_by_side(caught_by, best, ground.known)
+    if any(clears(fit) for fit in fits):
+        return fits
+    return fits + side_by_side(caught_by, [trial for trial in tried if trial not in best], ground.known)
 
 
-def _catching(ground: Ground, before: Fit | None) -> list[tuple[Choice, np.ndarray]]:
-    """Sizes of single causes that explain strays on top of a fit, of the `budget` causes that explain most."""
+def _catching(ground: Ground, before: Fit | None) -> "list[_Trial]":
+    """Single causes that explain strays on top of a fit, of the `budget` causes that explain most."""
     world = ground.world if before is None else before.world
     taken = () if before is None else before.names
 
@@ -69,7 +90,7 @@ def _catching(ground: Ground, before: Fit | None) -> list[tuple[Choice, np.ndarr
         by_cause.setdefault(trial.picked.candidate.name, []).append(trial)
     left = strays_in(ground.setting, world)
     first = sorted(by_cause.values(), key=lambda trials: min(map(_fewest, trials)))[: ground.budget]
-    return [(one.picked, one.theta) for trials in first for one in trials if one.strays < left - _FEWER]
+    return [one for trials in first for one in trials if one.strays < left - _FEWER]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -14,7 +14,7 @@ from cdpr_struct.diagnosis.significance import OUTSIDE
 from cdpr_struct.diagnosis.stray_peaks import SEVERAL, strays_left
 from cdpr_struct.diagnosis.suspect_reading import in_words
 from cdpr_struct.diagnosis.whole_change import whole_change
-from cdpr_struct.diagnosis.wording import agreement, corrected, described, rest_words
+from cdpr_struct.diagnosis.wording import agreement, corrected, described, listed, rest_words
 
 LARGEST_CLASS = 4
 TEMPER = 0.7  # of the evidence between causes: the model of noise and tolerances is a model too
@@ -96,7 +96,7 @@ def _unknown_sentence(found: Diagnosis, place: str) -> str:
     text = f"Something is wrong in {place}, and no cause in the library explains it."
     text += "".join(f" Beside it {c.sentence}." for c, _ in found.corrections if c.place)
     if outside.instead > _INSTEAD:
-        together = " and ".join(fit.names).replace("_", " ") if fit else ""
+        together = listed(fit.names) if fit else ""
         return f"{text} One law explains it better than {together} together: {outside.one_law}." + _aside(found)
     if fit:
         text += f" The best candidate, {' with '.join(fit.names).replace('_', ' ')}, leaves a structured remainder."
@@ -201,7 +201,7 @@ def _sentence(found: Diagnosis, classes: tuple[tuple[str, ...], ...]) -> str:
     text = "; ".join(parts)
     text = text[:1].upper() + text[1:] + "."
     for names in (names for names in classes if len(names) > 1):
-        text += f" These data do not tell {' from '.join(n.replace('_', ' ') for n in names)}."
+        text += f" These data do not tell {listed(names)} apart."
     text += rest_words(found) if fit is None else _standing(found, fit)
     return text + _aside(found)
 

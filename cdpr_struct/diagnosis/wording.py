@@ -1,5 +1,7 @@
 """What was found, in words for a person: causes with their sizes, corrections, peaks without a mode for certain."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from cdpr_struct.diagnosis.causes.handling import Correction
@@ -32,6 +34,12 @@ def described(choice: Choice, theta: np.ndarray) -> str:
     notes = [choice.pattern.label, cause.sign if single else ""]
     note = ", ".join(filter(None, notes))
     return f"{text} ({note})" if note else text
+
+
+def listed(names: Sequence[str]) -> str:
+    """Names of causes as "a, b and c"."""
+    *first, last = (name.replace("_", " ") for name in names)
+    return f"{', '.join(first)} and {last}" if first else last
 
 
 def _by_unit(choice: Choice, value: np.ndarray) -> str:

@@ -1,4 +1,4 @@
-"""Readings that are hundreds of times what the robot allows are in another unit; that is said before any simulation."""
+"""Readings that are many times what the robot allows are in another unit; that is said before any simulation."""
 
 import numpy as np
 
@@ -8,6 +8,7 @@ from cdpr_struct.measurement.campaign import States
 from cdpr_struct.robot.robot import Robot
 
 _TIMES = 30.0  # beyond this no robot or reading is: mm instead of m is a thousand times, kN instead of N as well
+_TIMES_LOCKED = 1.5  # the same of lengths alone, from which the pose must be found
 
 
 def check_scale(source: str, robot: Robot, states: States) -> None:
@@ -18,15 +19,24 @@ def check_scale(source: str, robot: Robot, states: States) -> None:
     InputError : a state whose pose, lengths or tensions cannot be in m and N.
     """
     for i, name in enumerate(states.names):
-        check_pose_scale(source, name, robot, states.position[i], states.angles[i], states.length[i])
+        times = _TIMES if states.has_tension[i] else _TIMES_LOCKED
+        check_pose_scale(source, name, robot, states.position[i], states.angles[i], states.length[i], times)
         weight = (robot.platform.mass + float(states.payload[i])) * robot.gravity
         _check_tensions(source, name, states.tension[i], weight)
 
 
 def check_pose_scale(
-    source: str, name: str, robot: Robot, position: np.ndarray, angles: np.ndarray, length: np.ndarray
+    source: str,
+    name: str,
+    robot: Robot,
+    position: np.ndarray,
+    angles: np.ndarray,
+    length: np.ndarray,
+    times: float = _TIMES_LOCKED,
 ) -> None:
     """Hold one pose (3,) [m], (3,) [rad], and its lengths (m,) [m], against the size of the robot.
+
+    times : by which lengths may differ from the distance of their anchors
 
     Raises
     ------
@@ -34,7 +44,7 @@ def check_pose_scale(
     """
     _check_position(source, name, robot, position)
     points = position + robot.platform_anchors @ rotation(*angles).T
-    _check_lengths(source, name, length, np.linalg.norm(points - robot.frame_anchors, axis=1))
+    _check_lengths(source, name, length, np.linalg.norm(points - robot.frame_anchors, axis=1), times)
 
 
 def _check_position(source: str, name: str, robot: Robot, position: np.ndarray) -> None:
@@ -45,13 +55,14 @@ def _check_position(source: str, name: str, robot: Robot, position: np.ndarray) 
         raise InputError(source, f"case {name}: x_m, y_m, z_m", position.tolist(), expected)
 
 
-def _check_lengths(source: str, name: str, length: np.ndarray, chord: np.ndarray) -> None:
+def _check_lengths(source: str, name: str, length: np.ndarray, chord: np.ndarray, times: float) -> None:
     known = np.isfinite(length)
-    off = np.flatnonzero(known & ~((length > chord / _TIMES) & (length < chord * _TIMES)))
+    off = np.flatnonzero(known & ~((length > chord / times) & (length < chord * times)))
     if off.size:
         i = int(off[0])
         which = "every cable" if off.size == known.sum() else f"cable {i + 1}"
-        expected = f"a length in m: at this pose its anchors are {chord[i]:.3g} m apart (is it in mm?)"
+        unit = "mm" if not chord[i] / _TIMES < length[i] < chord[i] * _TIMES else "ft"
+        expected = f"a length in m: at this pose its anchors are {chord[i]:.3g} m apart (is it in {unit}?)"
         raise InputError(source, f"case {name}, {which}: length_m", float(length[i]), expected)
 
 

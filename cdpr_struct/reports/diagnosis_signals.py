@@ -9,6 +9,7 @@ from cdpr_struct.diagnosis.damping_law import SCATTER, UNITS, DampingFinding, La
 from cdpr_struct.diagnosis.damping_rows import damping_rows, left_out
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.extended_model import extended_robot
+from cdpr_struct.diagnosis.wording import listed
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.signal_states import held_against
 from cdpr_struct.reports.figures import signals as figures
@@ -127,12 +128,11 @@ def damping_sentence(finding: DampingFinding) -> str:
         f"{name.replace('_', ' ')} {middle:.2g} ({low:.2g} to {high:.2g}) {UNITS[name]}".strip()
         for name, (middle, low, high) in best.sizes.items()
     )
-    words = " and ".join(c.replace("_", " ") for c in best.causes)
+    words = listed(best.causes)
     if finding.status == "unknown":
         return f"The damping is not the entered one, and no law fits it; the best, {words}, leaves more than noise."
     if finding.status == "class":
-        names = " from ".join(c.replace("_", " ") for c in finding.causes)
-        return f"The damping is not the entered one; these data do not tell {names}."
+        return f"The damping is not the entered one; these data do not tell {listed(finding.causes)} apart."
     return f"The damping is that of {words}: {sizes}."
 
 

@@ -121,6 +121,7 @@ def candidate_table(candidates: Sequence[Mapping[str, Any]], most: int, sizes: i
     if any(row.get("description") for row in candidates):
         note += " That of corrections, which stand first, is against the data before them; where the verdict is "
         note += "unknown, they were tried and do not suffice."
+    note += _inner_names(candidates)
     columns = ["cause", "evidence [nats]", "explains [%]", "size"]
     return HtmlTable("Candidates", columns, rows, note) if rows else None
 
@@ -132,7 +133,15 @@ def size_table(candidates: Sequence[Mapping[str, Any]]) -> HtmlTable | None:
         for h in hypotheses(candidates)
         for name, p in h.sizes.items()
     ]
-    return HtmlTable("Sizes of all candidates", ["candidate", "parameter", "size", "unit"], rows) if rows else None
+    columns = ["candidate", "parameter", "size", "unit"]
+    return HtmlTable("Sizes of all candidates", columns, rows, _inner_names(candidates).strip()) if rows else None
+
+
+def _inner_names(candidates: Sequence[Mapping[str, Any]]) -> str:
+    """What the numbers of internal forces mean, where there are any."""
+    if not any(name.startswith("null_space_") for row in candidates for name in row["parameters"]):
+        return ""
+    return " null_space_j_i is how far lengths are off along the j-th internal force of the i-th state."
 
 
 def _first(hypothesis: Hypothesis, count: int) -> str:

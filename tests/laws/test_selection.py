@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cdpr_struct.diagnosis import ranking, stray_peaks
+from cdpr_struct.diagnosis import refit as refitting
 from cdpr_struct.diagnosis.evidence import choices
 from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
 from cdpr_struct.diagnosis.ranking import Search
@@ -61,6 +63,60 @@ def test_no_second_cause_is_sought_where_a_law_outside_the_library_is_far_better
 def test_a_single_candidate_needs_no_second(ground):
     alone = replace(ground, candidates=[c for c in ground.candidates if c.name == "load_cell_bias"])
     assert select(Search(alone), FURTHER, 2).fit.names == ("load_cell_bias",)
+
+
+@pytest.fixture(scope="module")
+def turning():
+    """Ground of a platform of one and a half times the entered inertia, seen in its frequencies at four poses."""
+    campaign = hidden(lambda world: world)
+    world = World.of(campaign.robot, len(campaign.states.names))
+    truth = replace(world, inertia=1.5 * world.inertia)
+    return prepare(with_robot_frequencies(campaign, (0, 1, 2, 3), truth), BUDGETS["small"]).ground
+
+
+def test_large_changes_that_leave_more_peaks_are_fitted_only_where_the_best_does_not_explain_everything(
+    turning, monkeypatch
+):
+    search = Search(turning)
+    tried = stray_peaks._catching(turning, None)
+    best = min(tried, key=lambda trial: trial.strays)
+    worse = replace(best, strays=best.strays + 2.0)
+    monkeypatch.setattr(stray_peaks, "_catching", lambda ground, before: [worse, best])
+    assert turning.strays > 1.5
+    assert best.picked.candidate.name == "platform_inertia"
+    assert len(stray_peaks.caught(turning, None, search.screened())) == 1
+    monkeypatch.setattr(stray_peaks, "clears", lambda fit: False)
+    assert len(stray_peaks.caught(turning, None, search.screened())) == 2
+
+
+def test_no_large_change_is_tried_beside_a_fit_that_explains_everything(turning, monkeypatch):
+    tried = []
+    monkeypatch.setattr(ranking, "caught", lambda *given: tried.append(given) or [])
+    search = Search(turning)
+    mass = next(c for c in turning.candidates if c.name == "joint_mass")
+    begun = (choices(mass)[0],)
+    beside = replace(search.fitted(begun), gain=1e3)
+    search.rank(begun, beside)
+    assert not tried
+    search.rank(begun)
+    assert len(tried) == 1
+
+
+def test_a_fit_keeps_its_tolerances_where_likelier_ones_allow_no_such_world(ground, monkeypatch):
+    bias = next(c for c in ground.candidates if c.name == "load_cell_bias")
+    fit, anchored, worlds = refit(ground, (choices(bias)[0],)), refitting.anchored, []
+
+    def impossible_at_first(setting, world):
+        worlds.append(world)
+        if len(worlds) == 1:
+            raise ValueError("inertia that no body has")
+        return anchored(setting, world)
+
+    monkeypatch.setattr(refitting, "anchored", impossible_at_first)
+    kept = settled(ground, fit)
+    assert np.isfinite(kept.gain)
+    assert len(worlds) == 2
+    assert (kept.ground.likeliest == ground.likeliest).all()
 
 
 def test_a_fit_stands_about_the_tolerances_that_are_likeliest_beside_it():

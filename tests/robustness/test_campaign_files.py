@@ -84,3 +84,11 @@ def test_readings_a_thousand_times_off_are_asked_for_their_unit(rows, words, tmp
 def test_bad_campaigns(campaign, words, tmp_path, capsys):
     line = complaint(tmp_path, capsys, campaign=campaign)
     assert all(word in line for word in words), line
+
+
+def test_locked_lengths_in_feet_are_refused(tmp_path, capsys):
+    """Poses are found from them: with cables three times as long that took minutes and ended without a word."""
+    head = "case,x_m,y_m,z_m,payload_kg," + ",".join(f"length_{i}_m" for i in range(1, 9)) + "\n"
+    campaign = CAMPAIGN.replace("static_state", "loaded_pose")
+    line = complaint(tmp_path, capsys, campaign, head + "a,0,0,1,20," + ",".join(8 * ["33"]) + "\n")
+    assert all(word in line for word in ["case a, every cable", "length_m", "33", "is it in ft?"]), line

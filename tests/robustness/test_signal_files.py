@@ -42,8 +42,9 @@ def decay(time) -> pd.DataFrame:
         (lambda t: t.assign(ax="much"), ["row 1", "ax", "much", "a number"]),
         (lambda t: t.assign(z_m=500.0), ["case a", "x_m, y_m, z_m", "500.0", "in mm"]),
         (lambda t: t.assign(**{f"length_{i}_m": 9000.0 for i in range(1, 9)}), ["case a", "length_m", "in mm"]),
+        (lambda t: t.assign(**{f"length_{i}_m": 30.0 for i in range(1, 9)}), ["case a", "length_m", "in ft"]),
     ],
-    ids=range(6),
+    ids=range(7),
 )
 def test_bad_decays(change, words, tmp_path, capsys):
     change(decay(np.arange(400) * 0.01)).to_csv(tmp_path / "decay.csv", index=False)
