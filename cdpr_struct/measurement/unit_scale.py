@@ -8,7 +8,7 @@ from cdpr_struct.measurement.campaign import States
 from cdpr_struct.robot.robot import Robot
 
 _TIMES = 30.0  # beyond this no robot or reading is: mm instead of m is a thousand times, kN instead of N as well
-_TIMES_LOCKED = 1.5  # the same of lengths alone, from which the pose must be found
+_TIMES_LOCKED = 1.5  # the same of all lengths together where the pose must be found from them
 
 
 def check_scale(source: str, robot: Robot, states: States) -> None:
@@ -19,8 +19,8 @@ def check_scale(source: str, robot: Robot, states: States) -> None:
     InputError : a state whose pose, lengths or tensions cannot be in m and N.
     """
     for i, name in enumerate(states.names):
-        times = _TIMES if states.has_tension[i] else _TIMES_LOCKED
-        check_pose_scale(source, name, robot, states.position[i], states.angles[i], states.length[i], times)
+        locked = not states.has_tension[i]
+        check_pose_scale(source, name, robot, states.position[i], states.angles[i], states.length[i], locked)
         weight = (robot.platform.mass + float(states.payload[i])) * robot.gravity
         _check_tensions(source, name, states.tension[i], weight)
 
@@ -32,11 +32,11 @@ def check_pose_scale(
     position: np.ndarray,
     angles: np.ndarray,
     length: np.ndarray,
-    times: float = _TIMES_LOCKED,
+    locked: bool = True,
 ) -> None:
     """Hold one pose (3,) [m], (3,) [rad], and its lengths (m,) [m], against the size of the robot.
 
-    times : by which lengths may differ from the distance of their anchors
+    locked : whether the pose must be found from the lengths, which many times too long takes minutes and finds nothing
 
     Raises
     ------
@@ -44,7 +44,7 @@ def check_pose_scale(
     """
     _check_position(source, name, robot, position)
     points = position + robot.platform_anchors @ rotation(*angles).T
-    _check_lengths(source, name, length, np.linalg.norm(points - robot.frame_anchors, axis=1), times)
+    _check_lengths(source, name, length, np.linalg.norm(points - robot.frame_anchors, axis=1), locked)
 
 
 def _check_position(source: str, name: str, robot: Robot, position: np.ndarray) -> None:
@@ -55,15 +55,22 @@ def _check_position(source: str, name: str, robot: Robot, position: np.ndarray) 
         raise InputError(source, f"case {name}: x_m, y_m, z_m", position.tolist(), expected)
 
 
-def _check_lengths(source: str, name: str, length: np.ndarray, chord: np.ndarray, times: float) -> None:
+def _check_lengths(source: str, name: str, length: np.ndarray, chord: np.ndarray, locked: bool) -> None:
     known = np.isfinite(length)
-    off = np.flatnonzero(known & ~((length > chord / times) & (length < chord * times)))
+    ratio = np.where(known, length, chord) / chord
+    off, unit = np.flatnonzero(~((ratio > 1.0 / _TIMES) & (ratio < _TIMES))), "mm"
+    if locked and known.all() and not off.size and _all_beyond(ratio, _TIMES_LOCKED):
+        off, unit = np.arange(len(ratio)), "ft"
     if off.size:
         i = int(off[0])
         which = "every cable" if off.size == known.sum() else f"cable {i + 1}"
-        unit = "mm" if not chord[i] / _TIMES < length[i] < chord[i] * _TIMES else "ft"
         expected = f"a length in m: at this pose its anchors are {chord[i]:.3g} m apart (is it in {unit}?)"
         raise InputError(source, f"case {name}, {which}: length_m", float(length[i]), expected)
+
+
+def _all_beyond(ratio: np.ndarray, times: float) -> bool:
+    """Whether all are too large, or all too small; with a wrong pose some are and others are not."""
+    return bool((ratio > times).all() or (ratio < 1.0 / times).all())
 
 
 def _check_tensions(source: str, name: str, tension: np.ndarray, weight: float) -> None:

@@ -10,8 +10,8 @@ import fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.prepared import BUDGETS, SIGNIFICANT, prepare
-from cdpr_struct.diagnosis.ranking import clears
 from cdpr_struct.diagnosis.selection import FURTHER, select
+from cdpr_struct.diagnosis.stray_peaks import clears
 from cdpr_struct.diagnosis.verdict import verdict
 from cdpr_struct.measurement.campaign_file import load_campaign
 from tests.conftest import at_rest
