@@ -29,6 +29,15 @@ _MOST_NUMBERS = 3  # that are tried one by one
 _ADEQUATE = 1e-3
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Trial:
+    """A cause of size theta (d,), in sigmas of its wide prior, and the stray peaks that it leaves."""
+
+    picked: Choice
+    theta: np.ndarray
+    strays: float
+
+
 def strays_left(ground: Ground, fit: Fit | None) -> float:
     """Expected number of stray peaks in the world of a fit, or of the null."""
     return (ground if fit is None else fit.ground).strays
@@ -74,7 +83,7 @@ def caught(ground: Ground, before: Fit | None, rows: list[Screened]) -> list[Fit
     return fits + side_by_side(caught_by, [trial for trial in tried if trial not in best], ground.known)
 
 
-def _catching(ground: Ground, before: Fit | None) -> "list[_Trial]":
+def _catching(ground: Ground, before: Fit | None) -> list[_Trial]:
     """Single causes that explain strays on top of a fit, of the `budget` causes that explain most."""
     world = ground.world if before is None else before.world
     taken = () if before is None else before.names
@@ -91,15 +100,6 @@ def _catching(ground: Ground, before: Fit | None) -> "list[_Trial]":
     left = strays_in(ground.setting, world)
     first = sorted(by_cause.values(), key=lambda trials: min(map(_fewest, trials)))[: ground.budget]
     return [one for trials in first for one in trials if one.strays < left - _FEWER]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Trial:
-    """A cause of size theta (d,), in sigmas of its wide prior, and the stray peaks that it leaves."""
-
-    picked: Choice
-    theta: np.ndarray
-    strays: float
 
 
 def _fewest(trial: _Trial) -> float:
