@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from cdpr_struct.diagnosis.causes.sensors import COMMON
 from cdpr_struct.diagnosis.detectable import noncentrality
 from cdpr_struct.diagnosis.evidence import Candidate, Choice, choices
 from cdpr_struct.diagnosis.refit import Ground
@@ -34,9 +35,9 @@ def minimum_detectable(candidates: list[Candidate]) -> dict[str, dict[str, Any]]
 
 
 def plainest(candidate: Candidate) -> Choice:
-    """All cables alike if there is such a pattern, else everything, at the typical scale."""
+    """All cables or all states alike if there is such a pattern, else everything, at the typical scale."""
     typical = [c for c in choices(candidate) if c.scale == 1.0]
-    alike = [c for c in typical if c.pattern.label == "all alike"]
+    alike = [c for c in typical if c.pattern.label in ("all alike", COMMON)]
     return (alike or [max(typical, key=lambda c: c.signature.shape[1])])[0]
 
 

@@ -32,6 +32,8 @@ def described(choice: Choice, theta: np.ndarray) -> str:
     text = cause.sentence.format(**words)
     text = text.replace(" in the mean", "") if single else text
     notes = [choice.pattern.label, cause.sign if single else ""]
+    if "{percent}" in cause.sentence and not single:
+        notes.append(f"from {_per_cent(float(np.exp(value.min())))} to {_per_cent(float(np.exp(value.max())))}")
     note = ", ".join(filter(None, notes))
     return f"{text} ({note})" if note else text
 

@@ -33,6 +33,7 @@ from tests.blind.running import RECORD
 CLEARLY = 2.0  # multiple of the smallest detectable size from which a name is owed
 SEPARABLE = 3.0  # sigmas that the nearest other cause leaves; half its square are nats of evidence
 BINS = ((0.5, 0.25, 0.75), (1.0, 0.75, 1.5), (2.0, 1.5, 3.0), (4.0, 3.0, math.inf))  # (label, from, below)
+PLAIN_UNITS = {"m", "N"}  # a number in one of them is none in the other
 IN_LIBRARY = ("single", "pair", "ambiguous", "handling")
 
 
@@ -64,20 +65,23 @@ class Scored:
         """Multiple of what the tool itself says is its smallest detectable size of a single effect, if it does."""
         if self.kind != "single":
             return None
-        cause = str(self.truth["effects"][0]["cause"])
-        robot = str(self.truth["robot"])
-        limit = smallest_by_tool(self.answer.result.get("minimum_detectable"), cause, entered_robot(robot).mass)
+        effect, robot = self.truth["effects"][0], str(self.truth["robot"])
+        cause, unit = str(effect["cause"]), str(effect.get("unit", ""))
+        mass = entered_robot(robot).mass
+        limit = smallest_by_tool(self.answer.result.get("minimum_detectable"), cause, mass, unit)
         ours = typical_size(robot, cause)
         return None if limit is None or ours is None else self.multiple * ours / limit
 
 
-def smallest_by_tool(table: Any, cause: str, robot_mass: float = 1.0) -> float | None:
-    """The tool's minimum_detectable of a cause: a number, or a table with `value`."""
+def smallest_by_tool(table: Any, cause: str, robot_mass: float = 1.0, hidden_in: str = "") -> float | None:
+    """The tool's minimum_detectable of a cause, a number or a table with `value`, if its unit compares with ours."""
     entry = table.get(cause) if isinstance(table, dict) else None
     unit = ""
     if isinstance(entry, dict):
         entry, unit = entry.get("value"), str(entry.get("unit", ""))
     if not isinstance(entry, int | float) or not 0.0 < entry < math.inf:
+        return None
+    if {unit, hidden_in} <= PLAIN_UNITS and unit != hidden_in:
         return None
     return float(entry) * (robot_mass if cause == "platform_mass" and unit == "relative" else 1.0)
 

@@ -20,7 +20,7 @@ from tests.blind.campaign_files import write_case
 from tests.blind.case_drawing import CaseKind, drawn_case
 from tests.blind.intervals import band, compared, expected_calibration_error, relative_error
 from tests.blind.measuring_plan import PlanSize
-from tests.blind.scoring import Scored, figures
+from tests.blind.scoring import Scored, figures, smallest_by_tool
 
 TINY = PlanSize(static_states=1, locks=1, loads_per_lock=2, frequency_states=1)
 FAKE = """
@@ -214,3 +214,9 @@ def test_a_run_is_resumed_and_not_repeated(one_case_set, tmp_path):
     before = record.read_bytes()
     main(["run", "--out", str(one_case_set), "--command", f"{sys.executable} -c 'raise SystemExit(2)'"])
     assert record.read_bytes() == before
+
+
+def test_a_smallest_size_in_metres_is_none_of_a_force():
+    table = {"internal_force": {"value": 2e-4, "unit": "m"}, "load_cell_bias": {"value": 3.0, "unit": "N"}}
+    assert smallest_by_tool(table, "internal_force", hidden_in="N") is None
+    assert smallest_by_tool(table, "load_cell_bias", hidden_in="N") == 3.0

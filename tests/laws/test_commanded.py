@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from cdpr_struct.diagnosis.plan import minimum_detectable
+from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import residuals
 from cdpr_struct.diagnosis.setting import make_setting
@@ -65,3 +67,11 @@ def test_the_true_world_explains_the_internal_force():
 def test_a_robot_as_entered_leaves_nothing():
     campaign = sent_to(np.zeros((8, 3)))
     assert np.abs(internal(campaign, World.of(campaign.robot, len(campaign.states.names)))).max() < 1e-2
+
+
+def test_the_smallest_detectable_internal_force_is_one_force_everywhere():
+    """In newtons, not the lengths of each state its own."""
+    ground = prepare(sent_to(np.zeros((8, 3))), BUDGETS["small"]).ground
+    smallest = minimum_detectable([c for c in ground.candidates if c.name == "internal_force"])["internal_force"]
+    assert (smallest["unit"], smallest["pattern"]) == ("N", "the same everywhere")
+    assert 1.0 < smallest["value"] < 60.0

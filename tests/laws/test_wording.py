@@ -63,6 +63,13 @@ def test_vectors_are_told_by_their_length(clean, name, label, values, words):
     assert words in described(found, np.array(values) / found.prior)
 
 
+def test_ratios_of_each_axis_are_told_by_their_range(clean):
+    """An inertia 56 % too small about one axis is no 112 %."""
+    found = chosen("platform_inertia", "each its own", clean)
+    said = described(found, np.log([0.965, 1.557, 0.93]) / found.prior)
+    assert said.endswith("is 111.8 % of what was entered (each its own, from 93.0 % to 155.7 %)")
+
+
 def test_a_ratio_near_one_keeps_its_digits(clean):
     """A drum 0.04 % too large is no 100.0 %."""
     found = chosen("drum_scale", "all alike", clean)
