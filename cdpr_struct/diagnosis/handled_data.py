@@ -7,7 +7,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.causes.handling import Correction
 from cdpr_struct.diagnosis.gross_reading import without_gross_tension
-from cdpr_struct.diagnosis.handling_screen import best_correction
+from cdpr_struct.diagnosis.handling_screen import best_correction, peaks_too_high
 from cdpr_struct.diagnosis.internal_modes import internal_mode
 from cdpr_struct.diagnosis.null_model import sensors
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, Prepared, prepare
@@ -56,7 +56,8 @@ def _next(data: Handled, plan: Budget) -> tuple[Handled, bool]:
     ground, rival = data.prepared.ground, data.prepared.best
     better, wrong, inner = None, None, None
     if len(data.corrections) < _MOST_CORRECTIONS:
-        better = best_correction(data.campaign, data.prepared.fine.level, [c for c, _ in data.corrections])
+        made = [c for c, _ in data.corrections]
+        better = best_correction(data.campaign, data.prepared.fine.level, made, peaks_too_high(ground))
         if better is None:  # what is misfiled leaves stray peaks, too
             inner = internal_mode(data.campaign, data.prepared, plan)
     if len(data.aside) < _MOST_ASIDE:

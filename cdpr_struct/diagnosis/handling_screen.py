@@ -8,8 +8,10 @@ import numpy as np
 from cdpr_struct.diagnosis.causes.handling import Correction, corrections, shortcuts
 from cdpr_struct.diagnosis.null_model import NullModel, null_model
 from cdpr_struct.diagnosis.readings import Readings
+from cdpr_struct.diagnosis.refit import Ground
 from cdpr_struct.diagnosis.residuals import Setting, residuals
-from cdpr_struct.diagnosis.setting import make_setting
+from cdpr_struct.diagnosis.setting import make_setting, modes_in
+from cdpr_struct.diagnosis.stray_peaks import ONE
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.measurement.campaign import Campaign, States
@@ -18,15 +20,20 @@ from cdpr_struct.side_by_side import side_by_side
 MARGIN = 8.0  # nats that a correction must bring beyond the logarithm of the number of alternatives
 _WORTH = 20.0  # decrease of chi^2 on the static states that makes a correction worth the full computation
 _KEEP = 3
+_ANGULAR = 3.0  # times what is expected, beyond which a frequency may be in rad/s
+_MOVING = 0.4  # of the kinetic energy in the platform
 
 
-def best_correction(campaign: Campaign, level: float, made: Sequence[Correction]) -> tuple[Correction, float] | None:
+def best_correction(
+    campaign: Campaign, level: float, made: Sequence[Correction], peaks_too_high: bool = False
+) -> tuple[Correction, float] | None:
     """The handling error or shortcut with the highest evidence against the null at `level`, if it is enough.
 
     made : corrections that the campaign has already; none is made twice
+    peaks_too_high : whether the robot frequencies may be angular
     """
     said = {correction.sentence for correction in made}
-    tried = [c for c in shortcuts(campaign) + _worthwhile(campaign) if c.sentence not in said]
+    tried = [c for c in shortcuts(campaign) + _worthwhile(campaign, peaks_too_high) if c.sentence not in said]
     levels = side_by_side(level_of, [correction.campaign for correction in tried], ())
     scored = [
         (correction, level - own - float(np.log(correction.alternatives)))
@@ -47,11 +54,15 @@ def level_of(campaign: Campaign) -> float | None:
         return None
 
 
-def _worthwhile(campaign: Campaign) -> list[Correction]:
+def _worthwhile(campaign: Campaign, peaks_too_high: bool) -> list[Correction]:
     """The few corrections that reduce the static residuals most, and those of frequencies that look angular."""
     options = corrections(campaign)
     states = campaign.states
-    always = [c for c in options if _rad_per_second(campaign) and c.campaign.states is states]
+    always = [c for c in options if c.campaign.states is states]
+    if not _rad_per_second(campaign):
+        always = [
+            c for c in always if peaks_too_high and c.campaign.robot_frequencies is not campaign.robot_frequencies
+        ]
     shown = [c for c in options if c.campaign.states is not states]
     held = np.flatnonzero(states.has_tension)
     if not held.size or not shown:
@@ -85,6 +96,19 @@ def _some(states: States, index: np.ndarray) -> States:
     return States(names=tuple(states.names[i] for i in index), **picked)
 
 
+def peaks_too_high(ground: Ground) -> bool:
+    """Whether the robot frequencies may be angular: strays, and the lowest of each state far above the model's."""
+    peaks = ground.setting.campaign.robot_frequencies
+    if ground.strays < ONE:
+        return False
+    modes = modes_in(ground.setting, ground.world).modes
+    moving = modes.some(np.flatnonzero(modes.energy > _MOVING))
+    own = np.unique(peaks.state)
+    lowest = [moving.hertz[moving.state == i].min(initial=np.inf) for i in own]
+    measured = [peaks.hertz[peaks.state == i].min() for i in own]
+    return bool(np.median(np.divide(measured, lowest)) > _ANGULAR)
+
+
 def _rad_per_second(campaign: Campaign) -> bool:
     """Whether frequencies are so high that they may be angular: above twice those of the taut cables."""
     rows = campaign.cable_frequencies
@@ -94,4 +118,4 @@ def _rad_per_second(campaign: Campaign) -> bool:
     span = np.linalg.norm(robot.frame_anchors[rows.cable] - states.position[rows.state], axis=1)
     tension = np.nan_to_num(states.tension[rows.state, rows.cable], nan=200.0)
     guess = rows.mode / (2.0 * span) * np.sqrt(tension / robot.linear_density[rows.cable])
-    return bool(np.median(rows.hertz / guess) > 3.0)
+    return bool(np.median(rows.hertz / guess) > _ANGULAR)

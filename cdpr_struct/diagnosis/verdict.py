@@ -63,7 +63,7 @@ def verdict(found: Diagnosis) -> Verdict:
     separable = all(len(c) == 1 for c in classes)
     status = "named" if separable and confirmed(found) else "class"
     if any(len(c) > LARGEST_CLASS for c in classes):
-        text = f"Something is wrong in {place}; these data leave {_many(classes)} open." + _aside(found)
+        text = f"Something is wrong in {place}; these data leave open {_many(classes)}." + _aside(found)
         return Verdict("class", names, classes, _probability(found), place, _next(found, classes), text)
     return Verdict(status, names, classes, _probability(found), place, _next(found, classes), _sentence(found, classes))
 
@@ -88,7 +88,7 @@ def is_unknown(found: Diagnosis) -> bool:
 def _many(classes: tuple[tuple[str, ...], ...]) -> str:
     """The causes of classes too large to lead with one of them."""
     said = [f"{len(names)} causes ({', '.join(n.replace('_', ' ') for n in names)})" for names in classes]
-    return ", beside them ".join(said)
+    return " and, beside them, ".join(said)
 
 
 def _unknown_sentence(found: Diagnosis, place: str) -> str:

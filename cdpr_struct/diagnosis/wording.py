@@ -76,12 +76,21 @@ def _mend(before: Campaign, correction: Correction) -> str:
     """Columns that a correction changes, the files that hold them, and the factor if there is one."""
     if correction.place:  # readings are set aside, none is wrong
         return ""
-    columns = changed_columns(before, correction.campaign)
-    places = [f"column {name} of {sheet.file}" for sheet in before.sheets for name in sheet.columns if name in columns]
+    columns, same = changed_columns(before, correction.campaign), _kinds_unchanged(before, correction.campaign)
+    sheets = [sheet for sheet in before.sheets if sheet.kind not in same]
+    places = [f"column {name} of {sheet.file}" for sheet in sheets for name in sheet.columns if name in columns]
     if not places:
         return ""
     factor = correction.parameters.get("factor")
     return f" (mend {', '.join(places)}" + (f": times {factor:.4g})" if factor else ")")
+
+
+def _kinds_unchanged(before: Campaign, after: Campaign) -> set[str]:
+    """Kinds of frequencies that are the same in two campaigns of the same states."""
+    if before.states is not after.states:
+        return set()
+    kinds = {"cable_frequency": "cable_frequencies", "robot_frequency": "robot_frequencies"}
+    return {kind for kind, name in kinds.items() if getattr(before, name) is getattr(after, name)}
 
 
 def changed_columns(before: Campaign, after: Campaign) -> set[str]:

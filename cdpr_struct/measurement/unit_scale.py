@@ -8,19 +8,21 @@ from cdpr_struct.measurement.campaign import States
 from cdpr_struct.robot.robot import Robot
 
 _TIMES = 30.0  # beyond this no robot or reading is: mm instead of m is a thousand times, kN instead of N as well
+_TIMES_PLATFORM = 100.0  # the same of a payload
 _TIMES_LOCKED = 1.5  # the same of all lengths together where the pose must be found from them
 
 
 def check_scale(source: str, robot: Robot, states: States) -> None:
-    """Hold poses, lengths and tensions against the size and weight of the robot.
+    """Hold poses, lengths, payloads and tensions against the size and weight of the robot.
 
     Raises
     ------
-    InputError : a state whose pose, lengths or tensions cannot be in m and N.
+    InputError : a state whose pose, lengths, payload or tensions cannot be in m, kg and N.
     """
     for i, name in enumerate(states.names):
         locked = not states.has_tension[i]
         check_pose_scale(source, name, robot, states.position[i], states.angles[i], states.length[i], locked)
+        _check_payload(source, name, robot, float(states.payload[i]))
         weight = (robot.platform.mass + float(states.payload[i])) * robot.gravity
         _check_tensions(source, name, states.tension[i], weight)
 
@@ -71,6 +73,12 @@ def _check_lengths(source: str, name: str, length: np.ndarray, chord: np.ndarray
 def _all_beyond(ratio: np.ndarray, times: float) -> bool:
     """Whether all are too large, or all too small; with a wrong pose some are and others are not."""
     return bool((ratio > times).all() or (ratio < 1.0 / times).all())
+
+
+def _check_payload(source: str, name: str, robot: Robot, payload: float) -> None:
+    if payload > _TIMES_PLATFORM * robot.platform.mass:
+        expected = f"a payload in kg: the platform itself has {robot.platform.mass:.4g} kg (is it in g?)"
+        raise InputError(source, f"case {name}: payload_kg", payload, expected)
 
 
 def _check_tensions(source: str, name: str, tension: np.ndarray, weight: float) -> None:

@@ -91,16 +91,17 @@ def _left_out(found: Diagnosis) -> str:
 
 
 def _gain(found: Diagnosis) -> dict[str, Any]:
-    if found.held is None:
+    left_out = _left_out(found) if found.held is not None else ""
+    if found.held is None or not left_out:
         return {"heldout_rms_before": None, "heldout_rms_after": None, "ratio": None, "per_kind": {}, "transfer": {},
                 "confirmed": False, "left_out": ""}  # fmt: skip
-    held, left_out = found.held, _left_out(found)
+    held = found.held
     before, after = held.rms(held.concerned)
     return {
         "heldout_rms_before": before, "heldout_rms_after": after, "ratio": held.ratio(held.concerned),
         "unit": "standard deviations under the null, of the readings that the causes change by more than one",
-        "ratio_of_all": held.ratio(), "per_kind": held.by_kind(rows_read(found)) if left_out else {},
+        "ratio_of_all": held.ratio(), "per_kind": held.by_kind(rows_read(found)),
         "counted": int(held.concerned.sum()), "of": int(rows_read(found).sum()), "left_out": left_out,
-        "confirmed": bool(left_out) and confirmed(found) and not is_unknown(found),
+        "confirmed": confirmed(found) and not is_unknown(found),
         "generic_fudge_ratio": None if found.fudge is None else found.fudge.ratio(), "transfer": found.transfer,
     }  # fmt: skip

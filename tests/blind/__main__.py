@@ -3,7 +3,7 @@
 make   draws campaigns and seals their truth        (script A)
 run    diagnoses every campaign without an answer   (script B)
 score  opens the truth and computes the figures     (script C)
-report writes docs/blind_tests.md
+report writes OUT/blind_tests.md, of a final set docs/blind_tests.md
 sizes  measures the referee's smallest detectable sizes again
 mesh   measures the error of the referee's mesh again
 """
@@ -118,10 +118,13 @@ def score(options: argparse.Namespace) -> int:
 
 
 def report(options: argparse.Namespace) -> int:
-    """Write the page of the docs from score.json."""
+    """Write the page from score.json: that of the docs for a final set."""
     scores = json.loads((Path(options.out) / "score.json").read_text("utf-8"))
     mesh = json.loads(MESH.read_text("utf-8")) if MESH.exists() else None
-    write_page(scores, Path(options.page), mesh)
+    own = DOCS if scores["run"]["set"] == "final" else Path(options.out) / DOCS.name
+    page = Path(options.page) if options.page else own
+    write_page(scores, page, mesh)
+    print(f"Written: {page}")
     return 0
 
 
@@ -150,7 +153,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--command", default="", help="what to run instead of cdpr-struct diagnose")
     parser.add_argument("--again", action="store_true", help="diagnose also what has an answer")
-    parser.add_argument("--page", default=str(DOCS), help="page that report writes")
+    parser.add_argument("--page", default="", help="page that report writes")
     parser.add_argument("--robot", default="", help="robot whose sizes are measured")
     options = parser.parse_args(arguments)
     options.out = options.out or f"results/blind-{options.set}"

@@ -10,6 +10,8 @@ import pytest
 from cdpr_struct.diagnosis.causes.handling import Correction
 from cdpr_struct.diagnosis.causes.registry import LIBRARY
 from cdpr_struct.diagnosis.diagnose import diagnose
+from cdpr_struct.diagnosis.handled_data import handled
+from cdpr_struct.diagnosis.prepared import BUDGETS
 from cdpr_struct.diagnosis.setting import make_setting
 from cdpr_struct.diagnosis.verdict import verdict
 from cdpr_struct.diagnosis.wording import corrected, described, rest_words
@@ -100,3 +102,21 @@ def test_peaks_without_a_mode_are_not_said_to_agree():
     assert said.status == "adequate"
     assert "2 of 5 robot frequencies (8, 12.3 Hz) cannot be given to a mode for certain" in said.sentence
     assert "simulation and measurements agree" not in said.sentence
+
+
+def test_frequencies_of_both_kinds_in_radians_are_mended_one_by_one_each_in_its_file():
+    """The cables' in rad/s say nothing of the robot's, and the robot's are seen beside cables that are right."""
+    campaign = load_campaign(EXAMPLES / "soft-masts" / "campaign.toml")
+    cables, robot = campaign.cable_frequencies, campaign.robot_frequencies
+    turn = 2.0 * np.pi
+    wrong = replace(
+        campaign,
+        cable_frequencies=replace(cables, hertz=turn * cables.hertz, sigma=turn * cables.sigma),
+        robot_frequencies=replace(robot, hertz=turn * robot.hertz, sigma=turn * robot.sigma),
+    )
+    found = handled(wrong, BUDGETS["small"], lambda _: None)
+    said = corrected(SimpleNamespace(entered_setting=found.entered.ground.setting, corrections=found.corrections))
+    assert said == [
+        f"the {name} frequencies are in rad/s (mend column frequency_hz of {file}: times 0.1592)"
+        for name, file in (("cable", "cables.csv"), ("robot", "robot.csv"))
+    ]

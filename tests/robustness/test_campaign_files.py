@@ -92,3 +92,10 @@ def test_locked_lengths_in_feet_are_refused(tmp_path, capsys):
     campaign = CAMPAIGN.replace("static_state", "loaded_pose")
     line = complaint(tmp_path, capsys, campaign, head + "a,0,0,1,20," + ",".join(8 * ["33"]) + "\n")
     assert all(word in line for word in ["case a, every cable", "length_m", "33", "is it in ft?"]), line
+
+
+def test_a_payload_in_grams_is_refused(tmp_path, capsys):
+    """It used to end in a law of the tracker, or in tensions that were asked for their unit."""
+    rows = HEAD.replace("cable,", "payload_kg,cable,") + ROWS.replace("a,0,0,1,", "a,0,0,1,20000,")
+    line = complaint(tmp_path, capsys, rows=rows)
+    assert all(word in line for word in ["case a", "payload_kg", "20000", "118.5 kg", "is it in g?"]), line
