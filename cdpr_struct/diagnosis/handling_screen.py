@@ -21,7 +21,6 @@ MARGIN = 8.0  # nats that a correction must bring beyond the logarithm of the nu
 _WORTH = 20.0  # decrease of chi^2 on the static states that makes a correction worth the full computation
 _KEEP = 3
 _ANGULAR = 3.0  # times what is expected, beyond which a frequency may be in rad/s
-_MOVING = 0.4  # of the kinetic energy in the platform
 
 
 def best_correction(
@@ -101,8 +100,7 @@ def peaks_too_high(ground: Ground) -> bool:
     peaks = ground.setting.campaign.robot_frequencies
     if ground.strays < ONE:
         return False
-    modes = modes_in(ground.setting, ground.world).modes
-    moving = modes.some(np.flatnonzero(modes.energy > _MOVING))
+    moving = modes_in(ground.setting, ground.world).modes.of_platform()
     own = np.unique(peaks.state)
     lowest = [moving.hertz[moving.state == i].min(initial=np.inf) for i in own]
     measured = [peaks.hertz[peaks.state == i].min() for i in own]
@@ -110,7 +108,7 @@ def peaks_too_high(ground: Ground) -> bool:
 
 
 def _rad_per_second(campaign: Campaign) -> bool:
-    """Whether frequencies are so high that they may be angular: above twice those of the taut cables."""
+    """Whether frequencies are so high that they may be angular: far above those of the taut cables."""
     rows = campaign.cable_frequencies
     if not rows.hertz.size:
         return bool(campaign.robot_frequencies.hertz.size)

@@ -35,6 +35,10 @@ class Modes:
         """Modes of the given indices."""
         return Modes(self.state[index], self.hertz[index], self.shape[index], self.energy[index])
 
+    def of_platform(self) -> "Modes":
+        """Those in which the platform moves most surely."""
+        return self.some(np.flatnonzero(self.energy > _PLATFORM[1]))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pairing:

@@ -34,9 +34,8 @@ def p_of_null(
     large : log evidence of the best large change of a cause, which small ones do not show
     """
     draws = np.random.default_rng(SEED).standard_normal((len(null.r), DRAWS))
-    ratio = float(log_ratio(library, outside, null.white(null.r)[:, None])[0])
-    ratio = float(np.logaddexp(ratio, large - np.log(max(len(library), 1))))
-    chance = log_ratio(library, outside, draws)
+    logs = log_ratio(library, outside, np.column_stack([null.white(null.r), draws]))
+    ratio, chance = float(np.logaddexp(logs[0], large - np.log(max(len(library), 1)))), logs[1:]
     p_laws = (1.0 + float((chance >= ratio).sum())) / (DRAWS + 1.0)
     if ratio > chance.max():
         p_laws = min(p_laws, float(np.exp(-ratio)))  # no likelihood ratio is above e^x more often than e^-x

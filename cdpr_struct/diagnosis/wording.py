@@ -76,25 +76,18 @@ def _mend(before: Campaign, correction: Correction) -> str:
     """Columns that a correction changes, the files that hold them, and the factor if there is one."""
     if correction.place:  # readings are set aside, none is wrong
         return ""
-    columns, same = changed_columns(before, correction.campaign), _kinds_unchanged(before, correction.campaign)
-    sheets = [sheet for sheet in before.sheets if sheet.kind not in same]
-    places = [f"column {name} of {sheet.file}" for sheet in sheets for name in sheet.columns if name in columns]
+    places = []
+    for sheet in before.sheets:
+        columns = changed_columns(before, correction.campaign, sheet.kind)
+        places += [f"column {name} of {sheet.file}" for name in sheet.columns if name in columns]
     if not places:
         return ""
     factor = correction.parameters.get("factor")
     return f" (mend {', '.join(places)}" + (f": times {factor:.4g})" if factor else ")")
 
 
-def _kinds_unchanged(before: Campaign, after: Campaign) -> set[str]:
-    """Kinds of frequencies that are the same in two campaigns of the same states."""
-    if before.states is not after.states:
-        return set()
-    kinds = {"cable_frequency": "cable_frequencies", "robot_frequency": "robot_frequencies"}
-    return {kind for kind, name in kinds.items() if getattr(before, name) is getattr(after, name)}
-
-
-def changed_columns(before: Campaign, after: Campaign) -> set[str]:
-    """Names of the columns in which two campaigns differ; the pose is three of position and three of angles."""
+def changed_columns(before: Campaign, after: Campaign, kind: str) -> set[str]:
+    """Columns of a kind of file in which two campaigns differ; the pose is three of position and three of angles."""
     cables = range(1, before.states.tension.shape[1] + 1)
     names = {
         "tension": ["tension_N"], "length": ["length_m", *(f"length_{i}_m" for i in cables)],
@@ -108,9 +101,9 @@ def changed_columns(before: Campaign, after: Campaign) -> set[str]:
             found |= {name for name, own in zip(columns, differ.T, strict=True) if own.any()}
         elif differ.any():
             found |= set(columns)
-    for kind in ("cable_frequencies", "robot_frequencies"):
-        if not np.array_equal(getattr(before, kind).hertz, getattr(after, kind).hertz):
-            found.add("frequency_hz")
+    own = "cable_frequencies" if kind == "cable_frequency" else "robot_frequencies"
+    if not np.array_equal(getattr(before, own).hertz, getattr(after, own).hertz):
+        found.add("frequency_hz")
     return found
 
 

@@ -91,8 +91,7 @@ def _left_out(found: Diagnosis) -> str:
 
 
 def _gain(found: Diagnosis) -> dict[str, Any]:
-    left_out = _left_out(found) if found.held is not None else ""
-    if found.held is None or not left_out:
+    if found.held is None or not (left_out := _left_out(found)):
         return {"heldout_rms_before": None, "heldout_rms_after": None, "ratio": None, "per_kind": {}, "transfer": {},
                 "confirmed": False, "left_out": ""}  # fmt: skip
     held = found.held

@@ -14,7 +14,7 @@ from cdpr_struct.diagnosis.handled_data import handled
 from cdpr_struct.diagnosis.prepared import BUDGETS
 from cdpr_struct.diagnosis.setting import make_setting
 from cdpr_struct.diagnosis.verdict import verdict
-from cdpr_struct.diagnosis.wording import corrected, described, rest_words
+from cdpr_struct.diagnosis.wording import changed_columns, corrected, described, rest_words
 from cdpr_struct.measurement.campaign import Sheet, Sigmas
 from cdpr_struct.measurement.campaign_file import load_campaign
 from tests.laws.crime_campaign import clean_campaign
@@ -120,3 +120,11 @@ def test_frequencies_of_both_kinds_in_radians_are_mended_one_by_one_each_in_its_
         f"the {name} frequencies are in rad/s (mend column frequency_hz of {file}: times 0.1592)"
         for name, file in (("cable", "cables.csv"), ("robot", "robot.csv"))
     ]
+
+
+@pytest.mark.parametrize(
+    ("kind", "columns"), [("cable_frequency", {"frequency_hz"}), ("robot_frequency", set()), ("frf", set())]
+)
+def test_cable_frequencies_are_columns_of_their_own_files_only(clean, kind, columns):
+    cables = replace(clean.cable_frequencies, hertz=2.0 * clean.cable_frequencies.hertz)
+    assert changed_columns(clean, replace(clean, cable_frequencies=cables), kind) == columns
