@@ -33,12 +33,15 @@ from tests.blind.mesh_error import all_mesh_errors
 from tests.blind.report_page import write_page
 from tests.blind.running import default_command, diagnose_all
 from tests.blind.scoring import case_rows, figures, scored_cases
-from tests.blind.suite import composed, record_final_use, set_seed
+from tests.blind.suite import NULLS, composed, record_final_use, set_seed
 
+_Job = tuple[CaseKind, str, tuple[int, ...], Path, Path]  # what, name, seed, where to, where the truth goes
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "blind_tests.md"
 MESH = Path(__file__).with_name("mesh_error.json")
-FOLLOW_UPS = "followups"
+FOLLOW_UPS = "followups"  # ambiguous cases measured again
+RATES = "rates"  # nulls and just detectable effects beside a final set, which has few of either
 WHOLE = {"dev": 200, "final": 200, "ci": 12, "unseen": 24, "rates": 800}
+RATES_A_CASE = 1.2  # of a final set: 240 for its 200
 
 
 def campaigns_of(out: Path) -> Path:
@@ -53,24 +56,33 @@ def sealed_of(options: argparse.Namespace) -> Path:
 
 def make(options: argparse.Namespace) -> int:
     """Draw and write all cases of a set that are not there yet."""
-    out, base = Path(options.out), set_seed(options.set, options.release)
+    out, sealed = Path(options.out), sealed_of(options)
     total = options.count or WHOLE[options.set]
-    kinds = composed(options.set, total, base)
     run = {"set": options.set, "release": options.release, "count": total}
     if other := _other_set(out, run):
         print(f"tests.blind: --out {out} holds {other}; give another directory", file=sys.stderr)
         return 2
+    jobs = _jobs(options.set, options.release, total, out, sealed)
+    if options.set == "final":
+        jobs += _jobs("final-rates", options.release, round(RATES_A_CASE * total), out / RATES, sealed / RATES)
     if options.set == "final" and not (out / "run.json").exists():
         record_final_use(options.release)
     out.mkdir(parents=True, exist_ok=True)
     (out / "run.json").write_text(json.dumps(run) + "\n", "utf-8")
-    jobs = [(kind, f"c{n:03d}", (base, n), out, sealed_of(options)) for n, kind in enumerate(kinds, start=1)]
-    jobs = [job for job in jobs if not (campaigns_of(out) / job[1] / "manifest.json").exists()]
     with ProcessPoolExecutor(options.workers) as pool:
         made = pool.map(_made, jobs)
         for _ in track(made, "make", len(jobs), disable=not sys.stderr.isatty()):
             pass
     return 0
+
+
+def _jobs(name: str, release: str, total: int, out: Path, sealed: Path) -> list[_Job]:
+    """What is still to be made of a set."""
+    base = set_seed(name, release)
+    kinds = composed(name, total, base)
+    letter = "r" if name in NULLS else "c"
+    jobs = [(kind, f"{letter}{n:03d}", (base, n), out, sealed) for n, kind in enumerate(kinds, start=1)]
+    return [job for job in jobs if not (campaigns_of(out) / job[1] / "manifest.json").exists()]
 
 
 def _other_set(out: Path, run: dict[str, Any]) -> str:
@@ -81,7 +93,7 @@ def _other_set(out: Path, run: dict[str, Any]) -> str:
     return "" if same else f"the set {held['set']} {held['release']}".strip()
 
 
-def _made(job: tuple[CaseKind, str, tuple[int, ...], Path, Path]) -> None:
+def _made(job: _Job) -> None:
     kind, name, seed, out, sealed = job
     if can_be_separated(kind):
         more = drawn_case(replace(kind, separated=True), seed)
@@ -97,6 +109,8 @@ def run(options: argparse.Namespace) -> int:
     (out / "run.json").write_text(json.dumps(about) + "\n", "utf-8")
     how = (options.budget, options.workers, command, options.again)
     diagnose_all(campaigns_of(out), out / "answers", *how)
+    untimed = (options.budget, max(options.workers, os.cpu_count() or 1), command, options.again)
+    diagnose_all(campaigns_of(out / RATES), out / RATES / "answers", *untimed)
     more = out / FOLLOW_UPS
     asking = asking_for_more(out / "answers")
     diagnose_all(campaigns_of(more), more / "answers", *how, only=asking)
@@ -106,12 +120,14 @@ def run(options: argparse.Namespace) -> int:
 def score(options: argparse.Namespace) -> int:
     """Compute the figures; prints them and writes score.json."""
     out = Path(options.out)
-    cases = scored_cases(campaigns_of(out), out / "answers", sealed_of(options))
-    more = out / FOLLOW_UPS
-    served = scored_cases(campaigns_of(more), more / "answers", sealed_of(options) / FOLLOW_UPS)
+    cases, served, rates = (
+        scored_cases(campaigns_of(out / part), out / part / "answers", sealed_of(options) / part)
+        for part in ("", FOLLOW_UPS, RATES)
+    )
     about: dict[str, Any] = json.loads((out / "run.json").read_text("utf-8"))
     about["date"] = datetime.now(UTC).date().isoformat()
-    scores = {"run": about, "figures": figures(cases, served), "rows": case_rows(cases)}
+    rows = {"rows": case_rows(cases), "rates": case_rows(rates)}
+    scores = {"run": about, "figures": figures(cases, served, rates)} | rows
     (out / "score.json").write_text(json.dumps(scores, indent=1) + "\n", "utf-8")
     print(json.dumps(scores["figures"], indent=1))
     return 0

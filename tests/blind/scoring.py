@@ -92,18 +92,25 @@ def scored_cases(campaigns: Path, answers: Path, sealed: Path) -> list[Scored]:
     return [Scored(n, opened_truth(n, campaigns, sealed), read_answer(answers / n)) for n in names]
 
 
-def figures(cases: list[Scored], served: Sequence[Scored] = ()) -> dict[str, Any]:
+def figures(cases: list[Scored], served: Sequence[Scored] = (), rates: Sequence[Scored] = ()) -> dict[str, Any]:
     """Every figure of the acceptance table, with its band and number of cases.
 
     served : ambiguous cases diagnosed again with the measurements that separate them
+    rates  : more nulls and just detectable effects, counted where these are asked for and nowhere else
     """
-    nulls = [c for c in cases if c.kind == "null"]
+    nulls = [c for c in (*cases, *rates) if c.kind == "null"]
     singles = [c for c in cases if c.kind == "single"]
+    sized = [c for c in (*cases, *rates) if c.kind == "single"]
     clear = [c for c in cases if c.kind in ("single", "handling") and c.multiple >= 0.95 * CLEARLY]
     inside = [c for c in cases if c.kind in IN_LIBRARY]
     return {
         "false_alarms": share([c.answer.significant for c in nulls]),
-        "detection": _by_size(singles, lambda c: c.multiple, lambda c: c.answer.significant),
+        "detection": _by_size(sized, lambda c: c.multiple, lambda c: c.answer.significant),
+        "of_which_in_the_set": {
+            "false_alarms": share([c.answer.significant for c in cases if c.kind == "null"]),
+            "detection": _by_size(singles, lambda c: c.multiple, lambda c: c.answer.significant),
+        },
+        "wrong_confident_among_rates": share([_wrong_with_confidence(c) for c in rates]),
         "right_class_at_2x": share([right_class(c.answer, c.hidden) for c in clear]),
         "right_name_at_2x": share([right_name(c.answer, c.hidden) for c in clear if _separable(c)]),
         "right_class_by_size": _by_size(singles, lambda c: c.multiple, lambda c: right_class(c.answer, c.hidden)),
@@ -115,11 +122,15 @@ def figures(cases: list[Scored], served: Sequence[Scored] = ()) -> dict[str, Any
         **_gain_figures([c for c in inside if right_answer(c.answer, c.truth)]),
         **_probability_figures(cases),
         **_time_figures(cases),
-        "failed_runs": share([c.answer.status == "failed" for c in cases]),
+        "failed_runs": share([c.answer.status == "failed" for c in (*cases, *rates)]),
         "detection_by_own_multiple": _by_own(singles),
         "by_cause": _by_cause(cases),
         "cases": len(cases),
     }
+
+
+def _wrong_with_confidence(case: Scored) -> bool:
+    return wrong_confident_name(case.answer, case.hidden) or wrong_confident_class(case.answer, case.hidden)
 
 
 def _confidence_figures(cases: list[Scored]) -> dict[str, Any]:

@@ -17,18 +17,18 @@ FULL = {"null": 40, "single": 80, "pair": 24, "ambiguous": 20, "outside": 20, "h
 CI = {"null": 3, "single": 3, "pair": 1, "ambiguous": 2, "outside": 2, "handling": 1}
 MULTIPLES = (0.5, 1.0, 2.0, 4.0)
 CLEAR = 4.0  # multiple of effects whose size is not the question
-NULLS = 0.6  # share of nulls in a set of rates; the rest is just detectable
+NULLS = {"rates": 0.6, "final-rates": 1 / 3}  # share of nulls in a set of rates; the rest is just detectable
 SET_SEEDS = {"dev": 20_101, "ci": 20_102, "unseen": 20_103, "rates": 20_104}
 USES = Path(__file__).with_name("final_uses.json")
 
 
 def set_seed(name: str, release: str = "") -> int:
-    """Base seed of a set; that of the final set is the release's own, unknown before the release has a name."""
-    if name != "final":
+    """Base seed of a set; those of the final sets are the release's own, unknown before the release has a name."""
+    if name in SET_SEEDS:
         return SET_SEEDS[name]
     if not release:
         raise ValueError("the final set needs --release NAME: its seeds are that release's own")
-    return int(hashlib.sha256(f"final set of {release}".encode()).hexdigest()[:12], 16)
+    return int(hashlib.sha256(f"{name} set of {release}".encode()).hexdigest()[:12], 16)
 
 
 def counts(total: int) -> dict[str, int]:
@@ -45,8 +45,9 @@ def counts(total: int) -> dict[str, int]:
 def composed(name: str, total: int, base: int) -> list[CaseKind]:
     """Kinds of all cases in the order in which they are numbered, which tells nothing about them."""
     rng = np.random.default_rng([base, 0])
-    nulls = round(NULLS * total)
-    special = {"ci": CI, "unseen": {"unseen": total}, "rates": {"null": nulls, "just": total - nulls}}
+    nulls = {which: round(part * total) for which, part in NULLS.items()}
+    rates = {which: {"null": number, "just": total - number} for which, number in nulls.items()}
+    special = {"ci": CI, "unseen": {"unseen": total}, **rates}
     numbers = special.get(name) or counts(total)
     makers = {
         "null": _nulls,

@@ -23,7 +23,7 @@ from tests.blind.measuring_plan import PlanSize, drawn_plan
 from tests.blind.mesh_error import LIMIT, mesh_error
 from tests.blind.note_errors import spoiled
 from tests.blind.sensors import POSE
-from tests.blind.suite import FULL, composed, record_final_use
+from tests.blind.suite import FULL, composed, record_final_use, set_seed
 from tests.blind.true_robot import at_rest
 from tests.blind.vibrations import robot_frequencies, whole_matrices
 
@@ -205,6 +205,14 @@ def test_a_set_of_rates_holds_nulls_and_what_is_just_detectable():
     hidden = [effect for kind in kinds for effect in kind.effects]
     assert {multiple for _, multiple in hidden} == {1.0}
     assert {name for name, _ in hidden} == set(LIBRARY)
+    assert Counter(kind.kind for kind in composed("final-rates", 240, 5)) == {"null": 80, "single": 160}
+
+
+def test_the_rates_of_a_final_set_have_seeds_of_their_own_and_of_the_release():
+    seeds = {set_seed(name, release) for name in ("final", "final-rates") for release in ("1.0", "1.1")}
+    assert len(seeds) == 4
+    with pytest.raises(ValueError, match="--release NAME"):
+        set_seed("final-rates")
 
 
 def test_the_final_set_of_a_release_is_used_once(tmp_path):

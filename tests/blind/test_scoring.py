@@ -108,6 +108,22 @@ def test_figures_of_a_small_set():
     assert found["failed_runs"]["successes"] == 1
 
 
+def test_rates_count_for_false_alarms_and_just_detectable_effects_only():
+    own = [
+        Scored("c1", truth("null"), said("adequate")),
+        Scored("c2", truth("single", ("drum_scale", 1.0)), said("adequate")),
+    ]
+    wrong = Scored("r1", truth("null"), said("named", ["drum_scale"]))
+    rates = [wrong, Scored("r2", truth("single", ("drum_scale", 1.0)), said("unknown"))]
+    found = figures(own, rates=rates)
+    assert (found["false_alarms"]["successes"], found["false_alarms"]["cases"]) == (1, 2)
+    assert (found["detection"]["1x"]["successes"], found["detection"]["1x"]["cases"]) == (1, 2)
+    assert found["of_which_in_the_set"]["detection"]["1x"]["successes"] == 0
+    assert found["wrong_confident_among_rates"]["successes"] == 1
+    assert found["wrong_confident_name"]["successes"] == 0
+    assert found["unknown_inside_library"]["successes"] == 0
+
+
 def test_binomial_band_is_the_exact_one():
     """2 of 40: 0.6 to 16.9 per cent (Clopper and Pearson)."""
     assert band(2, 40) == pytest.approx((0.0061, 0.1692), abs=2e-4)
