@@ -1,6 +1,6 @@
 """The pose that the platform takes at locked lengths in a given world, beside the measured one."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 _MOST_ROUNDS, _SAME = 8, 1e-6  # of a stiffness that follows the tensions; share of it that ends them
+_SHORTEST = 1e-3  # m, of a cable that a law leaves no length
 _STEPS, _BALANCED = 8, 1e-3  # most steps near a reference; imbalance left, in the largest load
 
 
@@ -46,9 +47,13 @@ def locked_pose(
     """Equilibria (..., S) at the encoder's lengths, and the arrays' effective stiffness; `world` per state.
 
     about : equilibria of a world like this one, to begin from; else the measured poses
+
+    Where a law leaves a cable no length, the position is nan.
     """
     position, rotation = true_pose(world, readings)
     length = paid_out(world, readings, known)
+    exists = np.all(length > 0.0, axis=-1, keepdims=True)
+    length = np.maximum(length, _SHORTEST)
     extra = load_wrench(world, position, rotation, known) - _own_weight(world, rotation)
     start, tension = (position, rotation), np.full(length.shape, known.mean_tension)
     if about is not None:
@@ -61,7 +66,7 @@ def locked_pose(
         if np.abs(stiffer / stiff - 1.0).max() <= _SAME:
             break
         stiff, start = stiffer, (found.position, found.rotation)
-    return found, stiff
+    return replace(found, position=np.where(exists, found.position, np.nan)), stiff
 
 
 def _own_weight(world: World, rotation: np.ndarray) -> np.ndarray:

@@ -157,7 +157,8 @@ def _modes_at(setting: Setting, points: dict[int, OperatingPoint]) -> Modes:
         if modes is None:
             raise InputError(
                 setting.campaign.source, f"robot frequencies of case {setting.campaign.states.names[i]}",
-                own.tolist(), f"frequencies below {_MARGINS[-1]:g} times which the model's platform has as many modes",
+                own.tolist(), f"frequencies below {_MARGINS[-1]:g} times which the model's platform has as many modes"
+                " (is it this robot that was measured?)",
             )  # fmt: skip
         parts.append(modes)
     return Modes(*(np.concatenate([getattr(p, name) for p in parts]) for name in Modes.__slots__))

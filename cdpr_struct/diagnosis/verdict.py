@@ -23,6 +23,7 @@ CONFIRMED = 1.0  # nats that a cause keeps whichever group of states is left out
 UNCONFIRMED = 0.6  # largest probability of a cause that hangs on one group of states
 _LEFT = 4.0  # nats that a law outside the library must add to them
 _INSTEAD = 3.0  # nats that one such law must bring more than several causes in its place
+_FAR = 30.0  # sigmas, rms, of what no cause explains, from which the robot or the units may be others
 _PRIOR_OUTSIDE = -4.6  # ln prior of the best channel, one in fourteen of one in seven, beside that of no further cause
 _PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
@@ -100,6 +101,13 @@ def _unknown_sentence(found: Diagnosis, place: str) -> str:
         return f"{text} One law explains it better than {together} together: {outside.one_law}." + _aside(found)
     if fit:
         text += f" The best candidate, {' with '.join(fit.names).replace('_', ' ')}, leaves a structured remainder."
+    left = found.ground.z if fit is None else fit.white
+    far = float(np.sqrt(np.mean(left**2)))
+    if far > _FAR:
+        text += (
+            f" What is left is {far:.0f} sigmas in the rms, more than any wear or slip: see whether the campaign names"
+        )
+        text += " the robot that was measured, and whether all files use its axes and units."
     strays = strays_left(found.ground, fit)
     if strays > SEVERAL:
         text += f" {strays:.0f} of the robot's measured frequencies are none of the model's:"

@@ -10,6 +10,8 @@ from cdpr_struct.robot.robot import Robot
 _TIMES = 30.0  # beyond this no robot or reading is: mm instead of m is a thousand times, kN instead of N as well
 _TIMES_PLATFORM = 100.0  # the same of a payload
 _TIMES_LOCKED = 1.5  # the same of all lengths together where the pose must be found from them
+_STRAIN = 0.3  # beyond this no cable stretches under the tensions that were measured
+_TIMES_TENSION = 3.0  # beyond this no cable weighs, in tensions that were measured
 
 
 def check_scale(source: str, robot: Robot, states: States) -> None:
@@ -23,8 +25,9 @@ def check_scale(source: str, robot: Robot, states: States) -> None:
         locked = not states.has_tension[i]
         check_pose_scale(source, name, robot, states.position[i], states.angles[i], states.length[i], locked)
         _check_payload(source, name, robot, float(states.payload[i]))
-        weight = (robot.platform.mass + float(states.payload[i])) * robot.gravity
-        _check_tensions(source, name, states.tension[i], weight)
+        _check_tensions(source, name, states.tension[i], robot, float(states.payload[i]))
+    _check_cables(source, robot, states)
+    _check_files(source, robot, states)
 
 
 def check_pose_scale(
@@ -81,8 +84,54 @@ def _check_payload(source: str, name: str, robot: Robot, payload: float) -> None
         raise InputError(source, f"case {name}: payload_kg", payload, expected)
 
 
-def _check_tensions(source: str, name: str, tension: np.ndarray, weight: float) -> None:
+def _check_tensions(source: str, name: str, tension: np.ndarray, robot: Robot, payload: float) -> None:
     """All tensions together pull at least as much as the platform weighs."""
+    weight = (robot.platform.mass + payload) * robot.gravity
     if np.isfinite(tension).all() and tension.sum() * _TIMES < weight:
-        expected = f"tensions in N: all together hold at least the weight of {weight:.3g} N (are they in kN?)"
+        expected = f"tensions in N: all together hold at least the weight of {weight:.3g} N (are they in kN"
+        expected += f", or is the robot's mass of {robot.platform.mass:.4g} kg in g?)"
         raise InputError(source, f"case {name}: tension_N", float(tension.sum()), expected)
+
+
+def _check_cables(source: str, robot: Robot, states: States) -> None:
+    """Cables that would tear or hang like chains under the tensions measured are not entered in N and kg/m."""
+    measured = np.isfinite(states.tension).any(axis=0)
+    if not measured.any():
+        return
+    tension = np.nanmedian(states.tension[:, measured], axis=0)
+    stiffness, density = robot.axial_stiffness[measured], robot.linear_density[measured]
+    i = int(np.argmax(tension / stiffness))
+    if tension[i] > _STRAIN * stiffness[i]:
+        expected = f"EA in N: {tension[i]:.3g} N were measured, by which such a cable would stretch by "
+        expected += f"{100.0 * tension[i] / stiffness[i]:.3g} % (is it in kN?)"
+        raise InputError(source, f"cable {np.flatnonzero(measured)[i] + 1}: axial_stiffness", stiffness[i], expected)
+    chord = np.median(_chords(robot, states), axis=0)[measured]
+    weight = density * robot.gravity * chord
+    i = int(np.argmax(weight / tension))
+    if np.median(weight / tension) > _TIMES_TENSION:
+        expected = (
+            f"kg/m: {tension[i]:.3g} N were measured, and such a cable would weigh {weight[i]:.3g} N (is it in g/m?)"
+        )
+        raise InputError(source, f"cable {np.flatnonzero(measured)[i] + 1}: linear_density", density[i], expected)
+
+
+def _check_files(source: str, robot: Robot, states: States) -> None:
+    """Lengths of static states and locked ones are in one unit."""
+    known = np.isfinite(states.length).all(axis=1)
+    held, locked = (np.flatnonzero(known & own) for own in (states.has_tension, ~states.has_tension))
+    if not (held.size and locked.size):
+        return
+    ratio = states.length / _chords(robot, states)
+    times = float(np.median(ratio[held]) / np.median(ratio[locked]))
+    if not 1.0 / _TIMES_LOCKED < times < _TIMES_LOCKED:
+        i = int(held[0])
+        expected = f"lengths of all files in m: those of the static states are {times:.3g} times as long, beside the "
+        expected += "distance of their anchors, as those of the locked ones (are they in ft?)"
+        raise InputError(source, f"case {states.names[i]}: length_m", float(states.length[i, 0]), expected)
+
+
+def _chords(robot: Robot, states: States) -> np.ndarray:
+    """(S, m) distances of the anchors at the measured poses [m]."""
+    turned = np.array([robot.platform_anchors @ rotation(*angles).T for angles in states.angles])
+    chords: np.ndarray = np.linalg.norm(states.position[:, None] + turned - robot.frame_anchors, axis=-1)
+    return chords

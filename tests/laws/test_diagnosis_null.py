@@ -6,7 +6,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import NAMED
 from cdpr_struct.diagnosis.evidence import largest_gains
-from cdpr_struct.diagnosis.null_model import drawn_campaigns, null_model
+from cdpr_struct.diagnosis.null_model import drawn_campaigns, null_model, null_with_bending
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT, Budget, prepare
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import residuals
@@ -65,3 +65,22 @@ def test_more_noise_means_less_certain():
     world, readings = World.of(campaign.robot, len(campaign.states.names)), Readings.of(campaign.states)
     small, large = (null_model(make_setting(c)[0], world, readings).log_volume for c in (campaign, wider))
     assert large > small
+
+
+def test_modes_that_noise_lets_cross_are_in_doubt_and_no_others():
+    """A cable at the sag where its first two in-plane modes meet: draws take each of them past the other."""
+    setting, world, readings = ground()
+    rows, of_cables = setting.campaign.cable_frequencies, setting.labels.block == "CF"
+
+    def logarithms(factor: float) -> np.ndarray:
+        left = residuals(setting, world.times(linear_density=factor), readings)[of_cables]
+        return np.log(rows.hertz) - left / 100.0
+
+    factors = np.geomspace(1.0, 8.0, 200)
+    first, second = (np.array([logarithms(f) for f in factors])[:, rows.mode == k] for k in (1, 2))
+    nearest, which = np.unravel_index((second - first).argmin(), first.shape)
+    met = world.times(linear_density=float(factors[nearest]))
+    _, extra = null_with_bending(setting, met, readings, 64, 3)
+    pair = (rows.cable == rows.cable[rows.mode == 1][which]) & (rows.state == rows.state[rows.mode == 1][which])
+    assert extra[of_cables][pair].min() > 0.5  # per cent
+    assert np.median(extra[of_cables][~pair]) < 0.05

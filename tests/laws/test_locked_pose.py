@@ -39,6 +39,16 @@ def test_masts_stand_where_the_cables_pull_them(campaign, pulleys):
     np.testing.assert_allclose(again.rotation, found.rotation, atol=1e-9)
 
 
+def test_a_law_that_leaves_a_cable_no_length_leaves_no_pose(campaign):
+    """Of a batch of two worlds only the impossible one is lost; a step of a fit may go that far."""
+    world, readings, known = state_of(campaign)
+    worlds = replace(world, length_offset=world.length_offset + np.array([0.0, -50.0])[:, None, None])
+    found, _ = locked_pose(worlds, readings, known)
+    np.testing.assert_allclose(found.position[0], locked_pose(world, readings, known)[0].position, atol=1e-9)
+    assert np.isnan(found.position[1]).all()
+    assert np.isnan(missed_pose(worlds, readings, found)[1]).any(axis=-1).all()
+
+
 @pytest.mark.parametrize("give", [0.0, 1e-5])
 def test_small_changes_are_those_of_whole_equilibria(campaign, give):
     world, readings, known = state_of(campaign, frame_compliance=np.full(8, give))

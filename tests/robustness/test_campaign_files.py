@@ -99,3 +99,29 @@ def test_a_payload_in_grams_is_refused(tmp_path, capsys):
     rows = HEAD.replace("cable,", "payload_kg,cable,") + ROWS.replace("a,0,0,1,", "a,0,0,1,20000,")
     line = complaint(tmp_path, capsys, rows=rows)
     assert all(word in line for word in ["case a", "payload_kg", "20000", "118.5 kg", "is it in g?"]), line
+
+
+@pytest.mark.parametrize(
+    ("nominal", "words"),
+    [
+        ("axial_stiffness = 231.87", ["cable 1: axial_stiffness", "231.87", "129 %", "is it in kN?"]),
+        ("linear_density = 120.0", ["linear_density", "120", "300 N were measured", "is it in g/m?"]),
+        ("platform_mass = 118500.0", ["tension_N", "2400", "mass of 1.185e+05 kg in g?"]),
+    ],
+)
+def test_cables_and_platforms_in_another_unit_are_refused(nominal, words, tmp_path, capsys):
+    """They took minutes and ended as unknown, or the tensions were asked for their unit."""
+    line = complaint(
+        tmp_path, capsys, campaign=f'robot = "cogiro"\n[nominal]\n{nominal}\n' + CAMPAIGN.split("\n", 1)[1]
+    )
+    assert all(word in line for word in words), line
+
+
+def test_lengths_of_one_file_in_feet_are_refused(tmp_path, capsys):
+    lengths = ",".join(8 * ["10.0"])
+    head = "case,x_m,y_m,z_m," + ",".join(f"length_{i}_m" for i in range(1, 9)) + "\n"
+    (tmp_path / "locked.csv").write_text(f"{head}b,0,0,1,{lengths}\n")
+    rows = HEAD.replace("cable,", "length_m,cable,") + ROWS.replace("a,0,0,1,", "a,0,0,1,33.0,")
+    second = CAMPAIGN.split("\n", 1)[1].replace("static_state", "loaded_pose").replace("states.csv", "locked.csv")
+    line = complaint(tmp_path, capsys, CAMPAIGN + second, rows)
+    assert all(word in line for word in ["case a: length_m", "33.0", "3.3 times", "are they in ft?"]), line
