@@ -19,7 +19,7 @@ from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.natural_frequencies import count_below
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
-from cdpr_struct.errors import InputError
+from cdpr_struct.errors import CdprError, InputError
 
 _LEAST_SHARE = 0.08  # of the kinetic energy in the platform: a mode with less is not seen there
 _MARGINS = (1.35, 2.5, 6.0)  # times the highest peak: how far modes are looked for, until there are enough
@@ -153,7 +153,12 @@ def _modes_at(setting: Setting, points: dict[int, OperatingPoint]) -> Modes:
     for i in np.unique(peaks.state):
         own = peaks.hertz[peaks.state == i]
         wider = (_modes(setting, points[int(i)], int(i), margin * float(own.max())) for margin in _MARGINS)
-        modes = next((found for found in wider if len(found.hertz) >= min(own.size, 6)), None)
+        try:
+            modes = next((found for found in wider if len(found.hertz) >= min(own.size, 6)), None)
+        except CdprError as error:
+            case = setting.campaign.states.names[i]
+            hint = "see whether this is the robot that was measured, and these its tensions there"
+            raise CdprError(f"{setting.campaign.source}: case {case}: {error}; {hint}") from error
         if modes is None:
             raise InputError(
                 setting.campaign.source, f"robot frequencies of case {setting.campaign.states.names[i]}",

@@ -95,7 +95,7 @@ def _many(classes: tuple[tuple[str, ...], ...]) -> str:
 def _unknown_sentence(found: Diagnosis, place: str) -> str:
     fit, outside = found.selection.fit, found.outside
     text = f"Something is wrong in {place}, and no cause in the library explains it."
-    text += "".join(f" Beside it {c.sentence}." for c, _ in found.corrections if c.place)
+    text += "".join(f" Beside it {c.sentence}." for c, _ in found.corrections if c.place) + _far_off(found)
     if outside.instead > _INSTEAD:
         together = listed(fit.names) if fit else ""
         return f"{text} One law explains it better than {together} together: {outside.one_law}." + _aside(found)
@@ -114,6 +114,17 @@ def _unknown_sentence(found: Diagnosis, place: str) -> str:
         text += " a platform that flexes, a mode of the frame or false peaks would do that."
     clear = outside.gain + (0.0 if fit else OUTSIDE) > _LEFT
     return text + (f" It looks like {outside.words}." if clear else "") + _aside(found)
+
+
+def _far_off(found: Diagnosis) -> str:
+    """What to look at where readings and robot have hardly anything to do with each other."""
+    fit = found.selection.fit
+    left = found.ground.z if fit is None else fit.white
+    far = float(np.sqrt(np.mean(left**2)))
+    if far < _FAR:
+        return ""
+    text = f" With all causes {far:.0f} sigmas are left in the rms, more than any wear or slip leaves: see whether the"
+    return text + " campaign names the robot that was measured, and whether all files use its axes and units."
 
 
 def _aside(found: Diagnosis) -> str:

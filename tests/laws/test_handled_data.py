@@ -18,6 +18,7 @@ from cdpr_struct.diagnosis.suspect_reading import in_words, set_aside, suspect
 from cdpr_struct.diagnosis.verdict import verdict
 from cdpr_struct.diagnosis.wandering_noise import likeliest_memory, remembered
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.robot.robot_file import load_robot
 from tests.laws.crime_campaign import clean_campaign
 
 SMALL = BUDGETS["small"]
@@ -182,6 +183,13 @@ def test_a_cell_that_is_not_linear_is_not_told_as_gain_and_zero():
     assert f"repeat what is worst: {said.location}" in said.next_measurement
     assert "One law explains it better" in said.sentence
     assert "the load cells: a law other than gain and zero" in said.sentence
+    assert "names the robot" not in said.sentence
+
+
+def test_readings_of_another_robot_are_unknown_and_the_robot_is_asked_for():
+    said = verdict(diagnose(replace(noisy(), robot=load_robot("thesis-3-1"))))
+    assert said.status == "unknown"
+    assert "see whether the campaign names the robot that was measured" in said.sentence
 
 
 def test_gain_and_zero_of_the_cells_are_told_as_such():

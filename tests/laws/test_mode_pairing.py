@@ -12,6 +12,7 @@ from cdpr_struct.diagnosis.mode_pairing import Modes, paired
 from cdpr_struct.diagnosis.setting import make_setting, paired_with, strays_in
 from cdpr_struct.diagnosis.stray_peaks import _trial, p_of_strays
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.errors import CdprError
 from cdpr_struct.measurement.campaign import RobotFrequencies
 from tests.laws.crime_campaign import clean_campaign, with_robot_frequencies
 
@@ -112,3 +113,12 @@ def test_a_large_change_that_no_pose_would_stand_is_no_explanation():
     tried = [_trial(ground, entered, choice(candidate, pattern, 1.0), height * up) for height in (0.01, 30.0)]
     assert np.isfinite(tried[0].strays)
     assert tried[1].strays == np.inf
+
+
+def test_a_state_that_cannot_hold_says_which_and_what_to_look_at():
+    """The right robot has modes there; one whose centre of mass lies far above its cables falls over."""
+    campaign = clean_campaign()
+    campaign = with_robot_frequencies(campaign, (1,), World.of(campaign.robot, 6))
+    top = replace(campaign.robot.platform, center_of_mass=np.array([0.0, 0.0, 50.0]))
+    with pytest.raises(CdprError, match=r"case s1: the equilibrium is unstable.*the robot that was measured"):
+        make_setting(replace(campaign, robot=replace(campaign.robot, platform=top)))
