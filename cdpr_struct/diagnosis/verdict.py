@@ -2,14 +2,13 @@
 
 from dataclasses import dataclass
 from itertools import permutations
-from typing import Any
 
 import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import ADEQUATE, NAMED, Diagnosis
 from cdpr_struct.diagnosis.next_measurement import next_measurement
 from cdpr_struct.diagnosis.prepared import SIGNIFICANT
-from cdpr_struct.diagnosis.refit import Fit, explained_share
+from cdpr_struct.diagnosis.refit import Fit
 from cdpr_struct.diagnosis.significance import OUTSIDE
 from cdpr_struct.diagnosis.stray_peaks import SEVERAL, strays_left
 from cdpr_struct.diagnosis.suspect_reading import in_words
@@ -59,7 +58,7 @@ def verdict(found: Diagnosis) -> Verdict:
         return Verdict("unknown", (), (), _probability(found), place, repeat, _unknown_sentence(found, place))
     names = tuple(c.cause for c in mended) + (fit.names if fit else ())
     classes = tuple((c.cause, *c.rivals) for c in mended) + tuple(
-        _class(found, i) for i in range(len(fit.names) if fit else 0)
+        class_of(found, i) for i in range(len(fit.names) if fit else 0)
     )
     separable = all(len(c) == 1 for c in classes)
     status = "named" if separable and confirmed(found) else "class"
@@ -165,7 +164,7 @@ def location(found: Diagnosis) -> str:
     return f"{_PLACES[worst]}, most in {where}"
 
 
-def _class(found: Diagnosis, i: int) -> tuple[str, ...]:
+def class_of(found: Diagnosis, i: int) -> tuple[str, ...]:
     """The i-th chosen cause with the likeliest others in its place, until they hold `CREDIBLE` together."""
     fit = found.selection.fit
     assert fit is not None
@@ -188,8 +187,8 @@ def _probability(found: Diagnosis) -> float:
         for rival in row:
             gains.setdefault(rival.names, rival.gain)
     beyond = fit.gain + max(outside.gain + _PRIOR_OUTSIDE, outside.instead)
-    classes = [_class(found, i) for i in range(len(fit.names))]
-    answer = [gain for names, gain in gains.items() if _within(names, classes)]
+    classes = [class_of(found, i) for i in range(len(fit.names))]
+    answer = [gain for names, gain in gains.items() if answers(names, classes)]
     logs = np.array([0.0, beyond, *gains.values()])
     said = TEMPER * beyond if is_unknown(found) else float(np.logaddexp.reduce(TEMPER * np.array(answer)))
     share = float(np.exp(said - np.logaddexp.reduce(TEMPER * logs)))
@@ -203,7 +202,7 @@ def _most(found: Diagnosis) -> float:
     return min([0.99, *(c.most for c, _ in found.corrections)])
 
 
-def _within(names: tuple[str, ...], classes: list[tuple[str, ...]]) -> bool:
+def answers(names: tuple[str, ...], classes: list[tuple[str, ...]]) -> bool:
     """Whether every class has one of the names, and no name is left over."""
     return len(names) == len(classes) and any(
         all(name in group for name, group in zip(order, classes, strict=True)) for order in permutations(names)
@@ -239,54 +238,3 @@ def _standing(found: Diagnosis, fit: Fit) -> str:
         joint, outcome = "; ", f"what it concerns is predicted {ratio:.1f} times better in states that were not fitted"
     text = explained + (joint if explained else "") + outcome
     return f" {text[:1].upper()}{text[1:]}." if text else ""
-
-
-def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
-    """What was mended in the data, in the order of its discovery, then every cause that was fitted, best first.
-
-    A cause whose fitted size is none is left out: its evidence is that of other modes for the peaks, not its own.
-    """
-    rows: list[dict[str, Any]] = [
-        {
-            "cause": c.cause, "with": [], "parameters": c.sizes, "description": c.sentence, "log_evidence_gain": gain,
-            "heldout_rms": None, "explained_fraction": _mended_share(found),
-        }
-        for c, gain in found.corrections
-    ]  # fmt: skip
-    fits = ([found.selection.fit] if found.selection.fit else []) + [
-        f for f in found.selection.first
-        if (found.selection.fit is None or f.names != found.selection.fit.names) and _is_change(f)
-    ]  # fmt: skip
-    return rows + [row for fit in fits for row in _fit_rows(found, fit)]
-
-
-def _is_change(fit: Fit) -> bool:
-    """Whether sizes, all together, are a sigma or more from what was entered."""
-    return float(fit.theta @ np.linalg.solve(fit.covariance, fit.theta)) > 1.0
-
-
-def _mended_share(found: Diagnosis) -> float | None:
-    """Share of the significant error that went with the only correction; of several each one's is not known."""
-    if len(found.corrections) != 1:
-        return None
-    return explained_share(found.entered.white(found.entered.r), found.ground.z)
-
-
-def _fit_rows(found: Diagnosis, fit: Fit) -> list[dict[str, Any]]:
-    whole, covariance = whole_change(fit)
-    sigmas = np.sqrt(np.diagonal(covariance))
-    chosen = fit is found.selection.fit
-    after = found.held.after / found.held.sigma if chosen and found.held is not None else None
-    return [
-        {
-            "cause": choice.candidate.name, "with": [n for n in fit.names if n != choice.candidate.name],
-            "pattern": choice.pattern.label,
-            "parameters": {
-                p.name: p.shown(float(t * prior), float(s * prior))
-                for p, t, s, prior in zip(choice.pattern.parameters, theta, sigma, choice.prior, strict=True)
-            },
-            "log_evidence_gain": fit.gain, "explained_fraction": fit.explained(found.ground.z),
-            "heldout_rms": None if after is None else float(np.sqrt(np.mean(after**2))),
-        }
-        for choice, theta, sigma in zip(fit.choices, fit.split(whole), fit.split(sigmas), strict=True)
-    ]  # fmt: skip

@@ -126,6 +126,14 @@ _METHOD = (
 )
 
 
+_UNITS = {"_m": "m", "_kg": "kg", "_N": "N"}
+
+
+def _unit(tolerance: str) -> str:
+    """That of a tolerance, which ends its name; the others are shares of the value entered."""
+    return next((unit for ending, unit in _UNITS.items() if tolerance.endswith(ending)), "of its value")
+
+
 def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
     candidates = result["candidates"]
     shown = (
@@ -141,9 +149,12 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
     sizes = [[n.replace("_", " "), f"{v['value']:.3g}", v["unit"]] for n, v in result["minimum_detectable"].items()]
     tables.append(HtmlTable("Smallest size found 4 times out of 5", ["cause", "size", "unit"], sizes))
     tolerances = [
-        [n, f"{v['value']:g}", "stated" if v["stated"] else "default"] for n, v in result["tolerances"].items()
+        [n, f"{v['value']:g}", _unit(n), "stated" if v["stated"] else "default"]
+        for n, v in result["tolerances"].items()
     ]
-    tables.append(HtmlTable("Tolerances taken into account, one sigma", ["tolerance", "size", "source"], tolerances))
+    tables.append(
+        HtmlTable("Tolerances taken into account, one sigma", ["tolerance", "size", "unit", "source"], tolerances)
+    )
     sigmas = sigma_table(result["sigmas"])
     return tables + ([sigmas] if sigmas else [])
 

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from cdpr_struct.diagnosis.candidate_rows import candidate_rows
 from cdpr_struct.diagnosis.causes.internal_mode import NAME
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.heldout import groups_of
@@ -14,7 +15,7 @@ from cdpr_struct.diagnosis.sigma_check import sigmas_used, warnings
 from cdpr_struct.diagnosis.significance import NOISE_SHARE, STRAY_SHARE, p_of_noise
 from cdpr_struct.diagnosis.simulation_error import rows_read, simulation_error
 from cdpr_struct.diagnosis.stray_peaks import p_of_strays
-from cdpr_struct.diagnosis.verdict import Verdict, candidate_rows, confirmed, is_unknown, verdict
+from cdpr_struct.diagnosis.verdict import Verdict, confirmed, is_unknown, verdict
 from cdpr_struct.reports.diagnosis_signals import with_signals
 
 

@@ -119,8 +119,8 @@ def candidate_table(candidates: Sequence[Mapping[str, Any]], most: int, sizes: i
     note = "Evidence is against nothing being wrong; three nats are a factor of twenty in probability. "
     note += "Explained is the share of chi2 beyond what noise lets expect."
     if any(row.get("description") for row in candidates):
-        note += " That of corrections, which stand first, is against the data before them; where the verdict is "
-        note += "unknown, they were tried and do not suffice."
+        note += " That of corrections is against the data before them; where the verdict is unknown, they stand last: "
+        note += "they were tried and do not suffice."
     note += _inner_names(candidates)
     columns = ["cause", "evidence [nats]", "explains [%]", "size"]
     return HtmlTable("Candidates", columns, rows, note) if rows else None

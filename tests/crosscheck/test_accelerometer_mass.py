@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from cdpr_struct.diagnosis import vibrating_state
+from cdpr_struct.diagnosis.candidate_rows import candidate_rows
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import States, residuals
 from cdpr_struct.diagnosis.setting import _points, make_setting
-from cdpr_struct.diagnosis.verdict import candidate_rows, verdict
+from cdpr_struct.diagnosis.verdict import verdict
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.robot.robot_file import load_robot

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
+from cdpr_struct.diagnosis.candidate_rows import candidate_rows
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import residuals
 from cdpr_struct.diagnosis.setting import make_setting
-from cdpr_struct.diagnosis.verdict import candidate_rows, verdict
+from cdpr_struct.diagnosis.verdict import verdict
 from cdpr_struct.diagnosis.world import World
 from tests.crosscheck.frf_campaign import POSES, Shaken, fem_campaign
 

@@ -10,6 +10,7 @@ from scipy.sparse import block_array, csc_array
 
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.diagnosis import internal_modes
+from cdpr_struct.diagnosis.candidate_rows import candidate_rows
 from cdpr_struct.diagnosis.causes.internal_mode import MOVING
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.extended_model import extended_robot
@@ -17,7 +18,7 @@ from cdpr_struct.diagnosis.prepared import BUDGETS, SIGNIFICANT, prepare
 from cdpr_struct.diagnosis.robot_rows import pairing_of
 from cdpr_struct.diagnosis.setting import modes_in
 from cdpr_struct.diagnosis.steady_peaks import moves_alone, steady_peaks
-from cdpr_struct.diagnosis.verdict import candidate_rows, verdict
+from cdpr_struct.diagnosis.verdict import verdict
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.robot.robot_file import load_robot
