@@ -33,15 +33,14 @@ from tests.blind.mesh_error import all_mesh_errors
 from tests.blind.report_page import write_page
 from tests.blind.running import default_command, diagnose_all
 from tests.blind.scoring import case_rows, figures, scored_cases
-from tests.blind.suite import NULLS, composed, record_final_use, set_seed
+from tests.blind.suite import FINAL_RATES, FULL, composed, record_final_use, set_seed
 
 _Job = tuple[CaseKind, str, tuple[int, ...], Path, Path]  # what, name, seed, where to, where the truth goes
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "blind_tests.md"
 MESH = Path(__file__).with_name("mesh_error.json")
 FOLLOW_UPS = "followups"  # ambiguous cases measured again
-RATES = "rates"  # nulls and just detectable effects beside a final set, which has few of either
+RATES = "rates"  # more nulls, just detectable effects and pairs beside a final set, which has few of each
 WHOLE = {"dev": 200, "final": 200, "ci": 12, "unseen": 24, "rates": 800}
-RATES_A_CASE = 1.2  # of a final set: 240 for its 200
 
 
 def campaigns_of(out: Path) -> Path:
@@ -64,7 +63,8 @@ def make(options: argparse.Namespace) -> int:
         return 2
     jobs = _jobs(options.set, options.release, total, out, sealed)
     if options.set == "final":
-        jobs += _jobs("final-rates", options.release, round(RATES_A_CASE * total), out / RATES, sealed / RATES)
+        more = round(total * sum(FINAL_RATES.values()) / sum(FULL.values()))
+        jobs += _jobs("final-rates", options.release, more, out / RATES, sealed / RATES)
     if options.set == "final" and not (out / "run.json").exists():
         record_final_use(options.release)
     out.mkdir(parents=True, exist_ok=True)
@@ -80,7 +80,7 @@ def _jobs(name: str, release: str, total: int, out: Path, sealed: Path) -> list[
     """What is still to be made of a set."""
     base = set_seed(name, release)
     kinds = composed(name, total, base)
-    letter = "r" if name in NULLS else "c"
+    letter = "r" if name == "final-rates" else "c"
     jobs = [(kind, f"{letter}{n:03d}", (base, n), out, sealed) for n, kind in enumerate(kinds, start=1)]
     return [job for job in jobs if not (campaigns_of(out) / job[1] / "manifest.json").exists()]
 

@@ -96,11 +96,12 @@ def figures(cases: list[Scored], served: Sequence[Scored] = (), rates: Sequence[
     """Every figure of the acceptance table, with its band and number of cases.
 
     served : ambiguous cases diagnosed again with the measurements that separate them
-    rates  : more nulls and just detectable effects, counted where these are asked for and nowhere else
+    rates  : more nulls, just detectable effects and pairs, counted where these are asked for and nowhere else
     """
     nulls = [c for c in (*cases, *rates) if c.kind == "null"]
     singles = [c for c in cases if c.kind == "single"]
     sized = [c for c in (*cases, *rates) if c.kind == "single"]
+    pairs = [c for c in (*cases, *rates) if c.kind == "pair"]
     clear = [c for c in cases if c.kind in ("single", "handling") and c.multiple >= 0.95 * CLEARLY]
     inside = [c for c in cases if c.kind in IN_LIBRARY]
     return {
@@ -109,13 +110,14 @@ def figures(cases: list[Scored], served: Sequence[Scored] = (), rates: Sequence[
         "of_which_in_the_set": {
             "false_alarms": share([c.answer.significant for c in cases if c.kind == "null"]),
             "detection": _by_size(singles, lambda c: c.multiple, lambda c: c.answer.significant),
+            **_pair_figures([c for c in cases if c.kind == "pair"]),
         },
         "wrong_confident_among_rates": share([_wrong_with_confidence(c) for c in rates]),
         "right_class_at_2x": share([right_class(c.answer, c.hidden) for c in clear]),
         "right_name_at_2x": share([right_name(c.answer, c.hidden) for c in clear if _separable(c)]),
         "right_class_by_size": _by_size(singles, lambda c: c.multiple, lambda c: right_class(c.answer, c.hidden)),
         **_confidence_figures(cases),
-        **_pair_figures([c for c in cases if c.kind == "pair"]),
+        **_pair_figures(pairs),
         "ambiguous_class_reported": share([_class_reported(c) for c in cases if c.kind == "ambiguous"]),
         "resolved_by_more_measurements": share([_resolved(c) for c in served]),
         **_interval_figures([c for c in cases if c.kind in ("single", "pair")]),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -17,7 +17,8 @@ FULL = {"null": 40, "single": 80, "pair": 24, "ambiguous": 20, "outside": 20, "h
 CI = {"null": 3, "single": 3, "pair": 1, "ambiguous": 2, "outside": 2, "handling": 1}
 MULTIPLES = (0.5, 1.0, 2.0, 4.0)
 CLEAR = 4.0  # multiple of effects whose size is not the question
-NULLS = {"rates": 0.6, "final-rates": 1 / 3}  # share of nulls in a set of rates; the rest is just detectable
+FINAL_RATES = {"null": 60, "just": 150, "pair": 56}  # beside a final set, which has few of each
+NULLS = 0.6  # share of nulls in a set of rates; the rest is just detectable
 SET_SEEDS = {"dev": 20_101, "ci": 20_102, "unseen": 20_103, "rates": 20_104}
 USES = Path(__file__).with_name("final_uses.json")
 
@@ -31,10 +32,10 @@ def set_seed(name: str, release: str = "") -> int:
     return int(hashlib.sha256(f"{name} set of {release}".encode()).hexdigest()[:12], 16)
 
 
-def counts(total: int) -> dict[str, int]:
+def counts(total: int, full: Mapping[str, int] = FULL) -> dict[str, int]:
     """How many cases of each kind: the full suite scaled, largest remainders rounded up."""
-    whole = sum(FULL.values())
-    shares = {kind: number * total / whole for kind, number in FULL.items()}
+    whole = sum(full.values())
+    shares = {kind: number * total / whole for kind, number in full.items()}
     chosen = {kind: int(share) for kind, share in shares.items()}
     by_remainder = sorted(shares, key=lambda kind: shares[kind] - chosen[kind], reverse=True)
     for kind in by_remainder[: total - sum(chosen.values())]:
@@ -45,9 +46,13 @@ def counts(total: int) -> dict[str, int]:
 def composed(name: str, total: int, base: int) -> list[CaseKind]:
     """Kinds of all cases in the order in which they are numbered, which tells nothing about them."""
     rng = np.random.default_rng([base, 0])
-    nulls = {which: round(part * total) for which, part in NULLS.items()}
-    rates = {which: {"null": number, "just": total - number} for which, number in nulls.items()}
-    special = {"ci": CI, "unseen": {"unseen": total}, **rates}
+    nulls = round(NULLS * total)
+    special = {
+        "ci": CI,
+        "unseen": {"unseen": total},
+        "rates": {"null": nulls, "just": total - nulls},
+        "final-rates": counts(total, FINAL_RATES),
+    }
     numbers = special.get(name) or counts(total)
     makers = {
         "null": _nulls,

@@ -205,7 +205,9 @@ def test_a_set_of_rates_holds_nulls_and_what_is_just_detectable():
     hidden = [effect for kind in kinds for effect in kind.effects]
     assert {multiple for _, multiple in hidden} == {1.0}
     assert {name for name, _ in hidden} == set(LIBRARY)
-    assert Counter(kind.kind for kind in composed("final-rates", 240, 5)) == {"null": 80, "single": 160}
+    more = composed("final-rates", 266, 5)
+    assert Counter(kind.kind for kind in more) == {"null": 60, "single": 150, "pair": 56}
+    assert {kind.effects[0][1] for kind in more if kind.kind == "single"} == {1.0}
 
 
 def test_the_rates_of_a_final_set_have_seeds_of_their_own_and_of_the_release():

@@ -108,17 +108,20 @@ def test_figures_of_a_small_set():
     assert found["failed_runs"]["successes"] == 1
 
 
-def test_rates_count_for_false_alarms_and_just_detectable_effects_only():
+def test_rates_count_for_false_alarms_just_detectable_effects_and_pairs_only():
     own = [
         Scored("c1", truth("null"), said("adequate")),
         Scored("c2", truth("single", ("drum_scale", 1.0)), said("adequate")),
     ]
     wrong = Scored("r1", truth("null"), said("named", ["drum_scale"]))
-    rates = [wrong, Scored("r2", truth("single", ("drum_scale", 1.0)), said("unknown"))]
+    both = truth("pair", ("drum_scale", 2.0), ("temperature", 4.0))
+    pair = Scored("r3", both, said("named", ["drum_scale", "temperature"]))
+    rates = [wrong, Scored("r2", truth("single", ("drum_scale", 1.0)), said("unknown")), pair]
     found = figures(own, rates=rates)
     assert (found["false_alarms"]["successes"], found["false_alarms"]["cases"]) == (1, 2)
     assert (found["detection"]["1x"]["successes"], found["detection"]["1x"]["cases"]) == (1, 2)
     assert found["of_which_in_the_set"]["detection"]["1x"]["successes"] == 0
+    assert (found["pair_both"]["successes"], found["of_which_in_the_set"]["pair_both"]["cases"]) == (1, 0)
     assert found["wrong_confident_among_rates"]["successes"] == 1
     assert found["wrong_confident_name"]["successes"] == 0
     assert found["unknown_inside_library"]["successes"] == 0
