@@ -100,13 +100,6 @@ def _unknown_sentence(found: Diagnosis, place: str) -> str:
         return f"{text} One law explains it better than {together} together: {outside.one_law}." + _aside(found)
     if fit:
         text += f" The best candidate, {' with '.join(fit.names).replace('_', ' ')}, leaves a structured remainder."
-    left = found.ground.z if fit is None else fit.white
-    far = float(np.sqrt(np.mean(left**2)))
-    if far > _FAR:
-        text += (
-            f" What is left is {far:.0f} sigmas in the rms, more than any wear or slip: see whether the campaign names"
-        )
-        text += " the robot that was measured, and whether all files use its axes and units."
     strays = strays_left(found.ground, fit)
     if strays > SEVERAL:
         text += f" {strays:.0f} of the robot's measured frequencies are none of the model's:"
