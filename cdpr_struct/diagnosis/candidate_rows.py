@@ -13,9 +13,8 @@ from cdpr_struct.diagnosis.whole_change import whole_change
 def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
     """What was mended in the data, in the order of its discovery, then every cause that was fitted, best first.
 
-    A cause whose fitted size is none is left out: its evidence is that of other modes for the peaks, not its own.
-    Rivals beside other causes are listed as far as the verdict leaves them open. What was mended and does not suffice
-    stands last.
+    A cause whose fitted size is none is left out, unless the verdict leaves it open: its evidence is that of other
+    modes for the peaks, not its own. What was mended and does not suffice stands last.
     """
     mended: list[dict[str, Any]] = [
         {
@@ -26,9 +25,8 @@ def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
     ]  # fmt: skip
     best = found.selection.fit
     fits = {best.names: best} if best else {}
-    for fit in found.selection.first + _left_open(found):
-        if fit.names not in fits and _is_change(fit):
-            fits[fit.names] = fit
+    for fit in [*filter(_is_change, found.selection.first), *_left_open(found)]:
+        fits.setdefault(fit.names, fit)
     fitted = [row for fit in fits.values() for row in _fit_rows(found, fit)]
     return fitted + mended if is_unknown(found) else mended + fitted
 

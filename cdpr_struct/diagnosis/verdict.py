@@ -227,7 +227,8 @@ def _standing(found: Diagnosis, fit: Fit) -> str:
         if len(found.campaign.states.names) == 1:
             outcome = "with a single state nothing can be left out to confirm it"
     elif found.held is not None:
-        ratio = found.held.ratio(found.held.concerned)
-        joint, outcome = "; ", f"what it concerns is predicted {ratio:.1f} times better in states that were not fitted"
+        ratio, single = found.held.ratio(found.held.concerned), len(found.campaign.states.names) == 1
+        where = "from the other kinds of data alone" if single else "in states that were not fitted"
+        joint, outcome = "; ", f"what it concerns is predicted {ratio:.1f} times better {where}"
     text = explained + (joint if explained else "") + outcome
     return f" {text[:1].upper()}{text[1:]}." if text else ""
