@@ -17,6 +17,7 @@ from cdpr_struct.diagnosis.planned_gain import ENOUGH, Judge, NewRows, checked, 
 from cdpr_struct.diagnosis.planned_series import series
 from cdpr_struct.diagnosis.planned_states import of_lacking_kinds
 from cdpr_struct.diagnosis.refit import Fit, Ground
+from cdpr_struct.diagnosis.wording import listed
 
 NEAR = 10.0  # nats from a named cause within which its next rival is worth telling apart
 APART = 2.0  # nats below which a measurement does not tell a pair apart
@@ -167,6 +168,10 @@ def _words(worth: Worth, pairs: Sequence[Pair], short: bool = False) -> str:
 
 
 def _told(pairs: Sequence[Pair]) -> str:
+    """What is not told apart: of more than two causes all together, or pair by pair."""
+    names = list(dict.fromkeys(name for pair in pairs for name in pair))
+    if len(names) > 2 and len(pairs) == len(names) * (len(names) - 1) // 2:
+        return f"{listed(names)} apart"
     return " nor ".join(f"{_plain(a)} from {_plain(b)}" for a, b in pairs)
 
 

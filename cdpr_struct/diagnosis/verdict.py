@@ -23,6 +23,7 @@ UNCONFIRMED = 0.6  # largest probability of a cause that hangs on one group of s
 _LEFT = 4.0  # nats that a law outside the library must add to them
 _INSTEAD = 3.0  # nats that one such law must bring more than several causes in its place
 _FAR = 30.0  # sigmas, rms, of what no cause explains, from which the robot or the units may be others
+_BETTER = 1.05  # times smaller error from which a prediction is better
 _PRIOR_OUTSIDE = -4.6  # ln prior of the best channel, one in fourteen of one in seven, beside that of no further cause
 _PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
@@ -229,6 +230,7 @@ def _standing(found: Diagnosis, fit: Fit) -> str:
     elif found.held is not None:
         ratio, single = found.held.ratio(found.held.concerned), len(found.campaign.states.names) == 1
         where = "from the other kinds of data alone" if single else "in states that were not fitted"
-        joint, outcome = "; ", f"what it concerns is predicted {ratio:.1f} times better {where}"
+        better = f"{ratio:.1f} times better" if ratio > _BETTER else "no better"
+        joint, outcome = "; ", f"what it concerns is predicted {better} {where}"
     text = explained + (joint if explained else "") + outcome
     return f" {text[:1].upper()}{text[1:]}." if text else ""

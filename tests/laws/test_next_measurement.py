@@ -72,6 +72,14 @@ def test_a_second_measurement_is_for_what_the_first_leaves_open(found):
     assert following._words(tilts, pairs) == "tilts: expected to separate a from c by 6 nats"
 
 
+def test_what_nothing_tells_apart_is_listed_once():
+    """Three pairs of three causes are three causes; two of them are pairs."""
+    pairs = [("a_a", "b"), ("a_a", "c"), ("b", "c")]
+    assert following._told(pairs) == "a a, b and c apart"
+    assert following._told(pairs[:2]) == "a a from b nor a a from c"
+    assert following._told(pairs[:1]) == "a a from b"
+
+
 def test_what_was_checked_is_not_proposed_again(found, question):
     """Weighing the joints, once they have been weighed; the platform still may be."""
     campaign = replace(found.ground.setting.campaign, checked={"joint_mass": 0.01})
