@@ -64,8 +64,10 @@ def _worthwhile(campaign: Campaign, peaks_too_high: bool) -> list[Correction]:
         ]
     shown = [c for c in options if c.campaign.states is not states]
     held = np.flatnonzero(states.has_tension)
+    if not np.any(states.payload[held]):  # the static states say nothing of payloads
+        always += [c for c in shown if c.campaign.states.payload is not states.payload]
     if not held.size or not shown:
-        return always + [c for c in shown if c.campaign.states.payload is not states.payload]
+        return always
     part = campaign.with_states_only(_some(states, held))
     setting, _ = make_setting(part)
     world, readings = World.of(campaign.robot, held.size), Readings.of(part.states)

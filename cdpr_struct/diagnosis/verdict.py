@@ -64,7 +64,8 @@ def verdict(found: Diagnosis) -> Verdict:
     separable = all(len(c) == 1 for c in classes)
     status = "named" if separable and confirmed(found) else "class"
     if any(len(c) > LARGEST_CLASS for c in classes):
-        text = f"Something is wrong in {place}; these data leave open {_many(classes)}." + _aside(found)
+        text = f"Something is wrong in {place}; these data leave open {_many(classes[len(mended) :])}."
+        text = " ".join([*(f"{said[:1].upper()}{said[1:]}." for said in corrected(found)), text]) + _aside(found)
         return Verdict("class", names, classes, _probability(found), place, _next(found, classes), text)
     return Verdict(status, names, classes, _probability(found), place, _next(found, classes), _sentence(found, classes))
 
@@ -95,7 +96,11 @@ def _many(classes: tuple[tuple[str, ...], ...]) -> str:
 def _unknown_sentence(found: Diagnosis, place: str) -> str:
     fit, outside = found.selection.fit, found.outside
     text = f"Something is wrong in {place}, and no cause in the library explains it."
-    text += "".join(f" Beside it {c.sentence}." for c, _ in found.corrections if c.place) + _far_off(found)
+    text += "".join(
+        f" Beside it {c.sentence}." if c.place else f" That {c.sentence} would explain a part, and does not suffice."
+        for c, _ in found.corrections
+    )
+    text += _far_off(found)
     if outside.instead > _INSTEAD:
         together = listed(fit.names) if fit else ""
         return f"{text} One law explains it better than {together} together: {outside.one_law}." + _aside(found)

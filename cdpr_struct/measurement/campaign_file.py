@@ -12,6 +12,7 @@ from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
+from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
 from cdpr_struct.measurement.unit_scale import check_scale
 from cdpr_struct.robot.cable import Cable
@@ -96,6 +97,7 @@ def load_campaign(path: str | Path) -> Campaign:
         sheets.append(_sheet(entry, rows, sigmas))
     _check_poses(gathering)
     check_scale(str(path), robot, gathering.states())
+    check_robot_scale(str(path), robot, gathering.states())
     identified = join_signals(gathering, robot, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(
@@ -121,6 +123,8 @@ def load_campaign(path: str | Path) -> Campaign:
 def _table(source: Path) -> CampaignTable:
     try:
         text = source.read_text("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(str(source), "", f"byte {error.object[error.start]:#x}", "a text file in UTF-8") from error
     except (OSError, ValueError) as error:
         raise InputError("CAMPAIGN", "", str(source), "a campaign file (TOML) that can be read") from error
     try:

@@ -70,7 +70,7 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
         told = str(error).strip().rpartition("error: ")[2]
         raise InputError(str(path), "", told, "as many values as in the header, decimals with a point") from error
     except pd.errors.EmptyDataError as error:
-        raise InputError(str(path), "", str(error).strip(), "a CSV file with a header line") from error
+        raise InputError(str(path), "", "an empty file", "a CSV file with a header line") from error
     if not isinstance(table.index, pd.RangeIndex):
         row = ", ".join([str(table.index[0]), *table.iloc[0]])
         raise InputError(

@@ -9,7 +9,7 @@ from cdpr_struct.diagnosis.causes.handling import corrections
 from cdpr_struct.diagnosis.diagnose import diagnose
 from cdpr_struct.diagnosis.gross_reading import without_gross_tension
 from cdpr_struct.diagnosis.handled_data import handled
-from cdpr_struct.diagnosis.handling_screen import best_correction
+from cdpr_struct.diagnosis.handling_screen import _worthwhile, best_correction
 from cdpr_struct.diagnosis.null_model import null_model, reading_count, sensors
 from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
 from cdpr_struct.diagnosis.readings import Readings
@@ -184,6 +184,17 @@ def test_a_cell_that_is_not_linear_is_not_told_as_gain_and_zero():
     assert "One law explains it better" in said.sentence
     assert "the load cells: a law other than gain and zero" in said.sentence
     assert "names the robot" not in said.sentence
+
+
+def test_units_of_payloads_are_tried_where_only_locked_poses_have_any():
+    """Static states decide which corrections are worth the whole computation; here they say nothing of payloads."""
+    campaign = clean_campaign(5)
+    locked = np.arange(5)[:, None] >= 2
+    tension, sigma = (np.where(locked, np.nan, v) for v in (campaign.states.tension, campaign.states.tension_sigma))
+    payload = np.array([0.0, 0.0, 200.0, 400.0, 600.0])
+    states = replace(campaign.states, tension=tension, tension_sigma=sigma, payload=payload)
+    tried = {c.sentence for c in _worthwhile(replace(campaign, states=states), peaks_too_high=False)}
+    assert "the payloads are in N" in tried
 
 
 def test_readings_of_another_robot_are_unknown_and_the_robot_is_asked_for():

@@ -1,5 +1,7 @@
 """Unusable campaigns: one line naming file, row, value and what would be right; exit code 2."""
 
+from importlib.resources import files
+
 import pytest
 
 from cdpr_struct.cli.main import run
@@ -25,7 +27,7 @@ def complaint(tmp_path, capsys, campaign=CAMPAIGN, rows=HEAD + ROWS) -> str:
 @pytest.mark.parametrize(
     ("rows", "words"),
     [
-        ("", ["states.csv"]),
+        ("", ["states.csv", "an empty file", "a header line"]),
         (HEAD, ["states.csv", "no rows"]),
         (HEAD.replace("cable,", ""), ["cable", "no such column"]),
         (HEAD.replace("tension_N", "tension_kN") + ROWS, ["tension_kN", "unknown"]),
@@ -99,7 +101,7 @@ def test_a_payload_in_grams_is_refused(tmp_path, capsys):
     """It used to end in a law of the tracker, or in tensions that were asked for their unit."""
     rows = HEAD.replace("cable,", "payload_kg,cable,") + ROWS.replace("a,0,0,1,", "a,0,0,1,20000,")
     line = complaint(tmp_path, capsys, rows=rows)
-    assert all(word in line for word in ["case a", "payload_kg", "20000", "118.5 kg", "is it in g?"]), line
+    assert all(word in line for word in ["case a", "payload_kg", "20000", "118.5 kg", "is it in g,"]), line
 
 
 @pytest.mark.parametrize(
@@ -108,6 +110,12 @@ def test_a_payload_in_grams_is_refused(tmp_path, capsys):
         ("axial_stiffness = 231.87", ["axial_stiffness", "231.87", "129 %", "is it in kN"]),
         ("linear_density = 120.0", ["linear_density", "120", "times the tensions measured", "is it in g/m"]),
         ("platform_mass = 118500.0", ["tension_N", "2400", "mass of 1.185e+05 kg in g?"]),
+        (
+            "platform_mass = 0.1185\nplatform_inertia = [[0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.1]]",
+            ["platform mass", "in t"],
+        ),
+        ("center_of_mass = [0, 0, 30]", ["center_of_mass", "30", "is it in mm?"]),
+        ("platform_inertia = [[7e9, 0, 0], [0, 7e9, 0], [0, 0, 7e9]]", ["platform inertia", "7000000000", "kg mm^2"]),
     ],
 )
 def test_cables_and_platforms_in_another_unit_are_refused(nominal, words, tmp_path, capsys):
@@ -116,6 +124,20 @@ def test_cables_and_platforms_in_another_unit_are_refused(nominal, words, tmp_pa
         tmp_path, capsys, campaign=f'robot = "cogiro"\n[nominal]\n{nominal}\n' + CAMPAIGN.split("\n", 1)[1]
     )
     assert all(word in line for word in words), line
+
+
+def test_masts_that_would_give_way_by_metres_are_refused(tmp_path, capsys):
+    """mm/N for m/N: the diagnosis of it did not end."""
+    robot = (files("cdpr_struct.robot.builtin") / "cogiro.toml").read_text("utf-8")
+    (tmp_path / "masts.toml").write_text(robot + "\n[extensions]\nframe_compliance = 0.01\n")
+    line = complaint(tmp_path, capsys, campaign=CAMPAIGN.replace("cogiro", "masts.toml"))
+    assert all(word in line for word in ["frame_compliance", "0.01", "give way by 3 m", "is it in mm/N?"]), line
+
+
+def test_a_campaign_file_in_another_encoding_is_told(tmp_path, capsys):
+    (tmp_path / "campaign.toml").write_bytes("# Seilroboter f\u00fcr Messungen\n".encode("latin-1") + CAMPAIGN.encode())
+    assert run(["diagnose", str(tmp_path / "campaign.toml")]) == 2
+    assert "got 'byte 0xfc'; a text file in UTF-8" in capsys.readouterr().err
 
 
 def test_one_reading_far_too_large_is_no_cable_in_another_unit(tmp_path):
