@@ -23,6 +23,12 @@ _NEEDED = {
 }  # fmt: skip
 _RANGE = {"position_m": (1e-6, 0.05), "rotation_deg": (1e-5, 5.0), "length_m": (1e-6, 0.05)}
 _SHARE = {"tension_N": (1e-5, 0.3), "frequency_hz": (1e-6, 0.2)}  # of the median reading
+_LOOSE = {  # tolerances beyond these are no drawing's
+    "anchor_m": (0.1, "in m"), "length_m": (0.1, "in m"), "center_of_mass_m": (0.3, "in m"),
+    "pulley_radius_m": (0.02, "in m"),
+    "axial_stiffness": (0.5, "a share of it"), "linear_density": (0.5, "a share of it"),
+    "platform_inertia": (1.0, "a share of it"), "load_cell_gain": (0.3, "a share of it"),
+}  # fmt: skip
 _DEFAULT_FREQUENCY = "0.3 % of each"
 
 
@@ -69,6 +75,10 @@ def _main(sheet: Sheet) -> str:
 def warnings(found: Diagnosis) -> list[str]:
     """What is odd about the sigmas, in sentences."""
     said = [text for used in sigmas_used(found.campaign) if (text := _absurd(found.campaign, used))]
+    for name, (most, unit) in _LOOSE.items():
+        value = getattr(found.campaign.tolerances, name)
+        if value > most:
+            said.append(f"the tolerance {name}, {value:g}, is very large: is it {unit}?")
     null, labels, read = found.entered, found.entered_setting.labels, rows_read(found)
     for kind in dict.fromkeys(labels.kind[read & ~np.isin(labels.block.astype(str), ("RF", "FA"))].tolist()):
         rows = np.flatnonzero((labels.kind == kind) & read)

@@ -61,6 +61,15 @@ def test_an_absurd_sigma_is_doubted(clean, name, value, word):
     assert word in text
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "words"), [("anchor_m", 0.5, "is it in m?"), ("axial_stiffness", 2.0, "is it a share of it?")]
+)
+def test_an_absurd_tolerance_is_doubted(clean, name, value, words):
+    text, *_ = warnings(found(replace(clean, tolerances=replace(clean.tolerances, **{name: value}))))
+    assert f"the tolerance {name}, {value:g}, is very large" in text
+    assert words in text
+
+
 def test_residuals_far_below_their_sigmas_are_told(clean):
     assert warnings(found(clean)) == []
     (text,) = warnings(found(clean, 0.2))
