@@ -13,6 +13,7 @@ from cdpr_struct.diagnosis.conditioned_state import (
 )  # fmt: skip
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.errors import CdprError
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import (
@@ -106,8 +107,15 @@ class Nearby:
 
 
 def reference(world: World, readings: Readings, known: Circumstances) -> Reference:
-    """Equilibria of a world without batch axes."""
+    """Equilibria of a world without batch axes.
+
+    Raises
+    ------
+    CdprError : a cable has no length there.
+    """
     found, stiff = locked_pose(world, readings, known)
+    if np.isnan(found.position).any():
+        raise CdprError("a cable would have no length")
     arrays = robot_arrays(world, stiff, known)
     arms = PlatformArms.at(arrays, found.position, found.rotation)
     tangent = tangent_stiffness(arrays, found.cables, arms)
@@ -118,10 +126,12 @@ def nearby_pose(world: World, readings: Readings, known: Circumstances, about: R
     """Equilibria (..., S) of worlds near that of a reference: Newton's method from there, its stiffness kept.
 
     One step does, except for cables that hardly stretch: there the square of a small turn is a large force, and the
-    steps may lead nowhere. None if so.
+    steps may lead nowhere. None if so, or if a law leaves a cable no length.
     """
     position, rotation = true_pose(world, readings)
     length = paid_out(world, readings, known)
+    if not np.all(length > 0.0):
+        return None
     load = load_wrench(world, position, rotation, known) - _own_weight(world, rotation)
     tension = about.cables.tension_at_platform
     stiff = series_stiffness(world, length, np.maximum(tension, 1.0), known)

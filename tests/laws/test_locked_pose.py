@@ -10,6 +10,7 @@ from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.residuals import States, among
 from cdpr_struct.diagnosis.setting import circumstances, make_setting
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.errors import CdprError
 from tests.laws.crime_campaign import clean_campaign
 
 
@@ -47,6 +48,10 @@ def test_a_law_that_leaves_a_cable_no_length_leaves_no_pose(campaign):
     np.testing.assert_allclose(found.position[0], locked_pose(world, readings, known)[0].position, atol=1e-9)
     assert np.isnan(found.position[1]).all()
     assert np.isnan(missed_pose(worlds, readings, found)[1]).any(axis=-1).all()
+    near = equilibria(worlds, readings, known, reference(world, readings, known), small=True)
+    np.testing.assert_array_equal(near.position, found.position)
+    with pytest.raises(CdprError, match="no length"):
+        reference(replace(world, length_offset=world.length_offset - 50.0), readings, known)
 
 
 @pytest.mark.parametrize("give", [0.0, 1e-5])
