@@ -30,6 +30,11 @@ class InputError(ValueError):
         super().__init__(f"{place}: got {plain!r}; {expected}")
 
 
+def not_utf8(source: str, error: UnicodeDecodeError) -> InputError:
+    """What to say of a text file in another encoding."""
+    return InputError(source, "", f"byte {error.object[error.start]:#x}", "a text file in UTF-8")
+
+
 class UnholdablePoseError(CdprError):
     """No tension distribution above the lower bound balances the load at this pose."""
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.refit import Fit, explained_share
-from cdpr_struct.diagnosis.verdict import answers, class_of, is_unknown
+from cdpr_struct.diagnosis.verdict import answers, classes_of, is_unknown
 from cdpr_struct.diagnosis.whole_change import whole_change
 
 
@@ -33,10 +33,7 @@ def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
 
 def _left_open(found: Diagnosis) -> list[Fit]:
     """Fits of the chosen causes with one of them exchanged for a rival that these data do not tell apart from it."""
-    fit = found.selection.fit
-    if fit is None:
-        return []
-    classes = [class_of(found, i) for i in range(len(fit.names))]
+    classes = classes_of(found)
     return [rival for row in found.selection.rivals for rival in row if answers(rival.names, classes)]
 
 

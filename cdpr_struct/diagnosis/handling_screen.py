@@ -24,15 +24,15 @@ _ANGULAR = 3.0  # times what is expected, beyond which a frequency may be in rad
 
 
 def best_correction(
-    campaign: Campaign, level: float, made: Sequence[Correction], peaks_too_high: bool = False
+    campaign: Campaign, level: float, made: Sequence[Correction], angular_peaks: bool = False
 ) -> tuple[Correction, float] | None:
     """The handling error or shortcut with the highest evidence against the null at `level`, if it is enough.
 
     made : corrections that the campaign has already; none is made twice
-    peaks_too_high : whether the robot frequencies may be angular
+    angular_peaks : whether the robot frequencies may be angular
     """
     said = {correction.sentence for correction in made}
-    tried = [c for c in shortcuts(campaign) + _worthwhile(campaign, peaks_too_high) if c.sentence not in said]
+    tried = [c for c in shortcuts(campaign) + _worthwhile(campaign, angular_peaks) if c.sentence not in said]
     levels = side_by_side(level_of, [correction.campaign for correction in tried], ())
     scored = [
         (correction, level - own - float(np.log(correction.alternatives)))
@@ -53,15 +53,16 @@ def level_of(campaign: Campaign) -> float | None:
         return None
 
 
-def _worthwhile(campaign: Campaign, peaks_too_high: bool) -> list[Correction]:
+def _worthwhile(campaign: Campaign, angular_peaks: bool) -> list[Correction]:
     """The few corrections that reduce the static residuals most, and those of frequencies that look angular."""
     options = corrections(campaign)
     states = campaign.states
-    always = [c for c in options if c.campaign.states is states]
-    if not _rad_per_second(campaign):
-        always = [
-            c for c in always if peaks_too_high and c.campaign.robot_frequencies is not campaign.robot_frequencies
-        ]
+    angular = _rad_per_second(campaign)
+
+    def suspect(option: Campaign) -> bool:
+        return angular or (angular_peaks and option.robot_frequencies is not campaign.robot_frequencies)
+
+    always = [c for c in options if c.campaign.states is states and suspect(c.campaign)]
     shown = [c for c in options if c.campaign.states is not states]
     held = np.flatnonzero(states.has_tension)
     if not np.any(states.payload[held]):  # the static states say nothing of payloads

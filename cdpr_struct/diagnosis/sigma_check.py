@@ -24,10 +24,8 @@ _NEEDED = {
 _RANGE = {"position_m": (1e-6, 0.05), "rotation_deg": (1e-5, 5.0), "length_m": (1e-6, 0.05)}
 _SHARE = {"tension_N": (1e-5, 0.3), "frequency_hz": (1e-6, 0.2)}  # of the median reading
 _LOOSE = {  # tolerances beyond these are no drawing's
-    "anchor_m": (0.1, "in m"), "length_m": (0.1, "in m"), "center_of_mass_m": (0.3, "in m"),
-    "pulley_radius_m": (0.02, "in m"),
-    "axial_stiffness": (0.5, "a share of it"), "linear_density": (0.5, "a share of it"),
-    "platform_inertia": (1.0, "a share of it"), "load_cell_gain": (0.3, "a share of it"),
+    "anchor_m": 0.1, "length_m": 0.1, "center_of_mass_m": 0.3, "pulley_radius_m": 0.02,
+    "axial_stiffness": 0.5, "linear_density": 0.5, "platform_inertia": 1.0, "load_cell_gain": 0.3,
 }  # fmt: skip
 _DEFAULT_FREQUENCY = "0.3 % of each"
 
@@ -72,13 +70,19 @@ def _main(sheet: Sheet) -> str:
     return "position_m" if sheet.kind == "loaded_pose" else "frequency_hz"
 
 
+def tolerance_unit(name: str) -> str:
+    """Unit of a tolerance, which ends its name; "" of those that are shares of the value entered."""
+    return next((ending for ending in ("m", "kg", "N") if name.endswith(f"_{ending}")), "")
+
+
 def warnings(found: Diagnosis) -> list[str]:
     """What is odd about the sigmas, in sentences."""
     said = [text for used in sigmas_used(found.campaign) if (text := _absurd(found.campaign, used))]
-    for name, (most, unit) in _LOOSE.items():
-        value = getattr(found.campaign.tolerances, name)
+    for name, most in _LOOSE.items():
+        value, unit = getattr(found.campaign.tolerances, name), tolerance_unit(name)
         if value > most:
-            said.append(f"the tolerance {name}, {value:g}, is very large: is it {unit}?")
+            asked = f"in {unit}" if unit else "a share of it"
+            said.append(f"the tolerance {name}, {value:g}, is very large: is it {asked}?")
     null, labels, read = found.entered, found.entered_setting.labels, rows_read(found)
     for kind in dict.fromkeys(labels.kind[read & ~np.isin(labels.block.astype(str), ("RF", "FA"))].tolist()):
         rows = np.flatnonzero((labels.kind == kind) & read)

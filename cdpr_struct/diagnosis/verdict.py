@@ -58,9 +58,7 @@ def verdict(found: Diagnosis) -> Verdict:
         repeat = "; ".join(filter(None, (f"repeat what is worst: {place}", _next(found, ()))))
         return Verdict("unknown", (), (), _probability(found), place, repeat, _unknown_sentence(found, place))
     names = tuple(c.cause for c in mended) + (fit.names if fit else ())
-    classes = tuple((c.cause, *c.rivals) for c in mended) + tuple(
-        class_of(found, i) for i in range(len(fit.names) if fit else 0)
-    )
+    classes = (*((c.cause, *c.rivals) for c in mended), *classes_of(found))
     separable = all(len(c) == 1 for c in classes)
     status = "named" if separable and confirmed(found) else "class"
     if any(len(c) > LARGEST_CLASS for c in classes):
@@ -163,10 +161,14 @@ def location(found: Diagnosis) -> str:
     return f"{_PLACES[worst]}, most in {where}"
 
 
-def class_of(found: Diagnosis, i: int) -> tuple[str, ...]:
-    """The i-th chosen cause with the likeliest others in its place, until they hold `CREDIBLE` together."""
+def classes_of(found: Diagnosis) -> list[tuple[str, ...]]:
+    """The class of each chosen cause."""
     fit = found.selection.fit
-    assert fit is not None
+    return [] if fit is None else [_class(found, fit, i) for i in range(len(fit.names))]
+
+
+def _class(found: Diagnosis, fit: Fit, i: int) -> tuple[str, ...]:
+    """The i-th chosen cause with the likeliest others in its place, until they hold `CREDIBLE` together."""
     rivals: dict[str, float] = {}
     for rival in found.selection.rivals[i]:
         if rival.names[-1] not in fit.names:
@@ -186,7 +188,7 @@ def _probability(found: Diagnosis) -> float:
         for rival in row:
             gains.setdefault(rival.names, rival.gain)
     beyond = fit.gain + max(outside.gain + _PRIOR_OUTSIDE, outside.instead)
-    classes = [class_of(found, i) for i in range(len(fit.names))]
+    classes = classes_of(found)
     answer = [gain for names, gain in gains.items() if answers(names, classes)]
     logs = np.array([0.0, beyond, *gains.values()])
     said = TEMPER * beyond if is_unknown(found) else float(np.logaddexp.reduce(TEMPER * np.array(answer)))
@@ -227,13 +229,13 @@ def _standing(found: Diagnosis, fit: Fit) -> str:
     """What the chosen causes explain of what is not noise, if chi^2 shows any, and whether what was left out agrees."""
     share = 100.0 * fit.explained(found.ground.z)
     explained = f"This explains {share:.0f} % of the significant error" if share >= 0.5 else ""
-    joint, outcome = "", ""
+    joint, outcome, single = "", "", len(found.campaign.states.names) == 1
     if found.held is not None and not confirmed(found):
         joint, outcome = ", but ", "it hangs on one state: nothing that was left out confirms it"
-        if len(found.campaign.states.names) == 1:
+        if single:
             outcome = "with a single state nothing can be left out to confirm it"
     elif found.held is not None:
-        ratio, single = found.held.ratio(found.held.concerned), len(found.campaign.states.names) == 1
+        ratio = found.held.ratio(found.held.concerned)
         where = "from the other kinds of data alone" if single else "in states that were not fitted"
         better = f"{ratio:.1f} times better" if ratio > _BETTER else "no better"
         joint, outcome = "; ", f"what it concerns is predicted {better} {where}"

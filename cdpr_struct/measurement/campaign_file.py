@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from cdpr_struct.errors import InputError
+from cdpr_struct.errors import InputError, not_utf8
 from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
@@ -124,7 +124,7 @@ def _table(source: Path) -> CampaignTable:
     try:
         text = source.read_text("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise InputError(str(source), "", f"byte {error.object[error.start]:#x}", "a text file in UTF-8") from error
+        raise not_utf8(str(source), error) from error
     except (OSError, ValueError) as error:
         raise InputError("CAMPAIGN", "", str(source), "a campaign file (TOML) that can be read") from error
     try:

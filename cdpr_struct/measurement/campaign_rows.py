@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from cdpr_struct.errors import InputError, known_names
+from cdpr_struct.errors import InputError, known_names, not_utf8
 from cdpr_struct.measurement.universal_rows import is_universal, universal_columns
 from cdpr_struct.robot.robot_file import LARGEST
 
@@ -63,7 +63,7 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
     try:
         table = pd.read_csv(path, dtype=str, keep_default_na=False, skipinitialspace=True, comment="#")
     except UnicodeDecodeError as error:
-        raise InputError(str(path), "", f"byte {error.object[error.start]:#x}", "a text file in UTF-8") from error
+        raise not_utf8(str(path), error) from error
     except OSError as error:
         raise InputError(str(path), "", path.name, "a CSV file that can be read") from error
     except pd.errors.ParserError as error:

@@ -4,7 +4,7 @@ import numpy as np
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import States
-from cdpr_struct.measurement.unit_scale import cable_vectors, chords
+from cdpr_struct.measurement.unit_scale import cable_vectors, chords, frame_reach
 from cdpr_struct.robot.robot import Robot
 
 _STRAIN = 0.3  # beyond this no cable stretches under the tensions measured
@@ -27,25 +27,17 @@ def check_robot_scale(source: str, robot: Robot, states: States) -> None:
         _check_masts(source, robot, states)
 
 
-def _reach(robot: Robot) -> float:
-    """Distance of the farthest frame anchor from the middle of all [m]."""
-    return float(np.linalg.norm(robot.frame_anchors - robot.frame_anchors.mean(axis=0), axis=1).max())
-
-
 def _check_body(source: str, robot: Robot) -> None:
     """Mass lies within the frame."""
-    body, reach = robot.platform, _reach(robot)
+    body, (_, reach) = robot.platform, frame_reach(robot)
     if np.linalg.norm(body.center_of_mass) > reach:
-        expected = (
-            f"m: it lies outside the frame, whose anchors are within {reach:.3g} m of their middle (is it in mm?)"
-        )
+        expected = "m: it lies outside the frame, whose anchors are within "
+        expected += f"{reach:.3g} m of their middle (is it in mm?)"
         raise InputError(source, "center_of_mass", body.center_of_mass.tolist(), expected)
     gyration = float(np.sqrt(np.linalg.eigvalsh(body.inertia)[-1] / body.mass))
     if gyration > reach:
-        expected = (
-            f"kg m^2: with a mass of {body.mass:.4g} kg the radius of gyration is {gyration:.3g} m, and the frame's "
-        )
-        expected += f"anchors are within {reach:.3g} m of their middle (is it in kg mm^2, or the mass in t?)"
+        expected = f"kg m^2: with a mass of {body.mass:.4g} kg the radius of gyration is {gyration:.3g} m, and the "
+        expected += f"frame's anchors are within {reach:.3g} m of their middle (is it in kg mm^2, or the mass in t?)"
         raise InputError(source, "platform inertia", body.inertia.tolist(), expected)
 
 
@@ -56,7 +48,8 @@ def _check_cables(source: str, robot: Robot, states: States) -> None:
         expected = "EA in N: under the tensions measured such cables would stretch by "
         expected += f"{100.0 * strain:.3g} % in the median (is it in kN, or are the tensions not in N?)"
         raise InputError(source, "axial_stiffness", float(np.median(robot.axial_stiffness)), expected)
-    times = float(np.nanmedian(robot.linear_density * robot.gravity * chords(robot, states) / states.tension))
+    weight = robot.linear_density * robot.gravity * chords(robot, states.position, states.angles)
+    times = float(np.nanmedian(weight / states.tension))
     if times > _TIMES_TENSION:
         expected = f"kg/m: such cables would weigh {times:.3g} times the tensions measured, in the median "
         expected += "(is it in g/m, or are the tensions not in N?)"
@@ -68,25 +61,22 @@ def _check_weight(source: str, robot: Robot, states: States) -> None:
     whole = np.isfinite(states.tension).all(axis=1)
     if not whole.any():
         return
-    vectors = cable_vectors(robot, states)[whole]
+    vectors = cable_vectors(robot, states.position[whole], states.angles[whole])
     upward = states.tension[whole] * vectors[..., 2] / np.linalg.norm(vectors, axis=-1)
     most = np.take_along_axis(upward, np.abs(upward).argmax(axis=1)[:, None], axis=1)[:, 0]
     together = upward.sum(axis=1)
     carried = float(np.median(np.minimum(np.abs(together), np.abs(together - most))))
     weight = float(np.median(robot.platform.mass + states.payload[whole])) * robot.gravity
     if carried > _TIMES_WEIGHT * weight:
-        expected = (
-            f"a platform's mass in kg: it weighs {weight:.3g} N with its load, and the tensions measured carry more "
-        )
-        expected += f"than {carried:.3g} N (is it in t, or are the tensions not in N?)"
+        expected = f"a platform's mass in kg: it weighs {weight:.3g} N with its load, and the tensions measured carry "
+        expected += f"more than {carried:.3g} N (is it in t, or are the tensions not in N?)"
         raise InputError(source, "platform mass", robot.platform.mass, expected)
 
 
 def _check_masts(source: str, robot: Robot, states: States) -> None:
     """Masts stand where their cables pull."""
-    give, reach = float(np.nanmedian(states.tension * robot.extensions.frame_compliance)), _reach(robot)
-    if give > _GIVE * reach:
-        expected = (
-            f"m/N: under the tensions measured masts would give way by {give:.3g} m, in the median (is it in mm/N?)"
-        )
+    give = float(np.nanmedian(states.tension * robot.extensions.frame_compliance))
+    if give > _GIVE * frame_reach(robot)[1]:
+        expected = "m/N: under the tensions measured masts would give way by "
+        expected += f"{give:.3g} m, in the median (is it in mm/N?)"
         raise InputError(source, "frame_compliance", float(np.median(robot.extensions.frame_compliance)), expected)

@@ -45,13 +45,11 @@ def check_pose_scale(
     InputError : a pose or lengths that cannot be in m.
     """
     _check_position(source, name, robot, position)
-    points = position + robot.platform_anchors @ rotation(*angles).T
-    _check_lengths(source, name, length, np.linalg.norm(points - robot.frame_anchors, axis=1), locked)
+    _check_lengths(source, name, length, chords(robot, position[None], angles[None])[0], locked)
 
 
 def _check_position(source: str, name: str, robot: Robot, position: np.ndarray) -> None:
-    middle = robot.frame_anchors.mean(axis=0)
-    reach = float(np.linalg.norm(robot.frame_anchors - middle, axis=1).max())
+    middle, reach = frame_reach(robot)
     if np.linalg.norm(position - middle) > _TIMES * reach:
         expected = f"a position in m: the frame anchors lie within {reach:.3g} m of their middle (is it in mm?)"
         raise InputError(source, f"case {name}: x_m, y_m, z_m", position.tolist(), expected)
@@ -77,8 +75,7 @@ def _all_beyond(ratio: np.ndarray, times: float) -> bool:
 
 def _check_payload(source: str, name: str, robot: Robot, payload: float) -> None:
     if payload > _TIMES_PLATFORM * robot.platform.mass:
-        expected = f"a payload in kg: the platform itself has {robot.platform.mass:.4g} kg (is it in g"
-        expected += ", or that in t?)"
+        expected = f"a payload in kg: the platform itself has {robot.platform.mass:.4g} kg (is it in g, or that in t?)"
         raise InputError(source, f"case {name}: payload_kg", payload, expected)
 
 
@@ -97,7 +94,7 @@ def _check_files(source: str, robot: Robot, states: States) -> None:
     held, locked = (np.flatnonzero(known & own) for own in (states.has_tension, ~states.has_tension))
     if not (held.size and locked.size):
         return
-    ratio = states.length / chords(robot, states)
+    ratio = states.length / chords(robot, states.position, states.angles)
     times = float(np.median(ratio[held]) / np.median(ratio[locked]))
     if not 1.0 / _TIMES_LOCKED < times < _TIMES_LOCKED:
         i = int(held[0])
@@ -106,14 +103,20 @@ def _check_files(source: str, robot: Robot, states: States) -> None:
         raise InputError(source, f"case {states.names[i]}: length_m", float(states.length[i, 0]), expected)
 
 
-def chords(robot: Robot, states: States) -> np.ndarray:
-    """(S, m) distances of the anchors at the measured poses [m]."""
-    distances: np.ndarray = np.linalg.norm(cable_vectors(robot, states), axis=-1)
+def frame_reach(robot: Robot) -> tuple[np.ndarray, float]:
+    """Middle (3,) of the frame anchors and how far the farthest is from it [m]."""
+    middle = robot.frame_anchors.mean(axis=0)
+    return middle, float(np.linalg.norm(robot.frame_anchors - middle, axis=1).max())
+
+
+def chords(robot: Robot, position: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """(S, m) distances of the anchors at poses (S, 3) [m], (S, 3) [rad]."""
+    distances: np.ndarray = np.linalg.norm(cable_vectors(robot, position, angles), axis=-1)
     return distances
 
 
-def cable_vectors(robot: Robot, states: States) -> np.ndarray:
-    """(S, m, 3) from platform to frame anchors at the measured poses [m]."""
-    turned = np.array([robot.platform_anchors @ rotation(*angles).T for angles in states.angles])
-    vectors: np.ndarray = robot.frame_anchors - states.position[:, None] - turned
+def cable_vectors(robot: Robot, position: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """(S, m, 3) from platform to frame anchors at poses (S, 3) [m], (S, 3) [rad]."""
+    turned = np.array([robot.platform_anchors @ rotation(*own).T for own in angles])
+    vectors: np.ndarray = robot.frame_anchors - position[:, None] - turned
     return vectors

@@ -10,6 +10,7 @@ import numpy as np
 from cdpr_struct.diagnosis.diagnose import Diagnosis
 from cdpr_struct.diagnosis.extended_model import extended_robot_toml
 from cdpr_struct.diagnosis.residuals import UNITS
+from cdpr_struct.diagnosis.sigma_check import tolerance_unit
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.diagnosis_signals import SIGNAL_FILES, signal_plates, signal_tables
 from cdpr_struct.reports.diagnosis_tables import (
@@ -126,14 +127,6 @@ _METHOD = (
 )
 
 
-_UNITS = {"_m": "m", "_kg": "kg", "_N": "N"}
-
-
-def _unit(tolerance: str) -> str:
-    """That of a tolerance, which ends its name; the others are shares of the value entered."""
-    return next((unit for ending, unit in _UNITS.items() if tolerance.endswith(ending)), "of its value")
-
-
 def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
     candidates = result["candidates"]
     shown = (
@@ -149,7 +142,7 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
     sizes = [[n.replace("_", " "), f"{v['value']:.3g}", v["unit"]] for n, v in result["minimum_detectable"].items()]
     tables.append(HtmlTable("Smallest size found 4 times out of 5", ["cause", "size", "unit"], sizes))
     tolerances = [
-        [n, f"{v['value']:g}", _unit(n), "stated" if v["stated"] else "default"]
+        [n, f"{v['value']:g}", tolerance_unit(n) or "of its value", "stated" if v["stated"] else "default"]
         for n, v in result["tolerances"].items()
     ]
     tables.append(

@@ -193,7 +193,7 @@ def test_units_of_payloads_are_tried_where_only_locked_poses_have_any():
     tension, sigma = (np.where(locked, np.nan, v) for v in (campaign.states.tension, campaign.states.tension_sigma))
     payload = np.array([0.0, 0.0, 200.0, 400.0, 600.0])
     states = replace(campaign.states, tension=tension, tension_sigma=sigma, payload=payload)
-    tried = {c.sentence for c in _worthwhile(replace(campaign, states=states), peaks_too_high=False)}
+    tried = {c.sentence for c in _worthwhile(replace(campaign, states=states), angular_peaks=False)}
     assert "the payloads are in N" in tried
 
 

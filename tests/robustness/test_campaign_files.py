@@ -112,7 +112,7 @@ def test_a_payload_in_grams_is_refused(tmp_path, capsys):
         ("platform_mass = 118500.0", ["tension_N", "2400", "mass of 1.185e+05 kg in g?"]),
         (
             "platform_mass = 0.1185\nplatform_inertia = [[0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.1]]",
-            ["platform mass", "in t"],
+            ["platform mass", "0.1185", "is it in t,"],
         ),
         ("center_of_mass = [0, 0, 30]", ["center_of_mass", "30", "is it in mm?"]),
         ("platform_inertia = [[7e9, 0, 0], [0, 7e9, 0], [0, 0, 7e9]]", ["platform inertia", "7000000000", "kg mm^2"]),
