@@ -5,20 +5,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from derivations.records import DerivationReport, FormulaRecord
 
-__all__ = ["DerivationReport", "FormulaRecord", "run"]
+__all__ = ["STEPS", "DerivationReport", "FormulaRecord", "run"]
+
+STEPS = 8
+"""Calls of `progress` in a run."""
 
 
-def run(check: bool = False, output: Path | None = None) -> DerivationReport:
+def run(
+    check: bool = False, output: Path | None = None, progress: Callable[[str], None] = lambda name: None
+) -> DerivationReport:
     """Derive everything; write the results, or compare them with what is there.
 
     Parameters
     ----------
     check : True compares and writes nothing; False writes.
     output : root that holds cdpr_struct/generated and derivations/latex; None is this repository.
+    progress : called with the name of each of the `STEPS` steps as it begins.
 
     Returns
     -------
@@ -30,4 +37,4 @@ def run(check: bool = False, output: Path | None = None) -> DerivationReport:
     """
     from derivations.regenerate import regenerate
 
-    return regenerate(check, output)
+    return regenerate(check, output, progress)

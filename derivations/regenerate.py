@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -42,10 +43,15 @@ class Rendering:
     texts: dict[str, str]
 
 
-def render() -> Rendering:
-    """Derive, and print all files into memory."""
+def render(progress: Callable[[str], None] = lambda name: None) -> Rendering:
+    """Derive, and print all files into memory; `progress` is called with the name of each sheet that begins."""
+    progress("special functions")
     special_functions.prove_series()
-    formulas = tuple(record for sheet in SHEETS.values() for record in sheet.formulas())
+    formulas: tuple[FormulaRecord, ...] = ()
+    for name, sheet in SHEETS.items():
+        progress(name.replace("_", " "))
+        formulas += tuple(sheet.formulas())
+    progress("printing")
     functions = {name: sheet.functions() for name, sheet in SHEETS.items()}
     texts = {f"{GENERATED}/{name}.py": module_text(SHEETS[name].SOURCE, f) for name, f in functions.items()}
     special = header("derivations/special_functions.py, derivations/print_special_functions.py", None)
@@ -80,13 +86,16 @@ def write(texts: dict[str, str], root: Path) -> tuple[str, ...]:
     return tuple(changed)
 
 
-def regenerate(check: bool, output: Path | None) -> DerivationReport:
+def regenerate(
+    check: bool, output: Path | None, progress: Callable[[str], None] = lambda name: None
+) -> DerivationReport:
     """See derivations.run."""
     start = time.perf_counter()
     root = Path(__file__).resolve().parent.parent if output is None else Path(output)
-    rendering = render()
+    rendering = render(progress)
     diff = drift(rendering.texts, root)
     written = () if check else write(rendering.texts, root)
+    progress("comparing numbers at 50 digits")
     errors = value_errors(rendering.functions, root / GENERATED)
     seconds = time.perf_counter() - start
     return DerivationReport(rendering.formulas, diff if check else "", errors, seconds, written)

@@ -1,31 +1,26 @@
 """`cdpr-struct audit`: the cables against the printed validity limits, or the limits themselves on trial."""
 
-import shlex
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cdpr_struct.cli.command_words import command_words
-from cdpr_struct.cli.extension_notes import noted, with_extensions
+from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.operating_point import rest
 from cdpr_struct.cli.options import (
     GridText,
-    Json,
     Lengths,
     LowerBound,
     Mass,
-    Out,
     Payload,
     PoseText,
+    UpperBound,
     number,
     read_grid,
     read_robot,
 )
-from cdpr_struct.cli.output import emit, result_json, write_files
-from cdpr_struct.cli.progress import steps
+from cdpr_struct.cli.output import Files, Output
 from cdpr_struct.errors import InputError
 
 if TYPE_CHECKING:
@@ -36,6 +31,10 @@ if TYPE_CHECKING:
     from cdpr_struct.workspace.grid import Grid
 
 NAME = "audit"
+EXAMPLES = (
+    "cdpr-struct audit thesis-3-1 --grid -3:3:5,-3:3:5,0.5",
+    "cdpr-struct audit thesis-5 --trajectory line:0,0,2:1,0,2.5:4",
+)
 _THREADS = 2
 _INSTANTS = 301
 _TRAJECTORY = "helix, line:START:END:SECONDS, or a CSV file time_s,x_m,y_m,z_m[,rx_deg,ry_deg,rz_deg]."
@@ -51,14 +50,15 @@ def run(
     trajectory: Annotated[str | None, typer.Option("--trajectory", metavar="T", help=_TRAJECTORY)] = None,
     payload: Payload = 0.0,
     mass: Mass = None,
-    lower_bound: LowerBound = 0.0,
+    lower_bound: LowerBound = None,
+    upper_bound: UpperBound = None,
     limits: Annotated[bool, typer.Option("--limits", help="Put the printed limits themselves on trial.")] = False,
     small: Annotated[bool, typer.Option("--small", help="With --limits: a coarse grid, some seconds.")] = False,
     tolerance: Annotated[
         float, typer.Option("--tolerance", parser=number, help="With --limits: error that counts as a failure.")
     ] = 0.01,
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:
     """Check each cable at each pose against the printed limits; exit 1 if one is broken (or, with --limits, fails)."""
     ways = {"--pose": pose, "--lengths": lengths, "--grid": grid, "--trajectory": trajectory}
@@ -66,7 +66,7 @@ def run(
     if limits:
         for option, text in ({"ROBOT": robot} if robot else given).items():
             raise InputError(option, "", text, "--limits tries single cables of every kind; leave this out")
-        return _try_limits(small, tolerance, out, json)
+        return _try_limits(small, tolerance, output)
     if robot is None:
         raise InputError("ROBOT", "", "nothing", "give a robot, or --limits")
     if len(given) > 1:
@@ -74,59 +74,51 @@ def run(
         raise InputError(last, "", given[last], f"give only one of {', '.join(ways)}")
     if small:
         raise InputError("--small", "", small, "it belongs to --limits; leave it out")
-    if not 0.0 <= lower_bound < float("inf"):
-        raise InputError("--lower-bound", "", lower_bound, "give a force in N, zero or more")
-    machine = read_robot(robot, payload, mass)
-    audit, poses, time = _audit(machine, ways, lower_bound)
-    command = command_words(NAME, robot, payload, mass, **ways, **{"--lower-bound": lower_bound or None})
-    return _report(audit, machine, (poses, time), shlex.join(command), out, json)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    audit, poses, time = _audit(machine, ways, output)
+    return _report(audit, machine, (poses, time), output)
 
 
 def _audit(
-    machine: "Robot", ways: Mapping[str, str | None], lower_bound: float
+    machine: "Robot", ways: Mapping[str, str | None], output: Output
 ) -> "tuple[PoseAudit, Grid | None, np.ndarray | None]":
     """The audit where the options say, and the grid or the times that its poses are ordered by."""
     if (text := ways["--grid"]) is not None:
         poses = read_grid(text)
-        return _at_poses(machine, poses.positions, poses.rotation, lower_bound), poses, None
+        return _at_poses(machine, poses.positions, poses.rotation, output), poses, None
     if (text := ways["--trajectory"]) is not None:
         from cdpr_struct.cli.trajectory_input import read_trajectory
 
         path = read_trajectory(text, _INSTANTS if text == "helix" or text.startswith("line:") else None)
-        return _at_poses(machine, path.position, path.rotation, lower_bound), None, path.time
+        return _at_poses(machine, path.position, path.rotation, output), None, path.time
     from cdpr_struct.crosscheck.limits_poses import audit_rest
 
-    return audit_rest(rest(machine, ways["--pose"], ways["--lengths"], lower_bound)), None, None
+    return audit_rest(rest(machine, ways["--pose"], ways["--lengths"])), None, None
 
 
-def _at_poses(machine: "Robot", position: "np.ndarray", rotation: "np.ndarray", lower_bound: float) -> "PoseAudit":
+def _at_poses(machine: "Robot", position: "np.ndarray", rotation: "np.ndarray", output: Output) -> "PoseAudit":
     from cdpr_struct.crosscheck.limits_poses import audit_poses, chunk_count
 
-    with steps(chunk_count(len(position))) as progress:
-        return audit_poses(machine, position, rotation, lower_bound, progress)
+    with output.steps(chunk_count(len(position))) as progress:
+        return audit_poses(machine, position, rotation, progress=progress)
 
 
 def _report(
-    audit: "PoseAudit",
-    machine: "Robot",
-    order: "tuple[Grid | None, np.ndarray | None]",
-    command: str,
-    out: Path | None,
-    json: bool,
+    audit: "PoseAudit", machine: "Robot", order: "tuple[Grid | None, np.ndarray | None]", output: Output
 ) -> int:
     from cdpr_struct.reports.audit_result import audit_json, audit_text
 
-    grid, time = order
-    result = with_extensions(audit_json(audit, time), machine, NAME)
-    emit(result, json, lambda: print(audit_text(audit)))
-    if out is not None:
+    def files() -> Files:
         from cdpr_struct.reports.audit_page import audit_files
 
-        write_files(out, noted(result, {"result.json": result_json(result), **audit_files(audit, command, grid, time)}))
+        return audit_files(audit, *order)
+
+    result = with_extensions(audit_json(audit, order[1]), machine, NAME)
+    output.deliver(result, lambda: audit_text(audit), files)
     return 0 if result["valid"] else 1
 
 
-def _try_limits(small: bool, tolerance: float, out: Path | None, json: bool) -> int:
+def _try_limits(small: bool, tolerance: float, output: Output) -> int:
     if not 0.0 < tolerance < 1.0:
         raise InputError("--tolerance", "", tolerance, "give a ratio between 0 and 1, like 0.01")
     from cdpr_struct.crosscheck.limits_trial import FULL_EXTENT, SMALL_EXTENT, step_count, try_limits
@@ -134,20 +126,13 @@ def _try_limits(small: bool, tolerance: float, out: Path | None, json: bool) -> 
     from cdpr_struct.reports.audit_limits_text import limits_trial_text
 
     extent = SMALL_EXTENT if small else FULL_EXTENT
-    with ThreadPoolExecutor(_THREADS) as pool, steps(step_count(extent)) as progress:
+    with ThreadPoolExecutor(_THREADS) as pool, output.steps(step_count(extent)) as progress:
         trial = try_limits(extent, tolerance, pool, progress)
-    result = limits_trial_json(trial)
-    emit(result, json, lambda: print(limits_trial_text(trial)))
-    if out is not None:
+
+    def files() -> Files:
         from cdpr_struct.reports.audit_limits_page import limits_trial_files
 
-        words = [
-            "cdpr-struct",
-            NAME,
-            "--limits",
-            *(["--small"] if small else []),
-            f"--tolerance={tolerance:g}",
-            "--out=DIR",
-        ]
-        write_files(out, {"result.json": result_json(result), **limits_trial_files(trial, shlex.join(words))})
+        return limits_trial_files(trial)
+
+    output.deliver(limits_trial_json(trial), lambda: limits_trial_text(trial), files)
     return 0 if trial.holds else 1

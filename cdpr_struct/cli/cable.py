@@ -1,15 +1,18 @@
 """`cdpr-struct cable`: everything about one cable under one end force."""
 
-from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
-from cdpr_struct.cli.options import SMALLEST, Json, Out, number, read_numbers
-from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.options import SMALLEST, number, read_numbers
+from cdpr_struct.cli.output import Files, Output
 from cdpr_struct.errors import InputError
 
 NAME = "cable"
+EXAMPLES = (
+    "cdpr-struct cable --force 100,-100 --length 20 --EA 251327.4 --rho 0.067",
+    "cdpr-struct cable --force 40,-10 --length 8 --EA 1e5 --rho 0.05 --json",
+)
 
 
 def run(
@@ -18,8 +21,8 @@ def run(
     axial_stiffness: Annotated[float, typer.Option("--EA", parser=number, metavar="EA", help="Axial stiffness [N].")],
     density: Annotated[float, typer.Option("--rho", parser=number, metavar="RHO", help="Linear density [kg/m].")],
     gravity: Annotated[float, typer.Option("--gravity", parser=number, metavar="G", help="[m/s^2]")] = 9.81,
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:
     """One cable: end point, sag, elongation, stiffness, validity of the DSM, natural frequencies."""
     force_x, force_z = read_numbers(force, "--force", (2,), "numbers FX,FZ in N")
@@ -33,15 +36,12 @@ def run(
     from cdpr_struct.crosscheck.single_cable import describe_cable
 
     result = describe_cable(force_x, force_z, length, axial_stiffness, density, gravity)
-    emit(result, json, lambda: _print(result))
-    if out is not None:
-        from cdpr_struct.reports.cable_page import cable_files
-
-        write_files(out, {"result.json": result_json(result), **cable_files(result)})
-    return 0
-
-
-def _print(result: Mapping[str, Any]) -> None:
     from cdpr_struct.reports.text import cable_text
 
-    print(cable_text(result))
+    def files() -> Files:
+        from cdpr_struct.reports.cable_page import cable_files
+
+        return cable_files(result)
+
+    output.deliver(result, lambda: cable_text(result), files)
+    return 0

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from cdpr_struct.cli.output import write_whole
+from cdpr_struct.cli.written_files import write_whole
 from cdpr_struct.errors import InputError
 
 Columns = dict[str, np.ndarray]

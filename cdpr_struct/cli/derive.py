@@ -1,24 +1,29 @@
 """`cdpr-struct derive`: regenerate the closed forms from the derivations, or check that they are current."""
 
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Any
 
 import typer
 
-from cdpr_struct.cli.options import Json, Out
-from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.output import Files, Output
 
 NAME = "derive"
+EXAMPLES = (
+    "cdpr-struct derive --check",
+    "cdpr-struct derive --check --out results/formulas",
+)
 
 
 def run(
     check: Annotated[bool, typer.Option("--check", help="Change nothing; exit 1 and show a diff if stale.")] = False,
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:
     """Regenerate Python and LaTeX from the sympy derivations."""
     import derivations
 
-    report = derivations.run(check=check, output=None)
+    with output.steps(derivations.STEPS) as progress:
+        report = derivations.run(check=check, output=None, progress=progress)
     formulas = [
         {"id": f.id, "thesis_equation": f.thesis_equation, "status": f.status, "note": f.note} for f in report.formulas
     ]
@@ -29,15 +34,20 @@ def run(
         "seconds": report.seconds,
     }
 
-    def text() -> None:
-        for f in formulas:
-            print(f"{f['status']:<10} {f['thesis_equation']:<14} {f['id']}")
-            if f["note"]:
-                print(f"{'':<10} {f['note']}")
-        print(f"{len(formulas)} formulas derived in {report.seconds:.1f} s")
-        print("".join([report.diff, *(f"value drift: {e}\n" for e in report.value_errors)]), end="")
+    def files() -> Files:
+        from cdpr_struct.reports.derive_page import derive_files
 
-    emit(result, json, text)
-    if out is not None:
-        write_files(out, {"result.json": result_json(result)})
+        return derive_files(result)
+
+    output.deliver(result, lambda: _text(result), files)
     return 1 if check and (report.diff or report.value_errors) else 0
+
+
+def _text(result: Mapping[str, Any]) -> str:
+    lines = []
+    for f in result["formulas"]:
+        lines.append(f"{f['status']:<10} {f['thesis_equation']:<14} {f['id']}")
+        lines += [f"{'':<10} {f['note']}"] if f["note"] else []
+    lines.append(f"{len(result['formulas'])} formulas derived in {result['seconds']:.1f} s")
+    drift = "".join([result["diff"], *(f"value drift: {e}\n" for e in result["value_errors"])])
+    return "\n".join([*lines, drift]).rstrip("\n")

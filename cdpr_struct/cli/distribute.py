@@ -5,31 +5,35 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cdpr_struct.cli.extension_notes import noted, with_extensions
+from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.options import (
-    Json,
+    LowerBound,
     Mass,
-    Out,
     Payload,
     RobotName,
+    UpperBound,
     number,
     read_numbers,
     read_robot,
     whole_number,
 )
-from cdpr_struct.cli.output import emit, result_json, write_files
-from cdpr_struct.cli.progress import steps
+from cdpr_struct.cli.output import Files, Output
 from cdpr_struct.cli.trajectory_input import FORMS, read_trajectory
 from cdpr_struct.errors import InputError
 
 if TYPE_CHECKING:
     from cdpr_struct.dynamics.trajectory_distribution import BoundRule
+    from cdpr_struct.robot.robot import Robot
     from cdpr_struct.statics.tension_cost import TensionCost
 
 NAME = "distribute"
+EXAMPLES = (
+    "cdpr-struct distribute thesis-5 --trajectory helix --instants 301 --bound frequency --out results/forces",
+    "cdpr-struct distribute thesis-5 --trajectory line:0,0,2:1,0,2.5:4 --instants 101 --compare fixed",
+)
 BOUNDS = ("fixed", "pose-dependent", "frequency")
 COSTS = ("norm", "p-norm", "middle", "centre")
-_POSITIVE = ("--b", "--upper-bound", "--longest", "--max-speed", "--max-acceleration")
+_POSITIVE = ("--b", "--longest", "--max-speed", "--max-acceleration")
 MODELS = ("sagging", "spring", "ideal")
 
 
@@ -45,9 +49,8 @@ def run(
         str | None, typer.Option("--weights", metavar="W1,..,Wm", help="Weight of each cable's square in the norm.")
     ] = None,
     power: Annotated[float, typer.Option("--power", parser=number, help="p of the p-norm, 1.1 to 6.")] = 4.0,
-    upper_bound: Annotated[
-        float, typer.Option("--upper-bound", parser=number, metavar="N", help="Largest cable force [N].")
-    ] = math.inf,
+    lower_bound: LowerBound = None,
+    upper_bound: UpperBound = None,
     longest: Annotated[
         float, typer.Option("--longest", parser=number, metavar="M", help="Largest unstrained cable length [m].")
     ] = math.inf,
@@ -66,16 +69,16 @@ def run(
     ] = None,
     payload: Payload = 0.0,
     mass: Mass = None,
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:
     """Cable forces of least cost along a trajectory, above a lower bound."""
     rules = _rules(bound, compare)
-    _require_positive(b, upper_bound, longest, max_speed, max_acceleration)
+    _require_positive(b, longest, max_speed, max_acceleration)
     if model not in MODELS:
         raise InputError("--model", "", model, f"one of: {', '.join(MODELS)}")
-    machine = read_robot(robot, payload, mass)
-    price = _cost(cost, weights, power, upper_bound, len(machine.cables))
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    price = _cost(cost, weights, power, machine)
     path = read_trajectory(trajectory, instants)
     path.require_within(max_speed, max_acceleration)
     from cdpr_struct.dynamics.trajectory_distribution import distribute_along
@@ -83,16 +86,18 @@ def run(
     from cdpr_struct.reports.distribution_text import distribution_text
 
     found = []
-    with steps(len(rules)) as progress:
+    with output.steps(len(rules)) as progress:
         for rule in rules:
             progress(f"{rule} bound")
-            found.append(distribute_along(machine, path, rule, b, upper_bound, longest, price, model))
+            found.append(distribute_along(machine, path, rule, b, longest=longest, cost=price, model=model))
     result = with_extensions(distribution_json(found[0], found[1:]), machine, NAME, model)
-    emit(result, json, lambda: print(distribution_text(found)))
-    if out is not None:
+
+    def files() -> Files:
         from cdpr_struct.reports.distribution_page import distribution_files
 
-        write_files(out, noted(result, {"result.json": result_json(result), **distribution_files(found)}))
+        return distribution_files(found)
+
+    output.deliver(result, lambda: distribution_text(found), files)
     return 0
 
 
@@ -115,15 +120,16 @@ def _rules(bound: str, compare: str | None) -> "list[BoundRule]":
     return rules
 
 
-def _cost(name: str, weights: str | None, power: float, upper_bound: float, cables: int) -> "TensionCost":
+def _cost(name: str, weights: str | None, power: float, robot: "Robot") -> "TensionCost":
     from cdpr_struct.statics.tension_cost import Centre, EuclideanNorm, Middle, PowerNorm
 
     if name not in COSTS:
         raise InputError("--cost", "", name, f"one of: {', '.join(COSTS)}")
     if weights is not None and name != "norm":
         raise InputError("--weights", "", weights, "weights belong to --cost norm")
-    if name in ("middle", "centre") and not upper_bound < math.inf:
-        raise InputError("--upper-bound", "", upper_bound, f"--cost {name} needs a finite upper bound")
+    if name in ("middle", "centre") and not (robot.force_max < math.inf).all():
+        hint = f"--cost {name} needs a finite upper bound, here or as force_max in the robot file"
+        raise InputError("--upper-bound", "", "nothing", hint)
     if name == "p-norm":
         if not 1.1 <= power <= 6.0:
             raise InputError("--power", "", power, "give a number from 1.1 to 6")
@@ -134,7 +140,7 @@ def _cost(name: str, weights: str | None, power: float, upper_bound: float, cabl
         return EuclideanNorm()
     import numpy as np
 
-    values = np.array(read_numbers(weights, "--weights", (cables,), "weights, one per cable"))
+    values = np.array(read_numbers(weights, "--weights", (len(robot.cables),), "weights, one per cable"))
     if not (values > 0.0).all():
         raise InputError("--weights", "", weights, "weights must be above zero")
     return EuclideanNorm(values)

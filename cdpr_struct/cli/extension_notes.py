@@ -33,20 +33,6 @@ def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, mod
     return {**result, "extensions": said}
 
 
-def noted(result: Mapping[str, Any], files: Mapping[str, str | bytes]) -> dict[str, str | bytes]:
-    """The files of a result, its report page with the sentences about extensions at the end."""
-    if "extensions" not in result or "report.html" not in files:
-        return dict(files)
-    from html import escape
-
-    page = files["report.html"]
-    text = page.decode("utf-8") if isinstance(page, bytes) else page
-    lines = "".join(f"<p>{escape(sentence)}</p>" for sentence in result["extensions"]["sentences"])
-    section = f"<section><h2>Extensions</h2>{lines}</section>"
-    end = "</main>" if "</main>" in text else "</body>"
-    return {**files, "report.html": text.replace(end, f"{section}{end}", 1)}
-
-
 def _why_idle(name: str, command: str, model: str) -> str:
     from cdpr_struct.robot.extensions import SENSORS
 

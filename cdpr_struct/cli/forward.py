@@ -4,14 +4,17 @@ from typing import Annotated, Any
 
 import typer
 
-from cdpr_struct.cli.command_words import command_words
-from cdpr_struct.cli.extension_notes import noted, with_extensions
+from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.inverse import read_model
-from cdpr_struct.cli.options import Json, Lengths, Mass, Out, Payload, RobotName, read_numbers, read_robot
-from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.options import Lengths, Mass, Payload, RobotName, read_numbers, read_robot
+from cdpr_struct.cli.output import Output
 from cdpr_struct.errors import InputError
 
 NAME = "forward"
+EXAMPLES = (
+    "cdpr-struct forward thesis-3-1 --lengths 10.78,10.38,10.78,10.38,10.24,10.64,10.24,10.64",
+    "cdpr-struct forward thesis-3-1 --lengths 10.8,10.4,10.8,10.4,10.3,10.7,10.3,10.7 --payload 20 --model spring",
+)
 
 
 def run(
@@ -27,8 +30,8 @@ def run(
             help="Where to look first [m, deg], if there are several equilibria; default: the home pose.",
         ),
     ] = None,
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:  # fmt: skip
     """Pose and tensions at fixed unstrained cable lengths."""
     machine = read_robot(robot, payload, mass)
@@ -43,16 +46,7 @@ def run(
     first: tuple[Any, Any] = (None, None) if origin is None else (origin.position, origin.rotation)
     solution = forward(machine, length, *first, chosen).require_converged()
     result = with_extensions(report.forward_json(machine, chosen, length, solution), machine, NAME, chosen)
-    if out is not None:
-        options = {"--lengths": lengths, "--model": model, "--start": start}
-        command = command_words(NAME, robot, payload, mass, **options)
-        write_files(
-            out,
-            noted(
-                result, {"result.json": result_json(result), **report.forward_files(machine, solution, result, command)}
-            ),
-        )
-    emit(result, json, lambda: print(report.forward_text(result)))
+    output.deliver(result, lambda: report.forward_text(result), lambda: report.forward_files(machine, solution, result))
     return 0 if result["stable"] else 1
 
 

@@ -5,31 +5,33 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_valid
-from cdpr_struct.cli.command_words import command_words
 from cdpr_struct.cli.damping_option import DampingText, read_damping
 from cdpr_struct.cli.degrees_of_freedom import FrameName, PointText, read_ports
-from cdpr_struct.cli.extension_notes import noted, with_extensions
+from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.operating_point import rest
 from cdpr_struct.cli.options import (
     AssemblyName,
-    Json,
     Lengths,
     LowerBound,
     Mass,
-    Out,
     Payload,
     PoseText,
     RobotName,
+    UpperBound,
     read_assembly,
     read_robot,
 )
-from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.output import Files, Output
 from cdpr_struct.errors import InputError
 
 if TYPE_CHECKING:
     import numpy as np
 
 NAME = "frf"
+EXAMPLES = (
+    "cdpr-struct frf thesis-3-1 --pose 0.5,-1,0.8 --excite fz --respond x,z --band 0.5:12:0.01 --out results/frf",
+    "cdpr-struct frf thesis-3-1 --excite fz --respond z,cable5@0.3:z --band 2:6:0.02 --damping viscous:0.005",
+)
 _MOST_FREQUENCIES = 1_000_000
 
 
@@ -40,7 +42,8 @@ def run(
     band: Annotated[str, typer.Option("--band", metavar="F0:F1:DF", help="Frequencies [Hz].")],
     pose: PoseText = None,
     lengths: Lengths = None,
-    lower_bound: LowerBound = 0.0,
+    lower_bound: LowerBound = None,
+    upper_bound: UpperBound = None,
     payload: Payload = 0.0,
     mass: Mass = None,
     quantity: Annotated[
@@ -52,12 +55,13 @@ def run(
     at: PointText = None,
     assembly: AssemblyName = "consistent",
     force: Force = False,
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:
     """Frequency response functions, with the certified eigenfrequencies beside their peaks."""
     hertz = read_band(band)
-    cable_model, way, machine = read_model(model), read_assembly(assembly), read_robot(robot, payload, mass)
+    cable_model, way = read_model(model), read_assembly(assembly)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
     law = read_damping(damping, machine, cable_model == "static")
     from cdpr_struct.dynamics.frequency_response import QUANTITIES
     from cdpr_struct.dynamics.frequency_sweep import sweep_response
@@ -67,7 +71,7 @@ def run(
     what = next((q for q in QUANTITIES if q == quantity), None)
     if what is None:
         raise InputError("--quantity", "", quantity, f"one of: {', '.join(QUANTITIES)}")
-    point = rest(machine, pose, lengths, lower_bound)
+    point = rest(machine, pose, lengths)
     require_valid(cable_model, point, force)
     source = read_ports(excite, "--excite", point, frame, at)
     if len(source) != 1:
@@ -76,21 +80,16 @@ def run(
         raise InputError("--excite", "", excite, "massless cables cannot be shaken; use --model dsm or exact")
     targets = read_ports(respond, "--respond", point, frame, at)
     sweep = sweep_response(point, cable_model, law, source[0], targets, hertz, what, way)
-    options = {
-        "--pose": pose, "--lengths": lengths, "--lower-bound": lower_bound or None, "--excite": excite,
-        "--respond": respond, "--band": band, "--quantity": quantity, "--model": model,
-        "--damping": damping, "--frame": frame, "--at": at,
-        "--assembly": assembly,
-    }  # fmt: skip
-    words = command_words("frf", robot, payload, mass, **options)
     described = {"damping": damping, "frame": frame, "at_m": at or "0,0,0", "assembly": way, "band_hz": band}
-    result = frf_json(sweep, {**described, "command": words + ["--force"] * force})
+    result = frf_json(sweep, {**described, "command": output.words})
     result = with_extensions(result, machine, "frf", cable_model)
-    emit(result, json, lambda: print(frf_text(result)))
-    if out is not None:
+
+    def files() -> Files:
         from cdpr_struct.reports.frf_page import frf_files
 
-        write_files(out, noted(result, {"result.json": result_json(result), **frf_files(sweep, result)}))
+        return frf_files(sweep, result)
+
+    output.deliver(result, lambda: frf_text(result), files)
     return 0
 
 

@@ -5,11 +5,16 @@ from typing import Annotated
 
 import typer
 
-from cdpr_struct.cli.options import Json, number, read_numbers
-from cdpr_struct.cli.output import emit, write_files
+from cdpr_struct.cli.options import number, read_numbers
+from cdpr_struct.cli.output import Output
+from cdpr_struct.cli.written_files import write_new
 from cdpr_struct.errors import InputError
 
 NAME = "import-caspr"
+EXAMPLES = (
+    "cdpr-struct import-caspr examples/caspr/bodies.xml examples/caspr/cables.xml --out lift.toml --rho 0.05",
+    "cdpr-struct import-caspr examples/caspr/bodies.xml examples/caspr/cables.xml --out lift.toml --EA 4e5 --overwrite",
+)
 
 
 def run(
@@ -32,7 +37,9 @@ def run(
             help="About the centre of mass, as entries of the matrix [kg m^2], in place of the file's.",
         ),
     ] = None,
-    json: Json = False,
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace ROBOT.toml if it is there.")] = False,
+    *,
+    output: Output,
 ) -> int:  # fmt: skip
     """Write a robot file from a CASPR body and cable model, and say what the model leaves open."""
     if out is None:
@@ -48,12 +55,9 @@ def run(
         read_text(bodies, "BODIES.xml"), read_text(cables, "CABLES.xml"), str(bodies), str(cables), choices
     )
     result = {"file": str(out), "robot": found.name, "cables": found.cables, "warnings": list(found.warnings)}
-    write_files(out.parent, {out.name: found.text})
-    emit(
-        result,
-        json,
-        lambda: print("\n".join([f"{out}: {found.name}, {found.cables} cables", *(f"- {w}" for w in found.warnings)])),
-    )
+    write_new(out, found.text, overwrite)
+    head = f"{out}: {found.name}, {found.cables} cables"
+    output.deliver(result, lambda: head, dict)
     return 0
 
 

@@ -4,25 +4,26 @@ from typing import Annotated
 
 import typer
 
-from cdpr_struct.cli.command_words import command_words
-from cdpr_struct.cli.extension_notes import noted, with_extensions
+from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.options import (
-    Json,
     LowerBound,
     Mass,
-    Out,
     Payload,
     PoseText,
     RobotName,
-    number,
+    UpperBound,
     read_numbers,
     read_pose,
     read_robot,
 )
-from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.output import Output
 from cdpr_struct.errors import InputError
 
 NAME = "inverse"
+EXAMPLES = (
+    "cdpr-struct inverse thesis-3-1 --pose 0.5,-1,0.8,2,0,5 --out results/inverse",
+    "cdpr-struct inverse thesis-5 --pose 1,0.5,2 --lower-bound 150 --payload 10",
+)
 MODELS = ("sagging", "spring", "ideal")
 
 
@@ -35,44 +36,24 @@ def run(
     wrench: Annotated[
         str | None, typer.Option("--wrench", metavar="FX,FY,FZ,MX,MY,MZ", help="Extra wrench on the platform [N, N m].")
     ] = None,
-    lower_bound: LowerBound = 0.0,
-    upper_bound: Annotated[
-        float, typer.Option("--upper-bound", parser=number, metavar="N", help="Largest cable force there [N].")
-    ] = float("inf"),
-    out: Out = None,
-    json: Json = False,
+    lower_bound: LowerBound = None,
+    upper_bound: UpperBound = None,
+    *,
+    output: Output,
 ) -> int:  # fmt: skip
     """Unstrained lengths and tensions that hold a pose (minimum norm where there is a choice)."""
     chosen = read_model(model)
-    if not 0.0 <= lower_bound < float("inf"):
-        raise InputError("--lower-bound", "", lower_bound, "give a force in N, zero or more")
-    if not upper_bound > lower_bound:
-        raise InputError(
-            "--upper-bound", "", upper_bound, f"give a force in N above the lower bound, {lower_bound:g} N"
-        )
-    machine = read_robot(robot, payload, mass)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
     where = read_pose(pose, machine)
     extra = None if wrench is None else read_numbers(wrench, "--wrench", (6,), "numbers in N and N m")
     from cdpr_struct.reports import statics_rest as report
     from cdpr_struct.statics.inverse_kinematics import inverse
 
-    solution = inverse(machine, where.position, where.rotation, chosen, extra, lower_bound, upper_bound)
+    solution = inverse(machine, where.position, where.rotation, chosen, extra)
     result = with_extensions(report.inverse_json(machine, chosen, where, solution), machine, NAME, chosen)
-    if out is not None:
-        bounds = {
-            "--lower-bound": lower_bound or None,
-            "--upper-bound": None if upper_bound == float("inf") else upper_bound,
-        }
-        options = {"--pose": pose, "--model": model, "--wrench": wrench, **bounds}
-        command = command_words(NAME, robot, payload, mass, **options)
-        write_files(
-            out,
-            noted(
-                result,
-                {"result.json": result_json(result), **report.inverse_files(machine, where, solution, result, command)},
-            ),
-        )
-    emit(result, json, lambda: print(report.inverse_text(result)))
+    output.deliver(
+        result, lambda: report.inverse_text(result), lambda: report.inverse_files(machine, where, solution, result)
+    )
     return 0
 
 

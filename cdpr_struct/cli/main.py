@@ -28,12 +28,14 @@ from cdpr_struct.cli import (
     transient,
     verify,
 )
+from cdpr_struct.cli.command import register
 from cdpr_struct.cli.interruption import Interrupted
 from cdpr_struct.errors import CdprError, InputError
 
 app = typer.Typer(
     add_completion=False,
     rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
     help="Deflection and vibration of cable-driven parallel robots, checked against an independent FEM.",
 )
 COMMANDS = (
@@ -74,7 +76,7 @@ def options(
 
 
 for command in COMMANDS:
-    app.command(name=command.NAME)(command.run)
+    register(app, command)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -85,7 +87,8 @@ def main(arguments: list[str] | None = None) -> None:
 def run(arguments: list[str] | None) -> int:
     """Run one command and return its exit code."""
     try:
-        code = int(app(args=arguments, standalone_mode=False) or 0)
+        typed = sys.argv[1:] if arguments is None else arguments
+        code = int(app(args=typed, prog_name="cdpr-struct", standalone_mode=False, obj=tuple(typed)) or 0)
         return _fail(code, "interrupted; nothing was written") if code == interruption.CODE else code
     except TyperException as error:
         return _fail(2, _complaint(error))

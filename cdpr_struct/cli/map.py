@@ -4,15 +4,28 @@ from typing import Annotated
 
 import typer
 
-from cdpr_struct.cli.command_words import command_words
 from cdpr_struct.cli.executors import Scheduler, Workers, check_workers
-from cdpr_struct.cli.extension_notes import noted, with_extensions
-from cdpr_struct.cli.options import GridText, Json, Mass, Out, Payload, RobotName, read_grid, read_robot, whole_number
-from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.extension_notes import with_extensions
+from cdpr_struct.cli.options import (
+    GridText,
+    LowerBound,
+    Mass,
+    Payload,
+    RobotName,
+    UpperBound,
+    read_grid,
+    read_robot,
+    whole_number,
+)
+from cdpr_struct.cli.output import Output
 from cdpr_struct.cli.sweeping import clear_checkpoint, run_sweep
 from cdpr_struct.errors import InputError
 
 NAME = "map"
+EXAMPLES = (
+    "cdpr-struct map thesis-3-1 --grid -3:3:9,-3:3:9,0.5 --quantity first-frequency --out results/map",
+    "cdpr-struct map thesis-5 --grid -2:2:5,0,1.5:3.5:5 --quantity tension-max --lower-bound 100",
+)
 
 
 def run(
@@ -23,11 +36,13 @@ def run(
     ] = None,
     payload: Payload = 0.0,
     mass: Mass = None,
+    lower_bound: LowerBound = None,
+    upper_bound: UpperBound = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
     chunk: Annotated[int, typer.Option("--chunk", parser=whole_number, help="Poses a batch.")] = 256,
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:
     """Map a quantity over a grid of poses; with --out, an interrupted run continues where it stopped."""
     if grid is None:
@@ -35,7 +50,7 @@ def run(
     if not 1 <= chunk <= 100_000:
         raise InputError("--chunk", "", chunk, "give a number from 1 to 100000")
     check_workers(workers, scheduler)
-    machine, poses = read_robot(robot, payload, mass), read_grid(grid)
+    machine, poses = read_robot(robot, payload, mass, lower_bound, upper_bound), read_grid(grid)
     from cdpr_struct.reports import statics_map as report
     from cdpr_struct.workspace.quantities import QUANTITIES
     from cdpr_struct.workspace.sweep import Sweep
@@ -43,15 +58,15 @@ def run(
     if quantity is None or quantity not in QUANTITIES:
         raise InputError("--quantity", "", quantity or "nothing", f"one of: {', '.join(QUANTITIES)}")
     sweep = Sweep(quantity, machine, poses, chunk)
-    columns, resumed = run_sweep(sweep, workers, scheduler, out)
+    columns, resumed = run_sweep(sweep, workers, scheduler, output)
     result = report.map_json(machine, quantity, poses, columns) | {"resumed_chunks": resumed}
     result = with_extensions(result, machine, _kin(quantity))
-    if out is not None:
-        command = command_words(NAME, robot, payload, mass, **{"--grid": grid, "--quantity": quantity})
-        files = report.map_files(machine, quantity, poses, columns, command)
-        write_files(out, noted(result, {"result.json": result_json(result), **files}))
-        clear_checkpoint(sweep, out)
-    emit(result, json, lambda: print(report.map_sentence(result)))
+    output.deliver(
+        result,
+        lambda: report.map_sentence(result),
+        lambda: report.map_files(machine, quantity, poses, columns),
+    )
+    clear_checkpoint(sweep, output.directory)
     return 0 if result["held"] > result["unstable"] else 1
 
 

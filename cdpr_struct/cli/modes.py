@@ -4,33 +4,37 @@ from typing import Annotated
 
 import typer
 
-from cdpr_struct.cli.extension_notes import noted, with_extensions
+from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.operating_point import pose_in_degrees, rest
 from cdpr_struct.cli.options import (
     AssemblyName,
-    Json,
     Lengths,
     LowerBound,
     Mass,
-    Out,
     Payload,
     PoseText,
     RobotName,
+    UpperBound,
     read_assembly,
     read_robot,
     whole_number,
 )
-from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.output import Files, Output
 from cdpr_struct.errors import InputError
 
 NAME = "modes"
+EXAMPLES = (
+    "cdpr-struct modes thesis-3-1 --count 20 --out results/modes",
+    "cdpr-struct modes thesis-5 --pose 1,0.5,2 --lower-bound 150 --count 6 --json",
+)
 
 
 def run(
     robot: RobotName,
     pose: PoseText = None,
     lengths: Lengths = None,
-    lower_bound: LowerBound = 0.0,
+    lower_bound: LowerBound = None,
+    upper_bound: UpperBound = None,
     payload: Payload = 0.0,
     mass: Mass = None,
     model: Annotated[str, typer.Option("--model", help="static, dsm, exact or fem.")] = "exact",
@@ -38,8 +42,8 @@ def run(
     elements: Annotated[int, typer.Option("--elements", parser=whole_number, help="Per cable, for --model fem.")] = 80,
     count: Annotated[int, typer.Option("--count", parser=whole_number, help="How many eigenfrequencies.")] = 40,
     force: Annotated[bool, typer.Option("--force", help="Use the dsm outside its validity limits.")] = False,
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:
     """Eigenfrequencies of the robot at rest, with their kind."""
     if not 1 <= count <= 500:
@@ -47,14 +51,14 @@ def run(
     if not 2 <= elements <= 2000:
         raise InputError("--elements", "", elements, "give a number from 2 to 2000")
     way = read_assembly(assembly)
-    machine = read_robot(robot, payload, mass)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
     from cdpr_struct.crosscheck.robot_modes import MODELS, require_validity, robot_modes
     from cdpr_struct.statics.robot_arrays import RobotArrays
 
     name = next((m for m in MODELS if m == model), None)
     if name is None:
         raise InputError("--model", "", model, f"one of: {', '.join(MODELS)}")
-    point = rest(machine, pose, lengths, lower_bound)
+    point = rest(machine, pose, lengths)
     if name == "dsm" and not force:
         require_validity(point)
     found = robot_modes(point, name, min(count, 6) if name == "static" else count, way, elements)
@@ -72,14 +76,12 @@ def run(
     }
     result = with_extensions(result, machine, NAME, name)
 
-    def text() -> None:
-        from cdpr_struct.reports.modes_text import modes_text
+    from cdpr_struct.reports.modes_text import modes_text
 
-        print(modes_text(result))
+    def files() -> Files:
+        from cdpr_struct.reports.modes_page import modes_files
 
-    emit(result, json, text)
-    if out is not None:
-        from cdpr_struct.reports.modes_text import modes_csv
+        return modes_files(point, result)
 
-        write_files(out, noted(result, {"result.json": result_json(result), "modes.csv": modes_csv(result)}))
+    output.deliver(result, lambda: modes_text(result), files)
     return 0

@@ -12,12 +12,12 @@ if TYPE_CHECKING:
     from cdpr_struct.robot.robot import Robot
 
 
-def rest(robot: "Robot", pose: str | None, lengths: str | None, lower_bound: float = 0.0) -> "OperatingPoint":
+def rest(robot: "Robot", pose: str | None, lengths: str | None) -> "OperatingPoint":
     """The robot at rest with sagging cables.
 
     Parameters
     ----------
-    pose : text of --pose; the cables hold it with the least norm of tensions above `lower_bound` [N]
+    pose : text of --pose; the cables hold it with the least norm of tensions within the robot's force limits
     lengths : text of --lengths, the unstrained lengths at which it is locked; only one of the two may be given
 
     Raises
@@ -26,20 +26,18 @@ def rest(robot: "Robot", pose: str | None, lengths: str | None, lower_bound: flo
     CdprError : the pose cannot be held, or the lengths lead to no stable equilibrium.
     """
     if lengths is None:
-        return _held(robot, pose, lower_bound)
+        return _held(robot, pose)
     if pose is not None:
         raise InputError("--lengths", "", lengths, "give either --pose or --lengths, not both")
     return _locked(robot, lengths)
 
 
-def _held(robot: "Robot", pose: str | None, lower_bound: float) -> "OperatingPoint":
+def _held(robot: "Robot", pose: str | None) -> "OperatingPoint":
     from cdpr_struct.dynamics.operating_point import OperatingPoint
     from cdpr_struct.statics.inverse_kinematics import inverse
 
-    if not 0.0 <= lower_bound < float("inf"):
-        raise InputError("--lower-bound", "", lower_bound, "give a force in N, zero or more")
     where = read_pose(pose, robot)
-    solution = inverse(robot, where.position, where.rotation, model="sagging", lower_bound=lower_bound)
+    solution = inverse(robot, where.position, where.rotation, model="sagging")
     return OperatingPoint(robot, where.position, where.rotation, solution.cables)
 
 

@@ -79,13 +79,6 @@ def require_metres(values: list[float], robot: "Robot", option: str = "--lengths
 
 
 RobotName = Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in name or path to a robot file.")]
-Out = Annotated[
-    Path | None,
-    typer.Option(
-        "--out", parser=directory, metavar="DIR", help="Write result.json, tables, figures and report.html here."
-    ),
-]
-Json = Annotated[bool, typer.Option("--json", help="Print result.json to stdout, nothing else.")]
 PoseText = Annotated[
     str | None,
     typer.Option("--pose", metavar="X,Y,Z[,RX,RY,RZ]", help="Pose [m, deg]; default: the robot's home pose."),
@@ -94,8 +87,21 @@ Lengths = Annotated[
     str | None, typer.Option("--lengths", metavar="L1,..,Lm", help="Locked unstrained lengths [m], in place of --pose.")
 ]
 LowerBound = Annotated[
-    float, typer.Option("--lower-bound", parser=number, metavar="N", help="Smallest cable force at the platform [N].")
+    float | None,
+    typer.Option(
+        "--lower-bound",
+        parser=number,
+        metavar="N",
+        help="Smallest cable force at the platform [N]; default: force_min of the robot file.",
+    ),
 ]
+UpperBound = Annotated[
+    float | None,
+    typer.Option(
+        "--upper-bound", parser=number, metavar="N",
+        help="Largest cable force at the platform [N]; default: force_max of the robot file.",
+    ),
+]  # fmt: skip
 AssemblyName = Annotated[str, typer.Option("--assembly", help="consistent, or thesis (eq. 3.8 as printed).")]
 Payload = Annotated[
     float, typer.Option("--payload", parser=number, metavar="KG", help="Point load at the platform origin [kg].")
@@ -125,15 +131,33 @@ def read_numbers(text: str, option: str, counts: tuple[int, ...] | None = None, 
     return values
 
 
-def read_robot(name: str, payload: float = 0.0, mass: float | None = None) -> "Robot":
-    """The robot with its load."""
+def read_robot(
+    name: str,
+    payload: float = 0.0,
+    mass: float | None = None,
+    lower_bound: float | None = None,
+    upper_bound: float | None = None,
+) -> "Robot":
+    """The robot with its load, its force limits replaced where an option gives others.
+
+    Raises
+    ------
+    InputError : no such robot, or a number out of range.
+    """
     from cdpr_struct.robot.robot_file import load_robot
 
     if not 0.0 <= payload < float("inf"):
         raise InputError("--payload", "", payload, "give a mass in kg, zero or more")
     if mass is not None and not 0.0 < mass < float("inf"):
         raise InputError("--mass", "", mass, "give a mass in kg above zero")
-    return load_robot(name).with_load(payload, mass)
+    if lower_bound is not None and not 0.0 <= lower_bound < float("inf"):
+        raise InputError("--lower-bound", "", lower_bound, "give a force in N, zero or more")
+    robot = load_robot(name).with_load(payload, mass)
+    try:
+        return robot.with_force_limits(lower_bound, upper_bound)
+    except ValueError as error:
+        crossed = ("--upper-bound", upper_bound) if upper_bound is not None else ("--lower-bound", lower_bound)
+        raise InputError(crossed[0], "", crossed[1], str(error)) from error
 
 
 def read_pose(text: str | None, robot: "Robot", option: str = "--pose") -> "Pose":

@@ -1,14 +1,91 @@
-"""Where a command's results go: screen, JSON on stdout, or a directory of files, each whole or absent."""
+"""Where a command's results go: files first, then the screen, or JSON on stdout."""
 
 import json
 import math
 import os
-import tempfile
-from collections.abc import Callable, Iterable, Mapping
+import shlex
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from cdpr_struct.errors import InputError
+from cdpr_struct.cli.progress import Begin, silent, steps
+from cdpr_struct.cli.written_files import refuse_foreign, replace_files
+
+Files = Mapping[str, str | bytes]
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """What --out, --json, --quiet and --overwrite say, and the command that repeats the run.
+
+    directory : of --out, or None
+    words     : the command as typed, less where its results go; `--out=DIR` at the end
+    """
+
+    directory: Path | None
+    json: bool
+    quiet: bool
+    overwrite: bool
+    words: tuple[str, ...]
+
+    def check(self) -> None:
+        """Refuse a directory with somebody else's results before any work is done.
+
+        Raises
+        ------
+        InputError : result.json or report.html is there, and this program did not write it or it was changed since.
+        """
+        if self.directory is not None and not self.overwrite:
+            refuse_foreign(self.directory, ("result.json", "report.html"))
+
+    @contextmanager
+    def steps(self, total: int) -> Iterator[Begin]:
+        """A progress bar of `total` steps on stderr; call what it yields with the name of the step that begins."""
+        if self.quiet:
+            yield silent
+            return
+        with steps(total) as begin:
+            yield begin
+
+    def deliver(self, result: Mapping[str, Any], text: Callable[[], str], files: Callable[[], Files]) -> None:
+        """Write the files, then print: JSON and nothing else, or `text` with warnings and notes on extensions.
+
+        Files come first, so that a screen that is closed (`| head`) loses nothing.
+
+        result : `warnings` (sentences) and `extensions` (as `extension_notes` makes it) are shown if they are there
+        """
+        if self.directory is not None:
+            replace_files(self.directory, self._completed(result, files()), self.overwrite)
+        if self.json:
+            _print(result_json(result), sys.stdout)
+        elif not self.quiet:
+            _print("\n\n".join([text(), *_remarks(result)]) + "\n", sys.stdout)
+
+    def _completed(self, result: Mapping[str, Any], files: Files) -> dict[str, str | bytes]:
+        """All files of a result: the page knows how to repeat the run, and what the screen says beside the result."""
+        from cdpr_struct.reports.html import completed
+
+        page = completed(files["report.html"], shlex.join(self.words), warnings_of(result), extensions_of(result))
+        return {"result.json": result_json(result), **files, "report.html": page}
+
+
+def repeating(typed: Sequence[str]) -> tuple[str, ...]:
+    """Words of the command that repeats a run, from those typed after the program's name."""
+    words = list(typed)
+    kept = []
+    while words:
+        word = words.pop(0)
+        if word in _WITH_VALUE and words:
+            words.pop(0)
+        elif word not in (*_FLAGS, *_WITH_VALUE) and word.partition("=")[0] not in _WITH_VALUE:
+            kept.append(word)
+    return ("cdpr-struct", *kept, "--out=DIR")
+
+
+_FLAGS, _WITH_VALUE = ("--json", "--quiet", "--overwrite"), ("--out", "--scheduler")
 
 
 def plain(value: Any) -> Any:
@@ -24,49 +101,30 @@ def plain(value: Any) -> Any:
     return value
 
 
-def emit(result: Mapping[str, Any], as_json: bool, text: Callable[[], None]) -> None:
-    """Print the result: as JSON and nothing else, or by calling `text`; then what is to be said about extensions."""
-    if as_json:
-        print(json.dumps(plain(result), indent=2))
-        return
-    text()
-    if "extensions" in result:
-        print("\n" + "\n".join(result["extensions"]["sentences"]))
-
-
-def write_files(directory: Path, files: Mapping[str, str | bytes], sometimes: Iterable[str] = ()) -> None:
-    """Write the files of a result; each appears whole under its name or not at all.
-
-    sometimes : names that the command writes for other results; what an earlier run left there is removed
-
-    Raises
-    ------
-    InputError : the directory cannot be made or written.
-    """
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-        for name, content in files.items():
-            write_whole(directory / name, content)
-        for name in set(sometimes) - set(files):
-            (directory / name).unlink(missing_ok=True)
-    except OSError as error:
-        raise InputError("--out", "", str(directory), f"a directory that can be written ({error.strerror})") from error
-
-
-def write_whole(path: Path, content: str | bytes) -> None:
-    """Write to a temporary name beside `path`, then rename."""
-    data = content.encode("utf-8") if isinstance(content, str) else content
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        Path(temporary).chmod(0o644)
-        Path(temporary).replace(path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
-
-
 def result_json(result: Mapping[str, Any]) -> str:
     """Text of result.json."""
     return json.dumps(plain(result), indent=2) + "\n"
+
+
+def warnings_of(result: Mapping[str, Any]) -> list[str]:
+    """Sentences that a reader of the result must not miss."""
+    return list(result.get("warnings", ()))
+
+
+def extensions_of(result: Mapping[str, Any]) -> list[str]:
+    """Sentences on the extensions of the robot file."""
+    return list(result.get("extensions", {}).get("sentences", ()))
+
+
+def _remarks(result: Mapping[str, Any]) -> list[str]:
+    parts = ["\n".join(f"Warning: {sentence}" for sentence in warnings_of(result)), "\n".join(extensions_of(result))]
+    return [part for part in parts if part]
+
+
+def _print(text: str, stream: Any) -> None:
+    """Write to a stream whose reader may be gone."""
+    try:
+        stream.write(text)
+        stream.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())  # what Python flushes at its end

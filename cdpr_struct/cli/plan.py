@@ -5,26 +5,36 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.options import Json, Out, require_file
-from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.options import require_file
+from cdpr_struct.cli.output import Files, Output
 
 NAME = "plan"
+EXAMPLES = (
+    "cdpr-struct plan examples/table-4-4/campaign.toml --out results/plan",
+    "cdpr-struct plan examples/table-4-4/level.toml --json",
+)
 
 
 def run(
     campaign: Annotated[str, typer.Argument(metavar="CAMPAIGN.toml", help="Path to a campaign file.")],
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:
     """Smallest detectable size of each cause, which causes look alike, and which measurement would separate them."""
     require_file(campaign)
-    from cdpr_struct.diagnosis.planned_campaign import planned
+    from cdpr_struct.diagnosis.planned_campaign import STEPS, planned
     from cdpr_struct.measurement.campaign_file import load_campaign
     from cdpr_struct.reports.diagnosis_plan import plan_json, plan_text
 
     entered = load_campaign(campaign)
-    result = with_extensions(plan_json(planned(entered)), entered.robot, NAME)
-    if out is not None:
-        write_files(out, {"result.json": result_json(result)})
-    emit(result, json, lambda: print(plan_text(result)))
+    with output.steps(STEPS) as progress:
+        found = planned(entered, progress)
+    result = with_extensions(plan_json(found), entered.robot, NAME)
+
+    def files() -> Files:
+        from cdpr_struct.reports.plan_page import plan_files
+
+        return plan_files(result)
+
+    output.deliver(result, lambda: plan_text(result), files)
     return 0

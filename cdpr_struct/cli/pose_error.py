@@ -4,23 +4,22 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cdpr_struct.cli.command_words import command_words
 from cdpr_struct.cli.executors import Scheduler, Workers, check_workers
-from cdpr_struct.cli.extension_notes import noted, with_extensions
+from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.options import (
     GridText,
-    Json,
+    LowerBound,
     Mass,
-    Out,
     Payload,
     PoseText,
     RobotName,
+    UpperBound,
     number,
     read_grid,
     read_pose,
     read_robot,
 )
-from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.output import Output
 from cdpr_struct.cli.sweeping import clear_checkpoint, run_sweep
 from cdpr_struct.errors import InputError
 
@@ -30,6 +29,10 @@ if TYPE_CHECKING:
     from cdpr_struct.statics.sufficient_load import SufficientLoad
 
 NAME = "pose-error"
+EXAMPLES = (
+    "cdpr-struct pose-error thesis-3-1 --grid -3:3:7,-3:3:7,0.5 --mass 30 --out results/pose-error",
+    "cdpr-struct pose-error thesis-3-1 --sufficient-load 1 --pose 0,0,0.5",
+)
 
 
 def run(
@@ -37,6 +40,8 @@ def run(
     grid: GridText = None,
     payload: Payload = 0.0,
     mass: Mass = None,
+    lower_bound: LowerBound = None,
+    upper_bound: UpperBound = None,
     sufficient_load: Annotated[
         float | None,
         typer.Option(
@@ -47,13 +52,13 @@ def run(
     pose: PoseText = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:  # fmt: skip
     """Static pose error over a grid, split into what sag adds and what stretch adds (thesis 3.2.2)."""
     _check(grid, sufficient_load, pose)
     check_workers(workers, scheduler)
-    machine = read_robot(robot, payload, mass)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
     poses = None if grid is None else read_grid(grid)
     load = None if sufficient_load is None else _load(machine, read_pose(pose, machine), sufficient_load)
     from cdpr_struct.reports import statics_pose_error as report
@@ -64,25 +69,19 @@ def run(
     errors: PoseErrorMap | None = None
     result: dict[str, Any] = {"robot": machine.name, "mass_kg": machine.platform.mass}
     if sweep is not None:
-        columns, _ = run_sweep(sweep, workers, scheduler, out)
+        columns, _ = run_sweep(sweep, workers, scheduler, output)
         errors = PoseErrorMap(machine.name, machine.platform.mass, sweep.grid, columns).require_some()
         result |= report.pose_error_json(errors)
     if load is not None:
         result["sufficient_load"] = report.sufficient_load_json(*load)
     result = with_extensions(result, machine, NAME)
-    if out is not None:
-        command = command_words(
-            NAME, robot, payload, mass, **{"--grid": grid, "--sufficient-load": sufficient_load, "--pose": pose}
-        )
-        write_files(
-            out,
-            noted(
-                result, {"result.json": result_json(result), **report.pose_error_files(machine, errors, load, command)}
-            ),
-        )
-        if sweep is not None:
-            clear_checkpoint(sweep, out)
-    emit(result, json, lambda: print("\n".join(report.pose_error_sentences(errors, load))))
+    output.deliver(
+        result,
+        lambda: "\n".join(report.pose_error_sentences(errors, load)),
+        lambda: report.pose_error_files(machine, errors, load),
+    )
+    if sweep is not None:
+        clear_checkpoint(sweep, output.directory)
     return 0
 
 

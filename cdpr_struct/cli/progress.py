@@ -3,9 +3,12 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+Begin = Callable[[str], None]
+"""To be called with the name of the step that begins."""
+
 
 @contextmanager
-def steps(total: int) -> Iterator[Callable[[str], None]]:
+def steps(total: int) -> Iterator[Begin]:
     """A bar of `total` steps; call what it yields with the name of the step that begins. Vanishes when done."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
@@ -21,3 +24,7 @@ def steps(total: int) -> Iterator[Callable[[str], None]]:
             begun = True
 
         yield begin
+
+
+def silent(name: str) -> None:
+    """A step that nobody is told of."""

@@ -1,12 +1,12 @@
 """`cdpr-struct robots`: the robots that come with the package."""
 
-from cdpr_struct.cli.options import Json, Out
-from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.output import Files, Output
 
 NAME = "robots"
+EXAMPLES = ("cdpr-struct robots", "cdpr-struct robots --out results/robots")
 
 
-def run(out: Out = None, json: Json = False) -> int:
+def run(*, output: Output) -> int:
     """List the built-in robots."""
     from cdpr_struct.robot.robot_file import builtin_names, load_robot
 
@@ -14,11 +14,11 @@ def run(out: Out = None, json: Json = False) -> int:
     rows = [{"name": r.name, "cables": len(r.cables), "description": r.description} for r in found]
     result = {"robots": rows}
 
-    def text() -> None:
-        for row in rows:
-            print(f"{row['name']:<16} {row['cables']} cables  {row['description']}")
+    def files() -> Files:
+        from cdpr_struct.reports.robots_page import robots_files
 
-    emit(result, json, text)
-    if out is not None:
-        write_files(out, {"result.json": result_json(result)})
+        return robots_files(found, rows)
+
+    lines = (f"{row['name']:<16} {row['cables']} cables  {row['description']}" for row in rows)
+    output.deliver(result, lambda: "\n".join(lines), files)
     return 0

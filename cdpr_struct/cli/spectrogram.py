@@ -6,13 +6,17 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_valid
-from cdpr_struct.cli.extension_notes import noted, with_extensions
+from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.operating_point import rest
-from cdpr_struct.cli.options import Json, Lengths, LowerBound, Mass, Out, Payload, PoseText, number, read_robot
-from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.options import Lengths, LowerBound, Mass, Payload, PoseText, UpperBound, number, read_robot
+from cdpr_struct.cli.output import Output
 from cdpr_struct.errors import InputError
 
 NAME = "spectrogram"
+EXAMPLES = (
+    "cdpr-struct spectrogram examples/stop/acceleration.csv --robot thesis-3-1 --out results/spectrogram",
+    "cdpr-struct spectrogram examples/stop/acceleration.csv --robot thesis-3-1 --highest 10 --window 1",
+)
 
 
 def run(
@@ -20,7 +24,8 @@ def run(
     robot: Annotated[str, typer.Option("--robot", metavar="ROBOT", help="Whose modes to draw in.")],
     pose: PoseText = None,
     lengths: Lengths = None,
-    lower_bound: LowerBound = 0.0,
+    lower_bound: LowerBound = None,
+    upper_bound: UpperBound = None,
     payload: Payload = 0.0,
     mass: Mass = None,
     highest: Annotated[
@@ -31,8 +36,8 @@ def run(
     ] = None,
     model: ModelName = "exact",
     force: Force = False,
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:
     """Spectrogram of measured accelerations, with the robot's certified eigenfrequencies."""
     from cdpr_struct.measurement.time_series import read_accelerations
@@ -43,15 +48,12 @@ def run(
         raise InputError("--highest", "", highest, f"a frequency up to half of the sampling rate, {half_rate:.6g} Hz")
     if window is not None and not 8.0 <= window * 2.0 * half_rate <= len(time):
         raise InputError("--window", "", window, f"between {4.0 / half_rate:.4g} and {time[-1] - time[0]:.4g} s")
-    cable_model, machine = read_model(model), read_robot(robot, payload, mass)
-    point = rest(machine, pose, lengths, lower_bound)
+    cable_model, machine = read_model(model), read_robot(robot, payload, mass, lower_bound, upper_bound)
+    point = rest(machine, pose, lengths)
     require_valid(cable_model, point, force)
     from cdpr_struct.reports.transient_measured import measured_files, measured_json, measured_text
 
     result = measured_json(time, acceleration, point, cable_model, highest)
     result = with_extensions(result, machine, NAME, cable_model)
-    emit(result, json, lambda: print(measured_text(result)))
-    if out is not None:
-        files = measured_files(time, acceleration, result, window)
-        write_files(out, noted(result, {"result.json": result_json(result), **files}))
+    output.deliver(result, lambda: measured_text(result), lambda: measured_files(time, acceleration, result, window))
     return 0

@@ -6,19 +6,19 @@ from typing import TYPE_CHECKING
 from cdpr_struct.cli.checkpoint import Checkpoint
 from cdpr_struct.cli.executors import executor
 from cdpr_struct.cli.interruption import Interrupted
-from cdpr_struct.cli.progress import steps
+from cdpr_struct.cli.output import Output
 
 if TYPE_CHECKING:
     from cdpr_struct.workspace.quantities import Columns
     from cdpr_struct.workspace.sweep import Sweep
 
 
-def run_sweep(sweep: "Sweep", workers: int, scheduler: str | None, out: Path | None) -> "tuple[Columns, int]":
-    """Columns over the grid, and how many chunks came from an earlier, interrupted run in `out`."""
-    store = None if out is None else Checkpoint(out, sweep.fingerprint)
+def run_sweep(sweep: "Sweep", workers: int, scheduler: str | None, output: Output) -> "tuple[Columns, int]":
+    """Columns over the grid, and how many chunks came from an earlier, interrupted run in the same directory."""
+    store = None if output.directory is None else Checkpoint(output.directory, sweep.fingerprint)
     known = {} if store is None else store.chunks(sweep.chunks)
     left = sweep.chunks - len(known)
-    with executor(workers, scheduler) as pool, steps(left) as begin:
+    with executor(workers, scheduler) as pool, output.steps(left) as begin:
         begin(f"{sweep.grid.size} poses")
 
         def finished(number: int, columns: "Columns") -> None:
@@ -33,9 +33,10 @@ def run_sweep(sweep: "Sweep", workers: int, scheduler: str | None, out: Path | N
     return columns, len(known)
 
 
-def clear_checkpoint(sweep: "Sweep", out: Path) -> None:
+def clear_checkpoint(sweep: "Sweep", directory: Path | None) -> None:
     """Forget the chunks of a sweep whose result is written."""
-    Checkpoint(out, sweep.fingerprint).clear()
+    if directory is not None:
+        Checkpoint(directory, sweep.fingerprint).clear()
 
 
 def _what_is_kept(store: Checkpoint | None, sweep: "Sweep") -> str:

@@ -6,27 +6,25 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_valid
-from cdpr_struct.cli.command_words import command_words
 from cdpr_struct.cli.damping_option import DampingText, read_damping
 from cdpr_struct.cli.degrees_of_freedom import FrameName, PointText, read_ports
-from cdpr_struct.cli.extension_notes import noted, with_extensions
+from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.operating_point import rest
 from cdpr_struct.cli.options import (
     AssemblyName,
-    Json,
     Lengths,
     LowerBound,
     Mass,
-    Out,
     Payload,
     PoseText,
     RobotName,
+    UpperBound,
     number,
     read_assembly,
     read_numbers,
     read_robot,
 )
-from cdpr_struct.cli.output import emit, result_json, write_files
+from cdpr_struct.cli.output import Files, Output
 from cdpr_struct.errors import InputError
 
 if TYPE_CHECKING:
@@ -35,6 +33,10 @@ if TYPE_CHECKING:
     from cdpr_struct.statics.trajectory import Trajectory
 
 NAME = "transient"
+EXAMPLES = (
+    "cdpr-struct transient thesis-3-1 --initial-velocity 0.3,0,0 --duration 5 --out results/stop",
+    "cdpr-struct transient thesis-3-1 --initial-velocity 0,0,0.2 --duration 3 --highest 10 --damping viscous:0.005",
+)
 _MOST_SAMPLES = 2_000_000
 
 
@@ -42,7 +44,8 @@ def run(
     robot: RobotName,
     pose: PoseText = None,
     lengths: Lengths = None,
-    lower_bound: LowerBound = 0.0,
+    lower_bound: LowerBound = None,
+    upper_bound: UpperBound = None,
     payload: Payload = 0.0,
     mass: Mass = None,
     initial_velocity: Annotated[
@@ -70,15 +73,16 @@ def run(
     at: PointText = None,
     assembly: AssemblyName = "consistent",
     force: Force = False,
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:
     """Vibration in time by modal superposition, with spectrogram and certified modes."""
     if (initial_velocity is None) == (trajectory is None):
         raise InputError(
             "--initial-velocity", "", initial_velocity or "nothing", "give either --initial-velocity or --trajectory"
         )
-    cable_model, way, machine = read_model(model), read_assembly(assembly), read_robot(robot, payload, mass)
+    cable_model, way = read_model(model), read_assembly(assembly)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
     law = read_damping(damping, machine, cable_model == "static")
     motion = None if trajectory is None else read_motion(trajectory)
     seconds = _duration(duration, motion)
@@ -88,7 +92,7 @@ def run(
         raise InputError("--duration", "", seconds, f"at least one period of --highest, {1.0 / highest:.3g} s")
     if motion is not None and pose is None and lengths is None:
         pose = _last_pose(motion)
-    point = rest(machine, pose, lengths, lower_bound)
+    point = rest(machine, pose, lengths)
     require_valid(cable_model, point, force)
     ports = read_ports("x,y,z,rx,ry,rz" + (f",{watch}" if watch else ""), "--watch", point, frame, at)
     if window is not None and not 0.0 < window <= seconds:
@@ -98,25 +102,22 @@ def run(
     from cdpr_struct.reports.transient_text import transient_text
 
     vibrating = VibratingRobot(point, cable_model, law, highest, way)
-    if motion is None:
-        record = vibrating.after_stop(_twist(initial_velocity or ""), ports, seconds)
-    else:
-        record = vibrating.along(motion, ports, seconds)
-    options = {
-        "--pose": pose, "--lengths": lengths, "--lower-bound": lower_bound or None,
-        "--initial-velocity": initial_velocity, "--trajectory": trajectory, "--duration": seconds, "--highest": highest,
-        "--watch": watch, "--window": window,
-        "--model": model, "--damping": damping, "--frame": frame, "--at": at, "--assembly": assembly,
-    }  # fmt: skip
-    words = command_words("transient", robot, payload, mass, **options)
+    with output.steps(1) as progress:
+        progress("modes and motion")
+        if motion is None:
+            record = vibrating.after_stop(_twist(initial_velocity or ""), ports, seconds)
+        else:
+            record = vibrating.along(motion, ports, seconds)
     described = {"damping": damping, "frame": frame, "at_m": at or "0,0,0", "assembly": way}
-    result = transient_json(record, {**described, "command": words + ["--force"] * force})
+    result = transient_json(record, {**described, "command": output.words})
     result = with_extensions(result, machine, NAME, cable_model)
-    emit(result, json, lambda: print(transient_text(result)))
-    if out is not None:
+
+    def files() -> Files:
         from cdpr_struct.reports.transient_page import transient_files
 
-        write_files(out, noted(result, {"result.json": result_json(result), **transient_files(record, result, window)}))
+        return transient_files(record, result, window)
+
+    output.deliver(result, lambda: transient_text(result), files)
     return 0
 
 

@@ -5,36 +5,39 @@ from typing import Annotated
 
 import typer
 
-from cdpr_struct.cli.extension_notes import noted, with_extensions
+from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.operating_point import pose_in_degrees, rest
 from cdpr_struct.cli.options import (
     AssemblyName,
-    Json,
     Lengths,
     LowerBound,
     Mass,
-    Out,
     Payload,
     PoseText,
     RobotName,
+    UpperBound,
     number,
     read_assembly,
     read_numbers,
     read_robot,
     whole_number,
 )
-from cdpr_struct.cli.output import emit, result_json, write_files
-from cdpr_struct.cli.progress import steps
+from cdpr_struct.cli.output import Files, Output
 from cdpr_struct.errors import InputError
 
 NAME = "verify"
+EXAMPLES = (
+    "cdpr-struct verify thesis-3-1 --modes 12 --elements 8,16,32 --out results/verify",
+    "cdpr-struct verify thesis-5 --pose 1,0.5,2 --lower-bound 300 --modes 6 --elements 8,16,32",
+)
 
 
 def run(
     robot: RobotName,
     pose: PoseText = None,
     lengths: Lengths = None,
-    lower_bound: LowerBound = 0.0,
+    lower_bound: LowerBound = None,
+    upper_bound: UpperBound = None,
     payload: Payload = 0.0,
     mass: Mass = None,
     elements: Annotated[str, typer.Option("--elements", help="Element counts per cable.")] = "10,20,40,80",
@@ -45,8 +48,8 @@ def run(
     tolerance: Annotated[
         float, typer.Option("--tolerance", parser=number, help="Largest relative deviation from the FEM.")
     ] = 0.01,
-    out: Out = None,
-    json: Json = False,
+    *,
+    output: Output,
 ) -> int:
     """Compare the DSM's eigenfrequencies with the FEM's; exit 1 if they disagree."""
     counts = read_elements(elements)
@@ -54,22 +57,24 @@ def run(
         raise InputError("--modes", "", modes, "give a number from 1 to 200")
     if not 0.0 < tolerance < 1.0:
         raise InputError("--tolerance", "", tolerance, "give a ratio between 0 and 1, like 0.01")
-    machine = read_robot(robot, payload, mass)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
     way = read_assembly(assembly)
     from cdpr_struct.crosscheck.fem_robot import NOT_IN_FEM
     from cdpr_struct.crosscheck.verification import Criteria, verify
     from cdpr_struct.reports.verification_result import verification_json
     from cdpr_struct.reports.verification_text import verification_text
 
-    with steps(len(counts) + 2) as progress:
-        point = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths, lower_bound)
+    with output.steps(len(counts) + 2) as progress:
+        point = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths)
         trial = verify(point, counts, modes, way, Criteria(relative_error=tolerance), progress)
     result = with_extensions(verification_json(trial, pose_in_degrees(point)), machine, NAME)
-    emit(result, json, lambda: print(verification_text(trial)))
-    if out is not None:
+
+    def files() -> Files:
         from cdpr_struct.reports.verification_page import verification_files
 
-        write_files(out, noted(result, {"result.json": result_json(result), **verification_files(trial)}))
+        return verification_files(trial)
+
+    output.deliver(result, lambda: verification_text(trial), files)
     return 1 if trial.objections() else 0
 
 

@@ -1,5 +1,6 @@
 """Before measuring: what a campaign can find, what it would confuse, and what to measure next."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -30,17 +31,26 @@ class Plan:
     not_testable: dict[str, str]
 
 
-def planned(campaign: Campaign) -> Plan:
+STEPS = 3
+"""Calls of `progress` in `planned`."""
+
+
+def planned(campaign: Campaign, progress: Callable[[str], None] = lambda name: None) -> Plan:
     """What a campaign promises; its readings may be those of a simulation.
+
+    progress : called with the name of each step as it begins
 
     Raises
     ------
     InputError : the campaign holds nothing that can be diagnosed.
     """
+    progress("simulating the campaign")
     prepared = prepare(one_sided(campaign), BUDGETS["small"])
     ground, not_testable = prepared.ground, prepared.not_testable
     if not np.isfinite(campaign.states.approach).any() and _FRICTION in {c.name for c in ground.candidates}:
         not_testable[_FRICTION] = "needs a column approach (+1 or -1)"
+    progress("comparing causes")
     pairs = confusable(ground)
     found = minimum_detectable([c for c in ground.candidates if c.name not in not_testable])
+    progress("trying further measurements")
     return Plan(found, pairs, next_measurements(ground, [(p["cause"], p["taken_for"]) for p in pairs]), not_testable)

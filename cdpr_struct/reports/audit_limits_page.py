@@ -15,18 +15,18 @@ _MAPS = (
 )
 
 
-def limits_trial_files(trial: LimitsTrial, command: str) -> dict[str, str | bytes]:
+def limits_trial_files(trial: LimitsTrial) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name; equal results give equal bytes."""
     plates = _plates(trial)
     return {
         "cables.csv": cables_csv(trial),
         "veering.csv": veering_csv(trial),
         **{f"{plate.name}.svg": plate.svg for plate in plates},
-        "report.html": render_page(_page(trial, plates, command)),
+        "report.html": render_page(_page(trial, plates)),
     }
 
 
-def _page(trial: LimitsTrial, plates: list[Plate], command: str) -> Page:
+def _page(trial: LimitsTrial, plates: list[Plate]) -> Page:
     return Page(
         title="The validity limits of the closed-form dynamic stiffness, on trial",
         subtitle="λ² ≤ 24, distance from the crossovers, pairs of α and ε, d/l ≤ 1/20; tried on a single cable",
@@ -36,7 +36,6 @@ def _page(trial: LimitsTrial, plates: list[Plate], command: str) -> Page:
         plates=plates,
         tables=_tables(trial),
         notes=_NOTES,
-        command=command,
     )
 
 

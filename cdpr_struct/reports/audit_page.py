@@ -32,9 +32,7 @@ _NOTES = (
 )
 
 
-def audit_files(
-    audit: PoseAudit, command: str, grid: Grid | None = None, time: np.ndarray | None = None
-) -> dict[str, str | bytes]:
+def audit_files(audit: PoseAudit, grid: Grid | None = None, time: np.ndarray | None = None) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name. At most one of grid and time is given."""
     plates = _plates(audit, grid, time)
     what = f"at {place(audit.position[0])}" if len(audit.held) == 1 else f"{len(audit.held)} poses"
@@ -47,7 +45,6 @@ def audit_files(
         plates=plates,
         tables=_tables(audit),
         notes=[("The limits", _NOTES)],
-        command=command,
     )
     figures = {f"{plate.name}.svg": plate.svg for plate in plates}
     return {"audit.csv": audit_csv(audit, time), **figures, "report.html": render_page(page)}

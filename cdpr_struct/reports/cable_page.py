@@ -1,6 +1,5 @@
 """The files of one cable's description: profile as CSV, figures as SVG, and the report page."""
 
-import shlex
 from collections.abc import Mapping
 from typing import Any
 
@@ -77,7 +76,6 @@ def cable_page(result: Mapping[str, Any], plates: list[Plate]) -> Page:
         plates=plates,
         tables=[_matrices(result), _frequencies(result)],
         notes=[("How it was computed", _NOTES)],
-        command=_command(given),
     )
 
 
@@ -123,14 +121,3 @@ def _frequencies(result: Mapping[str, Any]) -> HtmlTable:
     ]
     columns = ["plane", *(f"{n + 1} [Hz]" for n in range(len(rows[0]) - 1))]
     return HtmlTable("Natural frequencies, both ends held", columns, rows)
-
-
-def _command(given: Mapping[str, Any]) -> str:
-    force = ",".join(f"{value:.12g}" for value in given["force_N"])
-    return shlex.join(
-        [
-            "cdpr-struct", "cable", f"--force={force}", f"--length={given['length_m']:.12g}",
-            f"--EA={given['axial_stiffness_N']:.12g}", f"--rho={given['linear_density_kg_m']:.12g}",
-            f"--gravity={given['gravity_m_s2']:.12g}", "--out=DIR",
-        ]
-    )  # fmt: skip

@@ -12,7 +12,7 @@ from cdpr_struct.diagnosis.extended_model import extended_robot_toml
 from cdpr_struct.diagnosis.residuals import UNITS
 from cdpr_struct.diagnosis.sigma_check import tolerance_unit
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.diagnosis_signals import SIGNAL_FILES, signal_plates, signal_tables
+from cdpr_struct.reports.diagnosis_signals import signal_plates, signal_tables
 from cdpr_struct.reports.diagnosis_tables import (
     candidate_table,
     error_table,
@@ -26,7 +26,6 @@ from cdpr_struct.reports.figures import diagnosis as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 
-SOMETIMES = ("extended_robot.toml", "evidence.svg", *SIGNAL_FILES)
 """Files that not every diagnosis has."""
 
 
@@ -104,7 +103,6 @@ def diagnosis_page(found: Diagnosis, result: Mapping[str, Any], plates: list[Pla
         plates=plates,
         tables=_tables(result) + signal_tables(dict(result)),
         notes=[("How it was computed", [_METHOD])],
-        command=f"cdpr-struct diagnose {found.campaign.source} --out=DIR",
     )
 
 

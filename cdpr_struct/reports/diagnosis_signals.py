@@ -18,7 +18,6 @@ from cdpr_struct.reports.html import HtmlTable, Plate
 
 _LAWS = ("viscous_damping", "hysteretic_damping", "coulomb_damping")
 _MOST_PLATES = 6
-SIGNAL_FILES = ("damping.svg", *(f"signal-{i + 1}.svg" for i in range(_MOST_PLATES)))
 """Figures that only signals have."""
 
 

@@ -97,7 +97,6 @@ def distribution_page(found: Found, plates: list[Plate]) -> Page:
         plates=plates,
         tables=[_force_table(found), _motor_table(first), _bound_table(found)],
         notes=distribution_notes(first),
-        command=_command(found),
     )
 
 
@@ -147,11 +146,3 @@ def _forces_csv(found: TrajectoryDistribution) -> str:
         columns |= {name.format(i + 1): values[:, i] for i in range(values.shape[1])}
     columns |= {"energy_J": found.work.spent, "cost": d.cost, "kkt_residual": d.kkt_residual}
     return csv_text(columns)
-
-
-def _command(found: Found) -> str:
-    first = found[0]
-    beside = ",".join(f.rule for f in found[1:])
-    text = f"cdpr-struct distribute {first.robot.name} --trajectory=T --bound={first.rule} --b={first.b:.12g}"
-    text += f" --cost={first.cost.name} --model={first.model}" + (f" --compare={beside}" if beside else "")
-    return text + " --out=DIR\n# T: the trajectory it was run with; robot file and load options as entered"

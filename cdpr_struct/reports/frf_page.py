@@ -1,6 +1,5 @@
 """The files of a frequency response: CSV, universal file, figure and the report page."""
 
-import shlex
 from collections.abc import Mapping
 from typing import Any
 
@@ -66,7 +65,6 @@ def _page(sweep: ResponseSweep, result: Mapping[str, Any], plate: Plate) -> Page
         plates=[plate],
         tables=[_table(result, response) for response in result["responses"]],
         notes=[("How it was computed", _NOTES)],
-        command=shlex.join(result["command"]),
     )
 
 

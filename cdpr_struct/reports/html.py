@@ -1,12 +1,16 @@
 """One self-contained HTML page from sentences, figures and tables; it loads nothing from anywhere."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from html import escape
 from importlib import resources
 from typing import Any
 
 import jinja2
+
+_WARNINGS, _END = "<!-- warnings -->", "<!-- end -->"
+"""Marks in the template, where `completed` writes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +57,8 @@ class Page:
     verdict : the outcome first, further sentences after it;  holds : its colour
     facts   : (value, what it is) in large type
     notes   : (heading, paragraphs) of how to read and how it was computed
+
+    `completed` adds what the command line knows: how to repeat the run, warnings, extensions of the robot file.
     """
 
     title: str
@@ -63,7 +69,6 @@ class Page:
     plates: Sequence[Plate]
     tables: Sequence[HtmlTable]
     notes: Sequence[tuple[str, Sequence[str]]]
-    command: str
 
 
 def render_page(page: Page, plotly_packed: str = "") -> str:
@@ -76,6 +81,22 @@ def render_page(page: Page, plotly_packed: str = "") -> str:
     return template.render(
         page=page, style=_template("page.css"), script=_template("interactive.js"), plotly_packed=plotly_packed
     )
+
+
+def completed(page: str | bytes, command: str, warnings: Sequence[str] = (), extensions: Sequence[str] = ()) -> str:
+    """A rendered page with the command that repeats the run, and sentences that stand on the screen beside the result.
+
+    warnings stand below the verdict, extensions and the command at the end
+    """
+    text = page.decode("utf-8") if isinstance(page, bytes) else page
+    top = f'<section class="warnings">{_paragraphs(f"Warning: {w}" for w in warnings)}</section>' if warnings else ""
+    end = f'<section class="notes"><h2>Extensions</h2>{_paragraphs(extensions)}</section>\n' if extensions else ""
+    end += f'<section class="notes"><h2>Reproduce</h2>\n<pre>{escape(command)}</pre></section>'
+    return text.replace(_WARNINGS, top, 1).replace(_END, end, 1)
+
+
+def _paragraphs(sentences: Iterable[str]) -> str:
+    return "".join(f"<p>{escape(sentence)}</p>" for sentence in sentences)
 
 
 def _template(name: str) -> str:

@@ -1,6 +1,5 @@
 """Reproduced thesis items: result, text, CSV, figures and the page with printed beside ours."""
 
-import shlex
 from collections.abc import Sequence
 from typing import Any
 
@@ -42,16 +41,16 @@ def reproduction_text(item: Reproduction) -> str:
     return paragraphs("\n".join([table, *said]), item.note)
 
 
-def reproduction_files(items: Sequence[Reproduction], names: Sequence[str]) -> dict[str, str | bytes]:
-    """CSV, figures and page; `names` are the items as they were asked for."""
+def reproduction_files(items: Sequence[Reproduction]) -> dict[str, str | bytes]:
+    """CSV, figures and page."""
     files: dict[str, str | bytes] = {f"{item.id}.csv": _cells_csv(item) for item in items}
     files |= {f"{item.id}-data.csv": csv_text(item.columns) for item in items if item.columns}
     plates = [_plate(item) for item in items if item.id in FIGURES]
     files |= {f"{plate.name}.svg": plate.svg for plate in plates}
-    return {**files, "report.html": render_page(_page(items, plates, names))}
+    return {**files, "report.html": render_page(_page(items, plates))}
 
 
-def _page(items: Sequence[Reproduction], plates: list[Plate], names: Sequence[str]) -> Page:
+def _page(items: Sequence[Reproduction], plates: list[Plate]) -> Page:
     cells = sum(len(item.cells) for item in items)
     good = sum(item.within_tolerance for item in items)
     said = [s for item in items for s in item.statements]
@@ -68,7 +67,6 @@ def _page(items: Sequence[Reproduction], plates: list[Plate], names: Sequence[st
         plates=plates,
         tables=[*(_table(item) for item in items), *_statements(items)],
         notes=[*((item.id, (item.note,)) for item in items), ("How to read this", _HOW)],
-        command=shlex.join(["cdpr-struct", "reproduce", *names, "--out=DIR"]),
     )
 
 

@@ -1,7 +1,6 @@
 """The files of a map of one quantity over the workspace: result, table, figure, report page."""
 
-import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -57,7 +56,7 @@ def map_values(name: str, columns: Columns) -> np.ndarray:
     return np.where(good, columns[QUANTITIES[name].column], np.nan)
 
 
-def map_files(robot: Robot, name: str, grid: Grid, columns: Columns, command: Sequence[str]) -> dict[str, str | bytes]:
+def map_files(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str, str | bytes]:
     """CSV, figure and page of a map of one quantity."""
     from cdpr_struct.reports.figures import workspace_map
 
@@ -72,7 +71,6 @@ def map_files(robot: Robot, name: str, grid: Grid, columns: Columns, command: Se
         plates=plates,
         tables=[],
         notes=[("How it was computed", _NOTE)],
-        command=shlex.join(command),
     )
     figures = {f"{plate.name}.svg": plate.svg for plate in plates}
     return {"map.csv": map_table(grid, columns), **figures, "report.html": render_page(page)}

@@ -1,7 +1,5 @@
 """The files of static pose errors: result, tables, figures, report page."""
 
-import shlex
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -51,7 +49,7 @@ def sufficient_load_json(found: SufficientLoad, pose: Pose) -> dict[str, Any]:
 
 
 def pose_error_files(
-    robot: Robot, errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None, command: Sequence[str]
+    robot: Robot, errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None
 ) -> dict[str, str | bytes]:
     """CSV, figures and page of pose errors over a grid, of the sufficient load at a pose, or both."""
     tables: dict[str, str | bytes] = {}
@@ -71,7 +69,6 @@ def pose_error_files(
         plates=plates,
         tables=[] if errors is None else [_pose_error_table(errors)],
         notes=[("How it was computed", POSE_ERROR_NOTES)],
-        command=shlex.join(command),
     )
     return {**tables, **{f"{plate.name}.svg": plate.svg for plate in plates}, "report.html": render_page(page)}
 

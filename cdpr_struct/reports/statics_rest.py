@@ -1,6 +1,5 @@
 """The robot at rest, held at a pose (inverse) or at locked lengths (forward): result, text, table, picture, page."""
 
-import shlex
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -93,7 +92,7 @@ def residual_sentence(result: Mapping[str, Any]) -> str:
 
 
 def inverse_files(
-    robot: Robot, pose: Pose, solution: InverseSolution, result: Mapping[str, Any], command: Sequence[str]
+    robot: Robot, pose: Pose, solution: InverseSolution, result: Mapping[str, Any]
 ) -> dict[str, str | bytes]:
     """CSV, picture and page of a held pose."""
     tension = solution.tensions
@@ -102,22 +101,18 @@ def inverse_files(
         f"({', '.join(f'{v:g}' for v in result['pose'][:3])}) m."
     )
     point = OperatingPoint(robot, pose.position, pose.rotation, solution.cables)
-    return _files(point, result, [verdict, residual_sentence(result)], True, command)
+    return _files(point, result, [verdict, residual_sentence(result)], True)
 
 
-def forward_files(
-    robot: Robot, solution: ForwardSolution, result: Mapping[str, Any], command: Sequence[str]
-) -> dict[str, str | bytes]:
+def forward_files(robot: Robot, solution: ForwardSolution, result: Mapping[str, Any]) -> dict[str, str | bytes]:
     """CSV, picture and page of the pose at locked lengths."""
     point = OperatingPoint(robot, solution.position, solution.rotation, solution.cables)
     stiffness = f"Least stiffness {result['least_stiffness_N_m']:.4g} N/m, rotations as arcs at the anchors."
     verdict = [pose_sentence(result), stiffness, residual_sentence(result)]
-    return _files(point, result, verdict, result["stable"], command)
+    return _files(point, result, verdict, result["stable"])
 
 
-def _files(
-    point: OperatingPoint, result: Mapping[str, Any], verdict: list[str], holds: bool, command: Sequence[str]
-) -> dict[str, str | bytes]:
+def _files(point: OperatingPoint, result: Mapping[str, Any], verdict: list[str], holds: bool) -> dict[str, str | bytes]:
     from cdpr_struct.reports.figures import interactive, robot_drawing, style
 
     picture = style.svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point))
@@ -138,7 +133,6 @@ def _files(
         plates=[plate],
         tables=[HtmlTable("Cables", _COLUMNS, _rows(point.cables))],
         notes=[("How it was computed", how)],
-        command=shlex.join(command),
     )
     return {
         "cables.csv": _cables_csv(point.cables),

@@ -1,6 +1,5 @@
 """The files of a predicted or measured vibration: CSV, figure and the report page."""
 
-import shlex
 from collections.abc import Mapping
 from typing import Any
 
@@ -92,7 +91,6 @@ def _page(record: VibrationRecord, result: Mapping[str, Any], plate: Plate) -> P
             )
         ],
         notes=[("How it was computed", _NOTES)],
-        command=shlex.join(result["command"]),
     )
 
 

@@ -7,7 +7,6 @@ from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import convergence, determinant, interactive, limits, mode_errors, robot_drawing
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import Page, Plate, render_page
-from cdpr_struct.reports.verification_command import verification_command
 from cdpr_struct.reports.verification_notes import verification_notes
 from cdpr_struct.reports.verification_tables import verification_tables
 from cdpr_struct.reports.verification_text import verdict
@@ -42,7 +41,6 @@ def verification_page(trial: Verification, plates: list[Plate]) -> Page:
         plates=plates,
         tables=verification_tables(trial),
         notes=verification_notes(trial),
-        command=verification_command(trial),
     )
 
 

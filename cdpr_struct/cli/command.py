@@ -1,0 +1,61 @@
+"""What all commands share: options for where results go, and examples at the end of their help."""
+
+import functools
+import inspect
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from types import ModuleType
+from typing import Annotated
+
+import typer
+
+from cdpr_struct.cli.options import directory
+from cdpr_struct.cli.output import Output, repeating
+
+_OUT = Annotated[
+    Path | None,
+    typer.Option(
+        "--out", parser=directory, metavar="DIR", help="Write result.json, tables, figures and report.html here."
+    ),
+]
+_JSON = Annotated[bool, typer.Option("--json", help="Print result.json to stdout, nothing else.")]
+_QUIET = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar and no text; with --json the JSON only.")]
+_OVERWRITE = Annotated[bool, typer.Option("--overwrite", help="Replace files in DIR that this program did not write.")]
+_SHARED = {"out": (_OUT, None), "json": (_JSON, False), "quiet": (_QUIET, False), "overwrite": (_OVERWRITE, False)}
+
+
+def register(app: typer.Typer, command: ModuleType) -> None:
+    """Add a command module (NAME, EXAMPLES, run) to the program."""
+    app.command(name=command.NAME, epilog=_examples(command.EXAMPLES))(with_output(command.run))
+
+
+def with_output(run: Callable[..., int]) -> Callable[..., int]:
+    """The command with options in place of its parameter `output`, an `Output`.
+
+    A command that writes no directory of results declares some of these options itself.
+    """
+    own = [p for p in inspect.signature(run, eval_str=True).parameters.values() if p.name != "output"]
+    added = {name: pair for name, pair in _SHARED.items() if name not in {p.name for p in own}}
+    keyword = inspect.Parameter.KEYWORD_ONLY
+
+    @functools.wraps(run)
+    def command(context: typer.Context, **given: object) -> int:
+        where = {name: given.pop(name) if name in added else given.get(name) for name in _SHARED}
+        out = where["out"] if "out" in added else None
+        assert out is None or isinstance(out, Path)
+        flags = (bool(where["json"]), bool(where["quiet"]), bool(where["overwrite"]))
+        output = Output(out, *flags, repeating(context.obj or ()))
+        output.check()
+        return run(**given, output=output)
+
+    shown = [inspect.Parameter("context", keyword, annotation=typer.Context)]
+    shown += [p.replace(kind=keyword) for p in own]
+    shown += [inspect.Parameter(n, keyword, default=d, annotation=a) for n, (a, d) in added.items()]
+    command.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
+    command.__annotations__ = {p.name: p.annotation for p in shown}
+    return command
+
+
+def _examples(lines: Sequence[str]) -> str:
+    """Examples as the help shows them, a line each."""
+    return "\n".join(["\b", "Examples:", *(f"  {line}" for line in lines)])

@@ -1,0 +1,228 @@
+"""What holds for every command: examples run, files can be read again, pages repeat their run, nothing is lost.
+
+Each example of each command's help runs once, with its files in a directory of its own; the laws are then read off.
+"""
+
+import json
+import re
+import shlex
+import subprocess
+import sys
+from html import unescape
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from cdpr_struct.cli.main import COMMANDS, run
+from cdpr_struct.cli.output import repeating
+from cdpr_struct.cli.written_files import LIST
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = [(command.NAME, number, line) for command in COMMANDS for number, line in enumerate(command.EXAMPLES)]
+NAMES = [command.NAME for command in COMMANDS]
+REPORTING = [name for name in NAMES if name != "import-caspr"]  # which writes one robot file
+WORD = re.compile(r"[A-Za-z][^()\[\]{}]*")
+CLOCK = {"seconds"}  # of the run, not of the result
+
+# Where the numbers of a table stand in result.json: file, column, path.
+SAME = {
+    "robots": [("robots.csv", "name", "robots.*.name")],
+    "inverse": [("cables.csv", "tension_N", "tensions_N")],
+    "forward": [("cables.csv", "tension_N", "tensions_N")],
+    "modes": [("modes.csv", "frequency_hz", "frequencies_hz"), ("modes.csv", "kind", "kinds")],
+    "spectrogram": [("modes.csv", "frequency_hz", "natural_frequencies_hz")],
+    "transient": [("modes.csv", "frequency_hz", "natural_frequencies_hz")],
+    "verify": [("eigenfrequencies.csv", "fem_hz", "eigenfrequencies.*.fem_hz")],
+    "plan": [("detectable.csv", "cause", "detectable.*.cause")],
+    "derive": [("formulas.csv", "id", "formulas.*.id")],
+}
+
+
+def words_of(line: str) -> list[str]:
+    return [word for word in repeating(shlex.split(line)[1:])[1:-1]]
+
+
+@pytest.fixture(scope="session")
+def runs(tmp_path_factory):
+    """(command, number) -> directory with the files of the example, made when it is first asked for."""
+    base = tmp_path_factory.mktemp("examples")
+    done: dict[tuple[str, int], Path] = {}
+
+    def of(name: str, number: int) -> Path:
+        if (name, number) not in done:
+            line = next(line for n, k, line in EXAMPLES if (n, k) == (name, number))
+            directory = base / f"{name}-{number}"
+            assert run([*words_of(line), "--out", str(directory), "--quiet"]) == 0, line
+            done[name, number] = directory
+        return done[name, number]
+
+    return of
+
+
+@pytest.fixture(autouse=True)
+def from_the_repository(monkeypatch):
+    monkeypatch.chdir(ROOT)
+
+
+def result_of(directory: Path) -> dict:
+    return json.loads((directory / "result.json").read_text("utf-8"))
+
+
+def at(result, path: str) -> list:
+    """Values at a path like `modes.*.hz`."""
+    found = [result]
+    for key in path.split("."):
+        found = [inner for item in found for inner in (item if key == "*" else [item[key]])]
+    return found[0] if len(found) == 1 and isinstance(found[0], list) else found
+
+
+def test_every_command_has_two_examples():
+    for command in COMMANDS:
+        assert len(command.EXAMPLES) == 2, command.NAME
+        assert all(line.startswith(f"cdpr-struct {command.NAME}") for line in command.EXAMPLES)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_help_by_either_name_ends_with_the_examples(name, capsys):
+    texts = []
+    for option in ("-h", "--help"):
+        assert run([name, option]) == 0
+        texts.append(capsys.readouterr().out)
+    assert texts[0] == texts[1]
+    command = next(c for c in COMMANDS if name == c.NAME)
+    assert [line.strip() for line in texts[0].splitlines()[-2:]] == list(command.EXAMPLES)
+
+
+@pytest.mark.parametrize(("name", "number"), [(n, k) for n, k, _ in EXAMPLES if n in REPORTING])
+def test_examples_run_and_every_cell_can_be_read(name, number, runs):
+    directory = runs(name, number)
+    assert {"result.json", "report.html", LIST} <= {path.name for path in directory.iterdir()}
+    for path in directory.glob("*.csv"):
+        table = pd.read_csv(path, dtype=str, keep_default_na=False)
+        assert len(table), path.name
+        for column in table:
+            for cell in table[column]:
+                assert plain_cell(cell), f"{path.name}, {column}: {cell!r}"
+    for file, column, place in SAME.get(name, ()):
+        read, told = pd.read_csv(directory / file)[column], at(result_of(directory), place)
+        if read.dtype.kind == "f":
+            np.testing.assert_allclose(read, told, rtol=1e-12)
+        else:
+            assert list(read) == told
+
+
+def plain_cell(cell: str) -> bool:
+    """A number, a word, or nothing."""
+    try:
+        float(cell)
+    except ValueError:
+        return not cell or WORD.fullmatch(cell) is not None
+    return True
+
+
+@pytest.mark.parametrize("cell", ["np.float64(2.48)", "[1, 2]", "array([1.0])", "(1+2j)", "{'a': 1}"])
+def test_cells_that_no_spreadsheet_reads_are_seen(cell):
+    assert not plain_cell(cell)
+
+
+def test_tables_are_compared_for_every_command_that_writes_lists():
+    assert set(SAME) <= set(REPORTING)
+
+
+@pytest.mark.parametrize("name", REPORTING)
+def test_the_command_on_a_page_gives_the_same_result(name, runs, tmp_path):
+    page = (runs(name, 0) / "report.html").read_text("utf-8")
+    line = unescape(re.search(r"<h2>Reproduce</h2>\s*<pre>(.*?)</pre>", page, re.DOTALL)[1])
+    words = [word.replace("--out=DIR", f"--out={tmp_path}") for word in shlex.split(line)[1:]]
+    assert f"--out={tmp_path}" in words
+    assert run([*words, "--quiet"]) == 0
+    first, again = result_of(runs(name, 0)), result_of(tmp_path)
+    assert {k: v for k, v in first.items() if k not in CLOCK} == {k: v for k, v in again.items() if k not in CLOCK}
+
+
+def test_repeating_leaves_out_where_results_go_and_nothing_else():
+    typed = ["map", "r.toml", "--lower-bound", "60", "--out", "d", "--json", "--quiet", "--overwrite", "--mass=3"]
+    assert repeating(typed) == ("cdpr-struct", "map", "r.toml", "--lower-bound", "60", "--mass=3", "--out=DIR")
+    assert repeating(["modes", "r.toml", "--out=d", "--scheduler", "tcp://a:1"])[1:-1] == ("modes", "r.toml")
+
+
+def test_nothing_older_stays_beside_a_new_result(tmp_path):
+    assert run(["cable", "--force", "100,-100", "--length", "20", "--EA", "251327", "--rho", "0.067",
+                "--out", str(tmp_path), "--quiet"]) == 0  # fmt: skip
+    older = {path.name for path in tmp_path.iterdir()}
+    assert run(["robots", "--out", str(tmp_path), "--quiet"]) == 0
+    now = {path.name for path in tmp_path.iterdir()}
+    assert "profile.csv" in older
+    assert not (older - {"result.json", "report.html", LIST}) & now
+    assert now == {LIST, *json.loads((tmp_path / LIST).read_text())["files"]}
+
+
+@pytest.mark.parametrize("mine", ["result.json", "robots.csv"])
+def test_what_a_user_wrote_is_not_overwritten_without_being_told(mine, tmp_path, capsys):
+    (tmp_path / mine).write_text("my own")
+    words = ["robots", "--out", str(tmp_path), "--quiet"]
+    assert run(words) == 2
+    assert f"{mine}: got" not in (told := capsys.readouterr().err)
+    assert mine in told
+    assert "--overwrite" in told
+    assert {path.name for path in tmp_path.iterdir()} == {mine}
+    assert (tmp_path / mine).read_text() == "my own"
+    assert run([*words, "--overwrite"]) == 0
+    assert (tmp_path / mine).read_text() != "my own"
+
+
+def test_a_result_that_the_user_edited_is_not_overwritten(tmp_path, capsys):
+    words = ["robots", "--out", str(tmp_path), "--quiet"]
+    assert run(words) == 0
+    assert run(words) == 0
+    (tmp_path / "report.html").write_text("with my notes")
+    assert run(words) == 2
+    assert "report.html" in capsys.readouterr().err
+
+
+def test_a_screen_that_is_closed_loses_no_file(tmp_path):
+    """`| head` closes the pipe before anything is printed."""
+    words = [sys.executable, "-m", "cdpr_struct", "robots", "--out", str(tmp_path / "d")]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT)
+    process.stdout.close()
+    told = process.stderr.read().decode()
+    process.stderr.close()
+    assert process.wait() == 0, told
+    assert "Traceback" not in told
+    assert (tmp_path / "d" / "report.html").exists()
+
+
+@pytest.mark.parametrize("name", ["robots", "map"])
+def test_quiet_prints_nothing_but_json(name, capfd):
+    line = next(command.EXAMPLES[0] for command in COMMANDS if name == command.NAME)
+    assert run([*words_of(line), "--quiet"]) == 0
+    assert capfd.readouterr() == ("", "")
+    assert run([*words_of(line), "--quiet", "--json"]) == 0
+    out, err = capfd.readouterr()
+    assert json.loads(out)
+    assert err == ""
+
+
+def test_the_program_runs_as_a_module_and_tells_its_version():
+    import cdpr_struct
+
+    asked = subprocess.run([sys.executable, "-m", "cdpr_struct", "--version"], capture_output=True, text=True, cwd=ROOT)
+    assert asked.stdout.strip() == f"cdpr-struct {cdpr_struct.__version__}"
+    assert (ROOT / "LICENSE").read_text().startswith("BSD 3-Clause")
+    assert f"version: {cdpr_struct.__version__}" in (ROOT / "CITATION.cff").read_text()
+    assert (ROOT / "cdpr_struct" / "py.typed").exists()
+
+
+def test_import_caspr_asks_before_it_overwrites(tmp_path, capsys):
+    robot = tmp_path / "lift.toml"
+    words = ["import-caspr", "examples/caspr/bodies.xml", "examples/caspr/cables.xml", "--out", str(robot)]
+    assert run(words) == 0
+    assert run(words) == 0  # the same text again harms nobody
+    robot.write_text(robot.read_text() + "# mine\n")
+    assert run(words) == 2
+    assert "--overwrite" in capsys.readouterr().err
+    assert "# mine" in robot.read_text()
+    assert run([*words, "--overwrite"]) == 0
+    assert "# mine" not in robot.read_text()
