@@ -78,12 +78,13 @@ def audit_poses(
     robot: Robot,
     position: np.ndarray,
     rotation: np.ndarray,
-    lower_bound: float = 0.0,
+    lower_bound: float | None = None,
     progress: Callable[[str], None] = lambda _: None,
 ) -> PoseAudit:
     """Cable parameters at poses (k, 3), (k, 3, 3) held by sagging cables of minimum-norm tension.
 
-    lower_bound : smallest tension at the platform [N];  progress : called once a batch of poses
+    lower_bound : smallest tension at the platform [N], None: each cable's own limit
+    progress : called once a batch of poses
     """
     rotation = np.broadcast_to(rotation, (len(position), 3, 3))
     parts = []
@@ -96,7 +97,7 @@ def audit_poses(
 
 
 def _batch(
-    robot: Robot, position: np.ndarray, rotation: np.ndarray, lower_bound: float
+    robot: Robot, position: np.ndarray, rotation: np.ndarray, lower_bound: float | None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, dict[str, np.ndarray]]:
     """Held or not, tensions, reasons and parameters of one batch of poses."""
     solution = inverse(robot, position, rotation, lower_bound=lower_bound, allow_unheld=True)

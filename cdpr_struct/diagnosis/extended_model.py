@@ -1,5 +1,6 @@
 """The robot with its causes as a robot file: plain values where these can say it, the rest in [extensions]."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -11,6 +12,7 @@ from cdpr_struct.diagnosis.extended_robot import extensions_of, robot_of
 from cdpr_struct.diagnosis.refit import world_with
 from cdpr_struct.diagnosis.whole_change import whole_change
 from cdpr_struct.diagnosis.world import World
+from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.robot import Robot
 
 
@@ -76,6 +78,7 @@ def robot_toml(robot: Robot, name: str) -> str:
             f"axial_stiffness = {cable.axial_stiffness!r}",
             f"linear_density = {cable.linear_density!r}",
             f"damping_ratio = {cable.damping_ratio!r}",
+            *_force_limits(cable),
             f"platform_anchor = {robot.platform_anchors[i].tolist()}",
             f"frame_anchor = {robot.frame_anchors[i].tolist()}",
         ]
@@ -90,6 +93,12 @@ def _home(robot: Robot) -> list[str]:
         return []
     pose = [*robot.home.position.tolist(), *np.degrees(robot.home.angles).tolist()]
     return [f"home_pose = {pose}"]
+
+
+def _force_limits(cable: Cable) -> list[str]:
+    """Lines of the limits that a cable has."""
+    lower = [f"force_min = {float(cable.force_min)!r}"] if cable.force_min > 0.0 else []
+    return lower + ([f"force_max = {float(cable.force_max)!r}"] if cable.force_max < math.inf else [])
 
 
 def _words(causes: Sequence[str]) -> str:

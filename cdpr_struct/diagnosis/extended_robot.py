@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from cdpr_struct.diagnosis.world import EXTENSIONS, World
-from cdpr_struct.robot.cable import Cable, Pulley
+from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.extensions import KEYS, Extensions
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.robot import Robot
@@ -17,7 +17,7 @@ def robot_of(robot: Robot, world: World) -> Robot:
     Joints become part of the platform. The diagnosis puts the extensions into cable states and stiffness itself.
     """
     cables = tuple(
-        Cable(float(ea), float(rho), cable.damping_ratio)
+        replace(cable, axial_stiffness=float(ea), linear_density=float(rho))
         for ea, rho, cable in zip(world.axial_stiffness, world.linear_density, robot.cables, strict=True)
     )
     pulleys = tuple(

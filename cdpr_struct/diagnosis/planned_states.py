@@ -222,7 +222,7 @@ def _robot(campaign: Campaign, home: int) -> Iterator[Proposal]:
     words = "robot frequencies at {place}"
     for own in _static(campaign, "robot frequencies", states.position[home], states.angles[home], 0.0, words):
         turn = rotation(*states.angles[home])
-        held = inverse(campaign.robot, states.position[home], turn)
+        held = inverse(campaign.robot, states.position[home], turn, lower_bound=campaign.lower_bound)
         hertz = static_frequencies(OperatingPoint(campaign.robot, states.position[home], turn, held.cables))
         if not np.isfinite(hertz).all():
             return

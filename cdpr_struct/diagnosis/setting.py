@@ -113,7 +113,7 @@ def _with_tensions(campaign: Campaign) -> Campaign:
 def _held(campaign: Campaign, robot: Robot, i: int, turn: np.ndarray) -> InverseSolution:
     states = campaign.states
     try:
-        return inverse(robot, states.position[i], turn, campaign.cable_model)
+        return inverse(robot, states.position[i], turn, campaign.cable_model, lower_bound=campaign.lower_bound)
     except CdprError as error:
         expected = f"a pose in m and degrees that the robot can hold, or tensions: {error}"
         raise InputError(

@@ -174,6 +174,7 @@ class Campaign:
     """A measuring campaign and the simulation under test.
 
     model : static, dsm, exact or spring
+    lower_bound : of the tensions that the simulation commands [N]; None: the robot's own limit
     stated : names of the tolerances that the file gives; the others are defaults
     checked : causes that a check beside the robot has bounded, with one sigma of what they may still be
     identified : modes found in the signals of `series`; those used are among `robot_frequencies`
@@ -194,7 +195,7 @@ class Campaign:
     identified: tuple["Identified", ...] = ()
     assembly: str = "consistent"
     tension_distribution: str = "minimum_norm"
-    lower_bound: float = 0.0
+    lower_bound: float | None = None
     checked: Mapping[str, float] = field(default_factory=dict)
     memory: float = 0.0
     sheets: tuple[Sheet, ...] = ()

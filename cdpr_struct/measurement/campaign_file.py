@@ -15,14 +15,20 @@ from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
 from cdpr_struct.measurement.unit_scale import check_scale
-from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.robot.robot_file import LARGEST, Matrix, Positive, Vector, builtin_names, input_error, load_robot
+from cdpr_struct.robot.robot_file import (
+    Matrix,
+    NotNegative,
+    Positive,
+    Vector,
+    builtin_names,
+    input_error,
+    load_robot,
+)
 
 Kind = Literal[
     "static_state", "loaded_pose", "cable_frequency", "robot_frequency", "frf", "free_decay", "platform_motion"
 ]
-NotNegative = Annotated[float, Field(strict=True, ge=0.0, le=LARGEST)]
 
 
 class _Table(BaseModel):
@@ -72,7 +78,7 @@ class CampaignTable(_Table):
     robot: str
     model: Literal["static", "dsm", "exact", "spring"] = "dsm"
     tension_distribution: Literal["minimum_norm"] = "minimum_norm"
-    lower_bound_N: NotNegative = 0.0
+    lower_bound_N: NotNegative | None = None
     nominal: NominalTable = NominalTable()
     tolerances: TolerancesTable = TolerancesTable()
     checked: dict[str, Positive] = {}
@@ -89,6 +95,7 @@ def load_campaign(path: str | Path) -> Campaign:
     source = Path(path)
     table = _table(source)
     robot = _nominal(_robot(table.robot, source), table.nominal, source)
+    commanding = _commanding(robot, table.lower_bound_N, source)
     gathering = Gathering(len(robot.cables))
     sheets = []
     for number, entry in enumerate(table.measurement, start=1):
@@ -98,7 +105,7 @@ def load_campaign(path: str | Path) -> Campaign:
     _check_poses(gathering)
     check_scale(str(path), robot, gathering.states())
     check_robot_scale(str(path), robot, gathering.states())
-    identified = join_signals(gathering, robot, table.model)
+    identified = join_signals(gathering, commanding, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(
         source=str(path),
@@ -147,6 +154,15 @@ def _robot(name: str, source: Path) -> Robot:
     return load_robot(source.parent / name)
 
 
+def _commanding(robot: Robot, lower_bound: float | None, source: Path) -> Robot:
+    """The robot with the lower bound of force that the simulation commands within, if the campaign gives one."""
+    try:
+        return robot.with_force_limits(lower_bound)
+    except ValueError as error:
+        expected = f"a force in N below the robot's least force_max, {robot.force_max.min():g} N"
+        raise InputError(str(source), "lower_bound_N", lower_bound, expected) from error
+
+
 def _rows(entry: MeasurementTable, source: Path, number: int, cables: int) -> Rows:
     path = source.parent / entry.file
     if not path.is_file():
@@ -189,7 +205,11 @@ def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:
     except ValueError as error:
         raise InputError(str(source), "nominal.platform_inertia", table.platform_inertia, str(error)) from error
     cables = tuple(
-        Cable(table.axial_stiffness or c.axial_stiffness, table.linear_density or c.linear_density, c.damping_ratio)
+        replace(
+            c,
+            axial_stiffness=table.axial_stiffness or c.axial_stiffness,
+            linear_density=table.linear_density or c.linear_density,
+        )
         for c in cables
     )
     return replace(robot, platform=body, cables=cables, gravity=table.gravity or robot.gravity)

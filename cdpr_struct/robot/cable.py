@@ -1,5 +1,6 @@
 """What a cable is made of, and the pulley it may run over."""
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,16 +15,26 @@ class Cable:
     axial_stiffness : EA [N]
     linear_density  : mu [kg/m], per unstrained length
     damping_ratio   : xi [-], viscous, referred to the cable's first natural frequency
+    force_min, force_max : smallest and largest tension at the platform that the robot may ask for [N]; inf for no
+                           upper limit
     """
 
     axial_stiffness: float
     linear_density: float
     damping_ratio: float = 0.0
+    force_min: float = 0.0
+    force_max: float = math.inf
 
     def __post_init__(self) -> None:
         require_positive(self, "axial_stiffness", "linear_density")
         if not 0.0 <= self.damping_ratio < 1.0:
             raise ValueError(f"Cable.damping_ratio must be in [0, 1), got {self.damping_ratio!r}")
+        if not 0.0 <= self.force_min < math.inf:
+            raise ValueError(f"Cable.force_min must be finite and >= 0 N, got {self.force_min!r}")
+        if not self.force_max > self.force_min:
+            raise ValueError(
+                f"Cable.force_max must be above force_min = {self.force_min:g} N, got {float(self.force_max)!r}"
+            )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -67,6 +67,16 @@ class Robot:
         return np.array([cable.damping_ratio for cable in self.cables])
 
     @property
+    def force_min(self) -> np.ndarray:
+        """(m,) smallest tension at the platform that each cable is to have [N]."""
+        return np.array([cable.force_min for cable in self.cables])
+
+    @property
+    def force_max(self) -> np.ndarray:
+        """(m,) largest tension at the platform that each cable may have [N]; inf for no limit."""
+        return np.array([cable.force_max for cable in self.cables])
+
+    @property
     def weight_per_length(self) -> np.ndarray:
         """(m,) mu g [N/m]."""
         return self.linear_density * self.gravity
@@ -75,6 +85,16 @@ class Robot:
         """Robot whose platform has another `mass` [kg] and/or a point load `payload` [kg] at its origin."""
         platform = self.platform if mass is None else self.platform.with_mass(mass)
         return replace(self, platform=platform.with_point_load(payload))
+
+    def with_force_limits(self, lower: float | None = None, upper: float | None = None) -> "Robot":
+        """Robot all of whose cables have these limits of tension at the platform [N]; None keeps each cable's own.
+
+        Raises
+        ------
+        ValueError : a lower limit that is negative or not below the upper one.
+        """
+        given = {name: value for name, value in (("force_min", lower), ("force_max", upper)) if value is not None}
+        return replace(self, cables=tuple(replace(cable, **given) for cable in self.cables)) if given else self
 
     def without_extensions(self, *names: str) -> "Robot":
         """Robot whose named extensions are neutral, or all of them if none is named."""

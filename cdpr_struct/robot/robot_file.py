@@ -1,5 +1,6 @@
 """Robot files (TOML): read, check with messages that name the field, write."""
 
+import math
 import tomllib
 from importlib import resources
 from pathlib import Path
@@ -18,6 +19,8 @@ from cdpr_struct.robot.robot import Robot
 LARGEST, SMALLEST = 1e12, 1e-12  # of any number; beyond them squares and products leave what can be computed
 Number = Annotated[float, Field(strict=True, ge=-LARGEST, le=LARGEST)]
 Positive = Annotated[float, Field(strict=True, gt=SMALLEST, le=LARGEST)]
+NotNegative = Annotated[float, Field(strict=True, ge=0.0, le=LARGEST)]
+Limit = Annotated[float, Field(strict=True, gt=SMALLEST, allow_inf_nan=True)]  # inf: none
 Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
 Matrix = Annotated[list[Vector], Field(min_length=3, max_length=3)]
 
@@ -36,6 +39,8 @@ class CableTable(_Table):
     axial_stiffness: Positive | None = None
     linear_density: Positive | None = None
     damping_ratio: Annotated[float, Field(strict=True, ge=0.0, lt=1.0)] | None = None
+    force_min: NotNegative | None = None
+    force_max: Limit | None = None
 
 
 class PulleyTable(_Table):
@@ -243,10 +248,24 @@ def _pulley(entry: CablesEntry, source: str, number: int) -> Pulley | None:
 
 def _cable(default: CableTable, entry: CablesEntry, source: str, number: int) -> Cable:
     values: dict[str, Any] = {}
-    for name in ("axial_stiffness", "linear_density", "damping_ratio"):
+    for name in CableTable.model_fields:
         own = getattr(entry, name)
         values[name] = getattr(default, name) if own is None else own
     for name in ("axial_stiffness", "linear_density"):
         if values[name] is None:
             raise InputError(source, f"cables[{number}].{name}", "nothing", "give it here or in the [cable] table")
-    return Cable(values["axial_stiffness"], values["linear_density"], values["damping_ratio"] or 0.0)
+    given = {name: value for name, value in values.items() if value is not None}
+    _check_limits(given, entry, source, number)
+    return Cable(**given)
+
+
+def _check_limits(given: dict[str, float], entry: CablesEntry, source: str, number: int) -> None:
+    """Force limits of a cable, as far as they are given, each by its own key or that of [cable]."""
+    low, high = given.get("force_min", 0.0), given.get("force_max", math.inf)
+    for name in ("force_max", "force_min"):
+        field = f"cable.{name}" if getattr(entry, name) is None else f"cables[{number}].{name}"
+        if name == "force_max" and LARGEST < high < math.inf:
+            raise InputError(source, field, high, f"a force in N, at most {LARGEST:g}; without a limit, leave it out")
+        if not high > low and name in given:
+            other = f"above force_min = {low:g} N" if name == "force_max" else f"below force_max = {high:g} N"
+            raise InputError(source, field, given[name], f"give a force in N {other}")

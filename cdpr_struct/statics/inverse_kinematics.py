@@ -69,8 +69,8 @@ def inverse(
     rotation: npt.ArrayLike,
     model: str | CableModel = "sagging",
     external_wrench: npt.ArrayLike | None = None,
-    lower_bound: npt.ArrayLike = 0.0,
-    upper_bound: npt.ArrayLike = np.inf,
+    lower_bound: npt.ArrayLike | None = None,
+    upper_bound: npt.ArrayLike | None = None,
     mass: npt.ArrayLike | None = None,
     allow_unheld: bool = False,
 ) -> InverseSolution:
@@ -81,7 +81,7 @@ def inverse(
     position, rotation : (..., 3) [m], (..., 3, 3) platform to world
     model : "sagging", "spring" or "ideal"
     external_wrench : (..., 6) on the platform about its origin, world axes, beside its weight [N, N m]
-    lower_bound, upper_bound : (..., m) or scalar, on the tension at the platform end [N]
+    lower_bound, upper_bound : (..., m) or scalar, on the tension at the platform end [N]; None: the robot's own limits
     mass : (...) of the platform in place of the robot's [kg]
     allow_unheld : return poses that cannot be held with their status, instead of raising
 
@@ -98,7 +98,11 @@ def inverse(
     arrays = RobotArrays.of(robot, None if mass is None else np.asarray(mass, dtype=float))
     place, turn = np.asarray(position, dtype=float), np.asarray(rotation, dtype=float)
     load = np.zeros(6) if external_wrench is None else np.asarray(external_wrench, dtype=float)
-    low, high = _bounds(lower_bound, upper_bound, arrays.cable_count)
+    low, high = _bounds(
+        arrays.force_min if lower_bound is None else lower_bound,
+        arrays.force_max if upper_bound is None else upper_bound,
+        arrays.cable_count,
+    )
     cores = (place.shape[:-1], turn.shape[:-2], load.shape[:-1], low.shape[:-1], high.shape[:-1], arrays.batch_shape)
     shape = np.broadcast_shapes(*cores)
     flat = [np.broadcast_to(a, shape + a.shape[-1:]).reshape((-1, a.shape[-1])) for a in (place, load, low, high)]
@@ -175,13 +179,13 @@ def _bounds(lower: npt.ArrayLike, upper: npt.ArrayLike, m: int) -> tuple[np.ndar
     low, high = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
     if not ((low >= 0.0).all() and np.isfinite(low).all()):
         raise ValueError(f"lower_bound must be finite and >= 0 N, got {low.min()!r}")
-    if not (low < high).all():
-        raise ValueError(f"upper_bound must be above lower_bound, got {high.min()!r} N and {low.max()!r} N")
     pair = []
     for name, bound in (("lower_bound", low), ("upper_bound", high)):
         if bound.ndim and bound.shape[-1] not in (1, m):
             raise ValueError(f"{name} must have one entry per cable ({m}), got shape {bound.shape}")
         pair.append(np.broadcast_to(bound, (*bound.shape[:-1], m)))
+    if not (low < high).all():
+        raise ValueError(f"upper_bound must be above lower_bound, got {high.min()!r} N and {low.max()!r} N")
     return pair[0], pair[1]
 
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
-from cdpr_struct.robot.extensions import masts_of
+from cdpr_struct.robot.extensions import KEYS, masts_of
 from cdpr_struct.robot.robot import Robot
 
 
@@ -20,6 +20,7 @@ class RobotArrays:
     mass            : (...) [kg]
     center_of_mass  : (..., 3) platform frame [m]
     gravity         : (...) g [m/s^2]
+    force_min, force_max : (..., m) limits of the tension at the platform [N]; none unless given
 
     Extensions (`robot/extensions.py` says what they mean), neutral unless given:
     series_compliance, length_offset, length_scale : (..., m) [m/N], [m], [-]
@@ -37,6 +38,8 @@ class RobotArrays:
     mass: np.ndarray
     center_of_mass: np.ndarray
     gravity: np.ndarray
+    force_min: np.ndarray = field(default_factory=lambda: np.zeros(1))
+    force_max: np.ndarray = field(default_factory=lambda: np.full(1, np.inf))
     series_compliance: np.ndarray = field(default_factory=lambda: np.zeros(1))
     length_offset: np.ndarray = field(default_factory=lambda: np.zeros(1))
     length_scale: np.ndarray = field(default_factory=lambda: np.ones(1))
@@ -65,6 +68,8 @@ class RobotArrays:
             mass=np.asarray(robot.platform.mass if mass is None else mass, dtype=float),
             center_of_mass=robot.platform.center_of_mass,
             gravity=np.asarray(robot.gravity, dtype=float),
+            force_min=robot.force_min,
+            force_max=robot.force_max,
             masts=masts_of(robot.frame_anchors),
             **{name: np.asarray(getattr(more, name), dtype=float) for name in EXTENSIONS},
         )
@@ -149,6 +154,8 @@ _CORE_AXES = {
     "mass": 0,
     "center_of_mass": 1,
     "gravity": 0,
+    "force_min": 1,
+    "force_max": 1,
     "series_compliance": 1,
     "length_offset": 1,
     "length_scale": 1,
@@ -161,7 +168,7 @@ _CORE_AXES = {
     "nonlinearity": 0,
     "reference_tension": 0,
 }
-EXTENSIONS = tuple(name for name in list(_CORE_AXES)[9:] if name != "masts")
+EXTENSIONS = tuple(name for name in _CORE_AXES if name in KEYS)
 _LEAST_MODULUS = 0.05  # of E as entered: the law is a straight line and would end below zero
 
 

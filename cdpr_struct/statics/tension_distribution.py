@@ -76,8 +76,8 @@ def distribute(
     position: npt.ArrayLike,
     rotation: npt.ArrayLike,
     external_wrench: npt.ArrayLike | None = None,
-    lower_bound: npt.ArrayLike = 0.0,
-    upper_bound: npt.ArrayLike = np.inf,
+    lower_bound: npt.ArrayLike | None = None,
+    upper_bound: npt.ArrayLike | None = None,
     longest: npt.ArrayLike = np.inf,
     cost: TensionCost | None = None,
     model: str | CableModel = "sagging",
@@ -89,7 +89,7 @@ def distribute(
     ----------
     position, rotation : (k, 3) [m], (k, 3, 3) platform to world; a single pose counts as k = 1
     external_wrench : (k, 6) or (6,) on the platform about its origin beside its weight, world axes [N, N m]
-    lower_bound, upper_bound : scalar, (m,) or (k, m) on the tension at the platform [N]
+    lower_bound, upper_bound : scalar, (m,) or (k, m) on the tension at the platform [N]; None: the robot's own limits
     longest : the same, on the unstrained length [m], eq. (5.8)
     cost : default the Euclidean norm
     model : "sagging", "spring" or "ideal"
@@ -102,8 +102,10 @@ def distribute(
     place = np.atleast_2d(np.asarray(position, dtype=float))
     load = np.zeros(6) if external_wrench is None else np.asarray(external_wrench, dtype=float)
     holding = holding_problem(robot, place, rotation, load, model)
-    floor = chord_tension_at(holding, constant(np.asarray(lower_bound, dtype=float)))
-    problem = bounded_problem(holding, floor, upper_bound, longest, EuclideanNorm() if cost is None else cost)
+    low = holding.arrays.force_min if lower_bound is None else np.asarray(lower_bound, dtype=float)
+    high = holding.arrays.force_max if upper_bound is None else upper_bound
+    floor = chord_tension_at(holding, constant(low))
+    problem = bounded_problem(holding, floor, high, longest, EuclideanNorm() if cost is None else cost)
     return solve_distribution(problem, lambda i: f"pose {i + 1}:", allow_unheld)
 
 

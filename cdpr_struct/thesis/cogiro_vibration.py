@@ -10,7 +10,6 @@ from cdpr_struct.crosscheck.determinant_minima import scan_determinant
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics, damped
 from cdpr_struct.dynamics.natural_frequencies import static_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.cable_state import cable_stiffness
@@ -179,7 +178,7 @@ def _modes(mass: float, x: np.ndarray) -> np.ndarray:
 def _stiffened(mass: float, factor: float) -> OperatingPoint:
     """CoGiRo at the centre with another platform mass [kg] and EA times a factor; neither depends on the inertia."""
     robot = load_robot("cogiro")
-    cables = tuple(Cable(c.axial_stiffness * factor, c.linear_density, c.damping_ratio) for c in robot.cables)
+    cables = tuple(dataclasses.replace(c, axial_stiffness=c.axial_stiffness * factor) for c in robot.cables)
     return _at(dataclasses.replace(robot, platform=robot.platform.with_mass(mass), cables=cables), CENTRE)
 
 

@@ -18,7 +18,6 @@ from scipy.spatial.transform import Rotation
 
 import fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import to_fem
-from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
@@ -40,11 +39,7 @@ def real_robot(entered: Robot, noise: np.random.Generator) -> Robot:
     """The robot as it was built: within tolerances of what was entered, on masts that give way."""
     one_reel = noise.normal()
     cables = tuple(
-        Cable(
-            c.axial_stiffness * (1.0 + 0.02 * (0.7 * one_reel + 0.7 * noise.normal())),
-            c.linear_density,
-            c.damping_ratio,
-        )
+        replace(c, axial_stiffness=c.axial_stiffness * (1.0 + 0.02 * (0.7 * one_reel + 0.7 * noise.normal())))
         for c in entered.cables
     )
     give = Extensions.of(len(cables), {"frame_compliance": np.full(len(cables), MASTS)})

@@ -91,7 +91,7 @@ def test_cable_at_its_force_limit_is_marked():
 
 def test_platform_above_all_anchors_cannot_be_held():
     with pytest.raises(UnholdablePoseError, match="would need -"):
-        distribute(ROBOT, [0.0, 0.0, 7.0], LEVEL)
+        distribute(ROBOT, [0.0, 0.0, 7.0], LEVEL, lower_bound=0.0)
 
 
 def test_lower_above_upper_bound():

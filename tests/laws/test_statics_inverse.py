@@ -178,10 +178,10 @@ def test_one_bad_pose_in_a_batch_is_reported_without_spoiling_the_others():
 def test_an_iteration_cut_short_is_not_called_unholdable(monkeypatch):
     """Low bounds on the fully constrained robot take seven steps; after two nothing is known yet."""
     monkeypatch.setattr("cdpr_struct.statics.holding_tensions.MAX_ITERATIONS", 2)
-    solution = inverse(FIXED, [0.0, 0.0, 2.5], np.eye(3), allow_unheld=True)
+    solution = inverse(FIXED, [0.0, 0.0, 2.5], np.eye(3), lower_bound=0.0, allow_unheld=True)
     assert solution.status == InverseStatus.NOT_CONVERGED
     with pytest.raises(ConvergenceError, match=r"inverse kinematics: residual .* after 2 iterations"):
-        inverse(FIXED, [0.0, 0.0, 2.5], np.eye(3))
+        inverse(FIXED, [0.0, 0.0, 2.5], np.eye(3), lower_bound=0.0)
 
 
 def test_bounds_are_checked():
