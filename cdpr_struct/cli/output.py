@@ -1,7 +1,5 @@
 """Where a command's results go: files first, then the screen, or JSON on stdout."""
 
-import json
-import math
 import os
 import shlex
 import sys
@@ -11,8 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from cdpr_struct.cli.plain_json import json_text
 from cdpr_struct.cli.progress import Begin, silent, steps
-from cdpr_struct.cli.written_files import refuse_foreign, replace_files
+from cdpr_struct.cli.written_files import RESULT, refuse_foreign, replace_files
 
 Files = Mapping[str, str | bytes]
 
@@ -39,7 +38,7 @@ class Output:
         InputError : result.json or report.html is there, and this program did not write it or it was changed since.
         """
         if self.directory is not None and not self.overwrite:
-            refuse_foreign(self.directory, ("result.json", "report.html"))
+            refuse_foreign(self.directory, (RESULT, "report.html"))
 
     @contextmanager
     def steps(self, total: int) -> Iterator[Begin]:
@@ -58,18 +57,18 @@ class Output:
         result : `warnings` (sentences) and `extensions` (as `extension_notes` makes it) are shown if they are there
         """
         if self.directory is not None:
-            replace_files(self.directory, self._completed(result, files()), self.overwrite)
+            replace_files(self.directory, result, self._completed(result, files()), self.overwrite)
         if self.json:
-            _print(result_json(result), sys.stdout)
+            _print(json_text(result), sys.stdout)
         elif not self.quiet:
             _print("\n\n".join([text(), *_remarks(result)]) + "\n", sys.stdout)
 
     def _completed(self, result: Mapping[str, Any], files: Files) -> dict[str, str | bytes]:
-        """All files of a result: the page knows how to repeat the run, and what the screen says beside the result."""
+        """The files; the page says how to repeat the run, and what the screen says beside the result."""
         from cdpr_struct.reports.html import completed
 
         page = completed(files["report.html"], shlex.join(self.words), warnings_of(result), extensions_of(result))
-        return {"result.json": result_json(result), **files, "report.html": page}
+        return {**files, "report.html": page}
 
 
 def repeating(typed: Sequence[str]) -> tuple[str, ...]:
@@ -86,24 +85,6 @@ def repeating(typed: Sequence[str]) -> tuple[str, ...]:
 
 
 _FLAGS, _WITH_VALUE = ("--json", "--quiet", "--overwrite"), ("--out", "--scheduler")
-
-
-def plain(value: Any) -> Any:
-    """Copy of a result that JSON can hold: arrays as lists, nan and infinities as null."""
-    if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items()}
-    if hasattr(value, "tolist"):
-        return plain(value.tolist())
-    if isinstance(value, list | tuple):
-        return [plain(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
-
-
-def result_json(result: Mapping[str, Any]) -> str:
-    """Text of result.json."""
-    return json.dumps(plain(result), indent=2) + "\n"
 
 
 def warnings_of(result: Mapping[str, Any]) -> list[str]:

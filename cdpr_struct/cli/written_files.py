@@ -1,7 +1,7 @@
 """Files of a result in a directory: each whole or absent, nothing older beside them, nobody else's overwritten.
 
-A hidden list beside the files holds their names and digests, so that a later run can tell its own files from those
-that a user wrote or changed.
+result.json lists the files written with it and their digests under `files`, so that a later run can tell its own files
+from those that a user wrote or changed.
 """
 
 import hashlib
@@ -10,17 +10,21 @@ import os
 import tempfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
+from cdpr_struct.cli.plain_json import json_text
 from cdpr_struct.errors import InputError
 
-LIST = ".cdpr-struct-files.json"
+RESULT = "result.json"
 _FOREIGN = "a file that this program did not write, or that was changed since; give another place, or --overwrite"
 
 
-def replace_files(directory: Path, files: Mapping[str, str | bytes], overwrite: bool) -> None:
-    """Write the files of a result and remove those of an earlier one.
+def replace_files(
+    directory: Path, result: Mapping[str, Any], files: Mapping[str, str | bytes], overwrite: bool
+) -> None:
+    """Write result.json and the files of a result, and remove those of an earlier one.
 
-    All are written under temporary names before the first is renamed.
+    All are written under temporary names before the first is renamed; result.json, which lists them, comes last.
 
     Raises
     ------
@@ -29,11 +33,13 @@ def replace_files(directory: Path, files: Mapping[str, str | bytes], overwrite: 
     try:
         directory.mkdir(parents=True, exist_ok=True)
         contents = {name: _bytes(content) for name, content in files.items()}
+        digests = {name: _digest(content) for name, content in contents.items()}
+        digests[RESULT] = _digest(_bytes(json_text(result)))
+        contents[RESULT] = _bytes(json_text({**result, "files": digests}))
         earlier = _listed(directory)
         if not overwrite:
             _refuse(directory, {**dict.fromkeys(earlier, b""), **contents}, earlier)
-        listing = json.dumps({"files": {name: _digest(content) for name, content in contents.items()}}, indent=1)
-        _write_all(directory, {**contents, LIST: _bytes(listing + "\n")})
+        _write_all(directory, contents)
         for name in earlier.keys() - contents.keys():
             (directory / name).unlink(missing_ok=True)
     except OSError as error:
@@ -76,17 +82,28 @@ def write_whole(path: Path, content: str | bytes) -> None:
 def _refuse(directory: Path, wanted: Mapping[str, bytes], earlier: Mapping[str, str]) -> None:
     for name, content in wanted.items():
         path = directory / name
-        if path.exists() and _digest(found := path.read_bytes()) != earlier.get(name) and found != content:
+        if path.exists() and (found := path.read_bytes()) != content and _own_digest(name, found) != earlier.get(name):
             raise InputError("--out", "", str(path), _FOREIGN)
 
 
 def _listed(directory: Path) -> dict[str, str]:
-    """Names and digests of the files that an earlier run left; empty if its list cannot be read."""
+    """Names and digests of the files that an earlier run left; empty if its result.json cannot be read."""
     try:
-        files = json.loads((directory / LIST).read_text("utf-8"))["files"]
+        files = json.loads((directory / RESULT).read_text("utf-8"))["files"]
         return {str(name): str(digest) for name, digest in files.items() if Path(name).name == name}
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return {}
+
+
+def _own_digest(name: str, found: bytes) -> str:
+    """Digest of a file that is there; of result.json without the list in it, which cannot hold its own digest."""
+    if name != RESULT:
+        return _digest(found)
+    try:
+        result = json.loads(found)
+        return _digest(_bytes(json_text({key: value for key, value in result.items() if key != "files"})))
+    except (ValueError, AttributeError):
+        return _digest(found)
 
 
 def _write_all(directory: Path, contents: Mapping[str, bytes]) -> None:

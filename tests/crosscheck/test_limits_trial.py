@@ -9,7 +9,7 @@ import pytest
 
 import cdpr_struct.crosscheck.limits_errors as errors
 import fem_reference as fem
-from cdpr_struct.cli.output import plain
+from cdpr_struct.cli.plain_json import plain
 from cdpr_struct.crosscheck.limits_causes import candidates, causes_of, rounded_down, sample_groups
 from cdpr_struct.crosscheck.limits_closed_form import closed_form_planes
 from cdpr_struct.crosscheck.limits_domain import Domain
