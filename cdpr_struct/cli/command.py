@@ -26,7 +26,7 @@ _SHARED = {"out": (_OUT, None), "json": (_JSON, False), "quiet": (_QUIET, False)
 
 def register(app: typer.Typer, command: ModuleType) -> None:
     """Add a command module (NAME, EXAMPLES, run) to the program."""
-    app.command(name=command.NAME, epilog=_examples(command.EXAMPLES))(with_output(command.run))
+    app.command(name=command.NAME, epilog=examples(command.EXAMPLES))(with_output(command.run))
 
 
 def with_output(run: Callable[..., int]) -> Callable[..., int]:
@@ -56,6 +56,6 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
     return command
 
 
-def _examples(lines: Sequence[str]) -> str:
+def examples(lines: Sequence[str]) -> str:
     """Examples as the help shows them, a line each."""
     return "\n".join(["\b", "Examples:", *(f"  {line}" for line in lines)])

@@ -28,7 +28,7 @@ from cdpr_struct.cli import (
     transient,
     verify,
 )
-from cdpr_struct.cli.command import register
+from cdpr_struct.cli.command import examples, register
 from cdpr_struct.cli.interruption import Interrupted
 from cdpr_struct.errors import CdprError, InputError
 
@@ -37,6 +37,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
     help="Deflection and vibration of cable-driven parallel robots, checked against an independent FEM.",
+    epilog=examples(("cdpr-struct verify thesis-3-1 --out results/verify", "cdpr-struct modes --help")),
 )
 COMMANDS = (
     robots,

@@ -8,7 +8,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from cdpr_struct.cli import diagnose as diagnose_command
 from cdpr_struct.cli.main import run
 from cdpr_struct.reports import diagnosis_result
 from cdpr_struct.reports.diagnosis_tables import next_table
@@ -226,17 +225,6 @@ def test_what_to_measure_next_is_a_list():
     assert [row[0][:2] for row in table.rows] == ["1.", "2."]
     assert table.rows[1] == ["2. or weighing: 3 nats"]
     assert next_table("") is None
-
-
-def test_a_closed_screen_loses_no_files(monkeypatch, tmp_path):
-    def closed(*_):
-        raise BrokenPipeError
-
-    monkeypatch.setattr("cdpr_struct.cli.diagnose.emit", closed)
-    with pytest.raises(BrokenPipeError):
-        diagnose_command.run(LEVEL, "small", tmp_path)
-    assert (tmp_path / "result.json").exists()
-    assert (tmp_path / "report.html").exists()
 
 
 def test_a_cause_that_the_verdict_leaves_open_is_not_called_hidden():

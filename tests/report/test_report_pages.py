@@ -12,7 +12,7 @@ from plotly import graph_objects
 
 from cdpr_struct.crosscheck.single_cable import describe_cable
 from cdpr_struct.reports.cable_page import cable_files
-from cdpr_struct.reports.html import Plate, render_page
+from cdpr_struct.reports.html import Plate, completed, render_page
 from cdpr_struct.reports.verification_page import verification_files, verification_page
 from cdpr_struct.reports.verification_text import verdict
 
@@ -33,7 +33,7 @@ def test_page_begins_with_the_verdict(trial, files, read_page):
     sentence = verdict(trial).split("\n")[0]
     assert sentence.startswith("HOLDS")
     assert sentence in text
-    assert all(text.index(sentence) < text.index(word) for word in ("How to read", "Reproduce", "1. What a"))
+    assert all(text.index(sentence) < text.index(word) for word in ("How to read", "1. What a"))
 
 
 def test_page_shows_a_failing_verdict_as_failing(trial, wrong_trial, read_page):
@@ -125,10 +125,15 @@ def test_equal_results_give_equal_bytes(trial, files):
     assert [name for name in files if files[name] != again[name]] == []
 
 
-def test_command_repeats_the_verification(files, read_page):
-    text = read_page(files["report.html"]).text
-    assert "cdpr-struct verify thesis-3-1 --pose=0,0,0.5" in text
-    assert "--elements=8,16,32 --modes=20 --assembly=consistent --tolerance=0.01" in text
+def test_a_completed_page_holds_warnings_below_the_verdict_and_the_command_at_the_end(trial, files, read_page):
+    said = ["cable 3 hangs slack <b>", "two states"]
+    page = completed(files["report.html"], "cdpr-struct verify thesis-3-1 --modes 20", said, ["tilt acts."])
+    text = read_page(page).text
+    order = [verdict(trial).split("\n")[0], f"Warning: {said[0]}", f"Warning: {said[1]}", "1. What a", "How to read"]
+    order += ["Extensions", "tilt acts.", "Reproduce", "cdpr-struct verify thesis-3-1 --modes 20"]
+    places = [text.index(piece) for piece in order]
+    assert places == sorted(places)
+    assert "<!-- end -->" not in page
 
 
 def test_cable_page_of_a_taut_cable_holds(cable, cable_report, read_page):
