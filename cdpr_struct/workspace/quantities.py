@@ -45,8 +45,8 @@ def evaluate(name: str, robot: Robot, positions: np.ndarray, rotation: np.ndarra
 def pose_errors(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
     """Static pose errors [mm], [deg], and what is to be known about each pose.
 
-    held: straight, inextensible cables hold the reference pose by pulling. stable: sagging and spring model both found
-    a stable equilibrium. more_stable_pose: the spring model has another one of lower energy.
+    held: straight, inextensible cables hold the reference pose within their force limits. stable: sagging and spring
+    model both found a stable equilibrium. more_stable_pose: the spring model has another one of lower energy.
     """
     error = pose_error(robot, positions, rotation)
     columns = {
@@ -56,8 +56,7 @@ def pose_errors(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Co
     }
     turn = np.degrees(error.global_rotation)
     columns |= {f"global_r{axis}_deg": turn[:, i] for i, axis in enumerate("xyz")}
-    held = inverse(robot, positions, rotation, model="ideal", allow_unheld=True).held
-    return {**columns, "held": held, "stable": error.converged, "more_stable_pose": error.more_stable_pose}
+    return {**columns, "held": error.held, "stable": error.converged, "more_stable_pose": error.more_stable_pose}
 
 
 def tensions(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
