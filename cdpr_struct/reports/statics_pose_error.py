@@ -11,7 +11,7 @@ from cdpr_struct.reports.figures import pose_error as pose_error_figure
 from cdpr_struct.reports.figures import workspace_map
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
-from cdpr_struct.reports.statics_map import map_table
+from cdpr_struct.reports.statics_map import map_table, slack_poses, slack_warnings
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.sufficient_load import SufficientLoad
@@ -20,16 +20,17 @@ from cdpr_struct.workspace.pose_error_map import PARTS, PoseErrorMap
 POSE_ERROR_NOTES = (
     "For each reference pose the lengths of straight, inextensible cables are computed and locked; then the platform "
     "is let go, once on elastic catenaries (sagging model), once on massless springs that cannot push (spring "
-    "model). Sagging minus reference is the global error, spring minus reference the part of axial elasticity, and "
-    "the rest is what sag adds.",
+    "model). If the robot's force limits ask for a preload, the cables are shortened beforehand by the stretch that "
+    "this internal force alone causes. Sagging minus reference is the global error, spring minus reference the part of "
+    "axial elasticity, and the rest is what sag adds.",
     "Every equilibrium is stable: the potential energy is minimised with its exact second derivative. Where the "
     "spring model has several, the one continuous with the reference pose is taken, found by softening the cables "
     "in stages.",
 )
 
 
-def pose_error_json(errors: PoseErrorMap) -> dict[str, Any]:
-    """Result of a map of pose errors."""
+def pose_error_json(errors: PoseErrorMap, robot: Robot | None = None) -> dict[str, Any]:
+    """Result of a map of pose errors; with the robot, also what is to be said of slack cables."""
     worst = {part: errors.extreme(part) for part in PARTS}
     return {
         "robot": errors.robot,
@@ -42,6 +43,8 @@ def pose_error_json(errors: PoseErrorMap) -> dict[str, Any]:
         "more_stable_pose": int(errors.more_stable.sum()),
         "mean_mm": {part: errors.mean(part) for part in PARTS},
         "largest_mm": {part: {"value": value, "position_m": place} for part, (value, place) in worst.items()},
+        "slack_poses": len(slack_poses(errors.columns)),
+        "warnings": [] if robot is None else slack_warnings(robot, errors.grid, errors.columns, released=True),
     }
 
 
@@ -51,9 +54,18 @@ def sufficient_load_json(found: SufficientLoad, pose: Pose) -> dict[str, Any]:
 
 
 def pose_error_files(
-    robot: Robot, errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None, command: Sequence[str]
+    robot: Robot,
+    errors: PoseErrorMap | None,
+    load: tuple[SufficientLoad, Pose] | None,
+    command: Sequence[str],
+    warnings: Sequence[str] | None = None,
 ) -> dict[str, str | bytes]:
-    """CSV, figures and page of pose errors over a grid, of the sufficient load at a pose, or both."""
+    """CSV, figures and page of pose errors over a grid, of the sufficient load at a pose, or both.
+
+    warnings : of `pose_error_json`, if they are at hand
+    """
+    if warnings is None:
+        warnings = [] if errors is None else slack_warnings(robot, errors.grid, errors.columns, released=True)
     tables: dict[str, str | bytes] = {}
     plates = []
     if errors is not None:
@@ -65,7 +77,7 @@ def pose_error_files(
     page = Page(
         title=f"{robot.name}: static pose error",
         subtitle=f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg",
-        verdict=pose_error_sentences(errors, load),
+        verdict=[*pose_error_sentences(errors, load), *warnings],
         holds=errors is None or bool(errors.counts.all()),
         facts=_facts(errors, load),
         plates=plates,
