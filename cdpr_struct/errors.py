@@ -43,6 +43,10 @@ class UnholdablePoseError(CdprError):
         super().__init__(reason)
 
 
+class UnstableEquilibriumError(CdprError):
+    """The platform is balanced, but a small motion would grow: there are no vibrations about this state."""
+
+
 class ConvergenceError(CdprError):
     """An iteration stopped before it converged; holds the last residual."""
 

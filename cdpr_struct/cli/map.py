@@ -64,7 +64,7 @@ def run(
     output.deliver(
         result,
         lambda: report.map_sentence(result),
-        lambda: report.map_files(machine, quantity, poses, columns),
+        lambda: report.map_files(machine, quantity, poses, columns, result),
     )
     clear_checkpoint(sweep, output.directory)
     return 0 if result["held"] > result["unstable"] else 1

@@ -71,7 +71,7 @@ def run(
     if sweep is not None:
         columns, _ = run_sweep(sweep, workers, scheduler, output)
         errors = PoseErrorMap(machine.name, machine.platform.mass, sweep.grid, columns).require_some()
-        result |= report.pose_error_json(errors)
+        result |= report.pose_error_json(errors, machine)
     if load is not None:
         result["sufficient_load"] = report.sufficient_load_json(*load)
     result = with_extensions(result, machine, NAME)

@@ -37,7 +37,8 @@ def certified_modes(
 
     Raises
     ------
-    CdprError : the equilibrium is unstable, or the model has fewer modes (massless cables: six).
+    UnstableEquilibriumError : a small motion of the platform would grow.
+    CdprError : the model has fewer modes (massless cables: six).
     """
     cables, shapes = _enough_modes(point, model, count, assembly)
     return CertifiedModes(certified(point, cables, shapes, assembly), shapes, cables)

@@ -17,7 +17,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     platform_mass_matrix,
     platform_static_stiffness,
 )
-from cdpr_struct.errors import CdprError
+from cdpr_struct.errors import CdprError, UnstableEquilibriumError
 from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.statics.masts import negative_junctions
 
@@ -73,11 +73,11 @@ def natural_frequencies(
 
     Raises
     ------
-    CdprError : the equilibrium is unstable, so the lowest "frequencies" are not real; or the model has fewer than
-        `count` frequencies (massless cables: six).
+    UnstableEquilibriumError : the lowest "frequencies" are not real.
+    CdprError : the model has fewer than `count` frequencies (massless cables: six).
     """
     if int(count_below(point, cables, np.array([1e-6]), assembly)[0]) > 0:
-        raise CdprError("the equilibrium is unstable: the platform stiffness has negative eigenvalues at rest")
+        raise UnstableEquilibriumError("the equilibrium is unstable: the platform's stiffness has negative eigenvalues")
     bracket = np.stack(bisect_count(point, cables, np.arange(1, count + 1), assembly), axis=-1)
     return NaturalFrequencies.in_brackets(bracket / (2.0 * np.pi))
 

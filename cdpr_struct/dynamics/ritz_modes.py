@@ -7,7 +7,7 @@ import numpy as np
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, assemble, attachment, platform_mass_matrix
-from cdpr_struct.errors import CdprError
+from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.statics.masts import carriers, of_each_mast
 
@@ -62,7 +62,7 @@ def ritz_modes(
 
     Raises
     ------
-    CdprError : the platform's stiffness at rest is not positive, so the equilibrium is unstable.
+    UnstableEquilibriumError : the platform's stiffness at rest is not positive.
     """
     ends, masts = _with_masts(point)
     to_cable, to_mast = (np.swapaxes(expansion.frame, -1, -2) @ motion for motion in (ends, masts))
@@ -111,7 +111,8 @@ def _unit_stiffness(
     try:
         lower = np.linalg.cholesky(stiffness)
     except np.linalg.LinAlgError as error:
-        raise CdprError("the equilibrium is unstable: the platform's stiffness has a negative eigenvalue") from error
+        reason = "the equilibrium is unstable: the platform's stiffness has a negative eigenvalue"
+        raise UnstableEquilibriumError(reason) from error
     squared = expansion.omega_squared
     return np.swapaxes(np.linalg.inv(lower), -1, -2), 1.0 / np.sqrt(squared.reshape((*squared.shape[:-2], -1)))
 

@@ -39,6 +39,7 @@ class TrajectoryDistribution:
     distribution : tensions (k, m) with their bounds
     frequency    : (k, m) lowest natural frequency of each cable, both ends held, exact model [rad/s]
     work         : of the winches
+    raised       : (k, m) bool, where the cable's force_min lies above the rule's bound and stands in its place
     """
 
     robot: Robot
@@ -51,6 +52,7 @@ class TrajectoryDistribution:
     distribution: TensionDistribution
     frequency: np.ndarray
     work: WinchWork
+    raised: np.ndarray
 
     @property
     def max_force(self) -> np.ndarray:
@@ -65,6 +67,11 @@ class TrajectoryDistribution:
         return [(int(i) + 1, float(time[self.demand[:, i].argmax()])) for i in cables]
 
     @property
+    def raised_share(self) -> float:
+        """Share of the k m cable-instants at which the robot's force_min is the lower bound [-]."""
+        return float(self.raised.mean())
+
+    @property
     def missed(self) -> np.ndarray:
         """(k, m) bool: the cable's lowest frequency stays below b."""
         return self.frequency < self.b
@@ -75,7 +82,7 @@ def distribute_along(
     trajectory: Trajectory,
     rule: BoundRule = "pose-dependent",
     b: float = THESIS_B,
-    upper_bound: npt.ArrayLike = np.inf,
+    upper_bound: npt.ArrayLike | None = None,
     longest: npt.ArrayLike = np.inf,
     cost: TensionCost | None = None,
     model: str | CableModel = "sagging",
@@ -85,9 +92,9 @@ def distribute_along(
     Parameters
     ----------
     rule : lower bound. "fixed" (5.16), "pose-dependent" (5.15), both as printed; "frequency": the tension at which the
-           exact lowest frequency of the cable is b
+           exact lowest frequency of the cable is b. Where the robot's force_min is larger, it stands instead
     b : [rad/s] > 0
-    upper_bound, longest : (m,) or scalar, largest tension [N] and unstrained length [m]
+    upper_bound, longest : (m,) or scalar, largest tension [N] (None: the robot's force_max) and unstrained length [m]
     cost : default the Euclidean norm of the tensions
     model : "sagging", or "ideal" for the straight weightless cables of the thesis's first guess
 
@@ -101,19 +108,30 @@ def distribute_along(
     price = EuclideanNorm() if cost is None else cost
     wrench = trajectory.inertia_wrench(robot.platform)
     holding = holding_problem(robot, trajectory.position, trajectory.rotation, wrench, model)
-    lower_bound, demand = _BOUNDS[rule](robot, holding, b)
-    problem = bounded_problem(holding, lower_bound, upper_bound, longest, price)
+    wanted, demand = _BOUNDS[rule](robot, holding, b)
+    lower_bound, raised = _at_least(wanted, robot.force_min, holding)
+    highest = robot.force_max if upper_bound is None else upper_bound
+    problem = bounded_problem(holding, lower_bound, highest, longest, price)
     time = trajectory.time
     distribution = solve_distribution(problem, lambda i: f"at t = {time[i]:.4g} s")
     frequency = fundamental_frequency(distribution.cables, robot.linear_density, robot.extensions)
     work = winch_work(time, distribution.cables)
     return TrajectoryDistribution(
-        robot, trajectory, rule, b, price, holding.model.name, demand, distribution, frequency, work
+        robot, trajectory, rule, b, price, holding.model.name, demand, distribution, frequency, work, raised
     )  # fmt: skip
 
 
 Floor = tuple[np.ndarray, np.ndarray]
 """Chord tension and tension at the platform (k, m) [N] of the lower bound."""
+
+
+def _at_least(wanted: Floor, force_min: np.ndarray, holding: HoldingProblem) -> tuple[Floor, np.ndarray]:
+    """The bound of a rule, and instead of it that of the robot (m,) [N] where this is larger: there (k, m) is True."""
+    raised = force_min > wanted[1]
+    if not raised.any():
+        return wanted, raised
+    least = chord_tension_at(holding, constant(force_min))
+    return (np.where(raised, least[0], wanted[0]), np.where(raised, least[1], wanted[1])), raised
 
 
 def _pose_dependent(robot: Robot, holding: HoldingProblem, b: float) -> tuple[Floor, np.ndarray]:

@@ -41,6 +41,7 @@ def _rule_json(found: TrajectoryDistribution) -> dict[str, Any]:
         "energy_J": work.total,
         "lower_bound_N": {"min": d.lower.min(), "max": d.lower.max()},
         "lower_bound_set_by": [{"cable": i, "time_s": t} for i, t in found.bound_is_set_by],
+        "raised_by_force_min": {"cable_instants": int(found.raised.sum()), "share": found.raised_share},
         "min_cable_frequency_hz": frequency.min(),
         "min_cable_frequency_by_cable_hz": frequency.min(axis=0),
         "wanted_frequency_hz": found.b / (2.0 * np.pi),

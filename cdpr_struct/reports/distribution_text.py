@@ -43,6 +43,11 @@ def sentences(found: TrajectoryDistribution) -> list[str]:
         f"Energy {found.work.total:.4g} J (work of the cable forces, both directions).",
         frequency_sentence(found),
     ]
+    if found.raised.any():
+        lines.append(
+            f"The robot's force_min is larger than this bound and stands instead of it at "
+            f"{100.0 * found.raised_share:.3g} % of all cables and instants."
+        )
     for stretch in limit_stretches(found):
         lines.append(
             f"Cable {stretch['cable']} is at its force limit {stretch['limit_N']:.4g} N at {stretch['instants']} "

@@ -8,13 +8,17 @@ import numpy as np
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.html import Page, Plate, render_page
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.bound_advice import shared_cure
+from cdpr_struct.statics.sufficient_bound import shared_bound_of_pose_errors, shared_lower_bound
 from cdpr_struct.workspace.grid import AXES, Grid
 from cdpr_struct.workspace.quantities import QUANTITIES, Columns
 
+_MOST_HELD, _MOST_RELEASED = 64, 16  # poses with slack cables at which a cure is searched; a release takes longer
 _NOTE = (
     "Each value is computed at the reference pose, or for pose errors from it, as the quantity's line in the "
-    "documentation says. Tensions are those of minimum norm that balance the platform on sagging cables. Stiffness is "
-    "the exact derivative of the balance at locked lengths: sag, stretch and turning lever arms included.",
+    "documentation says. Tensions are those of minimum norm that balance the platform on sagging cables within the "
+    "robot's force limits. Stiffness is the exact derivative of the balance at locked lengths: sag, stretch and "
+    "turning lever arms included. A cable hangs slack if its chord tension is below its own weight.",
 )
 
 
@@ -26,7 +30,7 @@ def map_table(grid: Grid, columns: Columns) -> str:
 
 
 def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str, Any]:
-    """Result of a map of one quantity."""
+    """Result of a map of one quantity. Where cables hang slack, the lower bound that would cure it is searched."""
     quantity = QUANTITIES[name]
     value = map_values(name, columns)
     some = bool(np.isfinite(value).any())
@@ -47,7 +51,31 @@ def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str,
         "unstable": int((columns["held"] & ~np.isfinite(value)).sum()),
         "mean": float(np.nanmean(value)) if some else None,
         **ends,
+        "slack_poses": len(slack_poses(columns)),
+        "warnings": slack_warnings(robot, grid, columns, released=name.startswith("pose-error")),
     }
+
+
+def slack_poses(columns: Columns) -> np.ndarray:
+    """Numbers of the poses at which a cable hangs slack."""
+    return np.flatnonzero(columns.get("slack_cables", np.zeros(0)) > 0.0)
+
+
+def slack_warnings(robot: Robot, grid: Grid, columns: Columns, released: bool = False) -> list[str]:
+    """A sentence on slack cables and the lower bound that would cure them; none if no cable hangs slack.
+
+    released : the platform is let go at ideal lengths (pose errors), not held at the poses
+    """
+    slack = slack_poses(columns)
+    if not slack.size:
+        return []
+    most = _MOST_RELEASED if released else _MOST_HELD
+    tried = slack[np.unique(np.linspace(0, len(slack) - 1, min(most, len(slack))).astype(int))]
+    search = shared_bound_of_pose_errors if released else shared_lower_bound
+    cure = shared_cure(search(robot, grid.positions[tried], grid.rotation), len(slack))
+    when = " once the platform is let go" if released else ""
+    where = f"{len(slack)} of {grid.size} poses" if grid.size > 1 else "the pose"
+    return [f"Cables hang slack at {where}{when} (they pull with less than their own weight); {cure}."]
 
 
 def map_values(name: str, columns: Columns) -> np.ndarray:
@@ -56,12 +84,13 @@ def map_values(name: str, columns: Columns) -> np.ndarray:
     return np.where(good, columns[QUANTITIES[name].column], np.nan)
 
 
-def map_files(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str, str | bytes]:
-    """CSV, figure and page of a map of one quantity."""
+def map_files(
+    robot: Robot, name: str, grid: Grid, columns: Columns, result: Mapping[str, Any]
+) -> dict[str, str | bytes]:
+    """CSV, figure and page of a map of one quantity; `result` as `map_json` made it."""
     from cdpr_struct.reports.figures import workspace_map
 
     plates = [_map_plate(robot, name, grid, columns)] if workspace_map.drawable(grid) else []
-    result = map_json(robot, name, grid, columns)
     page = Page(
         title=f"{robot.name}: {QUANTITIES[name].label} over the workspace",
         subtitle=f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg" + _comma(grid.fixed_text()),

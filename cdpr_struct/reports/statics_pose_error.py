@@ -9,7 +9,7 @@ from cdpr_struct.reports.figures import pose_error as pose_error_figure
 from cdpr_struct.reports.figures import workspace_map
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
-from cdpr_struct.reports.statics_map import map_table
+from cdpr_struct.reports.statics_map import map_table, slack_poses, slack_warnings
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.sufficient_load import SufficientLoad
@@ -18,16 +18,17 @@ from cdpr_struct.workspace.pose_error_map import PARTS, PoseErrorMap
 POSE_ERROR_NOTES = (
     "For each reference pose the lengths of straight, inextensible cables are computed and locked; then the platform "
     "is let go, once on elastic catenaries (sagging model), once on massless springs that cannot push (spring "
-    "model). Sagging minus reference is the global error, spring minus reference the part of axial elasticity, and "
-    "the rest is what sag adds.",
+    "model). If the robot's force limits ask for a preload, the cables are shortened beforehand by the stretch that "
+    "this internal force alone causes. Sagging minus reference is the global error, spring minus reference the part of "
+    "axial elasticity, and the rest is what sag adds.",
     "Every equilibrium is stable: the potential energy is minimised with its exact second derivative. Where the "
     "spring model has several, the one continuous with the reference pose is taken, found by softening the cables "
     "in stages.",
 )
 
 
-def pose_error_json(errors: PoseErrorMap) -> dict[str, Any]:
-    """Result of a map of pose errors."""
+def pose_error_json(errors: PoseErrorMap, robot: Robot) -> dict[str, Any]:
+    """Result of a map of pose errors. Where cables hang slack, the lower bound that would cure it is searched."""
     worst = {part: errors.extreme(part) for part in PARTS}
     return {
         "robot": errors.robot,
@@ -40,6 +41,8 @@ def pose_error_json(errors: PoseErrorMap) -> dict[str, Any]:
         "more_stable_pose": int(errors.more_stable.sum()),
         "mean_mm": {part: errors.mean(part) for part in PARTS},
         "largest_mm": {part: {"value": value, "position_m": place} for part, (value, place) in worst.items()},
+        "slack_poses": len(slack_poses(errors.columns)),
+        "warnings": slack_warnings(robot, errors.grid, errors.columns, released=True),
     }
 
 

@@ -59,6 +59,8 @@ class _CableEnds:
     frame: np.ndarray
     platform: np.ndarray
     stiffness: float | None
+    force_min: float
+    force_max: float | None
 
 
 def import_caspr(bodies: str, cables: str, bodies_name: str, cables_name: str, choices: Choices) -> ImportedRobot:
@@ -215,8 +217,6 @@ def _cables(
         raise InputError(source, f"cable_set {wanted}", "no cables", "at least one cable")
     if len(sets) > 1:
         warnings.append(f"cable set {wanted!r} of {', '.join(known)}.")
-    if any(e.find(".//force_min") is not None for e in elements):
-        warnings.append("robot files have no force limits: force_min and force_max were left out.")
     return [_one_cable(element, source, f"cable {i}", center) for i, element in enumerate(elements, start=1)]
 
 
@@ -231,12 +231,26 @@ def _one_cable(element: ElementTree.Element, source: str, label: str, center: np
     if len(attachments) != 2 or set(ends) != {0, 1}:
         raise InputError(source, label, f"attachments on links {sorted(ends)}", "one on link 0 and one on link 1")
     platform = ends[1] + (center if reference == "com" else 0.0)
-    properties = element.find("properties")
-    has_stiffness = properties is not None and properties.find("K") is not None
-    stiffness = value(properties, "K", source) if properties is not None and has_stiffness else None
+    stiffness = _property(element, "K", source)
     if stiffness is not None and not stiffness > 0.0:
         raise InputError(source, f"{label}.K", stiffness, "a stiffness EA in N above zero")
-    return _CableEnds(ends[0], platform, stiffness)
+    return _CableEnds(ends[0], platform, stiffness, *_force_limits(element, source, label))
+
+
+def _force_limits(element: ElementTree.Element, source: str, label: str) -> tuple[float, float | None]:
+    """Smallest and largest force of a cable [N]: zero and none where the file has none."""
+    low, high = _property(element, "force_min", source) or 0.0, _property(element, "force_max", source)
+    if low < 0.0:
+        raise InputError(source, f"{label}.force_min", low, "a force in N, zero or more")
+    if high is not None and not high > low:
+        raise InputError(source, f"{label}.force_max", high, f"a force in N above force_min, {low:g} N")
+    return low, high
+
+
+def _property(element: ElementTree.Element, name: str, source: str) -> float | None:
+    """A number among the properties of a cable, None if it is not there."""
+    properties = element.find("properties")
+    return None if properties is None or properties.find(name) is None else value(properties, name, source)
 
 
 def _stiffness(ends: list[_CableEnds], choices: Choices, warnings: list[str]) -> list[float]:
@@ -278,11 +292,19 @@ def _toml(
         f"center_of_mass = {_list(body.center)}",
         f"inertia = [{rows}]",
     ]
+    alike = len({(cable.force_min, cable.force_max) for cable in ends}) == 1
     lines += ["", "[cable]", f"linear_density = {density!r}", "damping_ratio = 0.01"]
+    lines += _limit_lines(ends[0]) if alike else []
     for i, (cable, ea) in enumerate(zip(ends, stiffness, strict=True), start=1):
         lines += ["", f"[[cables]]  # {i}", f"platform_anchor = {_list(cable.platform)}"]
         lines += [f"frame_anchor = {_list(cable.frame)}", f"axial_stiffness = {ea!r}"]
+        lines += [] if alike else _limit_lines(cable)
     return "\n".join(lines) + "\n"
+
+
+def _limit_lines(cable: _CableEnds) -> list[str]:
+    lines = [f"force_min = {cable.force_min!r}"] if cable.force_min else []
+    return lines if cable.force_max is None else [*lines, f"force_max = {cable.force_max!r}"]
 
 
 def _list(values: np.ndarray) -> str:

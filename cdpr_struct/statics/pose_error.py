@@ -2,8 +2,13 @@
 
 The lengths come from the ideal inverse model; the pose they lead to, from the sagging and the spring model. Sagging
 minus reference is the global error, spring minus reference the axial part, and the rest is what sag introduces.
+
+Inextensible cables cannot be preloaded by their lengths. So if the robot's force limits ask for an internal force, the
+lengths are shortened by the stretch that this force alone causes: the error is what load and sag add to a robot that
+was preloaded at the reference pose. Without limits nothing is shortened.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +20,7 @@ from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.equilibrium import PlatformArms, weight_force
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
 from cdpr_struct.statics.masts import of_each_mast, pull_on_masts
+from cdpr_struct.statics.preload import Preload
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 CONTINUATION = (30.0, 4.0)  # times EA: stations between the ideal reference and the spring model
@@ -26,6 +32,7 @@ class PoseError:
     """Pose errors at a batch (...) of reference poses.
 
     reference_position, reference_rotation : (..., 3) [m], (..., 3, 3)
+    held              : (...) bool, ideal cables hold the reference pose within the robot's force limits
     sagging, spring   : ForwardSolution (...) at the same cable lengths
     more_stable_pose  : (...) bool, the spring model has another equilibrium of lower energy near the sagging pose; the
                         one reported is that reached from the reference by softening the cables. Found by one descent
@@ -34,6 +41,7 @@ class PoseError:
 
     reference_position: np.ndarray
     reference_rotation: np.ndarray
+    held: np.ndarray
     sagging: ForwardSolution
     spring: ForwardSolution
     more_stable_pose: np.ndarray
@@ -69,17 +77,32 @@ class PoseError:
         return self.sagging.stable & self.spring.stable
 
 
-def reference_lengths(robot: Robot | RobotArrays, position: npt.ArrayLike, rotation: npt.ArrayLike) -> np.ndarray:
+def reference_lengths(
+    robot: Robot | RobotArrays,
+    position: npt.ArrayLike,
+    rotation: npt.ArrayLike,
+    external_wrench: npt.ArrayLike | None = None,
+    mass: npt.ArrayLike | None = None,
+) -> np.ndarray:
     """(..., m) cable lengths of the ideal inverse model: straight, inextensible, over the pulleys if there are any [m].
 
-    They are what the controller commands: it knows nothing of encoder errors, compliance in line and masts.
+    They are what the controller commands: it knows nothing of encoder errors, compliance in line and masts. Only the
+    preload that the robot's force limits ask for is wound in, against everything that gives way under it.
 
     position, rotation : (..., 3) [m], (..., 3, 3) platform to world
+    external_wrench, mass : as for `pose_error`; they matter only with force limits
     """
-    arrays = RobotArrays.of(robot)
-    arms = PlatformArms.at(arrays, np.asarray(position, dtype=float), np.asarray(rotation, dtype=float))
-    ideal = cable_model("ideal")
-    return ideal.hold(arrays, arms.points, np.zeros(arms.points.shape[:-1])).states.total_length
+    arrays = RobotArrays.of(robot, None if mass is None else np.asarray(mass, dtype=float))
+    place, turn = np.asarray(position, dtype=float), np.asarray(rotation, dtype=float)
+    points = PlatformArms.at(arrays, place, turn).points
+    if not arrays.has_force_limits:
+        return _straight_lengths(arrays, points)
+    preload = Preload.of(arrays, place, turn, external_wrench)
+    return _straight_lengths(arrays, points) - preload.taken_up(arrays, points)
+
+
+def _straight_lengths(arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
+    return cable_model("ideal").hold(arrays, points, np.zeros(points.shape[:-1])).states.total_length
 
 
 def pose_error(
@@ -99,9 +122,15 @@ def pose_error(
     """
     arrays = RobotArrays.of(robot, None if mass is None else np.asarray(mass, dtype=float))
     place, turn = np.asarray(position, dtype=float), np.asarray(rotation, dtype=float)
-    lengths = reference_lengths(arrays, place, turn)
+    points, preload = PlatformArms.at(arrays, place, turn).points, Preload.of(arrays, place, turn, external_wrench)
+    straight = _straight_lengths(arrays, points)
+
+    def lengths_of(stiffened: RobotArrays) -> np.ndarray:
+        return straight - preload.taken_up(stiffened, points)
+
+    lengths = lengths_of(arrays)
     sagging = forward(arrays, lengths, place, turn, "sagging", external_wrench)
-    spring = _softened(arrays, lengths, place, turn, external_wrench)
+    spring = _softened(arrays, lengths_of, place, turn, external_wrench)
     other = forward(arrays, lengths, sagging.position, sagging.rotation, "spring", external_wrench)
     lower = potential_energy(arrays, other, external_wrench) < potential_energy(arrays, spring, external_wrench)
     distance = np.abs(other.position - spring.position).max(axis=-1)
@@ -110,6 +139,7 @@ def pose_error(
     return PoseError(
         np.broadcast_to(place, (*shape, 3)),
         np.broadcast_to(turn, (*shape, 3, 3)),
+        np.broadcast_to(preload.held, shape),
         sagging,
         spring,
         (distance > SAME_POSE) & lower & other.stable,
@@ -139,13 +169,21 @@ def potential_energy(
 
 
 def _softened(
-    arrays: RobotArrays, lengths: np.ndarray, place: np.ndarray, turn: np.ndarray, wrench: npt.ArrayLike | None
+    arrays: RobotArrays,
+    lengths_of: Callable[[RobotArrays], np.ndarray],
+    place: np.ndarray,
+    turn: np.ndarray,
+    wrench: npt.ArrayLike | None,
 ) -> ForwardSolution:
-    """Spring equilibrium continuous with the reference pose: cables softened in stations from nearly ideal."""
+    """Spring equilibrium continuous with the reference pose: cables softened in stations from nearly ideal.
+
+    lengths_of : lengths (..., m) that give cables of some stiffness their preload
+    """
     for factor in CONTINUATION:
-        station = forward(arrays.stiffened(factor), lengths, place, turn, "spring", wrench)
+        stiff = arrays.stiffened(factor)
+        station = forward(stiff, lengths_of(stiff), place, turn, "spring", wrench)
         place, turn = station.position, station.rotation
-    return forward(arrays, lengths, place, turn, "spring", wrench)
+    return forward(arrays, lengths_of(arrays), place, turn, "spring", wrench)
 
 
 def _turn(reference: np.ndarray, rotation: np.ndarray) -> np.ndarray:

@@ -94,6 +94,11 @@ class RobotArrays:
         """Whether masts give way."""
         return bool(self.frame_compliance.any())
 
+    @property
+    def has_force_limits(self) -> bool:
+        """Whether any cable must do more than pull."""
+        return bool(self.force_min.any() or np.isfinite(self.force_max).any())
+
     def paid_out(self, reading: np.ndarray) -> np.ndarray:
         """(..., m) length paid out when encoders say `reading` (..., m), or that is commanded [m]."""
         return reading * self.length_scale + self.length_offset

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.pose_error import pose_error
+from cdpr_struct.statics.pose_error import PoseError, pose_error
 from cdpr_struct.statics.robot_arrays import RobotArrays
 
 _LADDER = 41
@@ -21,7 +21,8 @@ _REFINEMENTS = 3
 class SufficientLoad:
     """Result of `sufficient_load`.
 
-    mass      : [kg] from which on the sag error stays within the tolerance; nan if not even at the largest
+    mass      : [kg] from which on the sag error stays within the tolerance; nan if not even at the largest. Masses
+                that the cables do not hold within their force limits are left out
     tolerance : [m]
     masses, sag_error, axial_error, global_error : (n,) [kg], (n, 3) [m], the ladder that was searched
     """
@@ -61,18 +62,20 @@ def sufficient_load(
     axis = np.asarray(direction, dtype=float)
     masses = np.geomspace(smallest, largest, _LADDER)
     ladder = pose_error(robot, position, rotation, mass=masses)
-    mass = _last_crossing(masses, np.abs(ladder.sag_error @ axis), tolerance)
+    mass = _last_crossing(masses, ladder, axis, tolerance)
     for _ in range(_REFINEMENTS):
         if np.isnan(mass[0]) or mass[0] == mass[1]:
             break
         fine = np.linspace(mass[0], mass[1], _LADDER)
-        sag_error = pose_error(robot, position, rotation, mass=fine).sag_error
-        mass = _last_crossing(fine, np.abs(sag_error @ axis), tolerance)
+        mass = _last_crossing(fine, pose_error(robot, position, rotation, mass=fine), axis, tolerance)
     return SufficientLoad(mass[1], tolerance, masses, ladder.sag_error, ladder.axial_error, ladder.global_error)
 
 
-def _last_crossing(masses: np.ndarray, error: np.ndarray, tolerance: float) -> tuple[float, float]:
-    """Neighbouring masses between which the error comes to stay within the tolerance."""
+def _last_crossing(masses: np.ndarray, ladder: PoseError, axis: np.ndarray, tolerance: float) -> tuple[float, float]:
+    """Neighbouring masses between which the sag error along an axis comes to stay within the tolerance."""
+    masses, error = masses[ladder.held], np.abs(ladder.sag_error @ axis)[ladder.held]
+    if not masses.size:
+        return float("nan"), float("nan")
     above = np.flatnonzero(error > tolerance)
     if not above.size:
         return float(masses[0]), float(masses[0])

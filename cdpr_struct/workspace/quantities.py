@@ -13,6 +13,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.pose_error import pose_error
+from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.statics.static_stiffness import static_stiffness
 from cdpr_struct.workspace.vibration import first_frequencies
 
@@ -45,8 +46,9 @@ def evaluate(name: str, robot: Robot, positions: np.ndarray, rotation: np.ndarra
 def pose_errors(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
     """Static pose errors [mm], [deg], and what is to be known about each pose.
 
-    held: straight, inextensible cables hold the reference pose by pulling. stable: sagging and spring model both found
-    a stable equilibrium. more_stable_pose: the spring model has another one of lower energy.
+    held: straight, inextensible cables hold the reference pose within their force limits. stable: sagging and spring
+    model both found a stable equilibrium. more_stable_pose: the spring model has another one of lower energy.
+    slack_cables: how many hang slack in the sagging model.
     """
     error = pose_error(robot, positions, rotation)
     columns = {
@@ -56,17 +58,27 @@ def pose_errors(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Co
     }
     turn = np.degrees(error.global_rotation)
     columns |= {f"global_r{axis}_deg": turn[:, i] for i, axis in enumerate("xyz")}
-    held = inverse(robot, positions, rotation, model="ideal", allow_unheld=True).held
-    return {**columns, "held": held, "stable": error.converged, "more_stable_pose": error.more_stable_pose}
+    slack = slack_count(error.sagging.cables, error.held & error.converged)
+    return {
+        **columns,
+        "slack_cables": slack,
+        "held": error.held,
+        "stable": error.converged,
+        "more_stable_pose": error.more_stable_pose,
+    }
 
 
 def tensions(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
-    """Largest and smallest cable tension at the platform [N], largest sag [mm]; minimum-norm tensions."""
+    """Largest and smallest cable tension at the platform [N], largest sag [mm], number of cables that hang slack.
+
+    Minimum-norm tensions within the robot's force limits.
+    """
     solution = _held(robot, positions, rotation)
     return {
         "tension_max_N": _where_held(solution, solution.tensions.max(axis=-1)),
         "tension_min_N": _where_held(solution, solution.tensions.min(axis=-1)),
         "sag_max_mm": _where_held(solution, 1e3 * solution.cables.sag.max(axis=-1)),
+        "slack_cables": slack_count(solution.cables, solution.held),
         "held": solution.held,
     }
 
@@ -74,7 +86,7 @@ def tensions(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Colum
 def stiffnesses(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
     """Static stiffness of the platform origin [N/mm], free to turn, and first frequency on massless cables [Hz].
 
-    Lengths locked, minimum-norm tensions.
+    Lengths locked, minimum-norm tensions within the robot's force limits.
     """
     solution = _held(robot, positions, rotation)
     names = ("stiffness_min_N_mm", "stiffness_vertical_N_mm", "platform_frequency_Hz")
@@ -88,7 +100,7 @@ def stiffnesses(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Co
         values["stiffness_min_N_mm"][good] = 1e-3 / softest
         values["stiffness_vertical_N_mm"][good] = 1e-3 / compliance[:, 2, 2]
         values["platform_frequency_Hz"][good] = _first_frequency(robot, rotation, stiffness.symmetric)
-    return {**values, "held": solution.held}
+    return {**values, "slack_cables": slack_count(solution.cables, solution.held), "held": solution.held}
 
 
 def _first_frequency(robot: Robot, rotation: np.ndarray, stiffness: np.ndarray) -> np.ndarray:

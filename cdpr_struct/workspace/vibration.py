@@ -8,6 +8,7 @@ from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_static_stiffness
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
+from cdpr_struct.statics.slack_cables import slack_count
 
 _ORDER = 24
 _MODES = 60
@@ -19,7 +20,8 @@ def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray)
 
     The platform's is that of the mode whose platform motion is most like the platform's first mode on massless cables:
     where cable modes come near, they share its energy. A cable's frequency is that with both ends held. Minimum-norm
-    tensions. nan where the platform is not held, or balanced but not stable.
+    tensions within the robot's force limits. nan where the platform is not held, or balanced but not stable.
+    slack_cables: number of cables that hang slack where it is held.
     """
     solution = inverse(robot, positions, rotation, allow_unheld=True)
     held = np.flatnonzero(solution.held)
@@ -35,7 +37,7 @@ def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray)
         found = _at_rest(_points(robot, positions, rotation, solution, good))
         for name, values in zip(names, found, strict=True):
             columns[name][good] = values
-    return {**columns, "held": solution.held}
+    return {**columns, "slack_cables": slack_count(solution.cables, solution.held), "held": solution.held}
 
 
 def _points(

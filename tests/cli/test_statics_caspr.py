@@ -32,6 +32,7 @@ CABLE = """<{kind} name="c{n}" attachment_reference="{reference}">
     <attachment><link>0</link><location>{frame}</location></attachment>
     <attachment><link>1</link><location>{platform}</location></attachment>
   </attachments></{kind}>"""
+LIMITS = "<force_min>{}</force_min><force_max>{}</force_max>"
 CORNERS = [
     ("-4 -3 5", "-0.2 -0.2 0.1"),
     ("4 -3 5", "0.2 -0.2 0.1"),
@@ -95,9 +96,9 @@ def test_what_the_model_leaves_open_is_said(tmp_path, capsys):
         "no linear density",
         "ASSUMED",
         "products of inertia",
-        "force limits",
     ):
         assert words in warnings, words
+    assert "force" not in warnings
     assert "CHECK" in (tmp_path / "robot.toml").read_text()
 
 
@@ -112,6 +113,24 @@ def test_stiffness_of_spring_cables_is_taken(tmp_path, capsys):
     text = cables("cable_linear_spring", properties="<K>80000</K>")
     _, robot = convert(tmp_path, capsys, cable_text=text)
     np.testing.assert_array_equal(robot.axial_stiffness, 80000.0)
+
+
+@pytest.mark.parametrize(
+    ("properties", "low", "high"),
+    [("", 0.0, np.inf), ("<force_min>10</force_min>", 10.0, np.inf), (LIMITS.format(0, 720), 0.0, 720.0)],
+)
+def test_force_limits_become_the_robots(properties, low, high, tmp_path, capsys):
+    _, robot = convert(tmp_path, capsys, cable_text=cables(properties=properties))
+    np.testing.assert_array_equal(robot.force_min, low)
+    np.testing.assert_array_equal(robot.force_max, high)
+
+
+def test_each_cable_keeps_its_own_force_limits(tmp_path, capsys):
+    text = cables(properties=LIMITS.format(10, 720)).replace("<force_max>720", "<force_max>200", 1)
+    _, robot = convert(tmp_path, capsys, cable_text=text)
+    np.testing.assert_array_equal(robot.force_min, 10.0)
+    np.testing.assert_array_equal(robot.force_max, [200.0, 720.0, 720.0, 720.0])
+    assert "force" not in (tmp_path / "robot.toml").read_text().split("[[cables]]")[0]
 
 
 def test_attachments_may_count_from_the_centre_of_mass(tmp_path, capsys):
@@ -153,12 +172,16 @@ def test_bad_bodies(old, new, words, tmp_path, capsys):
         (cables().replace("4 -3 5", "4 -3"), ["location", "4 -3"]),
         (cables().replace('attachment_reference="joint"', ""), ["attachment_reference", "joint, com"]),
         (cables(properties="<K>-5</K>"), ["cable 1.K", "-5"]),
+        (cables(properties="<force_min>-5</force_min>"), ["cable 1.force_min", "-5", "zero or more"]),
+        (cables(properties=LIMITS.format(5, 5)), ["cable 1.force_max", "5", "above force_min, 5 N"]),
+        (cables(properties=LIMITS.format(0, 0)), ["cable 1.force_max", "0.0", "above force_min, 0 N"]),
+        (cables(properties="<force_max>much</force_max>"), ["properties.force_max", "much"]),
         ('<cables default_cable_set="b"><cable_set id="a"></cable_set></cables>', ["cable set", "a"]),
         ('<cables default_cable_set="a"><cable_set id="a"></cable_set></cables>', ["no cables"]),
         ("not xml", ["well-formed"]),
         ('<!DOCTYPE x [<!ENTITY a "b">]><cables/>', ["ENTITY"]),
     ],
-    ids=range(8),
+    ids=range(12),
 )
 def test_bad_cables(text, words, tmp_path, capsys):
     line, _ = convert(tmp_path, capsys, cable_text=text)
@@ -194,6 +217,9 @@ def test_missing_file_and_missing_out(tmp_path, capsys):
     assert "--out" in capsys.readouterr().err
 
 
+LIMITS_OF = {"CoGiRo": (100.0, 5000.0), "IPAnema_1": (0.0, 720.0)}
+
+
 @pytest.mark.parametrize(("name", "count"), [("CoGiRo", 8), ("IPAnema_1", 8)])
 def test_public_models(name, count, tmp_path, capsys):
     """They convert, and every other command takes the file."""
@@ -203,5 +229,8 @@ def test_public_models(name, count, tmp_path, capsys):
     out = tmp_path / "robot.toml"
     assert run(["import-caspr", *map(str, pair), "--out", str(out), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["cables"] == count
+    robot, low, high = load_robot(out), *LIMITS_OF[name]
+    np.testing.assert_array_equal(robot.force_min, low)
+    np.testing.assert_array_equal(robot.force_max, high)
     assert run(["inverse", str(out), "--json"]) == 0
     assert min(json.loads(capsys.readouterr().out)["tensions_N"]) > 0.0

@@ -1,5 +1,7 @@
 """Lower bounds say what they promise: by the exact lowest frequency of every cable."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -28,6 +30,37 @@ def test_frequency_bound_keeps_its_promise(found):
     tight = r.distribution.at_lower
     assert tight.any()
     np.testing.assert_allclose(r.frequency[tight], THESIS_B, rtol=1e-5)
+
+
+@pytest.mark.parametrize("rule", ["fixed", "pose-dependent", "frequency"])
+def test_bounds_of_chapter_5_lie_above_the_robots_force_min(found, rule):
+    """So its forces are those of a robot without limits, to the last digit."""
+    assert found[rule].raised_share == 0.0
+    free = distribute_along(ROBOT.with_force_limits(0.0), helix(61), rule)
+    np.testing.assert_array_equal(found[rule].distribution.tensions, free.distribution.tensions)
+
+
+def test_where_a_rule_asks_for_less_the_robots_force_min_stands():
+    """With b = 8 rad/s eq. (5.15) asks for 47 to 97 N; cable 3 alone has a force_min of 80 N."""
+    cables = [dataclasses.replace(c, force_min=80.0 if i == 2 else 0.0) for i, c in enumerate(ROBOT.cables)]
+    limited = dataclasses.replace(ROBOT, cables=tuple(cables))
+    r, free = (distribute_along(robot, helix(61), b=8.0) for robot in (limited, ROBOT.with_force_limits(0.0)))
+    low, asked = r.distribution.lower, free.distribution.lower
+    assert (r.raised == (np.arange(8) == 2) * (asked < 80.0)).all()
+    assert 0 < r.raised[:, 2].sum() < 61
+    assert r.raised_share == r.raised.sum() / (61 * 8)
+    np.testing.assert_allclose(low[r.raised], 80.0, rtol=1e-9)
+    np.testing.assert_array_equal(low[~r.raised], asked[~r.raised])
+    assert (r.distribution.tensions >= low * (1.0 - 1e-9)).all()
+    assert not free.raised.any()
+
+
+def test_forces_along_a_trajectory_keep_the_robots_force_max():
+    largest = distribute_along(ROBOT, helix(61)).max_force.max()
+    limited = ROBOT.with_force_limits(None, 0.99 * largest)
+    assert distribute_along(limited, helix(61)).max_force.max() <= 0.99 * largest * (1.0 + 1e-9)
+    above = distribute_along(limited, helix(61), upper_bound=np.inf)
+    assert above.max_force.max() == pytest.approx(largest, rel=1e-9)
 
 
 @pytest.mark.slow
