@@ -37,13 +37,18 @@ class Plate:
 
 @dataclass(frozen=True, slots=True)
 class HtmlTable:
-    """A table of ready-made text; `marked` are the numbers (from 0) of rows that break a limit."""
+    """A table of ready-made text.
+
+    marked : numbers (from 0) of rows that break a limit
+    prose  : numbers (from 0) of columns that hold words: set flush left
+    """
 
     title: str
     columns: Sequence[str]
     rows: Sequence[Sequence[str]]
     note: str = ""
     marked: frozenset[int] = frozenset()
+    prose: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +58,8 @@ class Page:
     verdict : the outcome first, further sentences after it;  holds : its colour
     facts   : (value, what it is) in large type
     notes   : (heading, paragraphs) of how to read and how it was computed
+    command : the shell line that reproduces the run
+    listings : (heading, text) shown line by line as it is
     """
 
     title: str
@@ -64,6 +71,7 @@ class Page:
     tables: Sequence[HtmlTable]
     notes: Sequence[tuple[str, Sequence[str]]]
     command: str
+    listings: Sequence[tuple[str, str]] = ()
 
 
 def render_page(page: Page, plotly_packed: str = "") -> str:
