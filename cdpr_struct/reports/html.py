@@ -60,6 +60,7 @@ class Page:
     notes   : (heading, paragraphs) of how to read and how it was computed
     command : the shell line that reproduces the run
     listings : (heading, text) shown line by line as it is
+    gallery : figures stand two abreast; they are drawn half as wide
     """
 
     title: str
@@ -72,6 +73,7 @@ class Page:
     notes: Sequence[tuple[str, Sequence[str]]]
     command: str
     listings: Sequence[tuple[str, str]] = ()
+    gallery: bool = False
 
 
 def render_page(page: Page, plotly_packed: str = "") -> str:

@@ -48,7 +48,7 @@ def _stems(axes: Axes, hertz: np.ndarray, share: np.ndarray, groups: np.ndarray)
         if mine.any():
             axes.vlines(hertz[mine], 0.0, share[mine], color=colour, linewidth=1.4)
             label = f"{name} modes ({int(mine.sum())})"
-            axes.plot(hertz[mine], share[mine], KIND_MARKERS[name], color=colour, markersize=5, label=label)
+            axes.plot(hertz[mine], share[mine], KIND_MARKERS[name], color=colour, markersize=5, label=label, clip_on=False)
     for index in _labelled(hertz, share, axes.get_xlim()):
         axes.annotate(
             f"{hertz[index]:.2f}", (hertz[index], share[index]), (0, 6), textcoords="offset points", ha="center",
@@ -105,7 +105,7 @@ def ladder_caption(result: Mapping[str, Any]) -> str:
     apart = (high - low) / STACKS_ACROSS
     crowd = int(stack_levels(hertz, apart).max())
     crowded = (
-        f"at most {crowd} lie within {apart:.2g} Hz: a measured spectrum can hardly part these"
+        f"up to {crowd} lie within {apart:.2g} Hz of each other, too close for a short record to separate"
         if crowd > 1
         else f"no two lie within {apart:.2g} Hz"
     )
