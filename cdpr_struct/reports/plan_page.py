@@ -62,9 +62,7 @@ def _plates(result: Mapping[str, Any]) -> list[Plate]:
     plates = []
     if result["confusable"]:
         drawn = svg("confusions", figures.confusion_size(result), lambda f: figures.draw_confusions(f, result))
-        plates.append(
-            Plate("confusions", "Which causes would be confused", drawn, figures.confusion_caption(result))
-        )
+        plates.append(Plate("confusions", "Which causes would be confused", drawn, figures.confusion_caption(result)))
     if result["next"]:
         drawn = svg("gains", figures.gain_size(result), lambda f: figures.draw_gains(f, result))
         plates.append(Plate("gains", "What to measure next", drawn, figures.gain_caption(result)))
@@ -73,6 +71,7 @@ def _plates(result: Mapping[str, Any]) -> list[Plate]:
 
 def _page(result: Mapping[str, Any], plates: list[Plate], command: str) -> Page:
     found, pairs, hidden = len(result["detectable"]), len(result["confusable"]), len(result["not_testable"])
+    best = f"{result['next'][0]['gain_nats']:.1f} nats" if result["next"] else "none"
     return Page(
         title="Test plan: what this campaign can find",
         subtitle="computed before measuring, from the robot, the planned states and the sigmas of the campaign file",
@@ -82,7 +81,7 @@ def _page(result: Mapping[str, Any], plates: list[Plate], command: str) -> Page:
             (f"{found}", "causes that would be found at their typical size"),
             (f"{pairs}", "pairs of causes that would be confused"),
             (f"{hidden}", "causes that would not be found"),
-            (f"{result['next'][0]['gain_nats']:.1f} nats" if result["next"] else "none", "gain of the best next measurement"),
+            (best, "gain of the best next measurement"),
         ],
         plates=plates,
         tables=_html_tables(result),

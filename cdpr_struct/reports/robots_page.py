@@ -77,10 +77,11 @@ def _at_rest(point: OperatingPoint | None) -> str:
         return "Geometry only: the cables do not hold the platform there, so they are drawn straight, in grey."
     cables, tension = point.cables, point.cables.tension_at_platform
     worst = int(np.argmax(cables.sag))
-    low = " With a --lower-bound on the tensions no cable hangs so low." if (cables.sag > _LOW * cables.chord).any() else ""
+    low = bool((cables.sag > _LOW * cables.chord).any())
+    remedy = " With a --lower-bound on the tensions no cable hangs so low." if low else ""
     return (
         f"Tensions of {tension.min():.4g} to {tension.max():.4g} N hold it; cable {worst + 1} sags most, "
-        f"{1e3 * cables.sag[worst]:.4g} mm on a chord of {cables.chord[worst]:.2f} m.{low}"
+        f"{1e3 * cables.sag[worst]:.4g} mm on a chord of {cables.chord[worst]:.2f} m.{remedy}"
     )
 
 
@@ -99,9 +100,7 @@ def _at_home(robot: Robot) -> OperatingPoint | None:
     return OperatingPoint(robot, home.position, home.rotation, held.cables)
 
 
-def _page(
-    robots: Sequence[Robot], rows: Sequence[Mapping[str, Any]], plates: Sequence[Plate], command: str
-) -> Page:
+def _page(robots: Sequence[Robot], rows: Sequence[Mapping[str, Any]], plates: Sequence[Plate], command: str) -> Page:
     masses = [robot.platform.mass for robot in robots]
     widest = max(float(_frame_size(robot)[:2].max()) for robot in robots)
     return Page(

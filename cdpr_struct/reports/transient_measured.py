@@ -152,7 +152,8 @@ def _mode_table(result: Mapping[str, Any]) -> HtmlTable:
     dominant, hertz = result["dominant_hz"], np.asarray(result["natural_frequencies_hz"], dtype=float)
     nearest_first = np.argsort(np.abs(hertz - dominant), kind="stable")
     rows = [
-        [str(i + 1), f"{hertz[i]:.4f}", *_distance(dominant, hertz[i]), result["kinds"][i]] for i in nearest_first.tolist()
+        [str(i + 1), f"{hertz[i]:.4f}", *_distance(dominant, hertz[i]), result["kinds"][i]]
+        for i in nearest_first.tolist()
     ]
     columns = ["mode", "frequency [Hz]", "dominant minus mode [Hz]", "relative [%]", "kind"]
     note = (

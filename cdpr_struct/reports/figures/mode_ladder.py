@@ -48,7 +48,9 @@ def _stems(axes: Axes, hertz: np.ndarray, share: np.ndarray, groups: np.ndarray)
         if mine.any():
             axes.vlines(hertz[mine], 0.0, share[mine], color=colour, linewidth=1.4)
             label = f"{name} modes ({int(mine.sum())})"
-            axes.plot(hertz[mine], share[mine], KIND_MARKERS[name], color=colour, markersize=5, label=label, clip_on=False)
+            axes.plot(
+                hertz[mine], share[mine], KIND_MARKERS[name], color=colour, markersize=5, label=label, clip_on=False
+            )
     for index in _labelled(hertz, share, axes.get_xlim()):
         axes.annotate(
             f"{hertz[index]:.2f}", (hertz[index], share[index]), (0, 6), textcoords="offset points", ha="center",
