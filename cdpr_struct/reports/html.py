@@ -41,13 +41,18 @@ class Plate:
 
 @dataclass(frozen=True, slots=True)
 class HtmlTable:
-    """A table of ready-made text; `marked` are the numbers (from 0) of rows that break a limit."""
+    """A table of ready-made text.
+
+    marked : numbers (from 0) of rows that break a limit
+    prose  : numbers (from 0) of columns that hold words: set flush left
+    """
 
     title: str
     columns: Sequence[str]
     rows: Sequence[Sequence[str]]
     note: str = ""
     marked: frozenset[int] = frozenset()
+    prose: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +62,8 @@ class Page:
     verdict : the outcome first, further sentences after it;  holds : its colour
     facts   : (value, what it is) in large type
     notes   : (heading, paragraphs) of how to read and how it was computed
+    listings : (heading, text) shown line by line as it is
+    gallery : figures stand two abreast; they are drawn half as wide
 
     `completed` adds what the command line knows: how to repeat the run, warnings, extensions of the robot file.
     """
@@ -69,6 +76,8 @@ class Page:
     plates: Sequence[Plate]
     tables: Sequence[HtmlTable]
     notes: Sequence[tuple[str, Sequence[str]]]
+    listings: Sequence[tuple[str, str]] = ()
+    gallery: bool = False
 
 
 def render_page(page: Page, plotly_packed: str = "") -> str:

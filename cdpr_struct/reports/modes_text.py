@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.text import paragraphs, plain_table
 
 
@@ -26,7 +27,11 @@ def modes_text(result: Mapping[str, Any]) -> str:
 
 def modes_csv(result: Mapping[str, Any]) -> str:
     """mode, frequency_hz, platform_energy, kind."""
-    lines = ["mode,frequency_hz,platform_energy,kind"]
-    rows = zip(result["frequencies_hz"], result["platform_energy"], result["kinds"], strict=True)
-    lines += [f"{i},{hertz!r},{share!r},{kind}" for i, (hertz, share, kind) in enumerate(rows, start=1)]
-    return "\n".join(lines) + "\n"
+    return csv_text(
+        {
+            "mode": range(1, len(result["frequencies_hz"]) + 1),
+            "frequency_hz": result["frequencies_hz"],
+            "platform_energy": result["platform_energy"],
+            "kind": result["kinds"],
+        }
+    )

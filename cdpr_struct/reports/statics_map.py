@@ -92,7 +92,7 @@ def map_files(
 
     plates = [_map_plate(robot, name, grid, columns)] if workspace_map.drawable(grid) else []
     page = Page(
-        title=f"{robot.name}: {QUANTITIES[name].label} over the workspace",
+        title=f"{robot.name}: {QUANTITIES[name].label}" + (" over the workspace" if grid.size > 1 else " at a pose"),
         subtitle=f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg" + _comma(grid.fixed_text()),
         verdict=[map_sentence(result)],
         holds=result["held"] == result["poses"] and not result["unstable"],
@@ -113,6 +113,8 @@ def map_sentence(result: Mapping[str, Any]) -> str:
         return f"{count} held by the cables and stable.{_few_cables(result)}"
     low, high = result["smallest"], result["largest"]
     at = ["(" + ", ".join(f"{v:g}" for v in end["position_m"]) + ") m" for end in (low, high)]
+    if result["poses"] == 1:
+        return f"{label[0].upper()}{label[1:]} at {at[0]}: {low['value']:.4g} {result['unit']}."
     missing = {"cannot be held": result["poses"] - result["held"], "would not be stable": result["unstable"]}
     held = "".join(f" {n} pose{'s' if n > 1 else ''} {what}." for what, n in missing.items() if n)
     return (
@@ -133,20 +135,26 @@ def _map_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
     if result["mean"] is None:
         return [held]
     unit = result["unit"]
+    if result["poses"] == 1:
+        return [(f"{result['mean']:.4g} {unit}", QUANTITIES[result["quantity"]].label)]
     ends = [(f"{result[key]['value']:.4g} {unit}", key) for key in ("smallest", "largest")]
     return [*ends, (f"{result['mean']:.4g} {unit}", "mean"), held]
 
 
 def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
-    from cdpr_struct.reports.figures import style, workspace_map
+    from cdpr_struct.reports.figures import style, workspace_map, workspace_slices
 
     quantity, value = QUANTITIES[name], map_values(name, columns)
     marked = columns.get("more_stable_pose", np.zeros(grid.size, bool))
     layer = workspace_map.Layer(quantity.label, quantity.unit, value, marked, signed=name.startswith("pose-error"))
-    picture = style.svg("map", workspace_map.map_size(grid), lambda f: workspace_map.draw_map(f, grid, layer))
+    solid = len(grid.free) == 3
+    size = workspace_slices.slices_size(grid) if solid else workspace_map.map_size(grid)
+    draw = workspace_slices.draw_slices if solid else workspace_map.draw_map
+    picture = style.svg("map", size, lambda f: draw(f, grid, layer))
     hatched = " Hatched: poses that cannot be held or are not stable." if np.isnan(value).any() else ""
     which = f"{robot.name}, {robot.platform.mass:g} kg{_comma(grid.fixed_text())}"
-    caption = f"{which}: {quantity.meaning} [{quantity.unit}].{hatched}"
+    slices = f" {workspace_slices.Slices.of(grid).said()}" if solid else ""
+    caption = f"{which}: {quantity.meaning} [{quantity.unit}].{slices}{hatched}"
     return Plate("map", f"{quantity.label[0].upper()}{quantity.label[1:]}", picture, caption)
 
 

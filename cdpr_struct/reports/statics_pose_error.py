@@ -10,6 +10,7 @@ from cdpr_struct.reports.figures import workspace_map
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 from cdpr_struct.reports.statics_map import map_table, slack_poses, slack_warnings
+from cdpr_struct.reports.text import place, rounded
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.sufficient_load import SufficientLoad
@@ -40,7 +41,7 @@ def pose_error_json(errors: PoseErrorMap, robot: Robot) -> dict[str, Any]:
         "counted": int(errors.counts.sum()),
         "more_stable_pose": int(errors.more_stable.sum()),
         "mean_mm": {part: errors.mean(part) for part in PARTS},
-        "largest_mm": {part: {"value": value, "position_m": place} for part, (value, place) in worst.items()},
+        "largest_mm": {part: {"value": value, "position_m": where} for part, (value, where) in worst.items()},
         "slack_poses": len(slack_poses(errors.columns)),
         "warnings": slack_warnings(robot, errors.grid, errors.columns, released=True),
     }
@@ -81,8 +82,9 @@ def pose_error_sentences(errors: PoseErrorMap | None, load: tuple[SufficientLoad
     lines = []
     if errors is not None:
         sag, axial, total = (errors.mean(part) for part in PARTS)
+        average = "On average the platform" if errors.grid.size > 1 else "The platform"
         lines.append(
-            f"On average the platform hangs {abs(total):.2f} mm too {'high' if total > 0.0 else 'low'}: "
+            f"{average} hangs {abs(total):.2f} mm too {'high' if total > 0.0 else 'low'}: "
             f"sag adds {sag:+.2f} mm, stretch {axial:+.2f} mm."
         )
         left_out = errors.grid.size - int(errors.counts.sum())
@@ -133,9 +135,11 @@ def _ladder_csv(found: SufficientLoad) -> str:
 def _facts(errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None) -> list[tuple[str, str]]:
     facts = []
     if errors is not None:
-        names = {"global": "mean error along z", "sag": "of it from sag", "axial": "of it from stretch"}
+        whole = "mean error along z" if errors.grid.size > 1 else "error along z"
+        names = {"global": whole, "sag": "of it from sag", "axial": "of it from stretch"}
         facts += [(f"{errors.mean(part):+.2f} mm", name) for part, name in names.items()]
-        facts.append((f"{int(errors.counts.sum())} of {errors.grid.size}", "poses held and stable"))
+        if errors.grid.size > 1:
+            facts.append((f"{int(errors.counts.sum())} of {errors.grid.size}", "poses held and stable"))
     if load is not None:
         mass = load[0].mass
         text = "none found" if np.isnan(mass) else f"{mass:.4g} kg"
@@ -144,11 +148,13 @@ def _facts(errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None
 
 
 def _pose_error_table(errors: PoseErrorMap) -> HtmlTable:
+    if errors.grid.size == 1:
+        return _one_pose_table(errors)
     rows = []
     for part in ("global", "sag", "axial"):
-        value, place = errors.extreme(part)
+        value, where = errors.extreme(part)
         spread = errors.vertical(part)
-        at = "(" + ", ".join(f"{v:g}" for v in place) + ")"
+        at = "(" + ", ".join(f"{v:g}" for v in where) + ")"
         rows.append(
             [
                 part,
@@ -162,3 +168,12 @@ def _pose_error_table(errors: PoseErrorMap) -> HtmlTable:
     columns = ["along z [mm]", "mean", "lowest", "highest", "of largest size", "at [m]"]
     note = "All components, rotations and flags of every pose are in pose_error.csv."
     return HtmlTable("Pose error over the grid", columns, rows, note)
+
+
+def _one_pose_table(errors: PoseErrorMap) -> HtmlTable:
+    rows = [
+        [part, *(f"{v:+.3f}" for v in rounded((errors.columns[f"{part}_{axis}_mm"][0] for axis in "xyz"), 3))]
+        for part in ("global", "sag", "axial")
+    ]
+    note = "Rotations and flags are in pose_error.csv."
+    return HtmlTable(f"Pose error at {place(errors.grid.positions[0])}", ["", "x [mm]", "y [mm]", "z [mm]"], rows, note)

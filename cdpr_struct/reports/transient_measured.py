@@ -8,10 +8,12 @@ import numpy as np
 from cdpr_struct.dynamics.cable_dynamics import CableModel, cable_dynamics
 from cdpr_struct.dynamics.frequency_sweep import ModesInBand, modes_below
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.measurement.spectrogram import dominant_frequency, spectrogram
+from cdpr_struct.measurement.spectrogram import Spectrogram, dominant_frequency, spectrogram
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import spectrogram as figure
 from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.text import place
 from cdpr_struct.reports.transient_page import spectrogram_csv
 from cdpr_struct.robot.pose import angles_from_rotation
 
@@ -25,7 +27,8 @@ def measured_json(
     cables = cable_dynamics(point, model, 2.0 * np.pi * highest_hertz)
     modes = modes_below(point, cables, highest_hertz)
     dominant = dominant_frequency(time, acceleration)
-    nearest = float(modes.hertz[np.abs(modes.hertz - dominant).argmin()]) if len(modes.hertz) else float("nan")
+    known = len(modes.hertz) > 0 and np.isfinite(dominant)
+    nearest = float(modes.hertz[np.abs(modes.hertz - dominant).argmin()]) if known else float("nan")
     return {
         "robot": point.robot.name,
         "pose": [*point.position, *np.degrees(angles_from_rotation(point.rotation))],
@@ -55,17 +58,111 @@ def measured_text(result: Mapping[str, Any]) -> str:
 def measured_files(
     time: np.ndarray, acceleration: np.ndarray, result: Mapping[str, Any], window: float | None
 ) -> dict[str, str | bytes]:
-    """Spectrogram as SVG and CSV, and the modes."""
+    """Spectrogram as SVG and CSV, the modes, and the report page."""
     spectrum = spectrogram(time, acceleration, window)
     highest = float(result["highest_hz"])
     modes = ModesInBand(result["natural_frequencies_hz"], result["kinds"], result["count_certified"], True)
-    text = svg(
+    plate = Plate(
         "spectrogram",
-        figure.SIZE,
-        lambda f: figure.draw_vibration(f, time, acceleration, _CHANNELS, spectrum, modes, highest),
+        "Measured acceleration and predicted modes",
+        svg(
+            "spectrogram",
+            figure.SIZE,
+            lambda f: figure.draw_vibration(f, time, acceleration, _CHANNELS, spectrum, modes, highest),
+        ),
+        f"Above: the record. Below: {figure.vibration_caption(spectrum)} Bright lines without a mark beside them are "
+        "vibrations that the model does not predict.",
     )
     return {
-        "spectrogram.svg": text,
+        "spectrogram.svg": plate.svg,
         "spectrogram.csv": spectrogram_csv(spectrum, highest),
         "modes.csv": csv_text({"frequency_hz": modes.hertz, "kind": modes.kinds}),
+        "report.html": render_page(_page(result, spectrum, plate)),
     }
+
+
+def _page(result: Mapping[str, Any], spectrum: Spectrogram, plate: Plate) -> Page:
+    return Page(
+        title=f"{result['robot']}: measured vibration",
+        subtitle=(
+            f"{result['samples']} samples in {_duration(result):.4g} s, robot at {place(result['pose'][:3])}; "
+            f"cable model {result['model']}"
+        ),
+        verdict=[_verdict(result)],
+        holds=bool(result["count_certified"]),
+        facts=[
+            (_hertz(result["dominant_hz"]), "dominant frequency of the record"),
+            (_hertz(result["nearest_mode_hz"]), "nearest predicted eigenfrequency"),
+            (f"{len(result['natural_frequencies_hz'])}", f"eigenfrequencies up to {result['highest_hz']:g} Hz"),
+            (f"{result['sample_rate_hz']:.6g} Hz", "sampling rate"),
+            (f"{spectrum.window:.3g} s", "analysis window"),
+        ],
+        plates=[plate],
+        tables=[_channel_table(result), _mode_table(result)],
+        notes=[("How it was computed", _NOTES)],
+    )
+
+
+_NOTES = (
+    "Dominant frequency: the highest peak of the power spectrum (Hann window over the whole record, means taken out), "
+    "of all channels together or of one.",
+    "Eigenfrequencies: those of the undamped robot at rest at this pose, found by counting (Wittrick and Williams) and "
+    "bisection, so that none is missed. A measured frequency near one is no proof that it is this mode: "
+    "cable modes lie close together, and the table shows which others are as near.",
+)
+
+
+def _verdict(result: Mapping[str, Any]) -> str:
+    dominant, nearest = result["dominant_hz"], result["nearest_mode_hz"]
+    if not np.isfinite(dominant):
+        return "The record holds no vibration: all channels are constant."
+    if not np.isfinite(nearest):
+        return f"The record vibrates mainly at {dominant:.3f} Hz; no eigenfrequency is predicted in the band shown."
+    kind = result["kinds"][int(np.abs(np.asarray(result["natural_frequencies_hz"]) - nearest).argmin())]
+    return (
+        f"The record vibrates mainly at {dominant:.3f} Hz; the nearest predicted eigenfrequency is {nearest:.3f} Hz "
+        f"({kind}), {_off(dominant, nearest, 1.0 / _duration(result))}."
+    )
+
+
+def _off(dominant: float, nearest: float, resolution: float) -> str:
+    """Distance in words, with no more digits than the record's length allows."""
+    if abs(dominant - nearest) < resolution:
+        return f"closer than the record resolves ({resolution:.2g} Hz)"
+    off = 100.0 * (dominant / nearest - 1.0)
+    return f"{abs(off):.2g} % {'lower' if off > 0.0 else 'higher'}"
+
+
+def _duration(result: Mapping[str, Any]) -> float:
+    """Length of the record [s]."""
+    return float((result["samples"] - 1) / result["sample_rate_hz"])
+
+
+def _hertz(value: float) -> str:
+    return f"{value:.3f} Hz" if np.isfinite(value) else "none"
+
+
+def _channel_table(result: Mapping[str, Any]) -> HtmlTable:
+    rows = [[name, _hertz(hertz)] for name, hertz in result["channels"].items()]
+    return HtmlTable("Channels", ["channel", "dominant frequency"], rows)
+
+
+def _mode_table(result: Mapping[str, Any]) -> HtmlTable:
+    dominant, hertz = result["dominant_hz"], np.asarray(result["natural_frequencies_hz"], dtype=float)
+    nearest_first = np.argsort(np.abs(hertz - dominant), kind="stable")
+    rows = [
+        [str(i + 1), f"{hertz[i]:.4f}", *_distance(dominant, hertz[i]), result["kinds"][i]]
+        for i in nearest_first.tolist()
+    ]
+    columns = ["mode", "frequency [Hz]", "dominant minus mode [Hz]", "relative [%]", "kind"]
+    note = (
+        "Nearest to the record's dominant frequency first. The record tells frequencies apart that are "
+        f"{1.0 / _duration(result):.2g} Hz apart or more."
+    )
+    return HtmlTable("Predicted eigenfrequencies", columns, rows, note, prose=frozenset({4}))
+
+
+def _distance(dominant: float, hertz: float) -> list[str]:
+    if not np.isfinite(dominant):
+        return ["-", "-"]
+    return [f"{dominant - hertz:+.4f}", f"{100.0 * (dominant / hertz - 1.0):+.2f}"]

@@ -56,9 +56,9 @@ def test_any_values_can_be_drawn(values, signed):
 
 
 @pytest.mark.parametrize(
-    ("shape", "drawn"), [((1, 1, 1), False), ((5, 1, 1), True), ((1, 4, 3), True), ((5, 4, 3), False)]
+    ("shape", "drawn"), [((1, 1, 1), False), ((5, 1, 1), True), ((1, 4, 3), True), ((5, 4, 3), True)]
 )
-def test_one_and_two_ranges_are_drawn_and_others_tabled(shape, drawn):
+def test_a_map_over_any_axis_is_drawn_and_a_single_pose_tabled(shape, drawn):
     over = grid(*shape)
     columns = {"sag_max_mm": np.arange(over.size) + 1.0, "held": np.ones(over.size, bool)}
     files = map_files(load_robot("thesis-3-1"), "sag-max", over, columns, ["cdpr-struct"])

@@ -1,6 +1,7 @@
 """One small verification, and the files made of it, for all tests of the reports."""
 
 import dataclasses
+import re
 from html.parser import HTMLParser
 
 import numpy as np
@@ -10,6 +11,8 @@ from cdpr_struct.crosscheck.single_cable import describe_cable
 from cdpr_struct.crosscheck.verification import verify
 from cdpr_struct.reports.cable_page import cable_files
 from cdpr_struct.reports.verification_page import verification_files
+
+INSIDE = ("#", "data:image/png;base64,")  # a reference on the page, or the bytes themselves
 
 
 @pytest.fixture(scope="session")
@@ -66,6 +69,16 @@ class PageReader(HTMLParser):
     @property
     def text(self) -> str:
         return " ".join(" ".join(self.shown).split())
+
+    @property
+    def foreign(self) -> list[str]:
+        """Everything that the page would fetch from elsewhere."""
+        sources = ("src", "href", "xlink:href", "srcset", "data", "action", "poster")
+        found = [v for _, name, v in self.attributes if name in sources and not v.startswith(INSIDE)]
+        found += self.values("link", "rel") + [s for s in self.styles if "@import" in s or "url(" in s]
+        styled = [value for _, name, value in self.attributes if name in ("style", "clip-path", "fill")]
+        found += [url for value in styled for url in re.findall(r"url\(([^)]*)\)", value) if not url.startswith("#")]
+        return found + [s for s in self.scripts if any(word in s for word in ("fetch(", "XMLHttpRequest", "import("))]
 
     def values(self, tag: str, name: str) -> list[str]:
         return [value for t, n, value in self.attributes if (t, n) == (tag, name)]

@@ -16,7 +16,6 @@ from cdpr_struct.reports.html import Plate, completed, render_page
 from cdpr_struct.reports.verification_page import verification_files, verification_page
 from cdpr_struct.reports.verification_text import verdict
 
-INSIDE = ("#", "data:image/png;base64,")  # a reference on the page, or the bytes themselves
 FIGURES = ["determinant", "convergence", "mode_errors", "limits", "robot"]
 
 
@@ -66,18 +65,7 @@ def test_every_figure_is_on_the_page_with_a_caption(files, read_page):
 
 @pytest.mark.parametrize("which", ["files", "cable_report"])
 def test_page_loads_nothing(which, request, read_page):
-    page = read_page(request.getfixturevalue(which)["report.html"])
-    loaded = [
-        value
-        for _, name, value in page.attributes
-        if name in ("src", "href", "xlink:href", "srcset", "data", "action", "poster")
-    ]
-    assert [value for value in loaded if not value.startswith(INSIDE)] == []
-    assert page.values("link", "rel") == []
-    assert not any("@import" in style or "url(" in style for style in page.styles)
-    styled = [value for _, name, value in page.attributes if name in ("style", "clip-path", "fill")]
-    assert all(url.startswith("#") for value in styled for url in re.findall(r"url\(([^)]*)\)", value))
-    assert not any(word in script for script in page.scripts for word in ("fetch(", "XMLHttpRequest", "import("))
+    assert read_page(request.getfixturevalue(which)["report.html"]).foreign == []
 
 
 def test_ids_are_unique_and_references_resolve(files, read_page):

@@ -1,23 +1,39 @@
 """Static pose error over the workspace, and over the load (thesis figs 3.4-3.7 and 4.4)."""
 
+from collections.abc import Mapping
+
 import numpy as np
 from matplotlib.figure import Figure
 
 from cdpr_struct.reports.figures.style import BLACK, BLUE, GREEN, VERMILLION, plain_ticks
-from cdpr_struct.reports.figures.workspace_map import Layer, draw_heat, draw_line, hatch_gaps, legend_handles
+from cdpr_struct.reports.figures.workspace_map import (
+    Layer,
+    add_legend,
+    colour_scale,
+    draw_heat,
+    draw_line,
+    hatch_gaps,
+    paint_heat,
+)
+from cdpr_struct.reports.figures.workspace_slices import Slices, shared_levels
 from cdpr_struct.statics.sufficient_load import SufficientLoad
 from cdpr_struct.workspace.pose_error_map import PoseErrorMap
 
 LOAD_SIZE = (9.6, 4.2)
+_MOST_SLICES = 6  # rows of three panels that still fit on a page
 _TITLES = {"global": "a) global (sagging model)", "sag": "b) from sag", "axial": "c) from stretch (spring model)"}
 _COLOURS = {"global": VERMILLION, "sag": BLUE, "axial": BLACK}
 
 
 def pose_error_size(errors: PoseErrorMap) -> tuple[float, float]:
-    """Size of the figure [inch]: three maps side by side, as high as their axes ask, or one plot of three curves."""
-    if len(errors.grid.free) < 2:
+    """Size of the figure [inch]: maps as high as their axes ask, one row a slice, or one plot of three curves."""
+    free = len(errors.grid.free)
+    if free < 2:
         return (9.6, 4.0)
-    across, up = (np.ptp(errors.grid.axes[i]) for i in errors.grid.free)
+    slices = Slices.of(errors.grid, _MOST_SLICES) if free == 3 else None
+    across, up = (np.ptp(errors.grid.axes[i]) for i in errors.grid.free if slices is None or i != slices.axis)
+    if slices is not None:
+        return (9.6, 1.3 + len(slices.index) * float(np.clip(0.4 + 2.6 * up / across, 0.8, 4.2)))
     return (9.6, float(np.clip(1.3 + 2.4 * up / across, 2.2, 9.0)))
 
 
@@ -27,20 +43,41 @@ def draw_pose_error(figure: Figure, errors: PoseErrorMap) -> None:
         part: Layer(title, "mm", errors.vertical(part), errors.more_stable, signed=True)
         for part, title in _TITLES.items()
     }
-    if len(errors.grid.free) == 2:
-        for axes, layer in zip(figure.subplots(1, 3, sharey=True), layers.values(), strict=True):
-            draw_heat(figure, axes, errors.grid, layer, 5)
+    draw = {1: _draw_curves, 2: _draw_maps, 3: _draw_slices}[len(errors.grid.free)]
+    draw(figure, errors, layers)
+    add_legend(figure, list(layers.values()))
+
+
+def _draw_curves(figure: Figure, errors: PoseErrorMap, layers: Mapping[str, Layer]) -> None:
+    axes = figure.subplots()
+    for part, layer in layers.items():
+        draw_line(axes, errors.grid, layer, _COLOURS[part], layer.title)
+    hatch_gaps(axes, errors.grid, errors.vertical("global"))
+    axes.set_ylabel("pose error along z [mm]")
+    axes.legend()
+
+
+def _draw_maps(figure: Figure, errors: PoseErrorMap, layers: Mapping[str, Layer]) -> None:
+    for axes, layer in zip(figure.subplots(1, 3, sharey=True), layers.values(), strict=True):
+        draw_heat(figure, axes, errors.grid, layer, 5)
+        axes.label_outer()
+
+
+def _draw_slices(figure: Figure, errors: PoseErrorMap, layers: Mapping[str, Layer]) -> None:
+    """One row a slice, one column a part, and below each column its colour scale."""
+    slices = Slices.of(errors.grid, _MOST_SLICES)
+    panels = figure.subplots(len(slices.index), 3, sharex=True, sharey=True, squeeze=False)
+    for column, layer in zip(panels.T, layers.values(), strict=True):
+        scale, levels = colour_scale(layer), shared_levels(layer)
+        for axes, index in zip(column, slices.index.tolist(), strict=True):
+            piece = slices.layer_at(layer, index)
+            image = paint_heat(axes, slices.grid_at(index), piece, scale, levels)
+            axes.set_title(f"{layer.title}\n{piece.title}" if axes is column[0] else piece.title)
             axes.label_outer()
-    else:
-        axes = figure.subplots()
-        for part, layer in layers.items():
-            draw_line(axes, errors.grid, layer, _COLOURS[part], layer.title)
-        hatch_gaps(axes, errors.grid, errors.vertical("global"))
-        axes.set_ylabel("pose error along z [mm]")
-        axes.legend()
-    handles = legend_handles(list(layers.values()))
-    if handles:
-        figure.legend(handles=handles, loc="outside lower center", ncols=2)
+        bar = figure.colorbar(
+            image, ax=list(column), location="bottom", shrink=0.9, aspect=30, fraction=0.03, label="[mm]"
+        )
+        bar.outline.set_visible(False)
 
 
 def pose_error_caption(errors: PoseErrorMap) -> str:
@@ -54,7 +91,7 @@ def pose_error_caption(errors: PoseErrorMap) -> str:
         f"Pose error of {errors.robot} along z{', ' + where if where else ''}, {errors.mass:g} kg: cables are given "
         "the lengths of straight, inextensible ones, and the platform hangs where sag and stretch let it. Above zero "
         f"it hangs too high. Mean over {int(errors.counts.sum())} poses: {means}. Largest: {worst:+.2f} mm at "
-        f"({x:g}, {y:g}, {z:g}) m. Each panel has its own scale."
+        f"({x:g}, {y:g}, {z:g}) m. {_layout_text(errors)}"
         + (f" Hatched: {left_out} poses that ideal cables cannot hold or that are not stable." if left_out else "")
         + (
             f" Triangles: {other} poses at which the spring model has another equilibrium of lower energy; shown is "
@@ -63,6 +100,12 @@ def pose_error_caption(errors: PoseErrorMap) -> str:
             else ""
         )
     )
+
+
+def _layout_text(errors: PoseErrorMap) -> str:
+    if len(errors.grid.free) < 3:
+        return "Each panel has its own scale." if len(errors.grid.free) == 2 else "All curves have one scale."
+    return f"{Slices.of(errors.grid, _MOST_SLICES).said()[:-1]} in each column."
 
 
 _MEANING = {"sag": "from sag", "axial": "from stretch", "global": "together"}

@@ -22,14 +22,19 @@ _VIEW = {"elev": 20.0, "azim": -62.0}
 
 def draw_robot(figure: Figure, point: OperatingPoint) -> None:
     """Frame anchors, platform and cables; a cable's colour is its tension."""
-    geometry = robot_geometry(point)
     tension = point.cables.tension_at_platform
+    scale = Normalize(*tension_range(tension))
+    draw_geometry(figure, robot_geometry(point), colormaps[COLOUR_MAP](scale(tension)))
+    bar = figure.add_axes((0.905, 0.2, 0.014, 0.6))
+    figure.colorbar(ScalarMappable(scale, COLOUR_MAP), cax=bar, label=TENSION_LABEL).outline.set_visible(False)
+
+
+def draw_geometry(figure: Figure, geometry: RobotGeometry, colours: np.ndarray | str) -> None:
+    """Frame anchors, platform and cables, in one colour or in colours (m, 4); right of them is room for a scale."""
     figure.set_layout_engine("none")
     axes: Axes3D = figure.add_axes((0.0, 0.0, 1.0, 1.0), projection="3d")
     _set_view(axes, geometry)
     _ground(axes, geometry)
-    scale = Normalize(*tension_range(tension))
-    colours = colormaps[COLOUR_MAP](scale(tension))
     axes.add_collection3d(Line3DCollection(list(geometry.curves), colors=colours, linewidths=1.8))
     axes.add_collection3d(Line3DCollection(list(geometry.edges), colors=BLACK, linewidths=1.0))
     if len(geometry.triangles):
@@ -38,8 +43,6 @@ def draw_robot(figure: Figure, point: OperatingPoint) -> None:
     axes.scatter(*geometry.frame.T, s=20, c=colours, depthshade=False, clip_on=False, edgecolors=BLACK, linewidths=0.6)
     _number_cables(axes, geometry)
     _fill_panel(figure, axes)
-    bar = figure.add_axes((0.905, 0.2, 0.014, 0.6))
-    figure.colorbar(ScalarMappable(scale, COLOUR_MAP), cax=bar, label=TENSION_LABEL).outline.set_visible(False)
 
 
 def tension_range(tension: np.ndarray) -> tuple[float, float]:
@@ -100,5 +103,5 @@ def robot_caption(point: OperatingPoint) -> str:
         f"{point.robot.name} at rest at ({x:g}, {y:g}, {z:g}) m, drawn to scale: {len(tension)} cables, platform "
         f"{point.robot.platform.mass:g} kg. Numbers at the frame anchors are cables; colour is the tension, "
         f"{tension.min():.4g} to {tension.max():.4g} N. The cables hang in catenaries; cable {worst + 1} sags most, "
-        f"{1000.0 * cables.sag[worst]:.3g} mm on a chord of {cables.chord[worst]:.2f} m."
+        f"{1000.0 * cables.sag[worst]:.4g} mm on a chord of {cables.chord[worst]:.2f} m."
     )

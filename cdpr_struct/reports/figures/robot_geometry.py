@@ -7,7 +7,8 @@ from scipy.spatial import ConvexHull, QhullError
 
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.generated import catenary
-from cdpr_struct.robot.robot import anchors_in_world
+from cdpr_struct.robot.pose import Pose
+from cdpr_struct.robot.robot import Robot, anchors_in_world
 
 _POINTS_PER_CABLE = 41
 _SAME_PLANE = 1e-6
@@ -49,6 +50,14 @@ def robot_geometry(point: OperatingPoint) -> RobotGeometry:
     frame = platform - point.cables.offset
     edges, triangles = _hull(platform, point.position)
     return RobotGeometry(_curves(point, frame), frame, platform, edges, triangles)
+
+
+def unloaded_geometry(robot: Robot, pose: Pose) -> RobotGeometry:
+    """Geometry of the robot at a pose that needs no balance: cables are straight lines between their anchors."""
+    platform, _ = anchors_in_world(robot, pose.position, pose.rotation)
+    edges, triangles = _hull(platform, pose.position)
+    curves = np.stack([robot.frame_anchors, platform], axis=1)
+    return RobotGeometry(curves, np.array(robot.frame_anchors), platform, edges, triangles)
 
 
 def _curves(point: OperatingPoint, frame: np.ndarray) -> np.ndarray:

@@ -1,10 +1,12 @@
 """A quantity over a grid of poses: a heat map over two axes, a curve over one."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import Colormap, ListedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -18,6 +20,7 @@ LINE_SIZE = (9.6, 3.8)
 UNHELD = "cannot be held, or not stable"
 OTHER = "spring model: another pose is more stable"
 _HATCH = "////"
+Scale = tuple[Normalize, Colormap]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,17 +41,17 @@ class Layer:
 
 
 def drawable(grid: Grid) -> bool:
-    """A figure can show one or two axes."""
-    return len(grid.free) in (1, 2)
+    """Whether there is an axis to draw over; a single pose has none."""
+    return len(grid.free) > 0
 
 
 def map_size(grid: Grid) -> tuple[float, float]:
-    """Size of a figure of one quantity [inch]."""
+    """Size of a figure of one quantity over one or two axes [inch]."""
     return SIZE if len(grid.free) == 2 else LINE_SIZE
 
 
 def draw_map(figure: Figure, grid: Grid, layer: Layer) -> None:
-    """One quantity over the grid."""
+    """One quantity over one or two axes of the grid."""
     axes = figure.subplots()
     if len(grid.free) == 2:
         draw_heat(figure, axes, grid, layer)
@@ -56,20 +59,28 @@ def draw_map(figure: Figure, grid: Grid, layer: Layer) -> None:
         draw_line(axes, grid, layer, BLUE)
         hatch_gaps(axes, grid, layer.values)
         axes.set_ylabel(f"{layer.title} [{layer.unit}]")
-    _legend(figure, layer)
+    add_legend(figure, [layer])
 
 
 def draw_heat(figure: Figure, axes: Axes, grid: Grid, layer: Layer, levels: int = 8) -> None:
-    """A heat map with about so many level lines; poses without a value are hatched."""
+    """A heat map with about so many level lines and a colour bar of its own."""
+    image = paint_heat(axes, grid, layer, colour_scale(layer), levels)
+    add_bar(figure, image, [axes], layer.unit)
+
+
+def paint_heat(axes: Axes, grid: Grid, layer: Layer, scale: Scale, levels: int | np.ndarray) -> QuadMesh:
+    """A heat map over the two free axes; poses without a value are hatched.
+
+    levels : about how many level lines, or their values
+    """
     across, up = grid.free
     shape = (grid.shape[across], grid.shape[up])
     x, y, value = grid.axes[across], grid.axes[up], layer.values.reshape(shape).T
     axes.grid(False)
     axes.set_facecolor(LIGHT)
     axes.patch.set(hatch=_HATCH, edgecolor=GREY, linewidth=0)
-    scale, colours = _scale(value, layer.signed)
     image = axes.pcolormesh(
-        x, y, np.ma.masked_invalid(value), norm=scale, cmap=colours, shading="nearest", rasterized=True
+        x, y, np.ma.masked_invalid(value), norm=scale[0], cmap=scale[1], shading="nearest", rasterized=True
     )
     _levels(axes, x, y, value, levels)
     if layer.marked.any():
@@ -81,8 +92,13 @@ def draw_heat(figure: Figure, axes: Axes, grid: Grid, layer: Layer, levels: int 
     axes.set_xlabel(f"{AXES[across]} [m]")
     axes.set_ylabel(f"{AXES[up]} [m]")
     axes.set_title(layer.title)
-    bar = figure.colorbar(image, ax=axes, shrink=0.85)
-    bar.ax.set_title(f"[{layer.unit}]", fontsize=8, fontweight="normal", loc="left")
+    return image
+
+
+def add_bar(figure: Figure, image: QuadMesh, beside: Sequence[Axes], unit: str) -> None:
+    """A colour bar with its unit on top, for one panel or for several."""
+    bar = figure.colorbar(image, ax=list(beside), shrink=0.85 if len(beside) == 1 else 0.6)
+    bar.ax.set_title(f"[{unit}]", fontsize=8, fontweight="normal", loc="left")
     bar.outline.set_visible(False)
 
 
@@ -117,23 +133,25 @@ def legend_handles(layers: list[Layer]) -> list[Patch | Line2D]:
     return handles
 
 
-def _legend(figure: Figure, layer: Layer) -> None:
-    handles = legend_handles([layer])
+def add_legend(figure: Figure, layers: list[Layer]) -> None:
+    """Say below the figure what is hatched and marked, if anything is."""
+    handles = legend_handles(layers)
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=2)
 
 
-def _scale(value: np.ndarray, signed: bool) -> tuple[Normalize, Colormap]:
+def colour_scale(layer: Layer) -> Scale:
     """Diverging about zero where signs mix; else from light to dark with growing size."""
+    value = layer.values
     if not np.isfinite(value).any():
         return Normalize(0.0, 1.0), _light("YlGnBu")
     low, high = float(np.nanmin(value)), float(np.nanmax(value))
     margin = 1e-6 * max(abs(low), abs(high), 1e-12)
-    if signed and low < -margin and high > margin:
+    if layer.signed and low < -margin and high > margin:
         reach = max(-low, high)
         return Normalize(-reach, reach), _light("RdBu_r", 0.1, 0.9)
-    below = signed and high <= margin
-    name = "YlGnBu" if below or not signed else "YlOrRd"
+    below = layer.signed and high <= margin
+    name = "YlGnBu" if below or not layer.signed else "YlOrRd"
     colours = _light(name)
     return Normalize(low - margin, high + margin), colours.reversed() if below else colours
 
@@ -143,9 +161,9 @@ def _light(name: str, low: float = 0.0, high: float = 0.7) -> Colormap:
     return ListedColormap(colormaps[name](np.linspace(low, high, 256)))
 
 
-def _levels(axes: Axes, x: np.ndarray, y: np.ndarray, value: np.ndarray, levels: int) -> None:
+def _levels(axes: Axes, x: np.ndarray, y: np.ndarray, value: np.ndarray, levels: int | np.ndarray) -> None:
     finite = value[np.isfinite(value)]
-    if finite.size < 9 or np.ptp(finite) < 1e-6 * np.abs(finite).max():
+    if finite.size < 9 or np.ptp(finite) < 1e-6 * np.abs(finite).max() or not np.size(levels):
         return
     field = np.ma.masked_invalid(value)
     lines = axes.contour(x, y, field, levels=levels, colors=BLACK, linewidths=0.5, linestyles="solid", alpha=0.7)

@@ -1,0 +1,130 @@
+"""The files of a robot's modes: tables as CSV, frequency ladder, the robot at rest, and the report page."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.figures import interactive, mode_ladder, robot_drawing
+from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.modes_text import modes_csv
+from cdpr_struct.reports.text import place
+
+
+def modes_files(point: OperatingPoint, result: Mapping[str, Any]) -> dict[str, str | bytes]:
+    """Contents of every file of the report, by name.
+
+    point   : the robot at rest that the modes belong to
+    result  : as the command `modes` gives it
+    """
+    plates = _plates(point, result)
+    lengths, tensions = result["lengths_m"], result["tensions_N"]
+    return {
+        "modes.csv": modes_csv(result),
+        "cables.csv": csv_text({"cable": range(1, len(lengths) + 1), "length_m": lengths, "tension_N": tensions}),
+        **{f"{plate.name}.svg": plate.svg for plate in plates},
+        "report.html": render_page(_page(point, result, plates), interactive.plotly_packed()),
+    }
+
+
+def _plates(point: OperatingPoint, result: Mapping[str, Any]) -> list[Plate]:
+    return [
+        Plate(
+            "modes",
+            "Eigenfrequencies",
+            svg("modes", mode_ladder.SIZE, lambda f: mode_ladder.draw_ladder(f, result)),
+            mode_ladder.ladder_caption(result),
+        ),
+        Plate(
+            "robot",
+            "The robot at rest",
+            svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point)),
+            robot_drawing.robot_caption(point),
+            interactive.robot_plot(point),
+        ),
+    ]
+
+
+def _page(point: OperatingPoint, result: Mapping[str, Any], plates: list[Plate]) -> Page:
+    robot = point.robot
+    return Page(
+        title=f"{result['robot']}: eigenfrequencies",
+        subtitle=(
+            f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg at {place(point.position)}; "
+            f"cable model {result['model']}, assembly {result['assembly']}"
+        ),
+        verdict=[_verdict(result)],
+        holds=bool(result["count_certified"]),
+        facts=_facts(result),
+        plates=plates,
+        tables=[_mode_table(result), _cable_table(point, result)],
+        notes=[("How it was computed", (_MODELS[result["model"]], _KINDS, _ASSUMED))],
+    )
+
+
+_MODELS = {
+    "exact": "Cables: dynamic stiffness about the elastic catenary, without approximation of the sag.",
+    "dsm": "Cables: closed-form dynamic stiffness for shallow, taut cables (eqs 2.31 to 2.41), valid inside its "
+    "printed limits only.",
+    "static": "Cables: static stiffness of the elastic catenary, without mass. Six modes, those of the platform; no "
+    "cable modes.",
+    "fem": "Cables: geometrically exact bar elements with lumped masses, from the independent finite-element program. "
+    "Its frequencies have the error of the mesh; verify extrapolates it away.",
+}
+_KINDS = (
+    "Kind: platform or cable i where that body has half of the kinetic energy or more; cables where the cables "
+    "together have nine tenths; else mixed. The count is certified where an exact count of the eigenvalues below the "
+    "last frequency (Wittrick and Williams; for finite elements Sylvester's law of inertia) agrees with the list."
+)
+_ASSUMED = (
+    "Assumed: small undamped vibrations about the rest pose, rigid platform, winches that hold their lengths, linear "
+    "elastic cables."
+)
+
+
+def _verdict(result: Mapping[str, Any]) -> str:
+    hertz, count = result["frequencies_hz"], len(result["frequencies_hz"])
+    range_text = f"The first {count} eigenfrequencies lie between {hertz[0]:.4g} and {hertz[-1]:.4g} Hz"
+    if count == 1:
+        range_text = f"The first eigenfrequency is {hertz[0]:.4g} Hz"
+    if result["count_certified"]:
+        return f"{range_text}; the count is certified, none below the last one is missing."
+    return f"{range_text}; the count could not be certified, some may be missing."
+
+
+def _facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
+    hertz, kinds = result["frequencies_hz"], result["kinds"]
+    of_platform = [float(f) for f, kind in zip(hertz, kinds, strict=True) if kind == "platform"]
+    first = f"{of_platform[0]:.3f} Hz" if of_platform else "none here"
+    return [
+        (f"{hertz[0]:.3f} Hz", f"first eigenfrequency ({kinds[0]})"),
+        (first, "first platform mode (half of the energy or more)"),
+        (f"{len(hertz)}", f"modes, {len(of_platform)} of them of the platform"),
+        ("certified" if result["count_certified"] else "not certified", "count of the modes"),
+    ]
+
+
+def _mode_table(result: Mapping[str, Any]) -> HtmlTable:
+    columns = (result["frequencies_hz"], result["platform_energy"], result["kinds"])
+    rows = [
+        [str(i), f"{hertz:.5f}", f"{100.0 * share:.1f}", kind]
+        for i, (hertz, share, kind) in enumerate(zip(*columns, strict=True), start=1)
+    ]
+    names = ["mode", "frequency [Hz]", "platform's share of the kinetic energy [%]", "kind"]
+    return HtmlTable("Modes", names, rows, "All digits: modes.csv.", prose=frozenset({3}))
+
+
+def _cable_table(point: OperatingPoint, result: Mapping[str, Any]) -> HtmlTable:
+    sag, chord = 1e3 * point.cables.sag, point.cables.chord
+    columns = (result["lengths_m"], result["tensions_N"], chord, sag)
+    rows = [
+        [str(i), f"{length:.5f}", f"{tension:.3f}", f"{straight:.4f}", f"{deep:.2f}"]
+        for i, (length, tension, straight, deep) in enumerate(zip(*columns, strict=True), start=1)
+    ]
+    scaled = not np.allclose(result["lengths_m"], point.cables.total_length, rtol=1e-12, atol=0.0)
+    note = "Lengths are what the encoders read: offset and scale of the robot file are included." if scaled else ""
+    names = ["cable", "unstrained length [m]", "tension at the platform [N]", "chord [m]", "sag [mm]"]
+    return HtmlTable("Cables at rest", names, rows, note)

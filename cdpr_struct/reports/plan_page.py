@@ -1,0 +1,152 @@
+"""The files of a test plan: tables as CSV, confusions and gains as figures, and the report page."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.diagnosis_plan import MANY
+from cdpr_struct.reports.figures import plan as figures
+from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+
+SOMETIMES = ("confusions.svg", "gains.svg")
+"""Files that not every plan has."""
+
+
+def plan_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
+    """Contents of every file of the report, by name.
+
+    result  : as `plan_json` gives it
+    """
+    plates = _plates(result)
+    return {
+        **_tables(result),
+        **{f"{plate.name}.svg": plate.svg for plate in plates},
+        "report.html": render_page(_page(result, plates)),
+    }
+
+
+def _tables(result: Mapping[str, Any]) -> dict[str, str]:
+    sizes, pairs, gains = result["detectable"], result["confusable"], result["next"]
+    hidden = sorted(result["not_testable"].items())
+    separated = [(row["measurement"], s) for row in gains for s in row["separates"]]
+    return {
+        "detectable.csv": csv_text(
+            {
+                "cause": [row["cause"] for row in sizes],
+                **{key: [row["minimum_detectable"][key] for row in sizes] for key in ("value", "unit", "pattern")},
+            }
+        ),
+        "confusable.csv": csv_text(
+            {"cause": [a for a, _ in pairs], "taken_for": [b for _, b in pairs], "nats": result["confusable_nats"]}
+        ),
+        "not_testable.csv": csv_text({"cause": [name for name, _ in hidden], "why": [why for _, why in hidden]}),
+        "next.csv": csv_text(
+            {
+                "measurement": [row["measurement"] for row in gains],
+                "gain_nats": [row["gain_nats"] for row in gains],
+                "pairs": [len(row["separates"]) for row in gains],
+            }
+        ),
+        "separates.csv": csv_text(
+            {
+                "measurement": [name for name, _ in separated],
+                **{key: [s[key] for _, s in separated] for key in ("cause", "from", "nats_before", "nats_after")},
+            }
+        ),
+    }
+
+
+def _plates(result: Mapping[str, Any]) -> list[Plate]:
+    plates = []
+    if result["confusable"]:
+        drawn = svg("confusions", figures.confusion_size(result), lambda f: figures.draw_confusions(f, result))
+        plates.append(Plate("confusions", "Which causes would be confused", drawn, figures.confusion_caption(result)))
+    if result["next"]:
+        drawn = svg("gains", figures.gain_size(result), lambda f: figures.draw_gains(f, result))
+        plates.append(Plate("gains", "What to measure next", drawn, figures.gain_caption(result)))
+    return plates
+
+
+def _page(result: Mapping[str, Any], plates: list[Plate]) -> Page:
+    found, pairs, hidden = len(result["detectable"]), len(result["confusable"]), len(result["not_testable"])
+    best = f"{result['next'][0]['gain_nats']:.1f} nats" if result["next"] else "none"
+    return Page(
+        title="Test plan: what this campaign can find",
+        subtitle="computed before measuring, from the robot, the planned states and the sigmas of the campaign file",
+        verdict=_verdict(result),
+        holds=found > 0,
+        facts=[
+            (f"{found}", "causes that would be found at their typical size"),
+            (f"{pairs}", "pairs of causes that would be confused"),
+            (f"{hidden}", "causes that would not be found"),
+            (best, "gain of the best next measurement"),
+        ],
+        plates=plates,
+        tables=_html_tables(result),
+        notes=[("How it was computed", _NOTES)],
+    )
+
+
+_NOTES = (
+    "Smallest detectable size: found with a probability of 0.8 at a false alarm rate of 0.001, against noise and the "
+    "tolerances of the campaign. Of a cause with several parameters it is their root mean square.",
+    "Nats: natural logarithm of how much likelier one cause makes the data than another; 3 nats are a factor of 20. "
+    "Pairs are judged at twice the smallest detectable size, the rival free to take any plausible size.",
+    "Gains are those of a simulated measurement with the stated accuracy, added to the campaign; model and noise are "
+    "linear about the nominal robot. Measurements of one kind compete, and only the best of each is listed.",
+)
+
+
+def _verdict(result: Mapping[str, Any]) -> list[str]:
+    found, pairs = len(result["detectable"]), len(result["confusable"])
+    total = found + len(result["not_testable"])
+    lines = [f"This campaign would find {found} of {total} causes at their typical size."]
+    if pairs:
+        noun = "pair of causes" if pairs == 1 else "pairs of causes"
+        lines.append(f"It would confuse {pairs} {noun}: the verdict would be a class, not a name.")
+    else:
+        lines.append("It would confuse no two causes.")
+    if result["next"]:
+        lines.append(f"Best next measurement: {result['next'][0]['sentence'].replace('_', ' ')}.")
+    return lines
+
+
+def _html_tables(result: Mapping[str, Any]) -> list[HtmlTable]:
+    sizes = [
+        [_words(row["cause"]), f"{least['value']:.3g}", least["unit"], least["pattern"]]
+        for row in result["detectable"]
+        for least in [row["minimum_detectable"]]
+    ]
+    pairs = [
+        [_words(cause), _words(rival), f"{nats:.2f}"]
+        for (cause, rival), nats in zip(result["confusable"], result["confusable_nats"], strict=True)
+    ]
+    gains = [[row["measurement"], f"{row['gain_nats']:.2f}", _best_pair(row)] for row in result["next"]]
+    hidden = [[_words(cause), why] for cause, why in sorted(result["not_testable"].items())]
+    tables = (
+        HtmlTable(
+            "Smallest size found 4 times out of 5", ["cause", "size", "unit", "pattern"], sizes,
+            "Units differ, so sizes do not compare across rows. Relative: of the value in the robot file.",
+            prose=frozenset({2, 3}),
+        ),
+        HtmlTable("Would be confused", ["true cause", "taken for", "evidence between them [nats]"], pairs,
+                  prose=frozenset({1})),
+        HtmlTable("Next measurements", ["measurement", "gain [nats]", "pair that it helps most [nats]"], gains,
+                  prose=frozenset({2})),
+        HtmlTable("Would not be found with this campaign", ["cause", "why"], hidden, prose=frozenset({1})),
+    )  # fmt: skip
+    return [table for table in tables if table.rows]
+
+
+def _best_pair(row: Mapping[str, Any]) -> str:
+    if not row["separates"]:
+        return "-"
+    first = row["separates"][0]
+    pair = f"{_words(first['cause'])} from {_words(first['from'])}"
+    after = f"{first['nats_after']:.1f}" if first["nats_after"] < MANY else f"more than {MANY:.0f}"
+    return f"{pair}: {first['nats_before']:.1f} before, {after} after"
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")
