@@ -55,7 +55,7 @@ class ConvergenceError(CdprError):
         super().__init__(f"{what}: residual {residual:.3g} after {iterations} iterations. {hint}")
 
 
-def known_names(name: str, known: Sequence[str]) -> str:
-    """What to say of a name that is not among those known: which of them is perhaps meant, and all."""
+def known_names(name: str, known: Sequence[str], shown: Sequence[str] = ()) -> str:
+    """What to say of a name that is not among those known: which of them is perhaps meant, and all (as `shown`)."""
     near = get_close_matches(name, known, 1)
-    return (f"{near[0]} is perhaps meant; " if near else "") + f"known are {', '.join(known)}"
+    return (f"{near[0]} is perhaps meant; " if near else "") + f"known are {', '.join(shown or known)}"

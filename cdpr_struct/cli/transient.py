@@ -1,6 +1,5 @@
 """`cdpr-struct transient`: vibration after an emergency stop, or along a trajectory."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -122,14 +121,10 @@ def run(
 
 
 def read_motion(text: str) -> "Trajectory":
-    """The nominal motion that --trajectory names: helix, or a CSV file."""
-    if text == "helix":
-        from cdpr_struct.statics.trajectory import helix
+    """The nominal motion that --trajectory names; a file needs four instants, for the rates of its accelerations."""
+    from cdpr_struct.cli.trajectory_input import read_trajectory
 
-        return helix()
-    from cdpr_struct.measurement.time_series import read_trajectory
-
-    return read_trajectory(Path(text))
+    return read_trajectory(text, None, fewest=4)
 
 
 def _twist(text: str) -> "np.ndarray":

@@ -79,7 +79,8 @@ def _mend(before: Campaign, correction: Correction) -> str:
     places = []
     for sheet in before.sheets:
         columns = changed_columns(before, correction.campaign, sheet.kind)
-        places += [f"column {name} of {sheet.file}" for name in sheet.columns if name in columns]
+        names = [sheet.headings.get(name, name) for name in sheet.columns if name in columns]
+        places += [f"column {name} of {sheet.file}" for name in names]
     if not places:
         return ""
     factor = correction.parameters.get("factor")

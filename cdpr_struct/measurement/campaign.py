@@ -61,13 +61,19 @@ class Sigmas:
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """A data file of a campaign: its columns and sigmas; `stated` are the sigmas that the campaign file gives."""
+    """A data file of a campaign: its columns and sigmas.
+
+    columns  : of the form with one row a cable, also where the file has one row a pose
+    stated   : sigmas that the campaign file gives
+    headings : where the file has one row a pose: of a column of the other form, the file's columns in short
+    """
 
     kind: str
     file: str
     columns: tuple[str, ...]
     sigmas: Sigmas
     stated: frozenset[str]
+    headings: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -180,6 +186,7 @@ class Campaign:
     identified : modes found in the signals of `series`; those used are among `robot_frequencies`
     sheets : the data files, with the sigmas used
     memory : correlation of a sensor's noise in one state with that in the next, 0 for independent noise
+    notes : what was assumed where the data files say nothing, in sentences for a person
     """
 
     source: str
@@ -199,6 +206,7 @@ class Campaign:
     checked: Mapping[str, float] = field(default_factory=dict)
     memory: float = 0.0
     sheets: tuple[Sheet, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def cable_model(self) -> str:

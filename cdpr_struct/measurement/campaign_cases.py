@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cdpr_struct.errors import InputError
+from cdpr_struct.measurement.assumed_angles import angle_note
 from cdpr_struct.measurement.campaign import SIGNALS, CableFrequencies, RobotFrequencies, Series, Sigmas, States
 from cdpr_struct.measurement.campaign_rows import POSE, Rows, length_columns
 
@@ -12,6 +13,10 @@ _SAME_POSE = (1e-9, 1e-9)
 _WHOLE = (
     "one row and value for each cable; where a cell could not be read, leave all cells of that column empty for this "
     "case (what else was read there still counts), or leave the case out"
+)
+_WHOLE_ROW = (
+    "one value for each cable; where one could not be read, leave all of {columns} empty in this row (what else was "
+    "read there still counts), or leave the row out"
 )
 
 
@@ -76,10 +81,10 @@ class Gathering:
             found = self._new(name, pose, payload, sigmas)
             found.temperature, found.time = float(rows.get("temperature_K")[i]), float(rows.get("time_s")[i])
         elif np.abs(found.pose - pose).max() > _SAME_POSE[0] or found.payload != payload:
-            raise InputError(
-                rows.file, f"row {i + 1}, case {name}", [*pose.tolist(), payload],
-                f"the pose and payload given before for this case, {[*found.pose.tolist(), found.payload]}",
-            )  # fmt: skip
+            expected = f"the pose and payload given before for this case, {[*found.pose.tolist(), found.payload]}"
+            if note := angle_note("this file", list(rows.numbers)):
+                expected += f" ({note.removesuffix('.')})"
+            raise InputError(rows.file, f"{rows.place(i)}, case {name}", [*pose.tolist(), payload], expected)
         return found
 
     def _new(self, name: str, pose: np.ndarray, payload: float, sigmas: Sigmas) -> _State:
@@ -115,7 +120,7 @@ class Gathering:
         for i, state in enumerate(states):
             cable = int(rows.numbers["cable"][i]) - 1
             if (state.name, cable) in seen:
-                raise InputError(rows.file, f"row {i + 1}, column cable", cable + 1, f"one row a cable in {state.name}")
+                raise _twice(rows, i, state.name)
             seen.add((state.name, cable))
             state.static = True
             given = own[i] if np.isfinite(own[i]) else None
@@ -125,11 +130,10 @@ class Gathering:
             state.length_sigma[cable] = sigmas.length_m if has_tension else given or sigmas.length_m
             state.approach[cable] = rows.get("approach")[i]
         for state in states:
-            partly = [np.isfinite(a).any() and not np.isfinite(a).all() for a in (state.tension, state.length)]
-            if any(partly):
-                values = state.tension if partly[0] else state.length
-                lacking = (np.flatnonzero(~np.isfinite(values)) + 1).tolist()
-                raise InputError(rows.file, f"case {state.name}", f"no value for cables {lacking}", _WHOLE)
+            for column, values in (("tension_N", state.tension), ("length_m", state.length)):
+                lacking = ~np.isfinite(values)
+                if lacking.any() and not lacking.all():
+                    raise _incomplete(rows, state.name, column, np.flatnonzero(lacking) + 1)
 
     def _loaded(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         own = rows.get("sigma")
@@ -138,7 +142,7 @@ class Gathering:
             state.loaded = True
             if np.isfinite(state.length).all() and np.abs(state.length - length).max() > _SAME_POSE[0]:
                 raise InputError(
-                    rows.file, f"row {i + 1}, case {state.name}", length.tolist(), "the lengths given before"
+                    rows.file, f"{rows.place(i)}, case {state.name}", length.tolist(), "the lengths given before"
                 )
             state.length, state.length_sigma = length, np.full(self.m, sigmas.length_m)
             state.sigma_position = own[i] if np.isfinite(own[i]) else sigmas.position_m
@@ -202,6 +206,22 @@ class Gathering:
         for row, made in self.origins.items():
             origin[row] = made
         return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2], shape, origin)
+
+
+def _twice(rows: Rows, i: int, case: str) -> InputError:
+    """A cable of a case that is given again in row i."""
+    if rows.headings:
+        expected = "one row a pose; give a repeated measurement a case of its own (column case)"
+        return InputError(rows.file, f"{rows.place(i)}, case {case}", "a second row of this case", expected)
+    cable = int(rows.numbers["cable"][i])
+    return InputError(rows.file, f"{rows.place(i)}, column cable", cable, f"one row a cable in {case}")
+
+
+def _incomplete(rows: Rows, case: str, column: str, cables: np.ndarray) -> InputError:
+    """A case in which a quantity was read of some cables only."""
+    columns = rows.headings.get(column)
+    expected = _WHOLE if columns is None else _WHOLE_ROW.format(columns=columns)
+    return InputError(rows.file, f"case {case}", f"no value for cables {cables.tolist()}", expected)
 
 
 def _locks(length: np.ndarray) -> np.ndarray:

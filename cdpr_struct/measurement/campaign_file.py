@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError, not_utf8
+from cdpr_struct.measurement.assumed_angles import angle_note
 from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
@@ -124,6 +125,7 @@ def load_campaign(path: str | Path) -> Campaign:
         lower_bound=table.lower_bound_N,
         checked=table.checked,
         sheets=tuple(sheets),
+        notes=tuple(note for sheet in sheets if (note := angle_note(sheet.file, sheet.columns))),
     )
 
 
@@ -189,7 +191,7 @@ def _check_poses(gathering: Gathering) -> None:
 
 def _sheet(entry: MeasurementTable, rows: Rows, sigmas: Sigmas) -> Sheet:
     stated = {name for name, value in entry.sigma.model_dump().items() if value is not None}
-    return Sheet(entry.kind, entry.file, (*rows.numbers, *rows.words), sigmas, frozenset(stated))
+    return Sheet(entry.kind, entry.file, (*rows.numbers, *rows.words), sigmas, frozenset(stated), rows.headings)
 
 
 def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:

@@ -1,16 +1,21 @@
 """Rows of a measured-data file, checked: columns known and present, numbers finite and in their range."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
-from cdpr_struct.errors import InputError, known_names, not_utf8
+from cdpr_struct.errors import InputError, known_names
+from cdpr_struct.measurement.assumed_angles import ANGLES
+from cdpr_struct.measurement.cable_columns import EITHER, LENGTH, QUANTITIES
+from cdpr_struct.measurement.column_names import renaming
+from cdpr_struct.measurement.data_table import read_table
 from cdpr_struct.measurement.universal_rows import is_universal, universal_columns
+from cdpr_struct.measurement.wide_table import check_wide, headings, is_wide, one_row_a_cable
 from cdpr_struct.robot.robot_file import LARGEST
 
-POSE = ("x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg")
+POSE = ("x_m", "y_m", "z_m", *ANGLES)
 _NEEDED: dict[str, tuple[str, ...]] = {
     "static_state": ("x_m", "y_m", "z_m", "cable"),
     "loaded_pose": ("x_m", "y_m", "z_m"),
@@ -24,9 +29,11 @@ _ALSO: dict[str, tuple[str, ...]] = {
     "static_state": ("tension_N", "length_m"),
     "cable_frequency": ("tension_N", "plane"),
 }
+_WIDE_NEEDED = ("x_m", "y_m", "z_m")  # where a row is a pose
+_WIDE_ALSO = {"static_state": (), "cable_frequency": ("mode", "plane")}
 _ALWAYS = ("case", *POSE, "payload_kg", "sigma", "temperature_K", "approach", "time_s")
 _WORDS = ("case", "respond", "excite", "plane")
-_POSITIVE = ("tension_N", "length_m", "frequency_hz", "sigma", "temperature_K", "mode", "cable")
+_POSITIVE = ("tension", "length", "frequency", "sigma", "temperature", "mode", "cable")  # first words of columns
 COMMENTS = ("comment", "note", "remark")  # columns for people, not read
 HIGHEST = 1e3  # of any frequency [Hz]
 _BLANK_ALLOWED = ("sigma", "temperature_K", "approach", "tension_N", "length_m", "time_s")
@@ -34,15 +41,25 @@ _BLANK_ALLOWED = ("sigma", "temperature_K", "approach", "tension_N", "length_m",
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rows:
-    """A checked table: numbers by column (n,), words by column, and the file it came from."""
+    """A checked table: numbers by column (n,), words by column, and the file it came from.
+
+    row      : n numbers of the file's rows that these are, from 1; () if each is one
+    headings : where a row of the file is a pose: of each column that it has once per cable, these columns in short
+    """
 
     kind: str
     file: str
     numbers: dict[str, np.ndarray]
     words: dict[str, list[str]]
+    row: tuple[int, ...] = ()
+    headings: Mapping[str, str] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(next(iter(self.numbers.values())))
+
+    def place(self, i: int) -> str:
+        """Where row i stands in the file."""
+        return f"row {self.row[i] if self.row else i + 1}"
 
     def get(self, column: str, default: float = np.nan) -> np.ndarray:
         """Column (n,), or the default throughout."""
@@ -53,42 +70,35 @@ class Rows:
 def read_rows(kind: str, path: Path, cables: int) -> Rows:
     """Checked rows of a CSV file of the given kind, for a robot with `cables` cables.
 
+    A file with one row a pose and one column a cable gives the same rows as one with one row a cable.
+
     Raises
     ------
     InputError : file, column or row that cannot be used.
     """
     if is_universal(path):
         return _universal(kind, path)
-    _check_separator(path)
-    try:
-        table = pd.read_csv(path, dtype=str, keep_default_na=False, skipinitialspace=True, comment="#")
-    except UnicodeDecodeError as error:
-        raise not_utf8(str(path), error) from error
-    except OSError as error:
-        raise InputError(str(path), "", path.name, "a CSV file that can be read") from error
-    except pd.errors.ParserError as error:
-        told = str(error).strip().rpartition("error: ")[2]
-        raise InputError(str(path), "", told, "as many values as in the header, decimals with a point") from error
-    except pd.errors.EmptyDataError as error:
-        raise InputError(str(path), "", "an empty file", "a CSV file with a header line") from error
-    if not isinstance(table.index, pd.RangeIndex):
-        row = ", ".join([str(table.index[0]), *table.iloc[0]])
-        raise InputError(
-            str(path), "row 1", row, f"{len(table.columns)} values as in the header, decimals with a point"
-        )
-    table = table.drop(columns=[name for name in table.columns if name in COMMENTS])
-    _check_columns(kind, str(path), list(table.columns), cables)
-    if not len(table):
-        raise InputError(str(path), "", "no rows", "at least one row of data")
-    numbers = {str(c): _numbers(str(path), str(c), table[c]) for c in table.columns if c not in _WORDS}
-    words = {str(c): [str(v).strip() for v in table[c]] for c in table.columns if c in _WORDS}
+    table = read_table(path)
+    names = [name for name in table.names if name not in COMMENTS]
+    _check_columns(kind, str(path), names, cables)
+    table.require_rows()
+    wide = is_wide(kind, names)
+    blank = _blank_allowed(kind, cables, wide)
+    numbers = {c: _numbers(str(path), c, table.column(c), c in blank) for c in names if c not in _WORDS}
+    words = {c: table.column(c) for c in names if c in _WORDS}
     rows = Rows(kind, str(path), numbers, words)
     _check_values(rows, cables)
-    if "case" not in words and kind == "platform_motion":
-        words["case"] = [path.stem] * len(table)
     if "case" not in words:
-        words["case"] = _cases_from_poses(rows)
-    return rows
+        words["case"] = [path.stem] * len(rows) if kind == "platform_motion" else _cases_from_poses(rows)
+    return _long(rows, cables) if wide else rows
+
+
+def _long(rows: Rows, cables: int) -> Rows:
+    numbers, words, source = one_row_a_cable(rows.kind, rows.numbers, rows.words, cables)
+    if not len(source):
+        raise InputError(rows.file, "", "no readings", "at least one reading of a cable")
+    shown = headings(rows.kind, list(rows.numbers), cables)
+    return Rows(rows.kind, rows.file, numbers, words, tuple((source + 1).tolist()), shown)
 
 
 def _universal(kind: str, path: Path) -> Rows:
@@ -102,46 +112,74 @@ def _universal(kind: str, path: Path) -> Rows:
 
 def length_columns(cables: int) -> list[str]:
     """Names of the length columns, one a cable."""
-    return [f"length_{i}_m" for i in range(1, cables + 1)]
-
-
-def _check_separator(path: Path) -> None:
-    with path.open("rb") as file:
-        head = next((line for line in file if not line.startswith(b"#")), b"").decode("utf-8", "replace")
-    for mark, name in ((";", "';'"), ("\t", "tabs")):
-        if mark in head and "," not in head:
-            expected = "columns separated by commas, decimals with a point"
-            raise InputError(str(path), "header", f"columns separated by {name}", expected)
+    return LENGTH.columns(cables)
 
 
 def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> None:
-    lengths = length_columns(cables)
-    needed = [*_NEEDED[kind], *(lengths if kind == "loaded_pose" else [])]
+    known = _known(kind, columns, cables)
     if kind == "free_decay" and "ax" not in columns and "x_m_s2" in columns:
         how = "time_s and x_m_s2, y_m_s2, z_m_s2 as ax, ay, az, and the pose at rest as x_m, y_m, z_m (docs/files.md)"
         raise InputError(source, "x_m_s2", "the motion that `transient` writes", how)
-    for name in needed:
+    check_wide(kind, source, columns, cables)
+    found, how = renaming(columns, known, "" if "cable" in columns else kind, cables)
+    if how:
+        raise InputError(source, "header", found, f"unknown for {kind}; {how}")
+    for name in _needed(kind, columns, cables):
         if name not in columns:
-            raise InputError(source, name, "no such column", f"a {kind} file needs {', '.join(needed)}")
-    known = {*_ALWAYS, *_NEEDED[kind], *_ALSO.get(kind, ()), *lengths}
-    for name in columns:
+            raise InputError(source, name, "no such column", _needs(kind, columns, cables))
+    for number, name in enumerate(columns, start=1):
+        if not name:
+            expected = "a name for each column; pandas writes a nameless one unless to_csv has index=False"
+            raise InputError(source, "header", f"no name for column {number}", expected)
         if name not in known:
-            raise InputError(source, name, "a column", _unknown(kind, name, known))
-    if kind == "static_state" and not {"tension_N", "length_m"} & set(columns):
+            raise InputError(source, name, "a column", _unknown(kind, name, known, cables))
+    if kind == "static_state" and not is_wide(kind, columns) and not {"tension_N", "length_m"} & set(columns):
         raise InputError(source, "tension_N", "no such column", "give tension_N or length_m or both")
 
 
-def _unknown(kind: str, name: str, known: set[str]) -> str:
+def _needed(kind: str, columns: Sequence[str], cables: int) -> tuple[str, ...]:
+    if is_wide(kind, columns):
+        return _WIDE_NEEDED
+    return (*_NEEDED[kind], *(length_columns(cables) if kind == "loaded_pose" else ()))
+
+
+def _needs(kind: str, columns: Sequence[str], cables: int) -> str:
+    text = f"a {kind} file needs {', '.join(_needed(kind, columns, cables))}"
+    if kind not in EITHER or is_wide(kind, columns):
+        return text
+    return f"{text}; or, with one row a pose, {' or '.join(q.span(cables) for q in EITHER[kind])} in place of cable"
+
+
+def _known(kind: str, columns: Sequence[str], cables: int) -> list[str]:
+    """Columns that a file of this kind and form may have."""
+    own = [name for q in QUANTITIES.get(kind, ()) for name in q.columns(cables)]
+    if is_wide(kind, columns):
+        return [*_ALWAYS, *_WIDE_ALSO[kind], *own]
+    known = [*_ALWAYS, *_NEEDED[kind], *_ALSO.get(kind, ()), *length_columns(cables)]
+    return known if "cable" in columns else list(dict.fromkeys([*known, *own]))
+
+
+def _blank_allowed(kind: str, cables: int, wide: bool) -> set[str]:
+    """Columns in which a cell may be empty; of a row that is a pose, each reading of a cable."""
+    own = [name for q in QUANTITIES.get(kind, ()) for name in q.columns(cables)] if wide else []
+    return {*_BLANK_ALLOWED, *own}
+
+
+def _unknown(kind: str, name: str, known: Sequence[str], cables: int) -> str:
     """A column that nothing reads is refused, since it may be a known one misspelt; remarks have names of their own."""
-    return f"unknown for {kind}; {known_names(name, sorted(known))}; remarks go into a column {COMMENTS[0]}"
+    spans = {n: q.span(cables) for q in (*QUANTITIES.get(kind, ()), LENGTH) for n in q.columns(cables)}
+    shown = sorted({spans.get(n, n) for n in known})
+    return f"unknown for {kind}; {known_names(name, sorted(known), shown)}; remarks go into a column {COMMENTS[0]}"
 
 
-def _numbers(source: str, name: str, column: pd.Series) -> np.ndarray:
-    values = np.empty(len(column))
-    for i, text in enumerate(column):
+def _numbers(source: str, name: str, cells: Sequence[str], blank: bool) -> np.ndarray:
+    """Numbers of a column; nan for an empty cell where `blank` ones are allowed."""
+    values = np.empty(len(cells))
+    positive = name.partition("_")[0] in _POSITIVE
+    for i, text in enumerate(cells):
         place = f"row {i + 1}, column {name}"
-        if not str(text).strip():
-            if name in _BLANK_ALLOWED:
+        if not text:
+            if blank:
                 values[i] = np.nan
                 continue
             raise InputError(source, place, "nothing", "a number")
@@ -153,7 +191,7 @@ def _numbers(source: str, name: str, column: pd.Series) -> np.ndarray:
             raise InputError(source, place, text, "a finite number")
         if abs(values[i]) > LARGEST:
             raise InputError(source, place, text, f"a number not above {LARGEST:g}")
-        if (name in _POSITIVE or name.startswith("length_")) and not values[i] > 0.0:
+        if positive and not values[i] > 0.0:
             raise InputError(source, place, text, "a number above zero")
         if name == "payload_kg" and values[i] < 0.0:
             raise InputError(source, place, text, "a mass in kg, zero or more")
@@ -162,14 +200,23 @@ def _numbers(source: str, name: str, column: pd.Series) -> np.ndarray:
 
 def _check_frequencies(rows: Rows) -> None:
     """The model's modes are computed up to the highest peak: at 1e9 Hz there are more than fit into memory."""
-    for i, hertz in enumerate(rows.get("frequency_hz", 0.0)):
-        if hertz > HIGHEST:
-            expected = f"a frequency in Hz, not above {HIGHEST:g}; leave out what lies higher"
-            raise InputError(rows.file, f"row {i + 1}, column frequency_hz", hertz, expected)
+    for name in (name for name in rows.numbers if name.startswith("frequency_")):
+        for i, hertz in enumerate(rows.numbers[name]):
+            if hertz > HIGHEST:
+                expected = f"a frequency in Hz, not above {HIGHEST:g}; leave out what lies higher"
+                raise InputError(rows.file, f"row {i + 1}, column {name}", hertz, expected)
+
+
+def _check_approach(rows: Rows) -> None:
+    for name in (name for name in rows.numbers if name.startswith("approach")):
+        for i, sign in enumerate(rows.numbers[name]):
+            if np.isfinite(sign) and abs(sign) > 1.0:
+                raise InputError(rows.file, f"row {i + 1}, column {name}", sign, "+1 or -1 (0 if neither)")
 
 
 def _check_values(rows: Rows, cables: int) -> None:
     _check_frequencies(rows)
+    _check_approach(rows)
     for name, last in (("cable", cables), ("mode", 50)):
         for i, value in enumerate(rows.numbers.get(name, ())):
             if value != int(value) or not 1 <= value <= last:
@@ -177,9 +224,6 @@ def _check_values(rows: Rows, cables: int) -> None:
     for i, plane in enumerate(rows.words.get("plane", ())):
         if plane not in ("in", "out", ""):
             raise InputError(rows.file, f"row {i + 1}, column plane", plane, "in or out")
-    for i, sign in enumerate(rows.numbers.get("approach", ())):
-        if np.isfinite(sign) and abs(sign) > 1.0:
-            raise InputError(rows.file, f"row {i + 1}, column approach", sign, "+1 or -1 (0 if neither)")
     for name, words in rows.words.items():
         if name != "plane" and "" in words:
             raise InputError(rows.file, f"row {words.index('') + 1}, column {name}", "nothing", "a name")

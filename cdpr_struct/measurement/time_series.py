@@ -4,42 +4,56 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 from cdpr_struct.errors import InputError
-from cdpr_struct.statics.trajectory import Trajectory, through_samples
+from cdpr_struct.measurement.column_names import renaming
+from cdpr_struct.measurement.data_table import DataTable, read_table
+from cdpr_struct.robot.robot_file import LARGEST
 
 ACCELERATION_COLUMNS = ("ax", "ay", "az")
 TRANSIENT_COLUMNS = ("x_m_s2", "y_m_s2", "z_m_s2")  # of transient.csv
-_POSITION, _ANGLES = ("x_m", "y_m", "z_m"), ("rx_deg", "ry_deg", "rz_deg")
 _EVEN = 0.01  # largest relative deviation of a time step from their mean
 _FEWEST_SAMPLES = 64
 
 
-def read_columns(path: Path, required: Sequence[str], optional: Sequence[str] = ()) -> dict[str, np.ndarray]:
-    """Named columns of numbers of a CSV file; other columns are left alone.
+def columns_of(table: DataTable, required: Sequence[str], optional: Sequence[str] = ()) -> dict[str, np.ndarray]:
+    """Named columns of numbers (n,) of a table; those that are optional where they are given, others are left alone.
 
     Raises
     ------
-    InputError : no such file, not a table, a column that is missing, or a cell that is not a finite number.
+    InputError : a column that is missing, another name that is perhaps meant for one, no rows, or a cell that is not a
+                 finite number.
     """
-    try:
-        table = pd.read_csv(path)
-    except (OSError, UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
-        raise InputError(str(path), "", str(error).splitlines()[0], "a CSV file with a header line") from error
-    missing = [name for name in required if name not in table.columns]
+    missing = [name for name in required if name not in table.names]
+    _, how = renaming(table.names, [*required, *optional])
     if missing:
-        raise InputError(str(path), missing[0], "nothing", f"columns {', '.join(required)} are required")
-    names = [*required, *(name for name in optional if name in table.columns)]
-    return {name: _numbers(path, name, table[name]) for name in names}
+        expected = f"column {missing[0]} is missing: " + (how or f"columns {', '.join(required)} are required")
+        raise InputError(table.file, "header", ",".join(table.names), expected)
+    if optional and how:
+        raise InputError(table.file, "header", ",".join(table.names), how)
+    table.require_rows()
+    return {name: _numbers(table, name) for name in (*required, *optional) if name in table.names}
 
 
-def _numbers(path: Path, name: str, column: pd.Series) -> np.ndarray:
-    values = pd.to_numeric(column, errors="coerce").to_numpy(dtype=float)
-    bad = np.flatnonzero(~np.isfinite(values))
+def _numbers(table: DataTable, name: str) -> np.ndarray:
+    cells = table.column(name)
+    try:
+        values = np.array(list(map(float, cells)))
+    except ValueError:
+        values = np.array([_number(cell) for cell in cells])
+    bad = np.flatnonzero(~(np.abs(values) <= LARGEST))
     if len(bad):
-        raise InputError(f"{path}, line {bad[0] + 2}", name, str(column.iloc[int(bad[0])]), "a finite number")
+        place, expected = f"line {table.line[bad[0]]}, {name}", f"a finite number, at most {LARGEST:g} in size"
+        raise InputError(table.file, place, cells[bad[0]], expected)
     return values
+
+
+def _number(cell: str) -> float:
+    """The number that a cell holds, nan if it holds none."""
+    try:
+        return float(cell)
+    except ValueError:
+        return float("nan")
 
 
 def read_accelerations(path: Path) -> tuple[np.ndarray, np.ndarray]:
@@ -47,10 +61,11 @@ def read_accelerations(path: Path) -> tuple[np.ndarray, np.ndarray]:
 
     Raises
     ------
-    InputError : as `read_columns`; or uneven or too few instants.
+    InputError : as `read_table` and `columns_of`; or uneven or too few instants.
     """
-    names = TRANSIENT_COLUMNS if _is_transient(path) else ACCELERATION_COLUMNS
-    columns = read_columns(path, ("time_s", *names))
+    table = read_table(path)
+    names = TRANSIENT_COLUMNS if _is_transient(table.names) else ACCELERATION_COLUMNS
+    columns = columns_of(table, ("time_s", *names))
     time = columns["time_s"]
     if len(time) < _FEWEST_SAMPLES:
         raise InputError(str(path), "time_s", f"{len(time)} rows", f"at least {_FEWEST_SAMPLES} instants")
@@ -58,36 +73,11 @@ def read_accelerations(path: Path) -> tuple[np.ndarray, np.ndarray]:
     mean = (time[-1] - time[0]) / len(steps)
     worst = int(np.abs(steps - mean).argmax())
     if not (mean > 0.0 and abs(steps[worst] - mean) <= _EVEN * mean):
-        raise InputError(
-            f"{path}, line {worst + 3}", "time_s", f"a step of {steps[worst]:.6g} s", f"even steps, here {mean:.6g} s"
-        )
+        place = f"line {table.line[worst + 1]}, time_s"
+        raise InputError(str(path), place, f"a step of {steps[worst]:.6g} s", f"even steps, here {mean:.6g} s")
     return time, np.stack([columns[name] for name in names], axis=1)
 
 
-def _is_transient(path: Path) -> bool:
-    """Whether the header is that of a file which `transient` wrote; False also if there is none to read."""
-    try:
-        with path.open(encoding="utf-8") as lines:
-            header = [name.strip() for name in lines.readline().split(",")]
-    except (OSError, UnicodeDecodeError):
-        return False
-    return set(TRANSIENT_COLUMNS) <= set(header) and not set(ACCELERATION_COLUMNS) & set(header)
-
-
-def read_trajectory(path: Path) -> Trajectory:
-    """Nominal motion from columns time_s, x_m, y_m, z_m and optionally rx_deg, ry_deg, rz_deg.
-
-    Raises
-    ------
-    InputError : as `read_columns`; or times that do not ascend, or fewer than four instants.
-    """
-    columns = read_columns(path, ("time_s", *_POSITION), _ANGLES)
-    time = columns["time_s"]
-    if len(time) < 4:
-        raise InputError(str(path), "time_s", f"{len(time)} rows", "at least four instants")
-    back = np.flatnonzero(~(np.diff(time) > 0.0))
-    if len(back):
-        raise InputError(f"{path}, line {back[0] + 3}", "time_s", time[back[0] + 1], "times that ascend")
-    zero = np.zeros(len(time))
-    angles = np.radians(np.stack([columns.get(name, zero) for name in _ANGLES], axis=1))
-    return through_samples(time, np.stack([columns[name] for name in _POSITION], axis=1), angles)
+def _is_transient(names: Sequence[str]) -> bool:
+    """Whether a header is that of a file which `transient` wrote."""
+    return set(TRANSIENT_COLUMNS) <= set(names) and not set(ACCELERATION_COLUMNS) & set(names)

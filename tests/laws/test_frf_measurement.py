@@ -8,7 +8,8 @@ from cdpr_struct.dynamics.frequency_response import FrequencyResponse
 from cdpr_struct.dynamics.ports import CablePort, platform_port
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.spectrogram import dominant_frequency, spectrogram
-from cdpr_struct.measurement.time_series import read_accelerations, read_trajectory
+from cdpr_struct.measurement.time_series import read_accelerations
+from cdpr_struct.measurement.trajectory_file import read_trajectory
 from cdpr_struct.measurement.universal_file import response_unit, universal_file
 
 X, Y, Z = np.eye(3)

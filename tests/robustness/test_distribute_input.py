@@ -27,7 +27,7 @@ def complaint(arguments, capsys, tmp_path) -> str:
         (GOOD.replace(",1.1", ""), ["line 3", "z_m"]),
         (GOOD.replace("2,0,0,1.2", "1,0,0,1.2"), ["line 4", "time_s", "1.0", "ascend"]),
         (GOOD.replace("y_m", "y"), ["header", "y_m is missing"]),
-        (GOOD.replace("z_m", "z_m,rx_deg"), ["ry_deg is missing"]),
+        (GOOD.replace("z_m", "z_m,rx_deg"), ["line 2", "rx_deg"]),
         (HEADER, ["no rows"]),
         ("", ["empty file"]),
         ("\x00\xff", ["header"]),
