@@ -1,13 +1,13 @@
 """`cdpr-struct audit`: the cables against the printed validity limits, or the limits themselves on trial."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import rest
+from cdpr_struct.cli.operating_point import rest, state_warnings
 from cdpr_struct.cli.options import (
     GridText,
     Lengths,
@@ -75,25 +75,25 @@ def run(
     if small:
         raise InputError("--small", "", small, "it belongs to --limits; leave it out")
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
-    audit, poses, time = _audit(machine, ways, output)
-    return _report(audit, machine, (poses, time), output)
+    return _audit(machine, ways, output)
 
 
-def _audit(
-    machine: "Robot", ways: Mapping[str, str | None], output: Output
-) -> "tuple[PoseAudit, Grid | None, np.ndarray | None]":
-    """The audit where the options say, and the grid or the times that its poses are ordered by."""
+def _audit(machine: "Robot", ways: Mapping[str, str | None], output: Output) -> int:
+    """The audit where the options say, reported over the grid or the times that its poses are ordered by."""
     if (text := ways["--grid"]) is not None:
         poses = read_grid(text)
-        return _at_poses(machine, poses.positions, poses.rotation, output), poses, None
+        audit = _at_poses(machine, poses.positions, poses.rotation, output)
+        return _report(audit, machine, output, grid=poses)
     if (text := ways["--trajectory"]) is not None:
         from cdpr_struct.cli.trajectory_input import read_trajectory
 
-        path = read_trajectory(text, _INSTANTS if text == "helix" or text.startswith("line:") else None)
-        return _at_poses(machine, path.position, path.rotation, output), None, path.time
+        path, assumed = read_trajectory(text, _INSTANTS if text == "helix" or text.startswith("line:") else None)
+        audit = _at_poses(machine, path.position, path.rotation, output)
+        return _report(audit, machine, output, time=path.time, warnings=assumed)
     from cdpr_struct.crosscheck.limits_poses import audit_rest
 
-    return audit_rest(rest(machine, ways["--pose"], ways["--lengths"])), None, None
+    point = rest(machine, ways["--pose"], ways["--lengths"])
+    return _report(audit_rest(point), machine, output, warnings=state_warnings(point, ways["--lengths"]))
 
 
 def _at_poses(machine: "Robot", position: "np.ndarray", rotation: "np.ndarray", output: Output) -> "PoseAudit":
@@ -104,16 +104,22 @@ def _at_poses(machine: "Robot", position: "np.ndarray", rotation: "np.ndarray", 
 
 
 def _report(
-    audit: "PoseAudit", machine: "Robot", order: "tuple[Grid | None, np.ndarray | None]", output: Output
+    audit: "PoseAudit",
+    machine: "Robot",
+    output: Output,
+    grid: "Grid | None" = None,
+    time: "np.ndarray | None" = None,
+    warnings: Sequence[str] = (),
 ) -> int:
     from cdpr_struct.reports.audit_result import audit_json, audit_text
 
     def files() -> Files:
         from cdpr_struct.reports.audit_page import audit_files
 
-        return audit_files(audit, *order)
+        return audit_files(audit, grid, time)
 
-    result = with_extensions(audit_json(audit, order[1]), machine, NAME)
+    told = audit_json(audit, time) | {"warnings": list(warnings)}
+    result = with_extensions(told, machine, NAME)
     output.deliver(result, lambda: audit_text(audit), files)
     return 0 if result["valid"] else 1
 

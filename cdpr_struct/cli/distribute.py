@@ -79,7 +79,7 @@ def run(
         raise InputError("--model", "", model, f"one of: {', '.join(MODELS)}")
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
     price = _cost(cost, weights, power, machine)
-    path = read_trajectory(trajectory, instants)
+    path, assumed = read_trajectory(trajectory, instants)
     path.require_within(max_speed, max_acceleration)
     from cdpr_struct.dynamics.trajectory_distribution import distribute_along
     from cdpr_struct.reports.distribution_result import distribution_json
@@ -90,7 +90,8 @@ def run(
         for rule in rules:
             progress(f"{rule} bound")
             found.append(distribute_along(machine, path, rule, b, longest=longest, cost=price, model=model))
-    result = with_extensions(distribution_json(found[0], found[1:]), machine, NAME, model)
+    told = distribution_json(found[0], found[1:]) | {"warnings": assumed}
+    result = with_extensions(told, machine, NAME, model)
 
     def files() -> Files:
         from cdpr_struct.reports.distribution_page import distribution_files

@@ -40,12 +40,15 @@ def run(
 
     require_metres(length, machine)
     from cdpr_struct.reports import statics_rest as report
+    from cdpr_struct.statics.bound_advice import outside_limits
     from cdpr_struct.statics.forward_kinematics import forward
 
     origin = None if start is None and machine.home is None else read_pose(start, machine, "--start")
     first: tuple[Any, Any] = (None, None) if origin is None else (origin.position, origin.rotation)
     solution = forward(machine, length, *first, chosen).require_converged()
-    result = with_extensions(report.forward_json(machine, chosen, length, solution), machine, NAME, chosen)
+    told = report.forward_json(machine, chosen, length, solution)
+    told |= {"warnings": outside_limits(machine, solution.tensions)}
+    result = with_extensions(told, machine, NAME, chosen)
     output.deliver(result, lambda: report.forward_text(result), lambda: report.forward_files(machine, solution, result))
     return 0 if result["stable"] else 1
 

@@ -5,6 +5,7 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.extension_notes import with_extensions
+from cdpr_struct.cli.operating_point import held
 from cdpr_struct.cli.options import (
     LowerBound,
     Mass,
@@ -47,10 +48,13 @@ def run(
     where = read_pose(pose, machine)
     extra = None if wrench is None else read_numbers(wrench, "--wrench", (6,), "numbers in N and N m")
     from cdpr_struct.reports import statics_rest as report
-    from cdpr_struct.statics.inverse_kinematics import inverse
+    from cdpr_struct.statics.bound_advice import slack_warning
 
-    solution = inverse(machine, where.position, where.rotation, chosen, extra)
-    result = with_extensions(report.inverse_json(machine, chosen, where, solution), machine, NAME, chosen)
+    solution = held(machine, where, chosen, extra)
+    told = report.inverse_json(machine, chosen, where, solution)
+    slack = slack_warning(machine, where.position, where.rotation, solution.cables, extra)
+    told |= {"warnings": [] if slack is None else [slack]}
+    result = with_extensions(told, machine, NAME, chosen)
     output.deliver(
         result, lambda: report.inverse_text(result), lambda: report.inverse_files(machine, where, solution, result)
     )

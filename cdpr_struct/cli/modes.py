@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import pose_in_degrees, rest
+from cdpr_struct.cli.operating_point import advised, pose_in_degrees, rest, state_warnings
 from cdpr_struct.cli.options import (
     AssemblyName,
     Lengths,
@@ -61,7 +61,8 @@ def run(
     point = rest(machine, pose, lengths)
     if name == "dsm" and not force:
         require_validity(point)
-    found = robot_modes(point, name, min(count, 6) if name == "static" else count, way, elements)
+    with advised(point, lengths):
+        found = robot_modes(point, name, min(count, 6) if name == "static" else count, way, elements)
     result = {
         "robot": machine.name,
         "pose": pose_in_degrees(point),
@@ -72,6 +73,7 @@ def run(
         "kinds": found.kinds(),
         "platform_energy": found.platform_energy,
         "tensions_N": point.cables.tension_at_platform,
+        "warnings": state_warnings(point, lengths),
         "lengths_m": RobotArrays.of(machine).reading(point.cables.total_length),
     }
     result = with_extensions(result, machine, NAME, name)

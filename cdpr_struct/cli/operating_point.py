@@ -1,15 +1,19 @@
 """From the options of a command to the robot at rest: at a pose that it holds, or at locked cable lengths."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cdpr_struct.cli.options import read_numbers, read_pose
-from cdpr_struct.errors import CdprError, InputError
+from cdpr_struct.errors import CdprError, ConvergenceError, InputError, UnholdablePoseError, UnstableEquilibriumError
 
 if TYPE_CHECKING:
     from cdpr_struct.dynamics.operating_point import OperatingPoint
+    from cdpr_struct.robot.pose import Pose
     from cdpr_struct.robot.robot import Robot
+    from cdpr_struct.statics.inverse_kinematics import InverseSolution
 
 
 def rest(robot: "Robot", pose: str | None, lengths: str | None) -> "OperatingPoint":
@@ -25,20 +29,62 @@ def rest(robot: "Robot", pose: str | None, lengths: str | None) -> "OperatingPoi
     InputError : both given, or an unusable number.
     CdprError : the pose cannot be held, or the lengths lead to no stable equilibrium.
     """
+    from cdpr_struct.dynamics.operating_point import OperatingPoint
+
     if lengths is None:
-        return _held(robot, pose)
+        where = read_pose(pose, robot)
+        return OperatingPoint(robot, where.position, where.rotation, held(robot, where).cables)
     if pose is not None:
         raise InputError("--lengths", "", lengths, "give either --pose or --lengths, not both")
     return _locked(robot, lengths)
 
 
-def _held(robot: "Robot", pose: str | None) -> "OperatingPoint":
-    from cdpr_struct.dynamics.operating_point import OperatingPoint
+def held(
+    robot: "Robot", where: "Pose", model: str = "sagging", external_wrench: "list[float] | None" = None
+) -> "InverseSolution":
+    """Tensions and lengths that hold a pose; a refusal that another lower bound would cure names the bound.
+
+    Raises
+    ------
+    CdprError : the pose cannot be held, or the search for tensions was cut short.
+    """
+    from cdpr_struct.statics.bound_advice import bound_hint
     from cdpr_struct.statics.inverse_kinematics import inverse
 
-    where = read_pose(pose, robot)
-    solution = inverse(robot, where.position, where.rotation, model="sagging")
-    return OperatingPoint(robot, where.position, where.rotation, solution.cables)
+    try:
+        return inverse(robot, where.position, where.rotation, model, external_wrench)
+    except (UnholdablePoseError, ConvergenceError) as error:
+        hint = bound_hint(robot, where.position, where.rotation, external_wrench)
+        if not hint:
+            raise
+        raise CdprError(str(error) + hint) from error
+
+
+@contextmanager
+def advised(point: "OperatingPoint", lengths: str | None) -> Iterator[None]:
+    """Work about a state of rest; should it be unstable where a lower bound would cure it, the message names the bound.
+
+    lengths : text of --lengths; locked lengths are what they are, so no bound is named
+    """
+    try:
+        yield
+    except UnstableEquilibriumError as error:
+        from cdpr_struct.statics.bound_advice import bound_hint
+
+        hint = "" if lengths is not None else bound_hint(point.robot, point.position, point.rotation)
+        raise CdprError(f"{error}.{hint}" if hint else str(error)) from error
+
+
+def state_warnings(point: "OperatingPoint", lengths: str | None) -> list[str]:
+    """Sentences on cables that hang slack, and on locked cables outside the robot's force limits."""
+    from cdpr_struct.statics.bound_advice import outside_limits, slack_warning
+    from cdpr_struct.statics.slack_cables import hangs_slack, slack_sentence
+
+    if lengths is None:
+        said = slack_warning(point.robot, point.position, point.rotation, point.cables)
+        return [] if said is None else [said]
+    slack = slack_sentence(hangs_slack(point.cables))
+    return [*([] if slack is None else [f"{slack}."]), *outside_limits(point.robot, point.cables.tension_at_platform)]
 
 
 def _locked(robot: "Robot", text: str) -> "OperatingPoint":

@@ -29,7 +29,7 @@ def run(
     entered = load_campaign(campaign)
     with output.steps(STEPS) as progress:
         found = planned(entered, progress)
-    result = with_extensions(plan_json(found), entered.robot, NAME)
+    result = with_extensions(plan_json(found) | {"warnings": list(entered.notes)}, entered.robot, NAME)
 
     def files() -> Files:
         from cdpr_struct.reports.plan_page import plan_files

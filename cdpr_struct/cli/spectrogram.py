@@ -7,7 +7,7 @@ import typer
 
 from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_valid
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import rest
+from cdpr_struct.cli.operating_point import advised, rest, state_warnings
 from cdpr_struct.cli.options import Lengths, LowerBound, Mass, Payload, PoseText, UpperBound, number, read_robot
 from cdpr_struct.cli.output import Output
 from cdpr_struct.errors import InputError
@@ -53,7 +53,9 @@ def run(
     require_valid(cable_model, point, force)
     from cdpr_struct.reports.transient_measured import measured_files, measured_json, measured_text
 
-    result = measured_json(time, acceleration, point, cable_model, highest)
+    with advised(point, lengths):
+        result = measured_json(time, acceleration, point, cable_model, highest)
+    result |= {"warnings": state_warnings(point, lengths)}
     result = with_extensions(result, machine, NAME, cable_model)
     output.deliver(result, lambda: measured_text(result), lambda: measured_files(time, acceleration, result, window))
     return 0

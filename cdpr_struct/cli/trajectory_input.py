@@ -17,33 +17,28 @@ MOST_INSTANTS = 1_000_000
 SHORTEST = 1e-6  # s, of a line
 
 
-def read_trajectory(text: str, instants: int | None, fewest: int = 1) -> "Trajectory":
-    """Trajectory of --trajectory, sampled at `instants` (default: 3001 for built-in ones, the file's own rows).
+def read_trajectory(text: str, instants: int | None, fewest: int = 1) -> tuple["Trajectory", list[str]]:
+    """Trajectory of --trajectory, and sentences on what was assumed where a file says nothing.
 
-    fewest : instants that a file must have
+    instants : default 3001 for built-in ones, the file's own rows;  fewest : rows that a file must have
 
     Raises
     ------
     InputError : not one of the forms, or a file with unusable rows.
     """
-    return read_noted_trajectory(text, instants, fewest)[0]
-
-
-def read_noted_trajectory(text: str, instants: int | None, fewest: int = 1) -> tuple["Trajectory", tuple[str, ...]]:
-    """As `read_trajectory`, with what was assumed where a file says nothing, in sentences for a person."""
     from cdpr_struct.statics.trajectory import helix, straight_line
 
     if instants is not None and not 2 <= instants <= MOST_INSTANTS:
         raise InputError("--instants", "", instants, f"give a number from 2 to {MOST_INSTANTS}")
     if text == "helix":
-        return helix(instants or 3001), ()
+        return helix(instants or 3001), []
     if text.startswith("line:"):
         start, end, seconds = _line(text)
-        return straight_line(start, end, seconds, instants or 3001), ()
+        return straight_line(start, end, seconds, instants or 3001), []
     if instants is not None:
         raise InputError("--instants", "", instants, "a trajectory file has its own instants, leave the option out")
     found = _from_file(Path(text), fewest)
-    return found.trajectory, found.notes
+    return found.trajectory, list(found.notes)
 
 
 def _line(text: str) -> tuple["Pose", "Pose", float]:

@@ -8,7 +8,7 @@ from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_va
 from cdpr_struct.cli.damping_option import DampingText, read_damping
 from cdpr_struct.cli.degrees_of_freedom import FrameName, PointText, read_ports
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import rest
+from cdpr_struct.cli.operating_point import advised, rest, state_warnings
 from cdpr_struct.cli.options import (
     AssemblyName,
     Lengths,
@@ -24,6 +24,7 @@ from cdpr_struct.cli.options import (
     read_robot,
 )
 from cdpr_struct.cli.output import Files, Output
+from cdpr_struct.cli.trajectory_input import read_trajectory
 from cdpr_struct.errors import InputError
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ EXAMPLES = (
     "cdpr-struct transient thesis-3-1 --initial-velocity 0,0,0.2 --duration 3 --highest 10 --damping viscous:0.005",
 )
 _MOST_SAMPLES = 2_000_000
+_FEWEST = 4  # rows of a trajectory file, for the rates of its accelerations
 
 
 def run(
@@ -83,7 +85,7 @@ def run(
     cable_model, way = read_model(model), read_assembly(assembly)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
     law = read_damping(damping, machine, cable_model == "static")
-    motion = None if trajectory is None else read_motion(trajectory)
+    motion, assumed = (None, []) if trajectory is None else read_trajectory(trajectory, None, _FEWEST)
     seconds = _duration(duration, motion)
     if not 0.0 < highest * seconds * 8.0 < _MOST_SAMPLES:
         raise InputError("--highest", "", highest, f"above zero, with at most {_MOST_SAMPLES} samples (8 per period)")
@@ -101,7 +103,7 @@ def run(
     from cdpr_struct.reports.transient_text import transient_text
 
     vibrating = VibratingRobot(point, cable_model, law, highest, way)
-    with output.steps(1) as progress:
+    with output.steps(1) as progress, advised(point, lengths):
         progress("modes and motion")
         if motion is None:
             record = vibrating.after_stop(_twist(initial_velocity or ""), ports, seconds)
@@ -109,6 +111,7 @@ def run(
             record = vibrating.along(motion, ports, seconds)
     described = {"damping": damping, "frame": frame, "at_m": at or "0,0,0", "assembly": way}
     result = transient_json(record, {**described, "command": output.words})
+    result |= {"warnings": [*assumed, *state_warnings(point, lengths)]}
     result = with_extensions(result, machine, NAME, cable_model)
 
     def files() -> Files:
@@ -118,13 +121,6 @@ def run(
 
     output.deliver(result, lambda: transient_text(result), files)
     return 0
-
-
-def read_motion(text: str) -> "Trajectory":
-    """The nominal motion that --trajectory names; a file needs four instants, for the rates of its accelerations."""
-    from cdpr_struct.cli.trajectory_input import read_trajectory
-
-    return read_trajectory(text, None, fewest=4)
 
 
 def _twist(text: str) -> "np.ndarray":

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import pose_in_degrees, rest
+from cdpr_struct.cli.operating_point import advised, pose_in_degrees, rest, state_warnings
 from cdpr_struct.cli.options import (
     AssemblyName,
     Lengths,
@@ -66,8 +66,10 @@ def run(
 
     with output.steps(len(counts) + 2) as progress:
         point = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths)
-        trial = verify(point, counts, modes, way, Criteria(relative_error=tolerance), progress)
-    result = with_extensions(verification_json(trial, pose_in_degrees(point)), machine, NAME)
+        with advised(point, lengths):
+            trial = verify(point, counts, modes, way, Criteria(relative_error=tolerance), progress)
+    told = verification_json(trial, pose_in_degrees(point)) | {"warnings": state_warnings(point, lengths)}
+    result = with_extensions(told, machine, NAME)
 
     def files() -> Files:
         from cdpr_struct.reports.verification_page import verification_files

@@ -22,7 +22,6 @@ from cdpr_struct.reports.transient_measured import measured_files, measured_json
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot_file import load_robot
 
-COMMAND = "cdpr-struct command 'a name' --pose=0,0,0.5 --out=DIR"
 NAMES = ("thesis-3-1", "thesis-5")
 
 
@@ -94,11 +93,11 @@ def robots_of():
 def make(thesis_point, modes_of, measured_of):
     """Per command, a function that makes its files."""
     return {
-        "modes": lambda: modes_files(thesis_point, modes_of, COMMAND),
-        "spectrogram": lambda: measured_files(*record(), measured_of, None, COMMAND),
-        "plan": lambda: plan_files(plan_result(), COMMAND),
-        "derive": lambda: derive_files(derive_result(), COMMAND),
-        "robots": lambda: robots_files(*robots_of(), COMMAND),
+        "modes": lambda: modes_files(thesis_point, modes_of),
+        "spectrogram": lambda: measured_files(*record(), measured_of, None),
+        "plan": lambda: plan_files(plan_result()),
+        "derive": lambda: derive_files(derive_result()),
+        "robots": lambda: robots_files(*robots_of()),
     }
 
 
@@ -133,7 +132,6 @@ def test_page_is_whole_and_loads_nothing(command, made, read_page):
     files = made[command]
     page = read_page(files["report.html"])
     assert page.foreign == []
-    assert page.text.endswith(f"Reproduce {COMMAND}") or f"Reproduce {COMMAND}" in page.text
     assert page.values("figure", "id") == FIGURES[command]
     for name in FIGURES[command]:
         picture = files[f"{name}.svg"]
@@ -226,7 +224,7 @@ def test_cables_that_differ_have_no_common_stiffness():
     stiffer = dataclasses.replace(robot.cables[0], axial_stiffness=3e5)
     mixed = dataclasses.replace(robot, cables=(stiffer, *robot.cables[1:]))
     _, rows = robots_of()
-    files = robots_files([mixed], rows[:1], COMMAND)
+    files = robots_files([mixed], rows[:1])
     table = pd.read_csv(io.StringIO(files["robots.csv"]))
     assert np.isnan(table["axial_stiffness_N"][0])
     assert table["linear_density_kg_m"][0] == 0.067
@@ -235,7 +233,7 @@ def test_cables_that_differ_have_no_common_stiffness():
 
 @pytest.mark.parametrize(("certified", "colour"), [(True, "holds"), (False, "fails")])
 def test_modes_page_says_whether_the_count_is_certified(certified, colour, thesis_point, modes_of, read_page):
-    page = read_page(modes_files(thesis_point, {**modes_of, "count_certified": certified}, COMMAND)["report.html"])
+    page = read_page(modes_files(thesis_point, {**modes_of, "count_certified": certified})["report.html"])
     assert [c for c in page.values("section", "class") if c.startswith("verdict")] == [f"verdict {colour}"]
     assert ("the count is certified" in page.text) is certified
     first = next(f for f, kind in zip(modes_of["frequencies_hz"], modes_of["kinds"], strict=True) if kind == "platform")
@@ -254,20 +252,20 @@ def test_ladder_shows_every_mode_in_the_colour_of_its_kind(made, modes_of):
 def test_ladder_of_a_single_mode_can_be_drawn(thesis_point, modes_of):
     lists = ("frequencies_hz", "platform_energy", "kinds")
     one = {key: value[:1] if key in lists else value for key, value in modes_of.items()}
-    files = modes_files(thesis_point, one, COMMAND)
+    files = modes_files(thesis_point, one)
     assert "The first eigenfrequency is 2.483 Hz" in files["report.html"]
 
 
 def test_spectrogram_page_claims_no_more_than_the_record_resolves(thesis_point, measured_of, read_page):
     """4 s resolve 0.25 Hz: a tone at 3.4 Hz may be the mode at 3.43 Hz. The table begins with the nearest mode."""
-    page = read_page(measured_files(*record(), measured_of, None, COMMAND)["report.html"])
+    page = read_page(measured_files(*record(), measured_of, None)["report.html"])
     assert "closer than the record resolves (0.25 Hz)" in page.text
     hertz, kinds = np.asarray(measured_of["natural_frequencies_hz"]), measured_of["kinds"]
     nearest = int(np.abs(hertz - measured_of["dominant_hz"]).argmin())
     assert f"kind {nearest + 1} {hertz[nearest]:.4f} " in page.text
     assert kinds[nearest] == "platform"
     far = measured_json(*record(1.0), thesis_point, "exact", 12.0)
-    page = read_page(measured_files(*record(1.0), far, None, COMMAND)["report.html"])
+    page = read_page(measured_files(*record(1.0), far, None)["report.html"])
     assert re.search(r"2\.483 Hz \(cables\), 60 % higher\.", page.text)  # 1 - 1.0 / 2.483
 
 
@@ -275,7 +273,7 @@ def test_a_dead_record_has_no_nearest_mode(thesis_point, read_page):
     time, acceleration = record()
     dead = measured_json(time, 0.0 * acceleration, thesis_point, "exact", 12.0)
     assert np.isnan(dead["nearest_mode_hz"])
-    page = read_page(measured_files(time, 0.0 * acceleration, dead, None, COMMAND)["report.html"])
+    page = read_page(measured_files(time, 0.0 * acceleration, dead, None)["report.html"])
     assert "holds no vibration" in page.text
 
 
@@ -297,7 +295,7 @@ def test_plan_page_shows_sizes_pairs_and_gains(made, read_page):
 
 
 def test_plan_without_confusion_has_a_page_without_figures(read_page):
-    files = plan_files({**plan_result(), "confusable": [], "confusable_nats": [], "next": []}, COMMAND)
+    files = plan_files({**plan_result(), "confusable": [], "confusable_nats": [], "next": []})
     assert {name for name in files if name.endswith(".svg")} == set()
     assert "would confuse no two causes" in read_page(files["report.html"]).text
     assert files["confusable.csv"] == "cause,taken_for,nats\n"
@@ -305,7 +303,7 @@ def test_plan_without_confusion_has_a_page_without_figures(read_page):
 
 def test_derive_page_shows_what_differs(read_page):
     diff = "--- committed/a.py\n+++ fresh/a.py\n@@ -1 +1 @@\n-k < 1\n+k > 1\n"
-    files = derive_files(derive_result(diff, ["cable.k_xx: 1e-9"]), COMMAND)
+    files = derive_files(derive_result(diff, ["cable.k_xx: 1e-9"]))
     page = read_page(files["report.html"])
     assert files["changes.diff"] == diff
     assert "1 file differs from what the derivations give: a.py." in page.text
@@ -327,7 +325,7 @@ def test_robot_that_its_cables_do_not_hold_is_drawn_without_tensions(read_page):
     robots, rows = robots_of()
     outside = dataclasses.replace(robots[0], home=Pose(np.array([20.0, 0.0, 0.5]), np.zeros(3)))
     homeless = dataclasses.replace(robots[0], home=None, name="homeless")
-    files = robots_files([outside, homeless], [rows[0], {**rows[0], "name": "homeless"}], COMMAND)
+    files = robots_files([outside, homeless], [rows[0], {**rows[0], "name": "homeless"}])
     text = read_page(files["report.html"]).text
     assert "At its home pose, (20, 0, 0.5) m" in text
     assert "Geometry only" in text

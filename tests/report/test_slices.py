@@ -13,8 +13,6 @@ from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.pose_error_map import PARTS, PoseErrorMap
 
-COMMAND = ["cdpr-struct", "map", "--grid=a b"]
-
 
 def grid(nx, ny, nz) -> Grid:
     return Grid(np.arange(nx) * 1.0, np.arange(ny) * 0.5, np.arange(nz) * 0.25, np.zeros(3))
@@ -98,7 +96,7 @@ def test_any_values_can_be_drawn(values):
 def test_map_page_says_which_slices_it_shows(read_page):
     over = grid(13, 13, 13)
     columns = {"sag_max_mm": value_of(over) + 1.0, "held": np.ones(over.size, bool)}
-    page = read_page(map_files(load_robot("thesis-3-1"), "sag-max", over, columns, COMMAND)["report.html"])
+    page = read_page(map_files(load_robot("thesis-3-1"), "sag-max", over, columns)["report.html"])
     assert "7 of 13 slices, at z = 0, 0.5, 1, 1.5, 2, 2.5, 3 m; all on one colour scale" in page.text
     assert page.values("figure", "id") == ["map"]
     assert page.foreign == []
@@ -112,14 +110,14 @@ def test_pose_error_over_three_axes_has_a_row_a_slice():
     assert picture.count(">[mm]<") == 3
     assert UNHELD in picture
     assert "4 values of z, z = 0 to 0.75 m; all on one colour scale in each column" in pose_error_caption(errors)
-    files = pose_error_files(load_robot("thesis-3-1"), errors, None, COMMAND)
+    files = pose_error_files(load_robot("thesis-3-1"), errors, None)
     assert set(files) == {"pose_error.csv", "pose_error.svg", "report.html"}
 
 
 def test_page_of_a_single_pose_says_its_value_once(read_page):
     over = grid(1, 1, 1)
     columns = {"sag_max_mm": np.array([12.5]), "held": np.ones(1, bool)}
-    files = map_files(load_robot("thesis-3-1"), "sag-max", over, columns, COMMAND)
+    files = map_files(load_robot("thesis-3-1"), "sag-max", over, columns)
     page = read_page(files["report.html"])
     assert set(files) == {"map.csv", "report.html"}
     assert "Largest sag at (0, 0, 0) m: 12.5 mm." in page.text
@@ -128,7 +126,7 @@ def test_page_of_a_single_pose_says_its_value_once(read_page):
 
 
 def test_pose_error_of_a_single_pose_has_its_components(read_page):
-    files = pose_error_files(load_robot("thesis-3-1"), error_map(grid(1, 1, 1)), None, COMMAND)
+    files = pose_error_files(load_robot("thesis-3-1"), error_map(grid(1, 1, 1)), None)
     page = read_page(files["report.html"])
     assert "The platform hangs 3000.00 mm too low" in page.text
     assert "average" not in page.text
