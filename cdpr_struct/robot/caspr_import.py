@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from cdpr_struct.errors import InputError
+from cdpr_struct.robot.caspr_cables import CableEnds, cable_ends
 from cdpr_struct.robot.caspr_xml import attribute, child, numbers, parse, value
 from cdpr_struct.robot.pose import angles_from_rotation
 
@@ -54,15 +55,6 @@ class _Body:
     home: np.ndarray | None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _CableEnds:
-    frame: np.ndarray
-    platform: np.ndarray
-    stiffness: float | None
-    force_min: float
-    force_max: float | None
-
-
 def import_caspr(bodies: str, cables: str, bodies_name: str, cables_name: str, choices: Choices) -> ImportedRobot:
     """Robot file of a CASPR model with one platform.
 
@@ -77,7 +69,8 @@ def import_caspr(bodies: str, cables: str, bodies_name: str, cables_name: str, c
     """
     warnings: list[str] = []
     body = _body(parse(bodies, bodies_name), bodies_name, choices, warnings)
-    ends = _cables(parse(cables, cables_name), cables_name, choices, body.center, warnings)
+    root = parse(cables, cables_name)
+    ends = cable_ends(root, cables_name, choices.cable_set, body.center, warnings)
     stiffness = _stiffness(ends, choices, warnings)
     if choices.linear_density is None:
         warnings.append(
@@ -203,57 +196,7 @@ def _rotation_xyz(angles: np.ndarray) -> np.ndarray:
 # ---- cables
 
 
-def _cables(
-    root: ElementTree.Element, source: str, choices: Choices, center: np.ndarray, warnings: list[str]
-) -> list[_CableEnds]:
-    sets = root.findall("cable_set")
-    known = [s.get("id") or "" for s in sets]
-    wanted = choices.cable_set or root.get("default_cable_set") or (known[0] if known else "")
-    if wanted not in known:
-        place = "--cable-set" if choices.cable_set else source
-        raise InputError(place, "", wanted, f"a cable set of the file: {', '.join(known) or 'it has none'}")
-    elements = list(sets[known.index(wanted)])
-    if not elements:
-        raise InputError(source, f"cable_set {wanted}", "no cables", "at least one cable")
-    if len(sets) > 1:
-        warnings.append(f"cable set {wanted!r} of {', '.join(known)}.")
-    return [_one_cable(element, source, f"cable {i}", center) for i, element in enumerate(elements, start=1)]
-
-
-def _one_cable(element: ElementTree.Element, source: str, label: str, center: np.ndarray) -> _CableEnds:
-    reference = attribute(element, "attachment_reference", source, ("joint", "com"))
-    ends: dict[int, np.ndarray] = {}
-    attachments = element.findall("attachments/*")
-    for attachment in attachments:
-        if attachment.tag != "attachment":
-            raise InputError(source, label, attachment.tag, "a plain attachment point (no pulley)")
-        ends[int(value(attachment, "link", source))] = numbers(attachment, "location", source, 3)
-    if len(attachments) != 2 or set(ends) != {0, 1}:
-        raise InputError(source, label, f"attachments on links {sorted(ends)}", "one on link 0 and one on link 1")
-    platform = ends[1] + (center if reference == "com" else 0.0)
-    stiffness = _property(element, "K", source)
-    if stiffness is not None and not stiffness > 0.0:
-        raise InputError(source, f"{label}.K", stiffness, "a stiffness EA in N above zero")
-    return _CableEnds(ends[0], platform, stiffness, *_force_limits(element, source, label))
-
-
-def _force_limits(element: ElementTree.Element, source: str, label: str) -> tuple[float, float | None]:
-    """Smallest and largest force of a cable [N]: zero and none where the file has none."""
-    low, high = _property(element, "force_min", source) or 0.0, _property(element, "force_max", source)
-    if low < 0.0:
-        raise InputError(source, f"{label}.force_min", low, "a force in N, zero or more")
-    if high is not None and not high > low:
-        raise InputError(source, f"{label}.force_max", high, f"a force in N above force_min, {low:g} N")
-    return low, high
-
-
-def _property(element: ElementTree.Element, name: str, source: str) -> float | None:
-    """A number among the properties of a cable, None if it is not there."""
-    properties = element.find("properties")
-    return None if properties is None or properties.find(name) is None else value(properties, name, source)
-
-
-def _stiffness(ends: list[_CableEnds], choices: Choices, warnings: list[str]) -> list[float]:
+def _stiffness(ends: list[CableEnds], choices: Choices, warnings: list[str]) -> list[float]:
     """EA of each cable: the user's, else the file's, else assumed."""
     if choices.axial_stiffness is not None:
         return [choices.axial_stiffness] * len(ends)
@@ -269,7 +212,7 @@ def _stiffness(ends: list[_CableEnds], choices: Choices, warnings: list[str]) ->
 
 def _toml(
     body: _Body,
-    ends: list[_CableEnds],
+    ends: list[CableEnds],
     stiffness: list[float],
     density: float,
     sources: tuple[str, str],
@@ -294,17 +237,12 @@ def _toml(
     ]
     alike = len({(cable.force_min, cable.force_max) for cable in ends}) == 1
     lines += ["", "[cable]", f"linear_density = {density!r}", "damping_ratio = 0.01"]
-    lines += _limit_lines(ends[0]) if alike else []
+    lines += ends[0].limit_lines() if alike else []
     for i, (cable, ea) in enumerate(zip(ends, stiffness, strict=True), start=1):
         lines += ["", f"[[cables]]  # {i}", f"platform_anchor = {_list(cable.platform)}"]
         lines += [f"frame_anchor = {_list(cable.frame)}", f"axial_stiffness = {ea!r}"]
-        lines += [] if alike else _limit_lines(cable)
+        lines += [] if alike else cable.limit_lines()
     return "\n".join(lines) + "\n"
-
-
-def _limit_lines(cable: _CableEnds) -> list[str]:
-    lines = [f"force_min = {cable.force_min!r}"] if cable.force_min else []
-    return lines if cable.force_max is None else [*lines, f"force_max = {cable.force_max!r}"]
 
 
 def _list(values: np.ndarray) -> str:
