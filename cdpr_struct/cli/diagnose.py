@@ -35,7 +35,7 @@ def run(
     measured = load_campaign(campaign)
     with output.steps(4) as progress:
         found = diagnose(measured, budget, progress)
-    result = with_extensions(diagnosis_json(found) | {"warnings": list(measured.notes)}, measured.robot, NAME)
+    result = with_extensions(diagnosis_json(found), measured.robot, NAME)
 
     def files() -> Files:
         from cdpr_struct.reports.diagnosis_page import diagnosis_files

@@ -62,7 +62,12 @@ def diagnosis_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, st
 def robot_comments(result: Mapping[str, Any]) -> list[str]:
     """What a reader of extended_robot.toml must know: where it is from and how far it can be trusted."""
     said, gain = result["verdict"], result["gain"]
-    lines = [f"Written by cdpr-struct diagnose {result['campaign']}.", said["sentence"], *standing(result)]
+    lines = [
+        f"Written by cdpr-struct diagnose {result['campaign']}.",
+        said["sentence"],
+        *standing(result),
+        *result["warnings"],
+    ]
     if any(len(names) > 1 for names in said["class"]):
         lines.append(
             "WARNING: these data do not tell the causes of a class; of each only the likeliest is in this file."

@@ -57,7 +57,7 @@ def diagnosis_json(found: Diagnosis) -> dict[str, Any]:
             for name in found.campaign.tolerances.__slots__
         },
         "sigmas": [asdict(used) for used in sigmas_used(found.campaign)],
-        "warnings": warnings(found),
+        "warnings": [*map(_sentence, warnings(found)), *found.campaign.notes],
         "not_used": sorted({s.kind for s in found.campaign.series}),
     }  # fmt: skip
     return with_signals(result, found)
@@ -105,3 +105,7 @@ def _gain(found: Diagnosis) -> dict[str, Any]:
         "confirmed": confirmed(found) and not is_unknown(found),
         "generic_fudge_ratio": None if found.fudge is None else found.fudge.ratio(), "transfer": found.transfer,
     }  # fmt: skip
+
+
+def _sentence(text: str) -> str:
+    return text if text.endswith(("?", ".")) else f"{text}."

@@ -56,7 +56,7 @@ def judged_signals(found: Diagnosis, result: Mapping[str, Any]) -> tuple[Identif
 def _silent(item: Identified) -> str:
     """Why a record adds no frequency."""
     why = item.note or f"{len(item.modes)} peaks, none of them clear and the robot's own (see the table of peaks)"
-    return f"{item.record.kind} {item.record.case} adds no frequency: {why}".rstrip(".")
+    return f"{item.record.kind} {item.record.case} adds no frequency: {why.rstrip('.')}."
 
 
 def _left_out(judged: tuple[Identified, ...]) -> list[dict[str, Any]]:

@@ -21,7 +21,7 @@ def standing(result: Mapping[str, Any]) -> list[str]:
     lines += [f"class: {' | '.join(names)}" for names in said["class"] if len(names) > 1]
     if said["status"] == "class" and len(lines) == 1:
         lines.append("a class, not a name: nothing that was left out confirms it")
-    return lines + [f"warning: {text}.".replace("?.", "?") for text in result["warnings"]]
+    return lines
 
 
 def next_table(text: str) -> HtmlTable | None:

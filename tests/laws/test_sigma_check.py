@@ -1,11 +1,17 @@
 """Sigmas that nobody gave are told, and those that cannot be right are doubted."""
 
+import json
+import re
 from dataclasses import replace
+from html import escape
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+import pandas as pd
 import pytest
 
+from cdpr_struct.cli.main import run
 from cdpr_struct.diagnosis.null_model import NullModel
 from cdpr_struct.diagnosis.sigma_check import sigmas_used, warnings
 from cdpr_struct.measurement.campaign import Sheet, Sigmas
@@ -76,9 +82,18 @@ def test_residuals_far_below_their_sigmas_are_told(clean):
     assert "smaller than their sigmas" in text
 
 
-def test_screen_and_page_show_the_warning(clean):
-    from cdpr_struct.reports.diagnosis_tables import standing
-
-    verdict = {"status": "adequate", "probability": 0.99, "class": []}
-    lines = standing({"verdict": verdict, "p_value": 1.0, "warnings": ["is it in m?", "odd"]})
-    assert lines[1:] == ["warning: is it in m?", "warning: odd."]
+def test_screen_and_page_show_the_warning_as_a_sentence(tmp_path, capsys):
+    """A sigma of a metre, and a table without angles."""
+    root = Path(__file__).parents[2] / "examples" / "table-4-4"
+    states = pd.read_csv(root / "level.csv", comment="#").drop(columns=["rx_deg", "ry_deg", "rz_deg"], errors="ignore")
+    states.to_csv(tmp_path / "level.csv", index=False)
+    text = re.sub("position_m = [^,} ]+", "position_m = 1.0", (root / "level.toml").read_text())
+    (tmp_path / "level.toml").write_text(text)
+    assert run(["diagnose", str(tmp_path / "level.toml"), "--out", str(tmp_path / "o")]) == 0
+    shown = capsys.readouterr().out
+    said = json.loads((tmp_path / "o" / "result.json").read_text())["warnings"]
+    page = (tmp_path / "o" / "report.html").read_text()
+    assert any("sigma.position_m" in sentence and sentence.endswith("?") for sentence in said)
+    assert any("rx_deg" in sentence and sentence.endswith(".") for sentence in said)
+    assert [f"Warning: {sentence}" in shown for sentence in said] == [True] * len(said)
+    assert [f"<p>Warning: {escape(sentence)}</p>" in page for sentence in said] == [True] * len(said)
