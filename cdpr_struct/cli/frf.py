@@ -61,6 +61,7 @@ def run(
     law = read_damping(damping, machine, cable_model == "static")
     from cdpr_struct.dynamics.frequency_response import QUANTITIES
     from cdpr_struct.dynamics.frequency_sweep import sweep_response
+    from cdpr_struct.reports.damping_note import damping_note
     from cdpr_struct.reports.frf_result import frf_json
     from cdpr_struct.reports.frf_text import frf_text
 
@@ -84,6 +85,7 @@ def run(
     }  # fmt: skip
     words = command_words("frf", robot, payload, mass, **options)
     described = {"damping": damping, "frame": frame, "at_m": at or "0,0,0", "assembly": way, "band_hz": band}
+    described["damping_note"] = damping_note(law, damping, machine, cable_model == "static")
     result = frf_json(sweep, {**described, "command": words + ["--force"] * force})
     result = with_extensions(result, machine, "frf", cable_model)
     emit(result, json, lambda: print(frf_text(result)))

@@ -83,30 +83,51 @@ def sweep_response(
     Where a cable itself is shaken its modal sum converges as slowly as 1 / number of modes; so more are taken then.
     """
     top = float(hertz[-1])
-    highest = 2.0 * np.pi * top * (MODES_OF_A_POINT if isinstance(excite, CablePort) else 1.0)
-    cables = cable_dynamics(point, model, highest)
+    cables = cable_dynamics(point, model, 2.0 * np.pi * top * _margin(excite))
     modes, shapes = _modes_and_shapes(point, cables, top, assembly)
-    function: ResponseFunction
-    if isinstance(damping, ModalDamping):
-        function = modal_response(
-            point, cables, damping, excite, respond, highest, modes.hertz, quantity, assembly
-        )
-    else:
-        band = float(hertz[0]), top
-        function = direct_response(point, cables, damping, excite, respond, band, quantity, assembly)
+    force = _Force(point, cables, damping, excite, respond, quantity, assembly)
+    function = force.function((float(hertz[0]), top), modes.hertz)
     ratios = loss_rates(damping, cables.first_frequency, shapes) / (2.0 * shapes.omega)
-    still = ratios < UNDAMPED_RATIO
+    undamped = ratios < UNDAMPED_RATIO
     known_to = top if modes.complete else float(modes.hertz[-1])
-    resonances = Resonances(modes.hertz, np.where(still, 0.0, ratios) * modes.hertz, known_to)
+    resonances = Resonances(modes.hertz, np.where(undamped, 0.0, ratios) * modes.hertz, known_to)
     lines = resonances.lines(hertz)
     working = np.union1d(hertz, lines.hertz)
     first = FrequencyResponse(working, function.at(working), excite, respond, quantity)
     silent = _silent(point, first, np.isin(working, hertz, assume_unique=True))
-    poles = undamped_poles(shapes, modes.hertz, still & (modes.hertz >= hertz[0]), excite, respond)
+    poles = undamped_poles(shapes, modes.hertz, undamped & (modes.hertz >= hertz[0]), excite, respond)
     peaks = _peaks(function, first, silent, resonances, poles)
     response = _drawn(function, first, hertz, lines, modes.hertz, peaks)
     even = np.isin(response.hertz, hertz, assume_unique=True)
     return ResponseSweep(point, model, response, even, peaks, silent, modes, ratios)
+
+
+def _margin(excite: Port) -> float:
+    return MODES_OF_A_POINT if isinstance(excite, CablePort) else 1.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Force:
+    """A robot that is shaken at one port and watched at others."""
+
+    point: OperatingPoint
+    cables: CableDynamics
+    damping: Damping
+    excite: Port
+    respond: tuple[Port, ...]
+    quantity: Quantity
+    assembly: Assembly
+
+    def function(self, band: tuple[float, float], certified_hertz: np.ndarray) -> ResponseFunction:
+        """The responses over a band [Hz]: a sum over modes where these have ratios of their own, else direct."""
+        ports = self.excite, self.respond
+        if not isinstance(self.damping, ModalDamping):
+            law = self.damping
+            return direct_response(self.point, self.cables, law, *ports, band, self.quantity, self.assembly)
+        highest = 2.0 * np.pi * band[1] * max(0.5 * _margin(self.excite), 1.0)  # an expansion holds twice as much
+        return modal_response(
+            self.point, self.cables, self.damping, *ports, highest, certified_hertz, self.quantity, self.assembly
+        )
 
 
 def _peaks(
@@ -133,7 +154,7 @@ def _drawn(
     modes: np.ndarray,
     peaks: tuple[ResponsePeaks, ...],
 ) -> FrequencyResponse:
-    """The response on the even lines, on those about modes that show as a peak, and on summits and half-power points."""
+    """The response on the even lines, on those about modes that show as peaks, on summits and half-power points."""
     summits = np.concatenate([own.hertz for own in peaks])
     shown = np.abs(summits[:, None] - modes).argmin(axis=1) if len(modes) else np.zeros(0)
     kept = np.union1d(even, lines.hertz[np.isin(lines.mode, shown)])

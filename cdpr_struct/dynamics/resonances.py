@@ -1,18 +1,18 @@
-"""Where a response can have peaks, and the frequencies at which to evaluate it so that none falls between two of them."""
+"""Where a response can have peaks, and at which frequencies to evaluate it so that none falls between two of them."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-# Spacing at most a quarter of a mode's half width about its frequency: there |H|^-2 is a parabola to 1 %. Further off, at
-# most half of the distance to the mode: the response is smooth on the scale of that distance.
+# Spacing at most a quarter of a mode's half width about its frequency: there |H|^-2 is a parabola to 1 %. Further off,
+# at most half of the distance to the mode: the response is smooth on the scale of that distance.
 _CORE = np.array([0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0])
 _GROWTH = 1.5
 _DISTINCT = 0.01  # of the half width: nearer lines add nothing, and differences between them are mostly rounding
 _STEPS = 2.0  # of the even lines: beyond this many of them their own spacing is fine enough
 _ABOUT_A_POLE = 1e-3  # of its frequency: as half width with which lines are laid about an undamped mode
-# A weak mode on the flank of a strong one peaks up to some five half widths off its frequency. Maxima beyond ten are humps
-# between two antiresonances (measured: up to half a per cent of the highest peak, and none in driving-point responses).
+# A weak mode on the flank of a strong one peaks up to some five half widths off its frequency. Maxima beyond ten are
+# humps between two antiresonances: measured up to 1 % of the highest peak, and none in driving-point responses.
 _REACH = 10.0
 
 

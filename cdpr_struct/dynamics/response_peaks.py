@@ -1,8 +1,9 @@
 """Peaks of frequency responses between the lines: frequency, height and half-power width.
 
-A peak is a local maximum of |H| at a mode that stands out by 5 %: the curve falls that far on both sides before it rises
-above the peak. At an undamped mode |H| is infinite. Maxima and the minima between them are first found on the lines and then refined, so that none of this depends on
-where the lines lie. The half-power width is that between the frequencies on both sides at which |H| = peak / sqrt 2.
+A peak is a local maximum of |H| at a mode that stands out by 5 %: the curve falls that far on both sides before it
+rises above the peak. At an undamped mode |H| is infinite. Maxima and the minima between them are first found on the
+lines and then refined, so that none of this depends on where the lines lie. The half-power width is that between the
+frequencies on both sides at which |H| = peak / sqrt 2.
 """
 
 from dataclasses import dataclass

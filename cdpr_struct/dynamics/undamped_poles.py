@@ -6,8 +6,8 @@ from cdpr_struct.dynamics.modal_basis import ModalBasis
 from cdpr_struct.dynamics.ports import Port
 from cdpr_struct.dynamics.ritz_modes import RitzModes
 
-# Eigenfrequencies are enclosed to 1e-9, and the stiffness of a sweep is accurate to as much. A peak of this damping ratio is
-# a hundred times wider than that; the height of a narrower one could not be told to 1 %.
+# Eigenfrequencies are enclosed to 1e-9, and the stiffness of a sweep is accurate to as much. A peak of this damping
+# ratio is a hundred times wider than that; the height of a narrower one could not be told to 1 %.
 UNDAMPED_RATIO = 1e-7
 _TOGETHER = 1e-8  # relative distance of modes that cannot be told apart: their residues are added
 _UNSEEN = 1e-9  # of the largest residue that the modes allow: rounding of shapes that symmetry makes zero
