@@ -8,7 +8,7 @@ from cdpr_struct.cli.options import read_numbers
 from cdpr_struct.errors import InputError
 
 if TYPE_CHECKING:
-    from cdpr_struct.dynamics.damping import DampingLaw
+    from cdpr_struct.dynamics.damping import Damping, DampingLaw, ModalDamping
     from cdpr_struct.robot.robot import Robot
 
 DampingText = Annotated[
@@ -16,23 +16,30 @@ DampingText = Annotated[
     typer.Option(
         "--damping",
         metavar="LAW[:NUMBERS]",
-        help="none, viscous[:XI], hysteretic[:ETA], rayleigh:A,B or frequency-dependent[:ETA,EXPONENT[,F_REF_HZ]].",
+        help=(
+            "none, viscous[:XI], hysteretic[:ETA], rayleigh:A,B, frequency-dependent[:ETA,EXPONENT[,F_REF_HZ]], or "
+            "modal:Z1,Z2,.. (ratios of the robot's modes, the last for all higher ones)."
+        ),
     ),
 ]
 _COUNTS = {"none": (0,), "viscous": (0, 1), "hysteretic": (0, 1), "rayleigh": (2,), "frequency-dependent": (0, 2, 3)}
+_MODAL = "modal"
 _HIGHEST = {"viscous": 1.0, "hysteretic": 2.0, "frequency-dependent": 2.0}
 
 
-def read_damping(text: str, robot: "Robot", massless: bool = False) -> "DampingLaw":
-    """The law of cable damping; without numbers it is fitted to the robot file's damping ratio at the first mode.
+def read_damping(text: str, robot: "Robot", massless: bool = False) -> "Damping":
+    """The law of cable damping, or modal damping; a law without numbers is fitted to the robot file's damping ratio at
+    the first mode.
 
     Raises
     ------
     InputError : an unknown law, or numbers that are missing, negative or too large.
     """
     name, _, numbers = text.partition(":")
-    if name not in _COUNTS:
-        raise InputError("--damping", "", text, f"one of: {', '.join(_COUNTS)}")
+    if name not in (*_COUNTS, _MODAL):
+        raise InputError("--damping", "", text, f"one of: {', '.join((*_COUNTS, _MODAL))}")
+    if name == _MODAL:
+        return _modal(numbers, text)
     values = read_numbers(numbers, "--damping", None, "numbers") if numbers else []
     if len(values) not in _COUNTS[name]:
         wanted = " or ".join(map(str, _COUNTS[name]))
@@ -40,6 +47,18 @@ def read_damping(text: str, robot: "Robot", massless: bool = False) -> "DampingL
     if values and not 0.0 <= values[0] < _HIGHEST.get(name, float("inf")):
         raise InputError("--damping", name, text, f"the first number must be in [0, {_HIGHEST.get(name, 'inf')})")
     return _law(name, values, robot, text, massless)
+
+
+def _modal(numbers: str, text: str) -> "ModalDamping":
+    from cdpr_struct.dynamics.damping import ModalDamping
+
+    expected = "give the ratios of modes 1, 2, .., each in [0, 1), like modal:0.01,0.012"
+    if not numbers:
+        raise InputError("--damping", _MODAL, text, expected)
+    ratios = read_numbers(numbers, "--damping", None, "damping ratios")
+    if not all(0.0 <= ratio < 1.0 for ratio in ratios):
+        raise InputError("--damping", _MODAL, text, expected)
+    return ModalDamping(tuple(ratios))
 
 
 def _law(name: str, values: list[float], robot: "Robot", text: str, massless: bool) -> "DampingLaw":

@@ -8,7 +8,7 @@ from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_va
 from cdpr_struct.cli.damping_option import DampingText, read_damping
 from cdpr_struct.cli.degrees_of_freedom import FrameName, PointText, read_ports
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import rest
+from cdpr_struct.cli.operating_point import advised, rest, state_warnings
 from cdpr_struct.cli.options import (
     AssemblyName,
     Lengths,
@@ -65,6 +65,7 @@ def run(
     law = read_damping(damping, machine, cable_model == "static")
     from cdpr_struct.dynamics.frequency_response import QUANTITIES
     from cdpr_struct.dynamics.frequency_sweep import sweep_response
+    from cdpr_struct.reports.damping_note import damping_note
     from cdpr_struct.reports.frf_result import frf_json
     from cdpr_struct.reports.frf_text import frf_text
 
@@ -79,9 +80,13 @@ def run(
     if cable_model == "static" and excite.startswith("cable"):
         raise InputError("--excite", "", excite, "massless cables cannot be shaken; use --model dsm or exact")
     targets = read_ports(respond, "--respond", point, frame, at)
-    sweep = sweep_response(point, cable_model, law, source[0], targets, hertz, what, way)
+    with output.steps(1) as progress, advised(point, lengths):
+        progress("response, eigenfrequencies and peaks")
+        sweep = sweep_response(point, cable_model, law, source[0], targets, hertz, what, way)
     described = {"damping": damping, "frame": frame, "at_m": at or "0,0,0", "assembly": way, "band_hz": band}
+    described["damping_note"] = damping_note(law, damping, machine, cable_model == "static")
     result = frf_json(sweep, {**described, "command": output.words})
+    result |= {"warnings": state_warnings(point, lengths)}
     result = with_extensions(result, machine, "frf", cable_model)
 
     def files() -> Files:

@@ -125,6 +125,28 @@ class PowerLaw:
         return 1.0 + 1j * self.loss_factor * np.where(moving, ratio**self.exponent, 0.0)
 
 
+@dataclass(frozen=True, slots=True)
+class ModalDamping:
+    """Damping ratios of the robot's own modes, platform and cables together. It is no law of the single cable.
+
+    ratios : zeta [-] of the modes 1, 2, .. of the robot, each in [0, 1); the last one holds for all higher modes
+    """
+
+    ratios: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        if not self.ratios or not all(0.0 <= ratio < 1.0 for ratio in self.ratios):
+            raise ValueError(f"ModalDamping.ratios must be numbers in [0, 1), got {self.ratios!r}")
+
+    def of_modes(self, count: int) -> np.ndarray:
+        """(count,) ratio of each of the first modes."""
+        last = len(self.ratios) - 1
+        return np.array([self.ratios[min(i, last)] for i in range(count)])
+
+
+Damping = DampingLaw | ModalDamping
+
+
 def rates(law: DampingLaw, omega: np.ndarray, first_frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Equivalent viscous damping C_i = a_i M_i + b_i K_i of each cable: a (..., m) [1/s] and b (..., m) [s].
 

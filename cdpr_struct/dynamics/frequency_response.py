@@ -1,21 +1,19 @@
 """Frequency response functions of the robot between any two of its points, eqs (3.25)-(3.29)."""
 
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal, Protocol, get_args
 
 import numpy as np
-from scipy.signal import find_peaks
 
 from cdpr_struct.dynamics.cable_dynamics import CableDynamics
 from cdpr_struct.dynamics.damping import DampingLaw
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.dynamics.ports import Port, port_response
+from cdpr_struct.dynamics.ports import Port, ReadyPorts, ready_ports
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
-from cdpr_struct.dynamics.swept_stiffness import swept_dynamic_stiffness
+from cdpr_struct.dynamics.swept_stiffness import SweptStiffness, swept_stiffness
 
 Quantity = Literal["displacement", "velocity", "acceleration"]
 QUANTITIES: tuple[Quantity, ...] = get_args(Quantity)
-_PROMINENCE_DECADES = 0.02
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,19 +31,45 @@ class FrequencyResponse:
     respond: tuple[Port, ...]
     quantity: Quantity
 
-    def peaks(self, column: int) -> tuple[np.ndarray, np.ndarray]:
-        """Frequencies (k,) [Hz] and magnitudes (k,) of the local maxima of a response.
 
-        A maximum counts if it stands out by 5 % from its surroundings; a parabola through the logarithms of its three
-        points places it between the grid points.
-        """
-        size = np.abs(self.response[:, column])
-        log = np.log10(np.maximum(size, np.finfo(float).tiny))
-        found, _ = find_peaks(log, prominence=_PROMINENCE_DECADES)
-        before, here, after = log[found - 1], log[found], log[found + 1]
-        shift = 0.5 * (before - after) / (before - 2.0 * here + after)
-        spacing = 0.5 * (self.hertz[found + 1] - self.hertz[found - 1])
-        return self.hertz[found] + shift * spacing, 10.0 ** (here - 0.25 * (before - after) * shift)
+class ResponseFunction(Protocol):
+    """The responses of n ports as a function of frequency, ready to be evaluated again and again over one band."""
+
+    def at(self, hertz: np.ndarray) -> np.ndarray:
+        """(f, n) complex, as `FrequencyResponse.response`; hertz (f,) ascending, inside the band."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DirectResponse:
+    """H(omega) = D(omega)^-1 between ports, D with the damped cables' stiffness; made by `direct_response`."""
+
+    stiffness: SweptStiffness
+    ports: ReadyPorts
+    quantity: Quantity
+
+    def at(self, hertz: np.ndarray) -> np.ndarray:
+        omega = 2.0 * np.pi * hertz
+        ports = self.ports.at(omega)
+        force = np.broadcast_to(ports.twist[:, 0, :, None], (len(omega), 6, 1))
+        motion = np.linalg.solve(self.stiffness.at(omega), force)
+        displacement = (ports.twist[:, 1:] @ motion)[..., 0] + ports.direct[:, 1:, 0]
+        return np.asarray(displacement * derivative_factor(self.quantity, omega))
+
+
+def direct_response(
+    point: OperatingPoint,
+    cables: CableDynamics,
+    law: DampingLaw,
+    excite: Port,
+    respond: tuple[Port, ...],
+    band: tuple[float, float],
+    quantity: Quantity = "acceleration",
+    assembly: Assembly = "consistent",
+) -> DirectResponse:
+    """The response function over a band (lowest, highest) [Hz]; `cables` made with `highest_omega` at its top."""
+    low, high = 2.0 * np.pi * band[0], 2.0 * np.pi * band[1]
+    stiffness = swept_stiffness(point, cables, law, (low, high), assembly)
+    return DirectResponse(stiffness, ready_ports(point, cables, law, (excite, *respond), high), quantity)
 
 
 def frequency_response(
@@ -67,15 +91,12 @@ def frequency_response(
 
     Eqs (3.25), (3.28), (3.29). Undamped and exactly at a natural frequency the response is infinite.
     """
-    omega = 2.0 * np.pi * hertz
-    matrices = swept_dynamic_stiffness(point, cables, law, omega, assembly)
-    ports = port_response(point, cables, law, (excite, *respond), omega)
-    force = ports.twist[:, 0, :, None]
-    motion = np.linalg.solve(matrices, np.broadcast_to(force, (len(omega), 6, 1)))
-    displacement = (ports.twist[:, 1:] @ motion)[..., 0] + ports.direct[:, 1:, 0]
-    return FrequencyResponse(hertz, displacement * _factor(quantity, omega), excite, respond, quantity)
+    band = float(hertz[0]), float(hertz[-1])
+    function = direct_response(point, cables, law, excite, respond, band, quantity, assembly)
+    return FrequencyResponse(hertz, function.at(hertz), excite, respond, quantity)
 
 
-def _factor(quantity: Quantity, omega: np.ndarray) -> np.ndarray:
+def derivative_factor(quantity: Quantity, omega: np.ndarray) -> np.ndarray:
+    """(f, 1) by which a displacement becomes the quantity at omega (f,) [rad/s]."""
     powers = {"displacement": np.ones_like(omega), "velocity": 1j * omega, "acceleration": -(omega**2)}
     return powers[quantity][:, None]

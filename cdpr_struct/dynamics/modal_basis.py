@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import CableDynamics
-from cdpr_struct.dynamics.damping import DampingLaw, rates
+from cdpr_struct.dynamics.damping import Damping, ModalDamping, rates
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ports import CablePort, Port
@@ -54,7 +54,7 @@ class ModalBasis:
 def modal_basis(
     point: OperatingPoint,
     cables: CableDynamics,
-    law: DampingLaw,
+    law: Damping,
     count: int,
     highest: float,
     assembly: Assembly = "consistent",
@@ -62,26 +62,36 @@ def modal_basis(
     """First `count` modes; cables resolved up to `highest` [rad/s].
 
     The damping matrix is that of the law where the law is a differential equation in time (`constant_rates`). Else it
-    is diagonal, each mode with the losses that the law gives at its own frequency.
+    is diagonal, each mode with the losses that the law gives at its own frequency, or with its modal damping ratio.
     """
     modes = ritz_modes(point, cables.expansion(highest), count, assembly)
     return ModalBasis(modes, _damping(law, cables.first_frequency, modes))
 
 
-def _damping(law: DampingLaw, first: np.ndarray, modes: RitzModes) -> np.ndarray:
-    """(k, k) sum over the cables of a_i M_i + b_i K_i in modal coordinates."""
-    expansion, end, modal = modes.expansion, modes.end, modes.modal
+def loss_rates(law: Damping, first: np.ndarray, modes: RitzModes) -> np.ndarray:
+    """(k,) diagonal of the modal damping matrix [1/s]: 2 zeta omega of each mode, the law taken at its own frequency.
+
+    first : (m,) first natural frequencies of the clamped cables [rad/s]
+    """
+    if isinstance(law, ModalDamping):
+        return 2.0 * law.of_modes(len(modes.omega)) * modes.omega
+    expansion, end = modes.expansion, modes.end
     mass_rate, stiffness_time = rates(law, modes.omega[:, None], first)
-    if law.constant_rates:
-        a, b = mass_rate[0], stiffness_time[0]
-        total = np.zeros((len(end), len(end)))
-        for i in range(len(first)):
-            own_mass, own_stiffness = _cable_matrices(expansion, end[:, i], modal[:, i], i)
-            total += a[i] * own_mass + b[i] * own_stiffness
-        return 0.5 * (total + total.T)
-    elastic = np.einsum("kma,mab,kmb->km", end, expansion.static_stiffness, end)
-    elastic += np.einsum("kmp,mp->km", modal**2, expansion.omega_squared)
-    return np.diag((mass_rate * modes.cable_energy + stiffness_time * elastic).sum(axis=1))
+    elastic = np.einsum("kma,mab,kmb->km", end, expansion.static_stiffness, end, optimize=True)
+    elastic += np.einsum("kmp,mp->km", modes.modal**2, expansion.omega_squared)
+    return np.asarray((mass_rate * modes.cable_energy + stiffness_time * elastic).sum(axis=1))
+
+
+def _damping(law: Damping, first: np.ndarray, modes: RitzModes) -> np.ndarray:
+    """(k, k) sum over the cables of a_i M_i + b_i K_i in modal coordinates, or its diagonal."""
+    if isinstance(law, ModalDamping) or not law.constant_rates:
+        return np.diag(loss_rates(law, first, modes))
+    mass_rate, stiffness_time = rates(law, modes.omega[:1, None], first)
+    total = np.zeros((len(modes.end), len(modes.end)))
+    for i in range(len(first)):
+        own_mass, own_stiffness = _cable_matrices(modes.expansion, modes.end[:, i], modes.modal[:, i], i)
+        total += mass_rate[0, i] * own_mass + stiffness_time[0, i] * own_stiffness
+    return 0.5 * (total + total.T)
 
 
 def _cable_matrices(

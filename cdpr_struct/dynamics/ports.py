@@ -57,7 +57,7 @@ class PortResponse:
     """How ports take part in the platform's vibration.
 
     twist  : (f, n, 6) displacement of each port per platform motion; by reciprocity also the wrench on the platform
-             per unit force at the port
+             per unit force at the port; f is 1 where no port is on a cable
     direct : (f, n, n) displacement per unit force with the platform held [m/N]
     """
 
@@ -65,54 +65,74 @@ class PortResponse:
     direct: np.ndarray
 
 
-def port_response(
-    point: OperatingPoint, cables: CableDynamics, law: DampingLaw, ports: tuple[Port, ...], omega: np.ndarray
-) -> PortResponse:
-    """Participation of n ports at f frequencies (f,) [rad/s].
+@dataclass(frozen=True, slots=True, eq=False)
+class _CablePoint:
+    """A direction at a point of a cable with p modes in use: its motion per unit of each coordinate.
 
-    Cable points follow from the modal expansion: with z = inertia / elasticity of the damped cable, static shapes
-    plus modes times z / (omega_j^2 - z).
+    static : (6,) per platform motion, in static shape;  own : (p,) per modal coordinate
+    driven : (p, 6) mass coupling of the modes with the platform motion
     """
-    count = len(ports)
-    on_cables = [i for i, port in enumerate(ports) if isinstance(port, CablePort)]
-    kind = complex if on_cables else float
-    twist = np.zeros((len(omega) if on_cables else 1, count, 6), dtype=kind)
-    direct = np.zeros((len(twist), count, count), dtype=kind)
-    for i, port in enumerate(ports):
-        if isinstance(port, PlatformPort):
-            twist[:, i] = port.twist
+
+    cable: int
+    static: np.ndarray
+    own: np.ndarray
+    driven: np.ndarray
+    omega_squared: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ReadyPorts:
+    """n ports of a robot, ready for any number of frequencies; made by `ready_ports`."""
+
+    ports: tuple[Port, ...]
+    law: DampingLaw
+    first_frequency: np.ndarray
+    points: dict[int, _CablePoint]
+
+    def at(self, omega: np.ndarray) -> PortResponse:
+        """Participation at f frequencies (f,) [rad/s].
+
+        Cable points follow from the modal expansion: with z = inertia / elasticity of the damped cable, static shapes
+        plus modes times z / (omega_j^2 - z).
+        """
+        kind = complex if self.points else float
+        twist = np.zeros((len(omega) if self.points else 1, len(self.ports), 6), dtype=kind)
+        direct = np.zeros((len(twist), len(self.ports), len(self.ports)), dtype=kind)
+        for i, port in enumerate(self.ports):
+            if isinstance(port, PlatformPort):
+                twist[:, i] = port.twist
+        if not self.points:
+            return PortResponse(twist, direct)
+        inertia = self.law.inertia(omega[:, None], self.first_frequency)
+        elasticity = self.law.elasticity(omega[:, None], self.first_frequency)
+        for i, here in self.points.items():
+            column = [here.cable]
+            gap = _gap(elasticity[:, column] * here.omega_squared, inertia[:, column])
+            twist[:, i] = here.static + (inertia[:, column] / gap * here.own) @ here.driven
+            for j, other in self.points.items():
+                if j <= i and other.cable == here.cable:
+                    direct[:, i, j] = direct[:, j, i] = (here.own * other.own / gap).sum(axis=1)
+        return PortResponse(twist, direct)
+
+
+def ready_ports(
+    point: OperatingPoint, cables: CableDynamics, law: DampingLaw, ports: tuple[Port, ...], highest: float
+) -> ReadyPorts:
+    """Ports for frequencies up to `highest` [rad/s]; modes up to `MODES_OF_A_POINT` times that stand for a cable."""
+    points: dict[int, _CablePoint] = {}
+    on_cables = {i: port for i, port in enumerate(ports) if isinstance(port, CablePort)}
     if on_cables:
-        _add_cable_ports(point, cables, law, ports, omega, twist, direct)
-    return PortResponse(twist, direct)
-
-
-def _add_cable_ports(
-    point: OperatingPoint,
-    cables: CableDynamics,
-    law: DampingLaw,
-    ports: tuple[Port, ...],
-    omega: np.ndarray,
-    twist: np.ndarray,
-    direct: np.ndarray,
-) -> None:
-    expansion = cables.expansion(MODES_OF_A_POINT * float(omega[-1]))
-    to_cable = np.swapaxes(expansion.frame, -1, -2) @ attachment(point)
-    inertia = law.inertia(omega[:, None], cables.first_frequency) + np.zeros_like(expansion.omega_squared[:, 0])
-    elasticity = law.elasticity(omega[:, None], cables.first_frequency)
-    shapes: dict[int, np.ndarray] = {}
-    for i, port in enumerate(ports):
-        if isinstance(port, PlatformPort):
-            continue
-        c = port.cable
-        static, modes = expansion.shapes(np.array([port.station]))
-        local = expansion.frame[c].T @ port.direction
-        shapes[i] = modes[c, :, 0] @ local
-        gap = _gap(elasticity[:, [c]] * expansion.omega_squared[c], inertia[:, [c]])
-        end = static[c, 0].T @ local + (inertia[:, [c]] / gap * shapes[i]) @ expansion.coupling[c]
-        twist[:, i] = end @ to_cable[c]
-        for j, other in enumerate(ports[: i + 1]):
-            if isinstance(other, CablePort) and other.cable == c:
-                direct[:, i, j] = direct[:, j, i] = (shapes[i] * shapes[j] / gap).sum(axis=1)
+        expansion = cables.expansion(MODES_OF_A_POINT * highest)
+        to_cable = np.swapaxes(expansion.frame, -1, -2) @ attachment(point)
+        for i, port in on_cables.items():
+            c = port.cable
+            static, modes = expansion.shapes(np.array([port.station]))
+            local = expansion.frame[c].T @ port.direction
+            driven = expansion.coupling[c] @ to_cable[c]
+            points[i] = _CablePoint(
+                c, local @ static[c, 0] @ to_cable[c], modes[c, :, 0] @ local, driven, expansion.omega_squared[c]
+            )
+    return ReadyPorts(ports, law, cables.first_frequency, points)
 
 
 def _gap(elastic: np.ndarray, inertia: np.ndarray) -> np.ndarray:

@@ -56,6 +56,62 @@ def dynamic_stiffness(
     return matrices - (omega**2)[:, None, None] * platform_mass_matrix(point.robot, point.rotation)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class SweptStiffness:
+    """D(omega) over a band [rad/s], prepared once for any number of frequencies in it; made by `swept_stiffness`."""
+
+    point: OperatingPoint
+    cables: CableDynamics
+    law: DampingLaw
+    assembly: Assembly
+    low: float
+    pieces: "list[_Piece]"
+    poles: "_Poles | None"
+
+    def at(self, omega: np.ndarray) -> np.ndarray:
+        """(f, 6, 6) as `dynamic_stiffness`, to `RELATIVE_TOLERANCE` of the largest entries; omega (f,) ascending.
+
+        The bottom of the band, where a law may jump at rest, and what no piece covers are evaluated in full.
+        """
+        matrices = np.empty((len(omega), 6, 6), dtype=complex)
+        left = np.ones(len(omega), dtype=bool)
+        for piece in self.pieces:
+            part = slice(*np.searchsorted(omega, [piece.low, piece.high]))
+            if self.poles is not None and part.start < part.stop:
+                matrices[part] = piece.at(omega[part], self.law, self.poles)
+                left[part] = False
+        left |= omega <= self.low
+        if left.any():
+            matrices[left] = dynamic_stiffness(self.point, self.cables, self.law, omega[left], self.assembly)
+        return matrices
+
+
+def swept_stiffness(
+    point: OperatingPoint,
+    cables: CableDynamics,
+    law: DampingLaw,
+    band: tuple[float, float],
+    assembly: Assembly = "consistent",
+) -> SweptStiffness:
+    """The dynamic stiffness over a band (lowest, highest) [rad/s]."""
+    low, high = band
+    if point.robot.extensions.frame_compliance.any():  # masts move the poles
+        return SweptStiffness(point, cables, law, assembly, low, [], None)
+    poles = _poles(point, cables, high)
+    inside = int((np.sqrt(poles.omega_squared) < high).sum())
+    edges = np.linspace(low, high, 2 + inside // _POLES_PER_SEGMENT)
+    segments = np.stack([edges[:-1], edges[1:]], axis=-1)
+    kept: list[_Piece] = []
+    for _ in range(_HALVINGS + 1):
+        pieces = _interpolate(point, cables, law, segments, poles, assembly)
+        kept += [piece for piece in pieces if piece.accurate]
+        refused = [(piece.low, piece.high) for piece in pieces if not piece.accurate]
+        if not refused:
+            break
+        segments = _halves(np.array(refused))
+    return SweptStiffness(point, cables, law, assembly, low, kept, poles)
+
+
 def swept_dynamic_stiffness(
     point: OperatingPoint,
     cables: CableDynamics,
@@ -63,33 +119,8 @@ def swept_dynamic_stiffness(
     omega: np.ndarray,
     assembly: Assembly = "consistent",
 ) -> np.ndarray:
-    """As `dynamic_stiffness`, to `RELATIVE_TOLERANCE` of the largest entries, for an ascending sweep (f,)."""
-    if point.robot.extensions.frame_compliance.any():  # masts move the poles
-        return dynamic_stiffness(point, cables, law, omega, assembly)
-    poles = _poles(point, cables, float(omega[-1]))
-    inside = int((np.sqrt(poles.omega_squared) < omega[-1]).sum())
-    edges = np.linspace(omega[0], omega[-1], 2 + inside // _POLES_PER_SEGMENT)
-    segments = np.stack([edges[:-1], edges[1:]], axis=-1)
-    matrices = np.empty((len(omega), 6, 6), dtype=complex)
-    for _ in range(_HALVINGS + 1):
-        pieces = _interpolate(point, cables, law, segments, poles, assembly)
-        refused = []
-        for piece in pieces:
-            part = slice(*np.searchsorted(omega, [piece.low, piece.high]))
-            if piece.accurate:
-                matrices[part] = piece.at(omega[part], law, poles)
-            else:
-                refused.append((piece.low, piece.high))
-        if not refused:
-            break
-        segments = _halves(np.array(refused))
-    else:
-        for low, high in segments:
-            part = slice(*np.searchsorted(omega, [low, high]))
-            matrices[part] = dynamic_stiffness(point, cables, law, omega[part], assembly)
-    ends = [0, -1]  # at rest a law may jump; the last frequency lies outside the half-open segments
-    matrices[ends] = dynamic_stiffness(point, cables, law, omega[ends], assembly)
-    return matrices
+    """`SweptStiffness.at` for one ascending sweep (f,)."""
+    return swept_stiffness(point, cables, law, (float(omega[0]), float(omega[-1])), assembly).at(omega)
 
 
 def _halves(segments: np.ndarray) -> np.ndarray:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import CableDynamics, CableModel, cable_dynamics
-from cdpr_struct.dynamics.damping import DampingLaw
+from cdpr_struct.dynamics.damping import Damping
 from cdpr_struct.dynamics.frequency_sweep import ModesInBand, modes_below
 from cdpr_struct.dynamics.modal_basis import ModalBasis, modal_basis
 from cdpr_struct.dynamics.natural_frequencies import count_below
@@ -44,7 +44,7 @@ class VibratingRobot:
 
     point: OperatingPoint
     model: CableModel
-    law: DampingLaw
+    law: Damping
     highest_hertz: float
     assembly: Assembly = "consistent"
 

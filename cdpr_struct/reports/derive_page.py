@@ -6,8 +6,6 @@ from typing import Any
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.html import HtmlTable, Page, render_page
 
-SOMETIMES = ("changes.diff",)
-"""Files that not every run has."""
 _LINES_SHOWN = 400
 
 

@@ -10,12 +10,15 @@ from cdpr_struct.measurement.universal_file import universal_file
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import frf
 from cdpr_struct.reports.figures.style import svg
-from cdpr_struct.reports.frf_text import SILENT, frf_summary, nearest_mode
+from cdpr_struct.reports.frf_text import RATIO, SILENT, WIDTH, frf_summary, peak_rows
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 
 
 def frf_files(sweep: ResponseSweep, result: Mapping[str, Any]) -> dict[str, str | bytes]:
-    """Contents of every file of the report, by name; `result` as `frf_json` gives it."""
+    """Contents of every file of the report, by name; `result` as `frf_json` gives it.
+
+    The universal file has the even lines only: its format gives a frequency six digits, too few for narrow peaks.
+    """
     axes = sweep.point.rotation if result["frame"] == "platform" else np.eye(3)
     plate = Plate(
         "frf",
@@ -25,7 +28,7 @@ def frf_files(sweep: ResponseSweep, result: Mapping[str, Any]) -> dict[str, str 
     )
     return {
         "frf.csv": frf_csv(sweep),
-        "frf.uff": universal_file(sweep.response, sweep.point.robot.name, axes),
+        "frf.uff": universal_file(sweep.evenly, sweep.point.robot.name, axes),
         "modes.csv": csv_text({"frequency_hz": sweep.modes.hertz, "kind": sweep.modes.kinds}),
         "frf.svg": plate.svg,
         "report.html": render_page(_page(sweep, result, plate)),
@@ -56,7 +59,7 @@ def _page(sweep: ResponseSweep, result: Mapping[str, Any], plate: Plate) -> Page
             f"{robot.platform.mass:g} kg at ({x:.4g}, {y:.4g}, {z:.4g}) m; cable model {result['model']}, damping "
             f"{result['damping']}"
         ),
-        verdict=[frf_summary(result)],
+        verdict=[frf_summary(result), result["damping_note"]],
         holds=bool(result["count_certified"]),
         facts=[
             (f"{len(result['natural_frequencies_hz'])}", "eigenfrequencies in the band"),
@@ -73,7 +76,10 @@ _NOTES = (
     "acceleration −ω² H (eqs 3.28, 3.29). Damping acts in the cables only and enters their stiffness before the "
     "inversion; the law and its formula are in docs/damping.md.",
     "Eigenfrequencies are those of the undamped robot, found by counting (Wittrick-Williams) and bisection, so that "
-    "none is missed. Peaks are local maxima that stand out by 5 %.",
+    "none is missed. Peaks are local maxima at a mode that stand out by 5 %, refined between the lines: neither "
+    "frequency nor height depends on the step of the band. The half-power width lies between the frequencies on both "
+    "sides at which the magnitude is that of the peak over √2; the damping ratio is width / (2 frequency), that of a "
+    "single mode of this width. A dash: a neighbour or the end of the band hides a flank.",
     "Assumed: small vibrations about the rest pose, rigid platform, fixed frame anchors, winches that hold their "
     "lengths.",
 )
@@ -82,14 +88,12 @@ _NOTES = (
 def _highest(response: Mapping[str, Any]) -> str:
     if len(response["peaks_hz"]) == 0:
         return "none"
+    if np.isinf(response["peak_magnitudes"]).any():
+        return "unbounded"
     return f"{response['peaks_hz'][int(np.argmax(response['peak_magnitudes']))]:.3f} Hz"
 
 
 def _table(result: Mapping[str, Any], response: Mapping[str, Any]) -> HtmlTable:
-    rows = []
-    for hertz, size in zip(response["peaks_hz"], response["peak_magnitudes"], strict=True):
-        near, kind = nearest_mode(result, float(hertz))
-        rows.append([f"{hertz:.4f}", f"{size:.4g}", "-" if near is None else f"{near:.4f}", kind])
-    columns = ["peak [Hz]", f"magnitude [{response['unit']}]", "nearest mode [Hz]", "kind"]
+    columns = ["peak [Hz]", f"magnitude [{response['unit']}]", WIDTH, RATIO, "nearest mode [Hz]", "kind"]
     note = f"{response['respond']} {SILENT}." if response["silent"] else ""
-    return HtmlTable(f"Peaks of {response['respond']}", columns, rows, note)
+    return HtmlTable(f"Peaks of {response['respond']}", columns, peak_rows(result, response), note)

@@ -6,28 +6,19 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.dynamics.frequency_sweep import ResponseSweep
-from cdpr_struct.dynamics.ports import CablePort
 from cdpr_struct.measurement.universal_file import response_unit
 from cdpr_struct.robot.pose import angles_from_rotation
-
-_ROUNDING = 1e-9
 
 
 def frf_json(sweep: ResponseSweep, described: Mapping[str, Any]) -> dict[str, Any]:
     """The result under the keys that scripts rely on; `described` is what the command was told, as text.
 
-    `peaks_hz` are the peaks of all responses together, ascending; `responses` has them one by one.
+    `peaks_hz` are the peaks of all responses together, ascending; `responses` has them one by one. Infinite magnitudes
+    and widths that cannot be told become null.
     """
     found, modes = sweep.response, sweep.modes
-    responses: list[dict[str, Any]] = []
-    for column, port in enumerate(found.respond):
-        silent = is_silent(sweep, column)
-        hertz, size = (np.empty(0), np.empty(0)) if silent else found.peaks(column)
-        unit = response_unit(port, found.excite, found.quantity)
-        found_here = {"peaks_hz": hertz, "peak_magnitudes": size}
-        responses.append({"respond": port.name, "unit": unit, "silent": silent, **found_here})
     angles = np.degrees(angles_from_rotation(sweep.point.rotation))
-    first = float(found.hertz[0])
+    listed = modes.hertz >= found.hertz[0]
     return {
         "robot": sweep.point.robot.name,
         "pose": [*sweep.point.position, *angles],
@@ -35,32 +26,40 @@ def frf_json(sweep: ResponseSweep, described: Mapping[str, Any]) -> dict[str, An
         "quantity": found.quantity,
         "excite": found.excite.name,
         **described,
-        "frequencies": len(found.hertz),
-        "peaks_hz": _merged([r["peaks_hz"] for r in responses], float(found.hertz[1] - found.hertz[0])),
-        "responses": responses,
-        "natural_frequencies_hz": modes.hertz[modes.hertz >= first],
-        "kinds": [kind for kind, hertz in zip(modes.kinds, modes.hertz, strict=True) if hertz >= first],
+        "frequencies": int(sweep.even.sum()),
+        "lines": len(found.hertz),
+        "peaks_hz": _merged(sweep),
+        "responses": [_response(sweep, column) for column in range(len(found.respond))],
+        "natural_frequencies_hz": modes.hertz[listed],
+        "natural_damping_ratios": sweep.ratios[listed],
+        "kinds": [kind for kind, here in zip(modes.kinds, listed, strict=True) if here],
         "count_certified": modes.certified,
         "all_modes_of_the_band": modes.complete,
     }
 
 
-def is_silent(sweep: ResponseSweep, column: int) -> bool:
-    """Nothing but rounding: an acceleration below 1e-9 of the free platform's, which symmetry makes zero."""
-    found, body = sweep.response, sweep.point.robot.platform
-    if isinstance(found.excite, CablePort) or isinstance(found.respond[column], CablePort):
-        return False
-    gyration = float(np.sqrt(np.trace(body.inertia) / 3.0 / body.mass))
-    free = 1.0 / body.mass / gyration ** (int(found.excite.turns) + int(found.respond[column].turns))
-    omega = 2.0 * np.pi * found.hertz
-    rate = omega ** {"displacement": 2, "velocity": 1, "acceleration": 0}[found.quantity]
-    return bool((np.abs(found.response[:, column]) * rate).max() < _ROUNDING * free)
+def _response(sweep: ResponseSweep, column: int) -> dict[str, Any]:
+    found, peaks = sweep.response, sweep.peaks[column]
+    return {
+        "respond": found.respond[column].name,
+        "unit": response_unit(found.respond[column], found.excite, found.quantity),
+        "silent": bool(sweep.silent[column]),
+        "peaks_hz": peaks.hertz,
+        "peak_magnitudes": peaks.magnitude,
+        "half_power_widths_hz": peaks.half_power_width,
+        "damping_ratios": peaks.damping_ratio,
+    }
 
 
-def _merged(lists: list[np.ndarray], step: float) -> list[float]:
-    """All peaks ascending; those of several responses within a grid step are one."""
+def _merged(sweep: ResponseSweep) -> list[float]:
+    """All peaks ascending; those of several responses within a mode's half-power width are one."""
+    modes = sweep.modes.hertz
     merged: list[float] = []
-    for hertz in np.sort(np.concatenate(lists)).tolist():
-        if not merged or hertz - merged[-1] > step:
+    for hertz in np.sort(np.concatenate([peaks.hertz for peaks in sweep.peaks])).tolist():
+        width = 0.0
+        if len(modes):
+            near = int(np.abs(modes - hertz).argmin())
+            width = 2.0 * float(sweep.ratios[near] * modes[near])
+        if not merged or hertz - merged[-1] > width:
             merged.append(hertz)
     return merged

@@ -1,5 +1,6 @@
 """A frequency response as text for a terminal."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -7,15 +8,18 @@ from cdpr_struct.reports.text import paragraphs, place, plain_table
 
 _MOST_ROWS = 30
 SILENT = "does not answer beyond rounding errors"
+UNBOUNDED = "unbounded (no damping)"
+WIDTH, RATIO = "half-power width [Hz]", "damping ratio"
 
 
 def frf_text(result: Mapping[str, Any]) -> str:
-    """Peaks of every response, and how they compare with the eigenfrequencies."""
+    """Damping, peaks of every response, and how they compare with the eigenfrequencies."""
     title = (
         f"{result['robot']} at {place(result['pose'][:3])}, cables {result['model']}, damping {result['damping']}: "
         f"{result['quantity']} under {result['excite']}, {result['frequencies']} frequencies"
     )
-    return paragraphs(title, *(_peaks(result, response) for response in result["responses"]), frf_summary(result))
+    blocks = (_peaks(result, response) for response in result["responses"])
+    return paragraphs(f"{title}\n{result['damping_note']}", *blocks, frf_summary(result))
 
 
 def frf_summary(result: Mapping[str, Any]) -> str:
@@ -24,22 +28,37 @@ def frf_summary(result: Mapping[str, Any]) -> str:
     proof = "certified complete by counting" if result["count_certified"] else "not certified"
     peak = "1 peak" if peaks == 1 else f"{peaks} peaks"
     if not result["all_modes_of_the_band"]:
-        return f"{peak} in the band; the robot has at least {modes} eigenfrequencies there, more than are listed."
+        last = result["natural_frequencies_hz"][-1]
+        return (
+            f"{peak} in the band; the robot has at least {modes} eigenfrequencies there, more than are listed. Above "
+            f"{last:.4g} Hz peaks are only as fine as the step of the band."
+        )
     return f"{peak} in the band; the robot has {modes} eigenfrequencies there ({proof})."
 
 
 def _peaks(result: Mapping[str, Any], response: Mapping[str, Any]) -> str:
     if response["silent"]:
         return f"{response['respond']} [{response['unit']}]: {SILENT}."
-    rows = []
-    for hertz, size in list(zip(response["peaks_hz"], response["peak_magnitudes"], strict=True))[:_MOST_ROWS]:
-        near, kind = nearest_mode(result, hertz)
-        rows.append([f"{hertz:.4f}", f"{size:.4g}", "-" if near is None else f"{near:.4f}", kind])
-    hidden = len(response["peaks_hz"]) - len(rows)
+    every = peak_rows(result, response)
+    rows = every[:_MOST_ROWS]
+    hidden = len(every) - len(rows)
     title = f"{response['respond']} [{response['unit']}]" + (
-        f", first {_MOST_ROWS} of {len(response['peaks_hz'])}" if hidden > 0 else ""
+        f", first {_MOST_ROWS} of {len(every)}" if hidden > 0 else ""
     )
-    return plain_table(title, ["peak [Hz]", "magnitude", "nearest mode [Hz]", "kind"], rows)
+    columns = ["peak [Hz]", "magnitude", WIDTH, RATIO, "nearest mode [Hz]", "kind"]
+    return plain_table(title, columns, rows)
+
+
+def peak_rows(result: Mapping[str, Any], response: Mapping[str, Any]) -> list[list[str]]:
+    """Frequency, magnitude, half-power width, damping ratio, nearest mode and its kind of every peak, as text."""
+    rows = []
+    columns = ("peaks_hz", "peak_magnitudes", "half_power_widths_hz", "damping_ratios")
+    for hertz, size, width, ratio in zip(*(response[name] for name in columns), strict=True):
+        near, kind = nearest_mode(result, float(hertz))
+        magnitude = UNBOUNDED if math.isinf(size) else f"{size:.4g}"
+        wide = ["-", "-"] if math.isnan(width) else [f"{width:.3g}", f"{ratio:.3g}"]
+        rows.append([f"{hertz:.4f}", magnitude, *wide, "-" if near is None else f"{near:.4f}", kind])
+    return rows
 
 
 def nearest_mode(result: Mapping[str, Any], hertz: float) -> tuple[float | None, str]:

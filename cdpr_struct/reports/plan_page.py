@@ -9,8 +9,6 @@ from cdpr_struct.reports.figures import plan as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 
-SOMETIMES = ("confusions.svg", "gains.svg")
-"""Files that not every plan has."""
 
 
 def plan_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:

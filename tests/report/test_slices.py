@@ -7,7 +7,7 @@ from cdpr_struct.reports.figures.pose_error import draw_pose_error, pose_error_c
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.figures.workspace_map import OTHER, UNHELD, Layer
 from cdpr_struct.reports.figures.workspace_slices import MOST, Slices, draw_slices, slices_size
-from cdpr_struct.reports.statics_map import map_files
+from cdpr_struct.reports.statics_map import map_files, map_json
 from cdpr_struct.reports.statics_pose_error import pose_error_files
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.workspace.grid import Grid
@@ -93,14 +93,18 @@ def test_any_values_can_be_drawn(values):
     assert "</svg>" in drawn(grid(5, 4, 3), values)
 
 
+def mapped(over, columns):
+    robot = load_robot("thesis-3-1")
+    return map_files(robot, "sag-max", over, columns, map_json(robot, "sag-max", over, columns))
+
+
 def test_map_page_says_which_slices_it_shows(read_page):
     over = grid(13, 13, 13)
     columns = {"sag_max_mm": value_of(over) + 1.0, "held": np.ones(over.size, bool)}
-    page = read_page(map_files(load_robot("thesis-3-1"), "sag-max", over, columns)["report.html"])
+    page = read_page(mapped(over, columns)["report.html"])
     assert "7 of 13 slices, at z = 0, 0.5, 1, 1.5, 2, 2.5, 3 m; all on one colour scale" in page.text
     assert page.values("figure", "id") == ["map"]
     assert page.foreign == []
-    assert "cdpr-struct map '--grid=a b'" in page.text
 
 
 def test_pose_error_over_three_axes_has_a_row_a_slice():
@@ -117,7 +121,7 @@ def test_pose_error_over_three_axes_has_a_row_a_slice():
 def test_page_of_a_single_pose_says_its_value_once(read_page):
     over = grid(1, 1, 1)
     columns = {"sag_max_mm": np.array([12.5]), "held": np.ones(1, bool)}
-    files = map_files(load_robot("thesis-3-1"), "sag-max", over, columns)
+    files = mapped(over, columns)
     page = read_page(files["report.html"])
     assert set(files) == {"map.csv", "report.html"}
     assert "Largest sag at (0, 0, 0) m: 12.5 mm." in page.text

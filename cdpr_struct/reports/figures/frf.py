@@ -17,7 +17,6 @@ from cdpr_struct.reports.figures.style import (
     kind_group,
     quiet,
 )
-from cdpr_struct.reports.frf_result import is_silent
 
 SIZE = (9.6, 6.2)
 _COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, SKY, BLACK)
@@ -31,7 +30,7 @@ def draw_frf(figure: Figure, sweep: ResponseSweep) -> None:
     units = [response_unit(port, found.excite, found.quantity) for port in found.respond]
     for column, (port, unit) in enumerate(zip(found.respond, units, strict=True)):
         colour = _COLOURS[column % len(_COLOURS)]
-        if is_silent(sweep, column):
+        if sweep.silent[column]:
             upper.plot([], [], color=colour, linewidth=1.1, label=f"{port.name}: no answer")
             continue
         values = found.response[:, column]
@@ -82,7 +81,24 @@ def draw_mode_ticks(axes: Axes, modes: ModesInBand) -> None:
 def frf_caption(sweep: ResponseSweep) -> str:
     """What to see in the figure."""
     count = int((sweep.modes.hertz >= sweep.response.hertz[0]).sum())
+    highest = "; ".join(filter(None, (_highest(sweep, column) for column in range(len(sweep.peaks)))))
     return (
         f"Ticks: the {count} undamped eigenfrequencies of the robot in the band, blue for platform, pink for mixed "
         "and orange for cable modes. A mode without a peak is not excited here, not seen there, or hidden in a cluster."
+        + (f" Highest peaks: {highest}." if highest else "")
+        + (" Curves are cut off beside the poles." if any(np.isinf(p.magnitude).any() for p in sweep.peaks) else "")
+    )
+
+
+def _highest(sweep: ResponseSweep, column: int) -> str:
+    """Frequency, half-power width and damping ratio of a response's highest peak, "" if it has none that is finite."""
+    peaks = sweep.peaks[column]
+    if len(peaks.hertz) == 0 or np.isinf(peaks.magnitude).any():
+        return ""
+    top = int(peaks.magnitude.argmax())
+    found = f"{sweep.response.respond[column].name} at {peaks.hertz[top]:.4g} Hz"
+    if np.isnan(peaks.half_power_width[top]):
+        return found
+    return (
+        f"{found} (half-power width {peaks.half_power_width[top]:.3g} Hz, damping ratio {peaks.damping_ratio[top]:.2g})"
     )
