@@ -11,5 +11,10 @@
 | robot_geometry.py   | points, curves and faces of the robot's picture                        |
 | robot_drawing.py    | the robot with its sagging cables                                      |
 | single_cable.py     | profile and dynamic stiffness of one cable                             |
+| mode_ladder.py      | eigenfrequencies by kind, how close they lie, and the tensions         |
+| plan.py             | what a test plan would confuse, and what to measure next               |
+| workspace_map.py    | a quantity over one or two axes of the workspace                       |
+| workspace_slices.py | the same over three axes, as slices                                    |
+| pose_error.py       | static pose error over the workspace, and over the load                |
 | interactive.py      | the same data as plotly figures, and plotly.js itself                  |
 """

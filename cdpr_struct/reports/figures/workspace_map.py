@@ -15,7 +15,7 @@ from matplotlib.patches import Patch
 from cdpr_struct.reports.figures.style import BLACK, BLUE, GREY, LIGHT
 from cdpr_struct.workspace.grid import AXES, Grid
 
-SIZE = (9.6, 5.8)
+WIDTH, HIGHEST = 9.6, 5.8
 LINE_SIZE = (9.6, 3.8)
 UNHELD = "cannot be held, or not stable"
 OTHER = "spring model: another pose is more stable"
@@ -46,8 +46,11 @@ def drawable(grid: Grid) -> bool:
 
 
 def map_size(grid: Grid) -> tuple[float, float]:
-    """Size of a figure of one quantity over one or two axes [inch]."""
-    return SIZE if len(grid.free) == 2 else LINE_SIZE
+    """Size of a figure of one quantity over one or two axes [inch]: a heat map as high as its axes ask."""
+    if len(grid.free) < 2:
+        return LINE_SIZE
+    across, up = (float(np.ptp(grid.axes[i])) for i in grid.free)
+    return WIDTH, float(np.clip(1.1 + 7.2 * up / across, 2.4, HIGHEST))
 
 
 def draw_map(figure: Figure, grid: Grid, layer: Layer) -> None:

@@ -80,9 +80,10 @@ def _plane(slices: Slices) -> list[np.ndarray]:
 
 
 def _arrangement(slices: Slices) -> tuple[int, int]:
-    """Rows and columns of panels: as few columns as keep the figure below the height of a screen."""
+    """Rows and columns of panels: fewer columns for wide slices, and few empty places."""
     count = len(slices.index)
-    columns = min(count, 2 if _slope(slices) < 0.5 else 3 if _slope(slices) < 1.2 else 4)
+    fewest = 2 if _slope(slices) < 0.5 else 3
+    columns = min(range(min(count, fewest), fewest + 2), key=lambda n: -count % n)
     return -(-count // columns), columns
 
 
