@@ -10,7 +10,6 @@ from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 
 
-
 def plan_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name.
 
