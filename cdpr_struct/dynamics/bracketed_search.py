@@ -58,17 +58,24 @@ def _narrow(place: np.ndarray, value: np.ndarray, rows: np.ndarray, new: np.ndar
 def bracketed_crossings(values: Values, place: np.ndarray, value: np.ndarray) -> np.ndarray:
     """(q,) zeros of q functions that change sign between two places each (q, 2), by false position (Illinois)."""
     place, value = place.copy(), value.copy()
-    rows = np.arange(len(place))
-    last = np.full(len(place), -1)
-    found = place[:, 1].copy()
+    rows, last, width = np.arange(len(place)), np.full(len(place), -1), place[:, 1] - place[:, 0]
+    found = _secant(place, value)
     for _ in range(_ROUNDS):
-        old = found.copy()
-        found = place[:, 0] - value[:, 0] * (place[:, 1] - place[:, 0]) / (value[:, 1] - value[:, 0])
-        if not len(rows) or (np.abs(found - old) <= _CLOSE**2 * np.abs(place[:, 1] - place[:, 0])).all():
+        new = values(found[rows], rows)
+        end = (np.sign(new) == np.sign(value[rows, 1])).astype(int)
+        twice = rows[end == last[rows]]
+        value[twice, 1 - last[twice]] *= 0.5
+        place[rows, end], value[rows, end], last[rows] = found[rows], new, end
+        better = _secant(place[rows], value[rows])
+        moved = np.abs(better - found[rows]) > _CLOSE * np.abs(width[rows])
+        found[rows] = better
+        rows = rows[moved]
+        if len(rows) == 0:
             break
-        new = values(found, rows)
-        end = (np.sign(new) == np.sign(value[:, 1])).astype(int)
-        twice = end == last
-        value[rows[twice], 1 - end[twice]] *= 0.5
-        place[rows, end], value[rows, end], last = found, new, end
     return found
+
+
+def _secant(place: np.ndarray, value: np.ndarray) -> np.ndarray:
+    """(q,) where the straight lines through two points each cross zero."""
+    slope = (value[:, 1] - value[:, 0]) / (place[:, 1] - place[:, 0])
+    return np.asarray(place[:, 0] - value[:, 0] / slope)
