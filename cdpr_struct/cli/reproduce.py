@@ -9,8 +9,8 @@ from cdpr_struct.errors import InputError
 
 NAME = "reproduce"
 EXAMPLES = (
-    "cdpr-struct reproduce table-2-2 table-2-3",
-    "cdpr-struct reproduce table-2-4 --out results/thesis",
+    "cdpr-struct reproduce table-2.2 table-2.3",
+    "cdpr-struct reproduce table-2.4 --out results/thesis",
 )
 
 

@@ -99,6 +99,7 @@ def run(
     if window is not None and not 0.0 < window <= seconds:
         raise InputError("--window", "", window, f"a time between 0 and {seconds:g} s")
     from cdpr_struct.dynamics.vibration_record import VibratingRobot
+    from cdpr_struct.reports.damping_note import ENDLESS_VIBRATION, damping_note
     from cdpr_struct.reports.transient_result import transient_json
     from cdpr_struct.reports.transient_text import transient_text
 
@@ -110,6 +111,7 @@ def run(
         else:
             record = vibrating.along(motion, ports, seconds)
     described = {"damping": damping, "frame": frame, "at_m": at or "0,0,0", "assembly": way}
+    described["damping_note"] = damping_note(law, damping, machine, cable_model == "static", ENDLESS_VIBRATION)
     result = transient_json(record, {**described, "command": output.words})
     result |= {"warnings": [*assumed, *state_warnings(point, lengths)]}
     result = with_extensions(result, machine, NAME, cable_model)

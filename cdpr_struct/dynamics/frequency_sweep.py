@@ -78,10 +78,7 @@ def sweep_response(
     quantity: Quantity = "acceleration",
     assembly: Assembly = "consistent",
 ) -> ResponseSweep:
-    """Response over the band and the eigenfrequencies below its top; hertz (f,) [Hz] evenly spaced, two or more.
-
-    Where a cable itself is shaken its modal sum converges as slowly as 1 / number of modes; so more are taken then.
-    """
+    """Response over the band, its peaks, and the eigenfrequencies below its top; hertz (f,) [Hz] evenly spaced, f > 1."""
     top = float(hertz[-1])
     cables = cable_dynamics(point, model, 2.0 * np.pi * top * _margin(excite))
     modes, shapes = _modes_and_shapes(point, cables, top, assembly)
@@ -94,15 +91,18 @@ def sweep_response(
     lines = resonances.lines(hertz)
     working = np.union1d(hertz, lines.hertz)
     first = FrequencyResponse(working, function.at(working), excite, respond, quantity)
-    silent = _silent(point, first, np.isin(working, hertz, assume_unique=True))
+    silent = _silent(point, first, np.isin(working, hertz))
     poles = undamped_poles(shapes, modes.hertz, undamped & (modes.hertz >= hertz[0]), excite, respond)
     peaks = _peaks(function, first, silent, resonances, poles)
-    response = _drawn(function, first, hertz, lines, modes.hertz, peaks)
-    even = np.isin(response.hertz, hertz, assume_unique=True)
-    return ResponseSweep(point, model, response, even, peaks, silent, modes, ratios)
+    drawn = _drawn(function, first, hertz, lines, modes.hertz, peaks)
+    return ResponseSweep(point, model, drawn, np.isin(drawn.hertz, hertz), peaks, silent, modes, ratios)
 
 
 def _margin(excite: Port) -> float:
+    """Times the top of the band, up to which the cables are resolved.
+
+    Where a cable itself is shaken its modal sum converges as slowly as 1 / number of modes, so more are taken.
+    """
     return MODES_OF_A_POINT if isinstance(excite, CablePort) else 1.0
 
 

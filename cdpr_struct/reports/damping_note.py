@@ -43,7 +43,8 @@ def _viscous(law: Viscous, of_file: bool, massless: bool) -> tuple[str, bool]:
         return "Viscous damping brakes the cables' mass, which this cable model leaves out", False
     source = "of the robot file" if of_file else "(option)"
     each = "" if np.ptp(law.ratio) == 0.0 else " (cable by cable)"
-    return f"Viscous damping, damping ratio {_range(law.ratio)} {source}{each}", bool(law.ratio.any())
+    what = f"Viscous damping of each cable, at its first mode with the damping ratio {_range(law.ratio)} {source}{each}"
+    return what, bool(law.ratio.any())
 
 
 def _rayleigh(law: Rayleigh, massless: bool) -> tuple[str, bool]:

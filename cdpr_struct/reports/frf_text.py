@@ -40,6 +40,8 @@ def _peaks(result: Mapping[str, Any], response: Mapping[str, Any]) -> str:
     if response["silent"]:
         return f"{response['respond']} [{response['unit']}]: {SILENT}."
     every = peak_rows(result, response)
+    if not every:
+        return f"{response['respond']} [{response['unit']}]: no peak in the band."
     rows = every[:_MOST_ROWS]
     hidden = len(every) - len(rows)
     title = f"{response['respond']} [{response['unit']}]" + (

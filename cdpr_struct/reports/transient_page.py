@@ -77,7 +77,7 @@ def _page(record: VibrationRecord, result: Mapping[str, Any], plate: Plate) -> P
             f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg at ({x:.4g}, {y:.4g}, {z:.4g}) m; "
             f"cable model {result['model']}, damping {result['damping']}"
         ),
-        verdict=[summary],
+        verdict=[summary, result["damping_note"]],
         holds=bool(result["count_certified"]),
         facts=[
             (f"{result['dominant_hz']:.3f} Hz", "dominant frequency of the platform"),

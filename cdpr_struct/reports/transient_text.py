@@ -14,7 +14,8 @@ def transient_text(result: Mapping[str, Any]) -> str:
         f"{result['duration_s']:g} s with the modes up to {result['highest_hz']:g} Hz"
     )
     columns = ["", "largest displacement", "largest acceleration", "dominant [Hz]"]
-    return paragraphs(title, plain_table("Vibration", columns, port_rows(result)), transient_summary(result))
+    head = f"{title}\n{result['damping_note']}"
+    return paragraphs(head, plain_table("Vibration", columns, port_rows(result)), transient_summary(result))
 
 
 def port_rows(result: Mapping[str, Any]) -> list[list[str]]:

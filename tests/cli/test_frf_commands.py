@@ -110,7 +110,7 @@ def test_undamped_peaks_are_unbounded_and_said_so(capsys, tmp_path):
     assert r["damping_note"] == "No damping (option): peaks are unbounded."
     assert run([*FRF, "--damping", "viscous:0"]) == 0
     text = capsys.readouterr().out
-    assert "Viscous damping, damping ratio 0 (option): peaks are unbounded." in text
+    assert "the damping ratio 0 (option): peaks are unbounded." in text
     assert "unbounded (no damping)" in text
     page = (tmp_path / "report.html").read_text()
     assert "unbounded (no damping)" in page
@@ -155,7 +155,7 @@ def test_a_robot_file_without_damping_is_said_to_be_undamped(tmp_path, capsys):
     own = bare.read_text().replace("[[cables]]", "[[cables]]\ndamping_ratio = 0.02", 1)
     bare.write_text(own)
     r = result_of([FRF[0], str(bare), *FRF[2:]], capsys)
-    assert r["damping_note"] == "Viscous damping, damping ratio 0 to 0.02 of the robot file (cable by cable)."
+    assert r["damping_note"].endswith("with the damping ratio 0 to 0.02 of the robot file (cable by cable).")
 
 
 def test_diagnose_reads_the_lines_of_an_frf(tmp_path, capsys):

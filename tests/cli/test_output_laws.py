@@ -22,9 +22,10 @@ ROOT = Path(__file__).parents[2]
 EXAMPLES = [(command.NAME, number, line) for command in COMMANDS for number, line in enumerate(command.EXAMPLES)]
 NAMES = [command.NAME for command in COMMANDS]
 REPORTING = [name for name in NAMES if name != "import-caspr"]  # which writes one robot file
-WORD = re.compile(r"[A-Za-z][^()\[\]{}]*")
+PYTHON = re.compile(r"\b(np|array|float64|int64|None|nan|inf|True|False)\b|[\[\]{}]|^[('\"]|[0-9]j\b")  # no words
 CLOCK = {"seconds"}  # of the run, not of the result; pages show it, so digests of `files` differ then
 
+FAILS = {"audit": 1}  # what its examples check does not hold, as the pages show
 # Where the numbers of a table stand in result.json: file, column, path.
 SAME = {
     "robots": [("robots.csv", "name", "robots.*.name")],
@@ -53,7 +54,7 @@ def runs(tmp_path_factory):
         if (name, number) not in done:
             line = next(line for n, k, line in EXAMPLES if (n, k) == (name, number))
             directory = base / f"{name}-{number}"
-            assert run([*words_of(line), "--out", str(directory), "--quiet"]) == 0, line
+            assert run([*words_of(line), "--out", str(directory), "--quiet"]) == FAILS.get(name, 0), line
             done[name, number] = directory
         return done[name, number]
 
@@ -114,15 +115,11 @@ def test_examples_run_and_every_cell_can_be_read(name, number, runs):
 
 
 def plain_cell(cell: str) -> bool:
-    """A number, a word, or nothing."""
-    try:
-        float(cell)
-    except ValueError:
-        return not cell or WORD.fullmatch(cell) is not None
-    return True
+    """A number, words, or nothing; not how Python writes a value."""
+    return PYTHON.search(cell) is None
 
 
-@pytest.mark.parametrize("cell", ["np.float64(2.48)", "[1, 2]", "array([1.0])", "(1+2j)", "{'a': 1}"])
+@pytest.mark.parametrize("cell", ["np.float64(2.48)", "[1, 2]", "array([1.0])", "(1+2j)", "{'a': 1}", "nan", "True"])
 def test_cells_that_no_spreadsheet_reads_are_seen(cell):
     assert not plain_cell(cell)
 
@@ -137,7 +134,7 @@ def test_the_command_on_a_page_gives_the_same_result(name, runs, tmp_path):
     line = unescape(re.search(r"<h2>Reproduce</h2>\s*<pre>(.*?)</pre>", page, re.DOTALL)[1])
     words = [word.replace("--out=DIR", f"--out={tmp_path}") for word in shlex.split(line)[1:]]
     assert f"--out={tmp_path}" in words
-    assert run([*words, "--quiet"]) == 0
+    assert run([*words, "--quiet"]) == FAILS.get(name, 0)
     first, again = result_of(runs(name, 0)), result_of(tmp_path)
     clocked = CLOCK | {"files"} if CLOCK & set(first) else set()
     assert {k: v for k, v in first.items() if k not in clocked} == {k: v for k, v in again.items() if k not in clocked}

@@ -6,7 +6,7 @@ import pytest
 from cdpr_struct.reports.figures.pose_error import draw_pose_error, pose_error_caption, pose_error_size
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.figures.workspace_map import OTHER, UNHELD, Layer, draw_map
-from cdpr_struct.reports.statics_map import map_files
+from cdpr_struct.reports.statics_map import map_files, map_json
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.pose_error_map import PARTS, PoseErrorMap
@@ -61,6 +61,7 @@ def test_any_values_can_be_drawn(values, signed):
 def test_a_map_over_any_axis_is_drawn_and_a_single_pose_tabled(shape, drawn):
     over = grid(*shape)
     columns = {"sag_max_mm": np.arange(over.size) + 1.0, "held": np.ones(over.size, bool)}
-    files = map_files(load_robot("thesis-3-1"), "sag-max", over, columns, ["cdpr-struct"])
+    robot = load_robot("thesis-3-1")
+    files = map_files(robot, "sag-max", over, columns, map_json(robot, "sag-max", over, columns))
     assert ("map.svg" in files) is drawn
     assert len(str(files["map.csv"]).splitlines()) == over.size + 1
