@@ -78,7 +78,7 @@ def sweep_response(
     quantity: Quantity = "acceleration",
     assembly: Assembly = "consistent",
 ) -> ResponseSweep:
-    """Response over the band, its peaks, and the eigenfrequencies below its top; hertz (f,) [Hz] evenly spaced, f > 1."""
+    """Response over the band, its peaks, and the eigenfrequencies below its top; hertz (f,) [Hz] evenly spaced."""
     top = float(hertz[-1])
     cables = cable_dynamics(point, model, 2.0 * np.pi * top * _margin(excite))
     modes, shapes = _modes_and_shapes(point, cables, top, assembly)
