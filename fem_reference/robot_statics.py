@@ -17,13 +17,14 @@ from fem_reference.arrays import fixed_array
 from fem_reference.bent_masts import bend, softened
 from fem_reference.cable import CableEquilibrium
 from fem_reference.cable_statics import EPS, CableBatch, ChainState, equilibria
-from fem_reference.errors import PulleysNotSettledError, RobotNotConvergedError
+from fem_reference.errors import FoldedCableError, PulleysNotSettledError, RobotNotConvergedError
 from fem_reference.pulley_statics import guessed_wraps, handed_on, movement, rewrapped, unwound, wraps_towards
 from fem_reference.rigid_platform import point_motion, rotating_arm_stiffness, turned
 from fem_reference.robot import DeadLoads, PointForce, RobotData, RobotEquilibrium
 
 MAX_ITERATIONS = 100
 LARGEST_TURN = 0.3  # rad a step
+SHORTEST_UNFOLDED = 1e-3  # share of a Newton step; where even this folds a cable, the rest position lies in the fold
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,12 +119,21 @@ def _descend(
     step: np.ndarray,
     floor: float,
 ) -> PlatformState:
-    """Halve the step until the energy falls, or at round-off until the wrench does not grow."""
+    """Halve the step until the energy falls, or at round-off until the wrench does not grow.
+
+    A step so long that a cable goes slack and folds is halved, too; `FoldedCableError` if short ones fold as well.
+    """
     slope, size = float(state.wrench @ step), float(np.abs(state.wrench).max())
     scale = 1.0
     for _ in range(40):
         place, turn = state.position + scale * step[:3], turned(state.rotation, scale * step[3:])
-        trial = platform_state(robot, batch, loads, place, turn, state.chains.mid_force)
+        try:
+            trial = platform_state(robot, batch, loads, place, turn, state.chains.mid_force)
+        except FoldedCableError:
+            if scale < SHORTEST_UNFOLDED:
+                raise
+            scale *= 0.5
+            continue
         lower = trial.energy <= state.energy - 1e-4 * scale * slope
         if lower or float(np.abs(trial.wrench).max()) <= max(0.5 * size, floor):
             break

@@ -44,7 +44,7 @@ def rendering() -> regenerate.Rendering:
 def copy(rendering: regenerate.Rendering, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A fresh tree of everything that is printed; run() then uses the rendering at hand."""
     regenerate.write(rendering.texts, tmp_path)
-    monkeypatch.setattr(regenerate, "render", lambda: rendering)
+    monkeypatch.setattr(regenerate, "render", lambda progress: rendering)
     return tmp_path
 
 

@@ -209,4 +209,5 @@ def test_length_limit_is_kept(path):
     assert free.lengths.max() > 12.605
     d = distribute(ROBOT, path.position, path.rotation, lower_bound=20.0, longest=12.6)
     assert d.lengths.max() <= 12.6 * (1.0 + 1e-12)
-    assert d.cost.max() >= free.cost.max()
+    assert (d.cost >= free.cost * (1.0 - 1e-12)).all()  # equal to rounding where the limit does not act
+    assert d.cost.sum() > free.cost.sum()

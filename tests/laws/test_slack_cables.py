@@ -194,7 +194,6 @@ def test_a_released_platform_with_slack_cables_is_told_its_bound():
     assert result["slack_poses"] == int((columns["slack_cables"] > 0.0).sum()) > 0
     assert len(result["warnings"]) == 1
     assert "once the platform is let go" in result["warnings"][0]
-    assert pose_error_json(errors)["warnings"] == []
 
 
 def test_bounds_for_released_platforms_are_tried_by_releasing_them():

@@ -1,11 +1,12 @@
 """Angles that a file lacks are taken as zero, and that is said; one reader reads the motions of all commands."""
 
+import json
+
 import numpy as np
 import pytest
 
 from cdpr_struct.cli.main import run
-from cdpr_struct.cli.trajectory_input import read_noted_trajectory, read_trajectory
-from cdpr_struct.cli.transient import read_motion
+from cdpr_struct.cli.trajectory_input import read_trajectory
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign_file import load_campaign
 from tests.robustness.test_campaign_files import CAMPAIGN, HEAD, ROWS
@@ -64,23 +65,32 @@ def test_each_file_is_named_and_one_without_a_pose_is_not(tmp_path):
 def test_a_trajectory_says_what_it_lacks(names, values, said, tmp_path):
     path = tmp_path / "path.csv"
     path.write_text(motion(names, values))
-    found, told = read_noted_trajectory(str(path), None)
+    found, told = read_trajectory(str(path), None)
     assert [said in note and str(path) in note for note in told] == ([True] if said else [])
     turned = [[0, -1, 0], [1, 0, 0], [0, 0, 1]] if "90" in values else np.eye(3)
     np.testing.assert_allclose(found.rotation[0], turned, atol=1e-15)
 
 
 def test_built_in_motions_assume_nothing():
-    assert read_noted_trajectory("helix", None)[1] == ()
-    assert read_noted_trajectory("line:0,0,1:1,0,1:5", None)[1] == ()
+    assert read_trajectory("helix", None)[1] == []
+    assert read_trajectory("line:0,0,1:1,0,1:5", None)[1] == []
 
 
-def test_all_commands_read_the_same_motion(tmp_path):
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["transient", "thesis-3-1", "--highest", "8", "--model", "static"],
+        ["distribute", "thesis-5", "--b", "1"],
+        ["audit", "thesis-3-1"],
+    ],
+    ids=lambda words: words[0],
+)
+def test_every_command_with_a_trajectory_says_what_it_lacks(words, tmp_path, capsys):
     path = tmp_path / "path.csv"
-    path.write_text(motion(",rz_deg", ",10"))
-    one, other = read_trajectory(str(path), None), read_motion(str(path))
-    for name in one.__slots__:
-        np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+    path.write_text(motion("", ""))
+    assert run([*words, "--trajectory", str(path), "--json"]) in (0, 1)
+    (said,) = json.loads(capsys.readouterr().out)["warnings"]
+    assert f"{path} has no columns rx_deg, ry_deg, rz_deg" in said
 
 
 @pytest.mark.parametrize(
@@ -109,6 +119,6 @@ def test_all_commands_refuse_the_same(command, text, words, tmp_path, capsys):
 def test_vibration_needs_four_instants(tmp_path):
     path = tmp_path / "path.csv"
     path.write_text("time_s,x_m,y_m,z_m\n0,0,0,1\n1,0,0,1\n2,0,0,1\n")
-    assert len(read_trajectory(str(path), None)) == 3
+    assert len(read_trajectory(str(path), None)[0]) == 3
     with pytest.raises(InputError, match="at least 4 instants"):
-        read_motion(str(path))
+        read_trajectory(str(path), None, 4)

@@ -70,7 +70,7 @@ def test_a_record_that_adds_nothing_is_told(tmp_path, capsys):
     more = f'[[measurement]]\nkind = "static_state"\nfile = "{states}"\n'
     path.write_text(CAMPAIGN.format(kind="free_decay", file="decay.csv").replace("thesis-3-1", "cogiro") + more)
     assert run(["diagnose", str(path)]) == 0
-    assert "warning: free_decay a adds no frequency: " in capsys.readouterr().out
+    assert "Warning: free_decay a adds no frequency: " in capsys.readouterr().out
 
 
 def test_a_decay_without_a_pose_says_so(tmp_path):
