@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.options import require_file
+from cdpr_struct.cli.options import LowerBound, UpperBound, read_bounds, require_file
 from cdpr_struct.cli.output import Files, Output
 from cdpr_struct.errors import InputError
 
@@ -20,6 +20,8 @@ BUDGET_HELP = "small (10 s, half a minute where much is wrong, minutes with sign
 def run(
     campaign: Annotated[str, typer.Argument(metavar="CAMPAIGN.toml", help="Path to a campaign file.")],
     budget: Annotated[str, typer.Option("--budget", help=BUDGET_HELP)] = "small",
+    lower_bound: LowerBound = None,
+    upper_bound: UpperBound = None,
     *,
     output: Output,
 ) -> int:
@@ -32,7 +34,7 @@ def run(
     from cdpr_struct.reports.diagnosis_result import diagnosis_json
     from cdpr_struct.reports.diagnosis_text import diagnosis_text
 
-    measured = load_campaign(campaign)
+    measured = load_campaign(campaign, *read_bounds(lower_bound, upper_bound))
     with output.steps(4) as progress:
         found = diagnose(measured, budget, progress)
     result = with_extensions(diagnosis_json(found), measured.robot, NAME)

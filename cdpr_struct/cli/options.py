@@ -150,14 +150,27 @@ def read_robot(
         raise InputError("--payload", "", payload, "give a mass in kg, zero or more")
     if mass is not None and not 0.0 < mass < float("inf"):
         raise InputError("--mass", "", mass, "give a mass in kg above zero")
-    if lower_bound is not None and not 0.0 <= lower_bound < float("inf"):
-        raise InputError("--lower-bound", "", lower_bound, "give a force in N, zero or more")
+    read_bounds(lower_bound, upper_bound)
     robot = load_robot(name).with_load(payload, mass)
     try:
         return robot.with_force_limits(lower_bound, upper_bound)
     except ValueError as error:
         crossed = ("--upper-bound", upper_bound) if upper_bound is not None else ("--lower-bound", lower_bound)
         raise InputError(crossed[0], "", crossed[1], str(error)) from error
+
+
+def read_bounds(lower_bound: float | None, upper_bound: float | None) -> tuple[float | None, float | None]:
+    """The bounds of cable force that options give, each a force of its own.
+
+    Raises
+    ------
+    InputError : negative, not finite, or the upper one not above zero.
+    """
+    if lower_bound is not None and not 0.0 <= lower_bound < float("inf"):
+        raise InputError("--lower-bound", "", lower_bound, "give a force in N, zero or more")
+    if upper_bound is not None and not upper_bound > 0.0:
+        raise InputError("--upper-bound", "", upper_bound, "give a force in N above zero")
+    return lower_bound, upper_bound
 
 
 def read_pose(text: str | None, robot: "Robot", option: str = "--pose") -> "Pose":

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.options import require_file
+from cdpr_struct.cli.options import LowerBound, UpperBound, read_bounds, require_file
 from cdpr_struct.cli.output import Files, Output
 
 NAME = "plan"
@@ -17,6 +17,8 @@ EXAMPLES = (
 
 def run(
     campaign: Annotated[str, typer.Argument(metavar="CAMPAIGN.toml", help="Path to a campaign file.")],
+    lower_bound: LowerBound = None,
+    upper_bound: UpperBound = None,
     *,
     output: Output,
 ) -> int:
@@ -26,7 +28,7 @@ def run(
     from cdpr_struct.measurement.campaign_file import load_campaign
     from cdpr_struct.reports.diagnosis_plan import plan_json, plan_text
 
-    entered = load_campaign(campaign)
+    entered = load_campaign(campaign, *read_bounds(lower_bound, upper_bound))
     with output.steps(STEPS) as progress:
         found = planned(entered, progress)
     result = with_extensions(plan_json(found) | {"warnings": list(entered.notes)}, entered.robot, NAME)

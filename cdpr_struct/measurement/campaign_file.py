@@ -86,8 +86,10 @@ class CampaignTable(_Table):
     measurement: Annotated[list[MeasurementTable], Field(min_length=1)]
 
 
-def load_campaign(path: str | Path) -> Campaign:
+def load_campaign(path: str | Path, lower_bound: float | None = None, upper_bound: float | None = None) -> Campaign:
     """Campaign of a TOML file with the data files it names, all checked.
+
+    lower_bound, upper_bound : of the tensions that the simulation commands [N], in place of the campaign's and robot's
 
     Raises
     ------
@@ -96,7 +98,9 @@ def load_campaign(path: str | Path) -> Campaign:
     source = Path(path)
     table = _table(source)
     robot = _nominal(_robot(table.robot, source), table.nominal, source)
-    commanding = _commanding(robot, table.lower_bound_N, source)
+    robot = robot if upper_bound is None else _below(robot, upper_bound, source)
+    lowest = table.lower_bound_N if lower_bound is None else lower_bound
+    commanding = _commanding(robot, lowest, source)
     gathering = Gathering(len(robot.cables))
     sheets = []
     for number, entry in enumerate(table.measurement, start=1):
@@ -122,7 +126,7 @@ def load_campaign(path: str | Path) -> Campaign:
         identified=identified,
         assembly=table.nominal.assembly,
         tension_distribution=table.tension_distribution,
-        lower_bound=table.lower_bound_N,
+        lower_bound=lowest,
         checked=table.checked,
         sheets=tuple(sheets),
         notes=tuple(note for sheet in sheets if (note := angle_note(sheet.file, sheet.columns))),
@@ -154,6 +158,15 @@ def _robot(name: str, source: Path) -> Robot:
         known = ", ".join(builtin_names())
         raise InputError(str(source), "robot", name, f"a robot file, its path as seen from here, or one of: {known}")
     return load_robot(source.parent / name)
+
+
+def _below(robot: Robot, upper_bound: float, source: Path) -> Robot:
+    try:
+        return robot.with_force_limits(upper=upper_bound)
+    except ValueError as error:
+        raise InputError(
+            str(source), "upper bound", upper_bound, f"a force above the lower limits ({error})"
+        ) from error
 
 
 def _commanding(robot: Robot, lower_bound: float | None, source: Path) -> Robot:
