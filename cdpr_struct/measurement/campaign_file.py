@@ -161,12 +161,12 @@ def _robot(name: str, source: Path) -> Robot:
 
 
 def _below(robot: Robot, upper_bound: float, source: Path) -> Robot:
+    """The robot with another largest cable force."""
     try:
         return robot.with_force_limits(upper=upper_bound)
     except ValueError as error:
-        raise InputError(
-            str(source), "upper bound", upper_bound, f"a force above the lower limits ({error})"
-        ) from error
+        expected = f"a force in N above every force_min of the robot, {robot.force_min.max():g} N"
+        raise InputError(str(source), "upper bound", upper_bound, expected) from error
 
 
 def _commanding(robot: Robot, lower_bound: float | None, source: Path) -> Robot:

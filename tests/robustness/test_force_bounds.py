@@ -1,11 +1,13 @@
 """--lower-bound and --upper-bound of every command that computes a state of balance."""
 
+from pathlib import Path
+
 import pytest
 
 from cdpr_struct.cli.main import COMMANDS, run
 from cdpr_struct.measurement.campaign_file import load_campaign
 
-LEVEL = "examples/table-4-4/level.toml"
+LEVEL = str(Path(__file__).parents[2] / "examples" / "table-4-4" / "level.toml")
 AT_REST = {"inverse", "modes", "map", "pose-error", "audit", "verify", "frf", "transient", "spectrogram", "distribute",
            "diagnose", "plan"}  # fmt: skip
 
