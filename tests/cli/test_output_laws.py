@@ -3,6 +3,7 @@
 Each example of each command's help runs once, with its files in a directory of its own; the laws are then read off.
 """
 
+import functools
 import json
 import re
 import shlex
@@ -17,12 +18,14 @@ import pytest
 
 from cdpr_struct.cli.main import COMMANDS, run
 from cdpr_struct.cli.output import repeating
+from derivations import regenerate
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = [(command.NAME, number, line) for command in COMMANDS for number, line in enumerate(command.EXAMPLES)]
 NAMES = [command.NAME for command in COMMANDS]
 REPORTING = [name for name in NAMES if name != "import-caspr"]  # which writes one robot file
 PYTHON = re.compile(r"\b(np|array|float64|int64|None|nan|inf|True|False)\b|[{}]|^\[.*\]$|^[('\"]|[0-9]j\b")  # no words
+RENDER = regenerate.render
 CLOCK = {"seconds"}  # of the run, not of the result; pages show it, so digests of `files` differ then
 
 FAILS = {"audit": 1}  # what its examples check does not hold, as the pages show
@@ -64,6 +67,13 @@ def runs(tmp_path_factory):
 @pytest.fixture(autouse=True)
 def from_the_repository(monkeypatch):
     monkeypatch.chdir(ROOT)
+    monkeypatch.setattr(regenerate, "render", lambda progress: derived_once())
+
+
+@functools.cache
+def derived_once() -> regenerate.Rendering:
+    """The derivations, which take ten seconds, once a process."""
+    return RENDER()
 
 
 def result_of(directory: Path) -> dict:
