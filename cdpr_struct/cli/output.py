@@ -84,7 +84,7 @@ def repeating(typed: Sequence[str]) -> tuple[str, ...]:
     return ("cdpr-struct", *kept, "--out=DIR")
 
 
-_FLAGS, _WITH_VALUE = ("--json", "--quiet", "--overwrite"), ("--out", "--scheduler")
+_FLAGS, _WITH_VALUE = ("--json", "--quiet", "-q", "--overwrite"), ("--out", "--scheduler")
 
 
 def warnings_of(result: Mapping[str, Any]) -> list[str]:

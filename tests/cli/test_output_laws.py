@@ -153,7 +153,7 @@ def test_the_command_on_a_page_gives_the_same_result(name, runs, tmp_path):
 def test_repeating_leaves_out_where_results_go_and_nothing_else():
     typed = ["map", "r.toml", "--lower-bound", "60", "--out", "d", "--json", "--quiet", "--overwrite", "--mass=3"]
     assert repeating(typed) == ("cdpr-struct", "map", "r.toml", "--lower-bound", "60", "--mass=3", "--out=DIR")
-    assert repeating(["modes", "r.toml", "--out=d", "--scheduler", "tcp://a:1"])[1:-1] == ("modes", "r.toml")
+    assert repeating(["modes", "r.toml", "-q", "--out=d", "--scheduler", "tcp://a:1"])[1:-1] == ("modes", "r.toml")
 
 
 def test_nothing_older_stays_beside_a_new_result(tmp_path):
