@@ -1,0 +1,1 @@
+"""Which measured peak is which mode of the model, and how surely?"""
