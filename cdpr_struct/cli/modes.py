@@ -53,7 +53,7 @@ def run(
     way = read_assembly(assembly)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
     from cdpr_struct.crosscheck.robot_modes import MODELS, require_validity, robot_modes
-    from cdpr_struct.statics.robot_arrays import RobotArrays
+    from cdpr_struct.robot.robot_arrays import RobotArrays
 
     name = next((m for m in MODELS if m == model), None)
     if name is None:

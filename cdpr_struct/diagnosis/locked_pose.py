@@ -14,6 +14,7 @@ from cdpr_struct.diagnosis.conditioned_state import (
 from cdpr_struct.diagnosis.readings import Readings
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.errors import CdprError
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import (
@@ -24,7 +25,6 @@ from cdpr_struct.statics.equilibrium import (
     weight_wrench,
 )
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 _MOST_ROUNDS, _SAME = 8, 1e-6  # of a stiffness that follows the tensions; share of it that ends them
 _SHORTEST = 1e-3  # m, of a cable that a law leaves no length

@@ -15,7 +15,7 @@ from cdpr_struct.diagnosis.readings import Readings, cell_reading, exit_turns
 from cdpr_struct.diagnosis.residuals import (
     Labels,
     Setting,
-        as_sent,
+    as_sent,
     at_states,
     readings_of_states,
     resting_and_vibrating,
@@ -28,9 +28,9 @@ from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.energy_descent import arm_scale
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 
 def make_setting(campaign: Campaign) -> tuple[Setting, Setting]:

@@ -17,9 +17,9 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.taut_cable_expansion import expand_taut_cables
 from cdpr_struct.dynamics.taut_cables import TautCables, closed_form_stiffness, taut_cables
 from cdpr_struct.generated.cable_dsm import damped_omega_squared
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 CableModel = Literal["static", "dsm", "exact"]
 CABLE_MODELS: tuple[CableModel, ...] = get_args(CableModel)

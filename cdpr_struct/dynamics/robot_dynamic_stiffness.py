@@ -9,10 +9,10 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.generated import platform as generated
 from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.equilibrium import weight_force
 from cdpr_struct.statics.masts import Inertia, behind_masts
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 Assembly = Literal["consistent", "thesis"]
 

@@ -18,8 +18,8 @@ from cdpr_struct.measurement.signal_records import SignalRecord, records
 from cdpr_struct.measurement.state_modes import StateModes, state_modes
 from cdpr_struct.measurement.unit_scale import check_pose_scale
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.energy_descent import arm_scale
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 VISIBLE = 0.15  # share of the kinetic energy in the platform from which on a mode counts as the robot's
 SEEN = 0.25  # the same as an FRF shows it, whatever the model says

@@ -9,6 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import cable_response, let_out
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span
 from cdpr_struct.statics.catenary import CableStatus
@@ -16,7 +17,6 @@ from cdpr_struct.statics.catenary_length import force_z_curvature
 from cdpr_struct.statics.hanging_cables import hanging, held_hanging
 from cdpr_struct.statics.masts import with_settled_masts
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 IDEAL_STIFFENING = 1e6  # an ideal cable at given length: spring with EA this many times larger
 SLACKEST_HELD = (

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates, cable_stiffness
 from cdpr_struct.statics.pulley import exit_rates
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 _UP = np.array([0.0, 0.0, 1.0])
 

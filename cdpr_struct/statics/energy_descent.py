@@ -5,8 +5,8 @@ from typing import Protocol, Self
 
 import numpy as np
 
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.equilibrium import rotation_from_vector
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 LONGEST_STEP = 0.6  # [m], rotations as arcs at the anchors' mean radius
 LARGEST_TURN = 0.5  # [rad]

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.generated.platform import attachment, geometric_stiffness
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.masts import behind_masts
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 
 @dataclass(frozen=True, slots=True, eq=False)

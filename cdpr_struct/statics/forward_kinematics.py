@@ -13,11 +13,11 @@ import numpy.typing as npt
 
 from cdpr_struct.errors import ConvergenceError
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.energy_descent import EnergyDescent, Evaluation, arm_scale
 from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, tangent_stiffness
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 MAX_ITERATIONS = 200
 NEUTRAL = 1e-9  # smallest over largest eigenvalue of the tangent below which an equilibrium counts as neutral

@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import exit_jacobian, let_out
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span
 from cdpr_struct.statics.catenary import CatenaryForces, solve_end_forces
 from cdpr_struct.statics.catenary_length import length_at_chord_tension
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 _EXIT_ITERATIONS = 30
 _EXIT_TOLERANCE = 1e-14  # of the tension, or of the unit direction

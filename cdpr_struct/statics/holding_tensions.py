@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel, HeldCables
 from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench
 from cdpr_struct.statics.minimum_norm import QuadraticPrograms, solve_programs
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 MAX_ITERATIONS = 60
 _STALLED = 8  # iterations without the unbalanced wrench shrinking by a tenth end the search

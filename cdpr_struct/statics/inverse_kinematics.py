@@ -15,12 +15,12 @@ import numpy.typing as npt
 
 from cdpr_struct.errors import ConvergenceError, UnholdablePoseError
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics import holding_tensions
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import cable_wrench
 from cdpr_struct.statics.holding_tensions import HoldingProblem
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 BALANCED = 1e-8  # residual over load and tensions that counts as balanced
 _SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension

@@ -13,9 +13,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 _ITERATIONS = 40
 _SETTLED = 1e-15  # of the largest coordinate

@@ -16,12 +16,12 @@ import numpy.typing as npt
 
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.equilibrium import PlatformArms, weight_force
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
 from cdpr_struct.statics.masts import of_each_mast, pull_on_masts
 from cdpr_struct.statics.preload import Preload
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 CONTINUATION = (30.0, 4.0)  # times EA: stations between the ideal reference and the spring model
 SAME_POSE = 1e-6  # [m], [rad]

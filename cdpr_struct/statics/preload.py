@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.inverse_kinematics import inverse
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,10 +7,10 @@ import numpy.typing as npt
 
 from cdpr_struct.generated.platform import attachment
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, moment_skew, tangent_stiffness
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 
 @dataclass(frozen=True, slots=True, eq=False)

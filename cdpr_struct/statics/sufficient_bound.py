@@ -11,11 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, load_wrench, tangent_stiffness
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.pose_error import pose_error
-from cdpr_struct.statics.robot_arrays import RobotArrays
 from cdpr_struct.statics.slack_cables import hangs_slack
 
 RUNGS = 15

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.pose_error import PoseError, pose_error
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 _LADDER = 41
 _REFINEMENTS = 3

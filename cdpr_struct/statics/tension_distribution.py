@@ -9,12 +9,12 @@ import numpy.typing as npt
 
 from cdpr_struct.errors import UnholdablePoseError
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.distribution_feasibility import LeastUnbalance, explain, least_unbalance
 from cdpr_struct.statics.distribution_problem import DistributionProblem, Optimum
 from cdpr_struct.statics.holding_tensions import HoldingProblem
-from cdpr_struct.statics.robot_arrays import RobotArrays
 from cdpr_struct.statics.tension_bound import chord_tension_at, chord_tension_at_length, constant
 from cdpr_struct.statics.tension_cost import EuclideanNorm, TensionCost
 

@@ -9,7 +9,7 @@ from importlib.metadata import version
 import numpy as np
 
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.robot_arrays import RobotArrays
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.quantities import Columns, evaluate
 

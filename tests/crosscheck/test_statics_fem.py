@@ -7,11 +7,11 @@ import pytest
 
 import fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import to_fem
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.pose_error import reference_lengths
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 ELEMENTS = (16, 32, 64, 128)
 ROBOTS = ("thesis-3-1", "thesis-3-1-8mm", "six-cable-4mm", "six-cable-8mm", "cogiro", "thesis-5")

@@ -26,11 +26,11 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
 from cdpr_struct.dynamics.taut_cable_expansion import expand_taut_cables
 from cdpr_struct.dynamics.taut_cables import taut_cables
 from cdpr_struct.robot.cable import Pulley
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import cable_stiffness
 from cdpr_struct.statics.inverse_kinematics import inverse
-from cdpr_struct.statics.robot_arrays import RobotArrays
 from tests.conftest import at_rest
 
 POSES = ([0.0, 0.0, 0.5], [1.3, -0.8, 0.9], [-2.5, 2.0, 0.5])

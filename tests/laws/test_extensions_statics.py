@@ -7,12 +7,12 @@ import pytest
 
 from cdpr_struct.robot.extensions import KEYS, Extensions, masts_of
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, rotation_from_vector
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
-from cdpr_struct.statics.robot_arrays import RobotArrays
 from cdpr_struct.statics.static_stiffness import static_stiffness
 
 SHIFT = np.array([0.5, -0.4, 0.2])  # m from the home pose

@@ -11,9 +11,9 @@ from cdpr_struct.diagnosis.extended_robot import robot_of
 from cdpr_struct.diagnosis.world import World
 from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
-from cdpr_struct.statics.robot_arrays import RobotArrays
 from cdpr_struct.statics.tension_distribution import distribute
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.quantities import tensions

@@ -7,12 +7,12 @@ import pytest
 
 from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.extensions import Extensions
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.equilibrium import PlatformArms
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.pose_error import pose_error, reference_lengths
 from cdpr_struct.statics.preload import Preload
-from cdpr_struct.statics.robot_arrays import RobotArrays
 from cdpr_struct.statics.sufficient_load import sufficient_load
 from cdpr_struct.workspace.quantities import pose_errors
 

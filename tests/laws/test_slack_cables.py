@@ -9,11 +9,11 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_static_stiffne
 from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.reports.statics_map import map_json
 from cdpr_struct.reports.statics_pose_error import pose_error_json
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.bound_advice import bound_hint, outside_limits, shared_cure, slack_warning
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.inverse_kinematics import inverse
-from cdpr_struct.statics.robot_arrays import RobotArrays
 from cdpr_struct.statics.slack_cables import hangs_slack, slack_count, slack_sentence
 from cdpr_struct.statics.sufficient_bound import (
     SufficientBound,

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cdpr_struct.robot.cable import Pulley
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.cable_response import cable_response
@@ -15,7 +16,6 @@ from cdpr_struct.statics.cable_state import cable_stiffness
 from cdpr_struct.statics.catenary import CableStatus
 from cdpr_struct.statics.equilibrium import PlatformArms
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 ROBOT = load_robot("thesis-3-1")
 UP = np.array([0.0, 0.0, 1.0])

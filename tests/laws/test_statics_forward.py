@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 
 from cdpr_struct.errors import ConvergenceError
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import builtin_names, load_robot
 from cdpr_struct.statics.equilibrium import rotation_from_vector
 from cdpr_struct.statics.forward_kinematics import ForwardStatus, forward
 from cdpr_struct.statics.pose_error import reference_lengths
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 ROBOT = load_robot("thesis-3-1")
 PLACES = st.tuples(st.floats(-3, 3), st.floats(-2.5, 2.5), st.floats(0.2, 1.5))

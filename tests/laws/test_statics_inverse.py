@@ -11,13 +11,13 @@ from scipy.optimize import minimize
 from cdpr_struct.errors import ConvergenceError, UnholdablePoseError
 from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import builtin_names, load_robot
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, weight_wrench
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import InverseStatus, inverse
 from cdpr_struct.statics.minimum_norm import QuadraticPrograms, solve_programs
-from cdpr_struct.statics.robot_arrays import RobotArrays
 
 ROBOT = load_robot("thesis-3-1")
 FIXED = load_robot("thesis-5")

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from cdpr_struct.robot.cable import Pulley
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.pose_error import pose_error, potential_energy, reference_lengths
-from cdpr_struct.statics.robot_arrays import RobotArrays
 from cdpr_struct.statics.sufficient_load import sufficient_load
 
 # Thesis, Table 3.2: average pose error along z [mm] introduced by sag, by axial elasticity, and global.

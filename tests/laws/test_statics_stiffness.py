@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cdpr_struct.robot.cable import Pulley
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.equilibrium import (
@@ -19,7 +20,6 @@ from cdpr_struct.statics.equilibrium import (
 )
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
 from cdpr_struct.statics.pose_error import reference_lengths
-from cdpr_struct.statics.robot_arrays import RobotArrays
 from cdpr_struct.statics.static_stiffness import RobotStiffness, static_stiffness
 
 BASE = load_robot("thesis-3-1")
