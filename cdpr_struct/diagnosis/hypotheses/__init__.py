@@ -1,0 +1,1 @@
+"""Everything that may be wrong, one family of hypotheses a file."""

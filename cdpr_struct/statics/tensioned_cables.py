@@ -1,0 +1,67 @@
+"""Cables that carry given tensions at the platform: what load cells there say, put into the cable model.
+
+`inverse` chooses tensions; here they are known, and so are the points between which the cables hang. What is left is
+how much unstrained cable that takes.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.cable_models import CableModel
+from cdpr_struct.statics.cable_response import let_out
+from cdpr_struct.statics.cable_state import CableStates, heading_and_span
+from cdpr_struct.statics.catenary_length import CatenaryLength, solve_length
+from cdpr_struct.statics.masts import with_settled_masts
+from cdpr_struct.statics.pulley import pulley_exit, straight_exit
+
+_EXIT_ITERATIONS = 30
+_EXIT_SETTLED = 1e-12  # of the unit direction in which a cable leaves its pulley
+
+
+def tensioned(model: CableModel, arrays: RobotArrays, points: np.ndarray, tension: np.ndarray) -> CableStates:
+    """Cables with tension (..., m) > 0 [N] at the platform that end at points (..., m, 3), world [m].
+
+    E may change with the tension, masts give way under it, and what is elastic in line stretches. Of two sagging
+    cables with the same tension the taut one; where no cable between these points pulls so little, the status is
+    `TENSION_TOO_LOW`, and the cable is that of least tension.
+    """
+    stiff = replace(arrays, axial_stiffness=arrays.stiffness_at(tension)) if arrays.nonlinearity.any() else arrays
+    if model.name != "sagging":
+        return model.hold(stiff, points, tension).states
+    return with_settled_masts(stiff, lambda moved: _hanging(moved, points, tension), locked=False)[0]
+
+
+def _hanging(arrays: RobotArrays, points: np.ndarray, tension: np.ndarray) -> CableStates:
+    offset = points - arrays.frame_anchors
+    if not arrays.has_pulleys:
+        return _between(arrays, offset, tension, np.zeros(offset.shape[:-1]), None)[0]
+    near: CatenaryLength | None = None
+    direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
+    for _ in range(_EXIT_ITERATIONS):
+        leaving = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
+        wrap = arrays.pulley_radius * leaving.wrap_angle
+        states, near = _between(arrays, offset - leaving.point, tension, wrap, near)
+        before = direction
+        direction = states.force_at_frame / states.tension_at_frame[..., None]
+        if np.abs(direction - before).max(initial=0.0) <= _EXIT_SETTLED:
+            break
+    return states
+
+
+def _between(
+    arrays: RobotArrays, offset: np.ndarray, tension: np.ndarray, wrap: np.ndarray, near: CatenaryLength | None
+) -> tuple[CableStates, CatenaryLength]:
+    """Free catenaries over `offset` (..., m, 3), a strained length `wrap` (..., m) on the pulleys behind them [m]."""
+    heading, span = heading_and_span(offset)
+    held = solve_length(span, offset[..., 2], tension, arrays.axial_stiffness, arrays.weight, near)
+    shape = held.length.shape
+    stiff, weight = (np.broadcast_to(value, shape) for value in (arrays.axial_stiffness, arrays.weight))
+    bottom = np.hypot(held.force_x, held.force_z - weight * held.length)
+    whole = (*shape, 3)
+    states = CableStates(
+        np.broadcast_to(offset, whole), np.broadcast_to(heading, whole), held.length, wrap / (1.0 + bottom / stiff),
+        held.force_x, held.force_z, stiff, weight, held.status, np.broadcast_to(let_out(arrays, bottom, stiff), shape),
+    )  # fmt: skip
+    return states, held
