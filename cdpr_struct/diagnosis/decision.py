@@ -1,0 +1,128 @@
+"""What to say, given how probable everything is: the answer of least expected loss.
+
+An answer is a row of classes: one cause of each is there. A class of one names its cause; no class at all says that
+the model is adequate. What is said may be wrong (a class without a true cause), or wider than need be: for every name
+too many in a class, and for every true cause that is not spoken of.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import permutations
+
+Classes = tuple[tuple[str, ...], ...]
+UNKNOWN = "unknown"
+"""Name of every hypothesis that no cause of the library explains."""
+
+
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """What mistakes cost, in the unit of one name too many.
+
+    wrong_name : a class in which no cause is there
+    too_wide   : one more name in a class, or a cause that is not spoken of
+    unknown    : to say that nothing is wrong, or nothing that the library knows, where it does know the cause
+    """
+
+    wrong_name: float = 20.0
+    too_wide: float = 1.0
+    unknown: float = 10.0
+
+    def __post_init__(self) -> None:
+        if not self.wrong_name > self.unknown > self.too_wide > 0.0:
+            given = f"{self.wrong_name:g}, {self.unknown:g}, {self.too_wide:g}"
+            raise ValueError(f"a loss needs wrong_name > unknown > too_wide > 0, got {given}")
+
+
+@dataclass(frozen=True, slots=True)
+class Belief:
+    """A set of causes that may be the truth, none for nothing wrong, and its probability."""
+
+    names: tuple[str, ...]
+    probability: float
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """The answer of least expected loss: its status, classes, and the probability that it is right."""
+
+    status: str
+    classes: Classes
+    probability: float
+
+
+def decided(beliefs: Sequence[Belief], loss: Loss) -> Decision:
+    """The decision for beliefs whose probabilities sum up to one."""
+    options = [(_of_unknown(beliefs, loss), UNKNOWN, ()), (_of_classes((), beliefs, loss), "adequate", ())]
+    for start in _beginnings(beliefs):
+        classes = _widened(start, beliefs, loss)
+        options.append((_of_classes(classes, beliefs, loss), _status(classes), classes))
+    _, status, classes = min(options, key=lambda option: option[0])
+    return Decision(status, classes, _right(status, classes, beliefs))
+
+
+def _status(classes: Classes) -> str:
+    return "named" if all(len(names) == 1 for names in classes) else "class"
+
+
+def _right(status: str, classes: Classes, beliefs: Sequence[Belief]) -> float:
+    """Probability that what is said is true."""
+    if status == UNKNOWN:
+        return sum(one.probability for one in beliefs if UNKNOWN in one.names)
+    if status == "adequate":
+        return sum(one.probability for one in beliefs if not one.names)
+    return sum(one.probability for one in beliefs if fits(classes, one.names))
+
+
+def _beginnings(beliefs: Sequence[Belief]) -> Iterable[Classes]:
+    """Every likely set of causes named, and every likely cause alone."""
+    ranked = sorted(beliefs, key=lambda one: -one.probability)[:8]
+    known = [one.names for one in ranked if one.names and UNKNOWN not in one.names]
+    alone = {(name,) for names in known for name in names}
+    return [tuple((name,) for name in names) for names in [*known, *sorted(alone)]]
+
+
+def _widened(classes: Classes, beliefs: Sequence[Belief], loss: Loss) -> Classes:
+    """Classes with names added as long as that lowers the loss."""
+    names = sorted({name for one in beliefs for name in one.names} - {UNKNOWN})
+    best = _of_classes(classes, beliefs, loss)
+    while True:
+        taken = {name for own in classes for name in own}
+        wider = [
+            (*classes[:i], (*own, name), *classes[i + 1 :])
+            for i, own in enumerate(classes)
+            for name in names
+            if name not in taken
+        ]
+        options = [(_of_classes(option, beliefs, loss), option) for option in wider]
+        if not options or min(options)[0] >= best:
+            return classes
+        best, classes = min(options)
+
+
+def _of_unknown(beliefs: Sequence[Belief], loss: Loss) -> float:
+    said = sum(one.probability for one in beliefs if UNKNOWN not in one.names and one.names)
+    nothing = sum(one.probability for one in beliefs if not one.names)
+    return loss.unknown * said + loss.wrong_name * nothing
+
+
+def _of_classes(classes: Classes, beliefs: Sequence[Belief], loss: Loss) -> float:
+    """Expected loss of an answer."""
+    total = loss.too_wide * sum(len(names) - 1 for names in classes)
+    for one in beliefs:
+        if one.names and not classes:
+            total += loss.unknown * one.probability
+        elif not fits(classes, one.names):
+            total += loss.wrong_name * one.probability
+        else:
+            total += loss.too_wide * (len(one.names) - len(classes)) * one.probability
+    return total
+
+
+def fits(classes: Classes, names: Sequence[str]) -> bool:
+    """Whether each class has a cause of its own among the names."""
+    if len(classes) > len(names):
+        return False
+    return any(
+        all(name in own for name, own in zip(order, classes, strict=True))
+        for order in permutations(names, len(classes))
+    )
