@@ -31,7 +31,7 @@ class Term:
     sigma: np.ndarray
 
     def applied(self, arrays: RobotArrays, z: np.ndarray) -> RobotArrays:
-        """The robot with z (..., d) put in; (...) are batch axes of its fields."""
+        """The robot with z (..., 1, d) put in; the axes before d are batch and states of its fields."""
         return self.change(arrays, (z * self.sigma) @ self.basis.T)
 
 
@@ -64,7 +64,7 @@ class Point:
         """The robot at the point."""
         arrays = data.arrays
         for term, z in zip(self.terms, self.z, strict=True):
-            arrays = term.applied(arrays, z)
+            arrays = term.applied(arrays, z[None])
         return arrays
 
     def readings(self, data: Recorded, more: np.ndarray | None = None) -> Readings:
@@ -119,7 +119,7 @@ def own_columns(data: Recorded, point: Point, base: np.ndarray) -> np.ndarray:
     for i, term in enumerate(point.terms):
         arrays = data.arrays
         for j, (other, z) in enumerate(zip(point.terms, point.z, strict=True)):
-            steps = z + _STEP * np.eye(len(z))[:, None, :] if i == j else z
+            steps = z + _STEP * np.eye(len(z))[:, None, :] if i == j else z[None]
             arrays = other.applied(arrays, steps)
         found = np.broadcast_to(residuals(data, arrays, readings), (len(term.sigma), *base.shape))
         parts.append(-np.moveaxis(found - base, 0, -1) / _STEP)

@@ -42,7 +42,9 @@ def _hanging(arrays: RobotArrays, points: np.ndarray, tension: np.ndarray) -> Ca
     for _ in range(_EXIT_ITERATIONS):
         leaving = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
         wrap = arrays.pulley_radius * leaving.wrap_angle
-        states, near = _between(arrays, offset - leaving.point, tension, wrap, near)
+        free = offset - leaving.point
+        alike = near is not None and near.length.shape == np.broadcast_shapes(free.shape[:-1], tension.shape)
+        states, near = _between(arrays, free, tension, wrap, near if alike else None)
         before = direction
         direction = states.force_at_frame / states.tension_at_frame[..., None]
         if np.abs(direction - before).max(initial=0.0) <= _EXIT_SETTLED:
@@ -56,12 +58,16 @@ def _between(
     """Free catenaries over `offset` (..., m, 3), a strained length `wrap` (..., m) on the pulleys behind them [m]."""
     heading, span = heading_and_span(offset)
     held = solve_length(span, offset[..., 2], tension, arrays.axial_stiffness, arrays.weight, near)
-    shape = held.length.shape
-    stiff, weight = (np.broadcast_to(value, shape) for value in (arrays.axial_stiffness, arrays.weight))
-    bottom = np.hypot(held.force_x, held.force_z - weight * held.length)
-    whole = (*shape, 3)
+    bottom = np.hypot(held.force_x, held.force_z - arrays.weight * held.length)
+    passed = let_out(arrays, bottom, arrays.axial_stiffness)
+    shape = np.broadcast_shapes(held.length.shape, passed.shape)
+
+    def whole(value: np.ndarray, core: tuple[int, ...] = ()) -> np.ndarray:
+        return np.broadcast_to(value, shape + core)
+
     states = CableStates(
-        np.broadcast_to(offset, whole), np.broadcast_to(heading, whole), held.length, wrap / (1.0 + bottom / stiff),
-        held.force_x, held.force_z, stiff, weight, held.status, np.broadcast_to(let_out(arrays, bottom, stiff), shape),
+        whole(offset, (3,)), whole(heading, (3,)), whole(held.length), whole(wrap / (1.0 + bottom / arrays.axial_stiffness)),
+        whole(held.force_x), whole(held.force_z), whole(arrays.axial_stiffness), whole(arrays.weight),
+        whole(held.status), whole(passed),
     )  # fmt: skip
     return states, held
