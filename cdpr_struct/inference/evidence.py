@@ -11,6 +11,7 @@ import numpy as np
 
 from cdpr_struct.inference.joint_posterior import JointPosterior
 from cdpr_struct.inference.linear_model import LinearModel
+from cdpr_struct.inference.marginal_scales import first_noise
 from cdpr_struct.inference.scale_mixture import NoiseState, mixture_bound, updated_noise
 from cdpr_struct.inference.soft_rows import SoftExpectation, SoftRows
 from cdpr_struct.inference.white_rows import WhiteRows
@@ -66,8 +67,8 @@ def fit(
 
     Parameters
     ----------
-    start : scales to begin with; without it, every reading is as good as stated. Different starts may end in
-        different maxima of the bound; the highest is the best answer.
+    start : scales to begin with; without it, those of `first_noise`. Different starts may end in different maxima of
+        the bound; the highest is the best answer.
     soft : readings of the soft rows; without it, these rows are not read.
     soft_start : responsibilities to begin with; without it, those at the prediction from the hard rows.
     one_sided : (t,) mask of parameters that cannot be negative; their prior is the positive half of N(0, 1). The
@@ -75,7 +76,7 @@ def fit(
     """
     rows, groups = WhiteRows.of(model), model.groups
     sided = np.flatnonzero(np.zeros(model.parameters, bool) if one_sided is None else one_sided)
-    noise = NoiseState.stated(groups) if start is None else start
+    noise = first_noise(rows, groups, soft_start, sided) if start is None else start
     mixture = soft_start
     if soft is not None and mixture is None:
         joint = JointPosterior.of(rows, groups.spread(noise.variance), None, sided)

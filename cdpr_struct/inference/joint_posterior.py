@@ -106,6 +106,15 @@ class ParameterPosterior:
         restricted = rows @ self.reach
         return spread + np.einsum("...i,...i->...", restricted @ self.change, restricted)
 
+    def spread(self, rows: np.ndarray) -> np.ndarray:
+        """Covariance (..., q, q) of rows @ z, for rows (..., q, t)."""
+        turned = rows @ self.root
+        covariance = turned @ turned.swapaxes(-1, -2)
+        if not self.change.size:
+            return covariance
+        restricted = rows @ self.reach
+        return covariance + restricted @ self.change @ restricted.swapaxes(-1, -2)
+
     @property
     def covariance(self) -> np.ndarray:
         """(t, t)"""
@@ -118,14 +127,14 @@ class JointPosterior:
 
     parameters       : of z
     noise_mean       : (K, q) of u, in units of stated sigmas
-    noise_variance   : (K, q)
+    noise_covariance : (K, q, q) within each block
     soft_mean        : (K, s) prediction of the soft rows
     soft_variance    : (K, s)
     """
 
     parameters: ParameterPosterior
     noise_mean: np.ndarray
-    noise_variance: np.ndarray
+    noise_covariance: np.ndarray
     soft_mean: np.ndarray
     soft_variance: np.ndarray
 
@@ -141,12 +150,18 @@ class JointPosterior:
         turned = marginal.A.swapaxes(1, 2)
         noise_mean = variance * (turned @ rest)[..., 0]
         carried = variance[..., None] * (turned @ marginal.X.reshape(blocks, n, -1))
-        noise_variance = variance - variance**2 * np.einsum("knq,knq->kq", marginal.A, marginal.A)
-        noise_variance += parameters.variance(carried)
+        known = variance[..., None] * turned
+        noise_covariance = parameters.spread(carried) - known @ known.swapaxes(1, 2)
+        np.einsum("kii->ki", noise_covariance)[...] += variance
         A, X = rows.A[:, rows.soft], rows.X[:, rows.soft]
         soft_mean = (A @ noise_mean[..., None])[..., 0] + X @ parameters.mean
         scaled = A * variance[:, None]
         seen = scaled @ turned
         own = np.einsum("ksq,ksq->ks", scaled, A) - np.einsum("ksn,ksn->ks", seen, seen)
         soft_variance = own + parameters.variance(X - A @ carried)
-        return cls(parameters, noise_mean, noise_variance, soft_mean, soft_variance)
+        return cls(parameters, noise_mean, noise_covariance, soft_mean, soft_variance)
+
+    @property
+    def noise_variance(self) -> np.ndarray:
+        """(K, q)"""
+        return np.einsum("kii->ki", self.noise_covariance)

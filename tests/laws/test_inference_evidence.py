@@ -1,0 +1,235 @@
+"""Evidence of a linear model: equal to the dense Gaussian, to sums over all scales, and to plain integration."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.special import logsumexp
+
+from cdpr_struct.inference.evidence import SETTLED, fit
+from cdpr_struct.inference.linear_model import LinearModel
+from cdpr_struct.inference.scale_mixture import KAPPA, PSEUDO_COUNTS, NoiseGroups, NoiseState
+from tests.laws.inference_cases import (
+    NO_ROWS,
+    campaign,
+    dense_log_density,
+    enumerated_log_evidence,
+    log_prior_tau,
+)
+
+
+@pytest.mark.parametrize("given", [1.0, 7.0])
+@pytest.mark.parametrize("floor", [0.0, 0.3])
+def test_gaussian_evidence_is_that_of_the_dense_normal_density(given, floor):
+    model = campaign(1, shape=(4, 5, 7, 6), given=given, floor=floor)
+    found = fit(model)
+    assert found.log_evidence == pytest.approx(
+        dense_log_density(model, np.full(len(model.groups.kind), given)), abs=1e-9
+    )
+    assert found.iterations == 2
+    assert found.converged
+
+
+def test_gaussian_posterior_is_that_of_one_least_squares_problem():
+    """(u, z, e) jointly: rows r = A u + X z + floor e, priors N(0, variance), N(0, 1), N(0, 1)."""
+    model = campaign(2, shape=(1, 4, 6, 3), given=3.0)
+    rows = np.hstack((model.A[0] * np.sqrt(3.0), model.X[0], np.diag(model.floor[0])))
+    gain = rows.T @ np.linalg.inv(rows @ rows.T)
+    mean, covariance = gain @ model.r[0], np.eye(rows.shape[1]) - gain @ rows
+    found = fit(model)
+    np.testing.assert_allclose(found.noise_mean[0], np.sqrt(3.0) * mean[:6], atol=1e-10)
+    np.testing.assert_allclose(found.noise_variance[0], 3.0 * np.diag(covariance)[:6], atol=1e-10)
+    np.testing.assert_allclose(found.z_mean, mean[6:9], atol=1e-10)
+    np.testing.assert_allclose(found.z_covariance, covariance[6:9, 6:9], atol=1e-10)
+
+
+@pytest.mark.parametrize("outlier", [0.0, 4.0, 20.0])
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_bound_lies_below_the_sum_over_all_scales_and_close_to_it(seed, outlier):
+    model = campaign(seed, shape=(2, 2, 3, 1), kinds=1, outlier=outlier)  # 4 groups, 625 combinations
+    gap = enumerated_log_evidence(model) - fit(model).log_evidence
+    assert 0.0 < gap < 0.6  # measured .09 to .41
+
+
+def plain_integral(r, x, grids, draws=3000):
+    """ln E over z (grid, half-normal or normal weight), tau (grid) and pi (drawn) of the mixture density of readings.
+
+    r : (G, d) readings u + x z; x : (G, d, t). Nothing is integrated in closed form.
+    """
+    weights = np.random.default_rng(0).dirichlet(PSEUDO_COUNTS, draws)
+    z = np.stack(np.meshgrid(*grids, indexing="ij"), axis=-1).reshape(-1, len(grids))
+    log_z = -0.5 * (z**2).sum(axis=1)
+    log_tau = np.linspace(np.log(0.15), np.log(12.0), 23)
+    square = ((r - np.einsum("gdt,zt->zgd", x, z)) ** 2).sum(axis=-1)
+    total = []
+    for tau in np.exp(log_tau):
+        sigma = tau * KAPPA
+        density = np.exp(-0.5 * square[..., None] / sigma**2) / (np.sqrt(2.0 * np.pi) * sigma) ** r.shape[1]
+        total.append(logsumexp(np.log((density @ weights.T).prod(axis=1).mean(axis=1) + 1e-300) + log_z))
+    return logsumexp(np.array(total) + log_prior_tau(log_tau)) - logsumexp(log_z) + np.log(log_tau[1] - log_tau[0])
+
+
+def readings_model(r, x):
+    """Group g is read as u_g + x_g z, in one block: A = I."""
+    count, size = r.shape
+    groups = NoiseGroups(np.repeat(np.arange(count), size)[None], np.zeros(count, int), np.full(count, np.nan))
+    A, X = np.eye(r.size)[None], x.reshape(1, r.size, -1)
+    return LinearModel(r.reshape(1, -1), A, X, np.zeros((1, r.size)), groups, NO_ROWS)
+
+
+GRID = np.linspace(-5.0, 5.0, 81)
+ONE = np.array([2.0, -1.0, 1.5, 1.0])[:, None, None]
+TWO = np.array([[[2.0, 0.0], [0.0, 2.0]], [[1.0, 1.0], [1.0, -1.0]], [[0.0, 1.5], [2.0, 0.5]]])
+PROBLEMS = {  # readings, change per parameter, one-sided, grids, greatest gap (measured .10, .20, .21)
+    "an outlier of six": (np.array([[1.9], [-1.2], [7.5], [1.1]]), ONE, None, [GRID], 0.2),
+    "a size that looks negative": (np.array([[-1.9], [1.2], [-1.5], [0.3]]), ONE, [True], [GRID[GRID >= 0]], 0.4),
+    "joint readings, one off": (np.array([[1.0, -2.0], [9.0, 1.0], [-1.0, 1.0]]), TWO, None, [GRID[::2]] * 2, 0.4),
+}
+
+
+@pytest.mark.parametrize("problem", PROBLEMS.values(), ids=PROBLEMS)
+def test_bound_lies_close_to_plain_integration(problem):
+    r, x, one_sided, grids, greatest = problem
+    gap = plain_integral(r, x, grids) - fit(readings_model(r, x), one_sided=one_sided).log_evidence
+    assert -0.02 < gap < greatest  # -.02: the drawn pi and the first cell of the half-normal grid
+
+
+@pytest.mark.parametrize("outlier", [0.0, 3.0, 5.0, 30.0])
+@pytest.mark.parametrize("seed", range(5))
+def test_the_bound_never_falls(seed, outlier):
+    model = campaign(seed, shape=(6, 5, 8, 4), outlier=outlier)
+    for one_sided in (None, np.arange(4) == 1):
+        found = fit(model, one_sided=one_sided)
+        assert found.converged
+        assert (np.diff(found.bounds) > -1e-9).all()
+
+
+def test_evidence_does_not_depend_on_any_order():
+    model, rng = campaign(5, outlier=6.0), np.random.default_rng(5)
+    blocks, rows, columns = (rng.permutation(count) for count in model.X.shape)
+    names = rng.permutation(len(model.groups.kind))
+    index = np.argsort(names)[model.groups.index[blocks]]
+    mixed = LinearModel(
+        model.r[blocks][:, rows],
+        model.A[blocks][:, rows],
+        model.X[blocks][:, rows][:, :, columns],
+        model.floor[blocks][:, rows],
+        NoiseGroups(index, model.groups.kind[names], model.groups.fixed_variance[names]),
+        NO_ROWS,
+    )
+    one, other = fit(model), fit(mixed)
+    assert other.log_evidence == pytest.approx(one.log_evidence, abs=1e-9)
+    np.testing.assert_allclose(other.z_mean, one.z_mean[columns], atol=1e-9)
+    np.testing.assert_allclose(other.noise.variance, one.noise.variance[names], rtol=1e-9)
+
+
+def test_padding_and_equivalent_residuals_change_nothing():
+    """More rows and readings of padding, and rows of other units mixed with each other."""
+    model, rng = campaign(6, outlier=6.0, floor=0.0), np.random.default_rng(6)
+    mix = rng.normal(size=(3, 4, 4))
+    index = np.pad(model.groups.index, ((0, 0), (0, 2)), constant_values=-1)
+    padded = LinearModel(
+        np.pad((mix @ model.r[..., None])[..., 0], ((0, 0), (0, 3))),
+        np.pad(mix @ model.A, ((0, 0), (0, 3), (0, 2))),
+        np.pad(mix @ model.X, ((0, 0), (0, 3), (0, 0))),
+        np.pad(model.floor, ((0, 0), (0, 3)), constant_values=1.0),
+        NoiseGroups(index, model.groups.kind, model.groups.fixed_variance),
+        NO_ROWS,
+    )
+    one, other = fit(model), fit(padded)
+    assert other.log_evidence == pytest.approx(one.log_evidence, abs=1e-8)
+    np.testing.assert_allclose(other.z_mean, one.z_mean, atol=1e-8)
+
+
+def test_a_missing_reading_is_a_dropped_row_up_to_a_constant():
+    """Each row has one reading of its own; the constant is the same whatever the other data say."""
+    differences = []
+    for seed in (1, 2):
+        rng = np.random.default_rng(seed)
+        r, x = rng.normal(size=(6, 1)) + rng.normal(), rng.normal(size=(6, 1, 2))
+        whole = readings_model(r, x)
+        missing = np.where(np.arange(6) == 3, 1e8, np.nan)
+        filled = replace(whole, groups=NoiseGroups(whole.groups.index, whole.groups.kind, missing))
+        kept = np.arange(6) != 3
+        with_missing, dropped = fit(filled), fit(readings_model(r[kept], x[kept]))
+        np.testing.assert_allclose(with_missing.z_mean, dropped.z_mean, atol=1e-6)
+        np.testing.assert_allclose(with_missing.noise.tau, dropped.noise.tau, rtol=1e-6)
+        differences.append(with_missing.log_evidence - dropped.log_evidence)
+    assert differences[0] == pytest.approx(differences[1], abs=1e-5)
+    assert differences[0] == pytest.approx(-0.5 * np.log(2.0 * np.pi * 1e8), abs=1e-5)
+
+
+def test_a_block_that_shares_nothing_adds_its_own_evidence_and_changes_nothing_else():
+    """A block is repeated with readings of kinds of its own and no parameters."""
+    model = campaign(7, outlier=6.0)
+    count, kinds = len(model.groups.kind), len(model.groups.members)
+    there = model.groups.index[:1]
+    mapped = np.arange(count) <= there.max()
+
+    def groups(index, *kind):
+        return NoiseGroups(index, np.concatenate(kind), np.full(sum(map(len, kind)), np.nan))
+
+    alone = LinearModel(
+        model.r[:1], model.A[:1], 0.0 * model.X[:1], model.floor[:1], groups(there, model.groups.kind[mapped]), NO_ROWS
+    )
+    both = LinearModel(
+        np.concatenate((model.r, alone.r)),
+        np.concatenate((model.A, alone.A)),
+        np.concatenate((model.X, alone.X)),
+        np.concatenate((model.floor, alone.floor)),
+        groups(np.concatenate((model.groups.index, there + count)), model.groups.kind, alone.groups.kind + kinds),
+        NO_ROWS,
+    )
+    one, other, total = fit(model), fit(alone), fit(both)
+    assert total.log_evidence == pytest.approx(one.log_evidence + other.log_evidence, abs=2 * SETTLED)
+    np.testing.assert_allclose(total.z_mean, one.z_mean, atol=0.02)  # as settled as the bound
+
+
+def test_no_start_raises_the_bound_above_the_evidence():
+    model = campaign(8, shape=(2, 2, 3, 1), kinds=1, outlier=5.0)
+    truth, rng = enumerated_log_evidence(model), np.random.default_rng(8)
+    for _ in range(20):
+        responsibility = rng.dirichlet(np.ones(len(KAPPA)) * 0.3, len(model.groups.kind))
+        start = NoiseState.of(model.groups, responsibility, np.exp(rng.normal(size=1)))
+        found = fit(model, start)
+        assert max(found.bounds) < truth
+        assert (np.diff(found.bounds) > -1e-9).all()
+
+
+def test_an_outlier_is_set_aside_and_the_estimates_stay():
+    shape = (12, 14, 22, 10)
+    clean, spoilt = campaign(9, shape=shape), campaign(9, shape=shape, outlier=20.0)
+    one, other = fit(clean), fit(spoilt)
+    group = spoilt.groups.index[0, -1]
+    assert other.noise.responsibility[group, 2:].sum() > 0.999
+    assert np.delete(other.noise.responsibility[:, 0], group).min() > 0.5
+    assert other.noise_mean[0, -1] == pytest.approx(one.noise_mean[0, -1] + 20.0, abs=3.0)
+    shift = (other.z_mean - one.z_mean) / np.sqrt(np.diag(one.z_covariance))
+    assert np.abs(shift).max() < 1.0  # measured .5; without the mixture 6.6
+
+
+def test_sigmas_that_are_twice_the_stated_are_found():
+    model = campaign(10, shape=(18, 14, 22, 10), kinds=1)
+    doubled = replace(model, A=0.5 * model.A, floor=0.5 * model.floor)
+    assert fit(doubled).noise.tau == pytest.approx(2.0, rel=0.15)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"r": np.full((3, 4), np.nan)}, "r must be finite"),
+        ({"floor": -np.ones((3, 4))}, "floor must not be negative"),
+        ({"X": np.zeros((3, 5, 2))}, "do not fit"),
+        ({"A": np.zeros((3, 4, 5))}, "do not fit"),
+        ({"soft": np.array([4])}, "soft must lie within"),
+    ],
+)
+def test_a_model_that_does_not_fit_together_is_refused(change, message):
+    with pytest.raises(ValueError, match=message):
+        replace(campaign(1), **change)
+
+
+def test_rows_without_noise_of_their_own_are_refused():
+    model = campaign(1, floor=0.0)
+    with pytest.raises(ValueError, match="floor a positive value"):
+        fit(replace(model, A=np.repeat(model.A[:, :1], 4, axis=1)))
