@@ -60,7 +60,7 @@ def _cable_port(name: str, option: str, point: "OperatingPoint", axes: np.ndarra
         station = float("nan")
     if found is None or not 0.0 < station < 1.0:
         raise InputError(option, "", name, f"one of: {_FORM}")
-    cables = len(point.robot.cables)
+    cables = len(point.entered.cables)
     if not 1 <= int(found["number"]) <= cables:
         raise InputError(option, "", name, f"a cable from 1 to {cables}")
     return CablePort(name, int(found["number"]) - 1, station, axes[:, "xyz".index(found["axis"])])

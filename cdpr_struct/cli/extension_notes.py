@@ -34,7 +34,7 @@ def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, mod
 
 
 def _why_idle(name: str, command: str, model: str) -> str:
-    from cdpr_struct.robot.extensions import SENSORS
+    from cdpr_struct.robot.parameters import SENSORS
 
     if command in ("diagnose", "plan"):
         return ""

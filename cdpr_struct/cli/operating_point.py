@@ -71,7 +71,7 @@ def advised(point: "OperatingPoint", lengths: str | None) -> Iterator[None]:
     except UnstableEquilibriumError as error:
         from cdpr_struct.statics.bound_advice import bound_hint
 
-        hint = "" if lengths is not None else bound_hint(point.robot, point.position, point.rotation)
+        hint = "" if lengths is not None else bound_hint(point.entered, point.position, point.rotation)
         raise CdprError(f"{error}.{hint}" if hint else str(error)) from error
 
 
@@ -81,10 +81,10 @@ def state_warnings(point: "OperatingPoint", lengths: str | None) -> list[str]:
     from cdpr_struct.statics.slack_cables import hangs_slack, slack_sentence
 
     if lengths is None:
-        said = slack_warning(point.robot, point.position, point.rotation, point.cables)
+        said = slack_warning(point.entered, point.position, point.rotation, point.cables)
         return [] if said is None else [said]
     slack = slack_sentence(hangs_slack(point.cables))
-    return [*([] if slack is None else [f"{slack}."]), *outside_limits(point.robot, point.cables.tension_at_platform)]
+    return [*([] if slack is None else [f"{slack}."]), *outside_limits(point.entered, point.cables.tension_at_platform)]
 
 
 def _locked(robot: "Robot", text: str) -> "OperatingPoint":

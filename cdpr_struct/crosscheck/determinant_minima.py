@@ -46,9 +46,9 @@ def scan_determinant(
     cables = cable_dynamics(point, "dsm")
     hertz = np.arange(first, last + 0.5 * step, step)
     omega = 2.0 * np.pi * hertz
-    mass = platform_mass_matrix(point.robot, point.rotation)
+    mass = platform_mass_matrix(point.entered, point.rotation)
     dynamic = platform_dynamic_stiffness(
-        point, cables, damped(cables, point.robot.damping_ratio, omega[:, None]), assembly
+        point, cables, damped(cables, point.entered.damping_ratio, omega[:, None]), assembly
     )
     log_dynamic = _log_determinant(omega, mass, dynamic)
     log_static = _log_determinant(omega, mass, platform_static_stiffness(point, assembly))

@@ -47,8 +47,8 @@ def push_of(robot: Robot) -> fem.PointForce | None:
 
 def solve_in_fem(point: OperatingPoint, elements: int) -> fem.RobotEquilibrium:
     """Equilibrium that the referee finds at the same unstrained lengths, started from the point's pose."""
-    data = to_fem(point.robot, point.cables.total_length, point.cables.axial_stiffness)
-    return fem.solve_robot(data, point.position, point.rotation, elements, external_force=push_of(point.robot))
+    data = to_fem(point.entered, point.cables.total_length, point.cables.axial_stiffness)
+    return fem.solve_robot(data, point.position, point.rotation, elements, external_force=push_of(point.entered))
 
 
 def fem_shapes(modes: fem.RobotModes, stations: int) -> np.ndarray:

@@ -115,11 +115,11 @@ def _batch(
 def audit_rest(point: OperatingPoint) -> PoseAudit:
     """The same for one robot at rest, however it came there."""
     cables = point.cables.at(None)
-    one = OperatingPoint(point.robot, point.position[None], point.rotation[None], cables)
+    one = OperatingPoint(point.entered, point.position[None], point.rotation[None], cables)
     values = _parameters(one)
     held = np.ones(1, dtype=bool)
     tension = cables.tension_at_platform
-    return PoseAudit(point.robot, one.position, one.rotation, held, ("",), tension, values, *_against_limits(values))
+    return PoseAudit(point.entered, one.position, one.rotation, held, ("",), tension, values, *_against_limits(values))
 
 
 def _parameters(point: OperatingPoint) -> dict[str, np.ndarray]:

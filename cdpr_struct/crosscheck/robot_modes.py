@@ -80,7 +80,7 @@ def require_validity(point: OperatingPoint) -> None:
 
 def _fem_modes(point: OperatingPoint, count: int, elements: int) -> RobotModes:
     equilibrium = solve_in_fem(point, elements)
-    available = 6 + 3 * len(point.robot.cables) * (elements - 1)
+    available = 6 + 3 * len(point.entered.cables) * (elements - 1)
     if count >= available:
         raise CdprError(f"{elements} elements per cable have {available} modes only; ask for fewer or raise --elements")
     found = fem.robot_modes(equilibrium, count)

@@ -59,6 +59,6 @@ def quiet_frequencies(frequencies: np.ndarray, count: int = 8) -> np.ndarray:
 
 def _model(point: OperatingPoint, model: CableModel, omega: np.ndarray, assembly: Assembly) -> np.ndarray:
     cables = cable_dynamics(point, model, float(omega.max()))
-    mass = platform_mass_matrix(point.robot, point.rotation)
+    mass = platform_mass_matrix(point.entered, point.rotation)
     squared = omega[:, None] ** 2
     return platform_dynamic_stiffness(point, cables, squared, assembly) - squared[..., None] * mass

@@ -134,8 +134,8 @@ def verify(
     """
     criteria = criteria or Criteria()
     stations = elements[0]
-    platform_mass = platform_mass_matrix(point.robot, point.rotation)
-    mass = sampling_mass(point.robot, point.cables.length, stations, platform_mass)
+    platform_mass = platform_mass_matrix(point.entered, point.rotation)
+    mass = sampling_mass(point.entered, point.cables.length, stations, platform_mass)
     sweep = _sweep_elements(point, elements, modes, mass, progress)
     progress("closed-form DSM and exact catenary")
     dsm, exact = (_model_modes(point, model, modes, assembly, stations) for model in ("dsm", "exact"))
@@ -212,9 +212,9 @@ def _sweep_elements(
     """FEM frequencies at every element count, each mode followed by its shape up to the finest mesh."""
     meshes, lumped, consistent = [], [], []
     for n in elements:
-        progress(f"FEM, {len(point.robot.cables)} x {n} elements")
+        progress(f"FEM, {len(point.entered.cables)} x {n} elements")
         spare = 0 if n == elements[-1] else _SPARE_MODES
-        count = min(modes + spare, 5 + 3 * len(point.robot.cables) * (n - 1))
+        count = min(modes + spare, 5 + 3 * len(point.entered.cables) * (n - 1))
         meshes.append(solve_in_fem(point, n))
         lumped.append(fem.robot_modes(meshes[-1], count))
         consistent.append(fem.robot_modes(meshes[-1], count, "consistent"))

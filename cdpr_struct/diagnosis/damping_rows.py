@@ -120,7 +120,7 @@ def _laws(state: StateModes) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.nda
     """(k,) each: entered ratio, material, structural, and friction times modal amplitude, of the model's modes."""
     modes, omega = state.modes, state.modes.omega
     first = np.where(np.isfinite(state.first_frequency), state.first_frequency, 0.0)
-    entered = (modes.cable_energy * state.point.robot.damping_ratio * first).sum(axis=1) / omega
+    entered = (modes.cable_energy * state.point.entered.damping_ratio * first).sum(axis=1) / omega
     expansion = modes.expansion
     elastic = np.einsum("kma,mab,kmb->k", modes.end, expansion.static_stiffness, modes.end)
     elastic = (elastic + np.einsum("kmp,mp->k", modes.modal**2, expansion.omega_squared)) / omega**2
@@ -130,7 +130,7 @@ def _laws(state: StateModes) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.nda
 def _angles(state: StateModes) -> np.ndarray:
     """(k,) sum over the cables of how far they turn at the frame and against the platform, per modal amplitude."""
     cables, motion = state.point.cables, state.modes.platform
-    arms = state.point.robot.platform_anchors @ state.point.rotation.T
+    arms = state.point.entered.platform_anchors @ state.point.rotation.T
     ends = motion[:, None, :3] + np.cross(motion[:, None, 3:], arms[None])
     chord = np.linalg.norm(cables.offset, axis=-1)
     along = cables.offset / chord[:, None]

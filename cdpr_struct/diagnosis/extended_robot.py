@@ -6,7 +6,8 @@ import numpy as np
 
 from cdpr_struct.diagnosis.world import EXTENSIONS, World
 from cdpr_struct.robot.cable import Pulley
-from cdpr_struct.robot.extensions import KEYS, Extensions
+from cdpr_struct.robot.extensions import Extensions
+from cdpr_struct.robot.parameters import PARAMETERS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.robot import Robot
 
@@ -35,7 +36,7 @@ def extensions_of(world: World, hose_center: np.ndarray, reference_tension: floa
 
     hose_center (3,) [m] and reference_tension [N] : what the world's hose and nonlinearity refer to
     """
-    given = {name: np.maximum(getattr(world, name), KEYS[name].least) for name in EXTENSIONS}
+    given = {name: np.maximum(getattr(world, name), PARAMETERS[name].least) for name in EXTENSIONS}
     return Extensions.of(world.cables, {**given, "hose_center": hose_center, "reference_tension": reference_tension})
 
 

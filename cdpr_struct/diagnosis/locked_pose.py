@@ -36,9 +36,10 @@ def robot_arrays(world: World, stiffness: np.ndarray, known: Circumstances) -> R
     sag = 1.0 if known.sagging else 0.0
     return RobotArrays(
         platform_anchors=world.platform_anchors, frame_anchors=world.frame_anchors, axial_stiffness=stiffness,
-        weight=world.linear_density * world.gravity[..., None] * sag, pulley_radius=world.pulley_radius,
+        linear_density=world.linear_density * sag, pulley_radius=world.pulley_radius,
         pulley_axis=world.pulley_axis, mass=np.asarray(world.mass), center_of_mass=world.center_of_mass,
-        gravity=np.asarray(world.gravity), frame_compliance=world.frame_compliance, masts=world.masts,
+        inertia=world.inertia, gravity=np.asarray(world.gravity), frame_compliance=world.frame_compliance,
+        masts=world.masts,
     )  # fmt: skip
 
 

@@ -4,7 +4,8 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from cdpr_struct.robot.extensions import KEYS, masts_of
+from cdpr_struct.robot import parameters
+from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.platform import is_inertia
 from cdpr_struct.robot.robot import Robot
 
@@ -17,7 +18,7 @@ _CORE = {
     "pose_offset": 1, "masts": 2, "accelerometer_gain": 1, "sensor_mass": 0,
 }  # fmt: skip
 
-EXTENSIONS = tuple(name for name in KEYS if name in _CORE)
+EXTENSIONS = tuple(name for name in parameters.EXTENSIONS if name in _CORE)
 """Fields that a robot file holds as extensions."""
 
 

@@ -67,13 +67,12 @@ def cable_dynamics(
 
 def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
     """Modal expansion (..., m) of the exact catenaries at a batch (...) of poses, pulleys included."""
-    cables = point.cables
+    cables, robot = point.cables, point.arrays
     shape = cables.length.shape
-    stiffness = end_stiffness(RobotArrays.of(point.robot), cables).reshape(-1, 3, 3)
-    density = np.broadcast_to(point.robot.linear_density, shape).reshape(-1)
-    more = point.robot.extensions
+    stiffness = end_stiffness(robot, cables).reshape(-1, 3, 3)
+    density = np.broadcast_to(robot.linear_density, shape).reshape(-1)
     extras = CableExtras(
-        *(np.broadcast_to(value, shape).reshape(-1) for value in (more.bending_stiffness, more.added_mass))
+        *(np.broadcast_to(value, shape).reshape(-1) for value in (robot.bending_stiffness, robot.added_mass))
     )
     flat = _flattened(cables)
     return expand_catenaries(flat, density, order, stiffness, _frame_ends(point), extras).reshaped(shape)
@@ -100,12 +99,12 @@ def damped(cables: CableDynamics, damping_ratio: np.ndarray, omega: np.ndarray) 
 
 def _first_frequency(point: OperatingPoint) -> np.ndarray:
     cables = point.cables
-    return np.pi / cables.chord * np.sqrt(cables.tension / point.robot.linear_density)
+    return np.pi / cables.chord * np.sqrt(cables.tension / point.arrays.linear_density)
 
 
 def _frame_ends(point: OperatingPoint) -> FrameEnds | None:
     """How far frame ends give way along the cable: what is elastic in line, and the stretch of cable on a pulley."""
-    arrays = RobotArrays.of(point.robot)
+    arrays = point.arrays
     if not arrays.has_yielding_frame_ends:
         return None
     cables = point.cables
@@ -145,7 +144,7 @@ class StaticCables:
     @property
     def first_frequency(self) -> np.ndarray:
         """Infinite: nothing can vibrate."""
-        return np.full(len(self.point.robot.cables), np.inf)
+        return np.full(self.point.arrays.cable_count, np.inf)
 
     def stiffness(self, omega_squared: np.ndarray) -> np.ndarray:
         static = self._ends
@@ -156,22 +155,23 @@ class StaticCables:
         return none, none
 
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
-        return np.zeros((*np.shape(omega)[:-1], len(self.point.robot.cables)), dtype=int)
+        return np.zeros((*np.shape(omega)[:-1], self.point.arrays.cable_count), dtype=int)
 
     def expansion(self, omega: float) -> ModalExpansion:
-        m = len(self.point.robot.cables)
+        ends = self._ends
+        cables = ends.shape[:-2]
 
         def shapes(stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            straight = np.broadcast_to(stations[:, None, None] * np.eye(3), (m, len(stations), 3, 3))
-            return straight, np.zeros((m, 0, len(stations), 3))
+            straight = np.broadcast_to(stations[:, None, None] * np.eye(3), (*cables, len(stations), 3, 3))
+            return straight, np.zeros((*cables, 0, len(stations), 3))
 
-        world = np.broadcast_to(np.eye(3), (m, 3, 3))
-        none, modes = np.zeros((m, 3, 3)), np.zeros((m, 0, 3))
-        return ModalExpansion(world, self._ends, none, np.zeros((m, 0)), modes, none, none, modes, shapes)
+        world = np.broadcast_to(np.eye(3), ends.shape)
+        none, modes = np.zeros(ends.shape), np.zeros((*cables, 0, 3))
+        return ModalExpansion(world, ends, none, np.zeros((*cables, 0)), modes, none, none, modes, shapes)
 
     @property
     def _ends(self) -> np.ndarray:
-        return end_stiffness(RobotArrays.of(self.point.robot), self.point.cables)
+        return end_stiffness(self.point.arrays, self.point.cables)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -191,15 +191,16 @@ class ClosedFormCables:
         """From the modal series, which converges with the fourth power of the number of modes."""
         highest = float(np.sqrt(np.abs(omega_squared).max()))
         half_waves = _MAST_MODES * (1.0 + highest / self.first_frequency.min())
-        return expand_taut_cables(self.cables, int(np.ceil(half_waves))).mast_stiffness(omega_squared)
+        full = expand_taut_cables(self.cables.flattened(), int(np.ceil(half_waves)))
+        return full.reshaped(self.cables.chord.shape).mast_stiffness(omega_squared)
 
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
         return clamped_count(self.cables, omega)
 
     def expansion(self, omega: float) -> ModalExpansion:
         half_waves = omega / self.first_frequency.min()
-        full = expand_taut_cables(self.cables, int(np.ceil(0.5 * half_waves)) + 6)
-        return full.ascending().reduced(omega)
+        full = expand_taut_cables(self.cables.flattened(), int(np.ceil(0.5 * half_waves)) + 6)
+        return full.ascending().reduced(omega).reshaped(self.cables.chord.shape)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

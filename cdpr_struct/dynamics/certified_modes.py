@@ -78,7 +78,7 @@ def _expected_highest(point: OperatingPoint, model: CableModel, count: int) -> f
     """An omega [rad/s] with about `count` frequencies below it: two string modes per half wave and cable."""
     if model == "static":
         return 0.0
-    first = np.pi / point.cables.chord * np.sqrt(point.cables.tension / point.robot.linear_density)
+    first = np.pi / point.cables.chord * np.sqrt(point.cables.tension / point.arrays.linear_density)
     strings = np.sort(np.outer(first, np.arange(1, count + 1)).ravel())
     return _MARGIN * float(strings[(count - 1) // 2])
 

@@ -171,7 +171,7 @@ def _silent(point: OperatingPoint, found: FrequencyResponse, even: np.ndarray) -
 
     even : (f,) bool, the lines that are judged
     """
-    body = point.robot.platform
+    body = point.arrays
     gyration = float(np.sqrt(np.trace(body.inertia) / 3.0 / body.mass))
     omega = 2.0 * np.pi * found.hertz[even]
     rate = omega ** {"displacement": 2, "velocity": 1, "acceleration": 0}[found.quantity]

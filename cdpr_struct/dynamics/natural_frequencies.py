@@ -18,7 +18,6 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     platform_static_stiffness,
 )
 from cdpr_struct.errors import CdprError, UnstableEquilibriumError
-from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.statics.masts import negative_junctions
 
 _HALVINGS = 52
@@ -54,13 +53,12 @@ def count_below(
     """Number of natural frequencies of the robot below each omega (k,) [rad/s] at one pose."""
     omega = np.asarray(omega, dtype=float)[..., None]
     stiffness = platform_dynamic_stiffness(point, cables, omega**2, assembly)
-    dynamic = stiffness - (omega**2)[..., None] * platform_mass_matrix(point.robot, point.rotation)
+    dynamic = stiffness - (omega**2)[..., None] * platform_mass_matrix(point.arrays, point.rotation)
     negative = (np.linalg.eigvalsh(dynamic) < 0.0).sum(axis=-1)
-    robot = point.robot
-    compliance = robot.extensions.frame_compliance
-    if compliance.any():
-        ends, masts = cables.stiffness(omega**2), masts_of(robot.frame_anchors)
-        negative = negative + negative_junctions(ends, masts, compliance, cables.mast_stiffness(omega**2))
+    robot = point.arrays
+    if robot.has_masts:
+        ends, moving = cables.stiffness(omega**2), cables.mast_stiffness(omega**2)
+        negative = negative + negative_junctions(ends, robot.masts, robot.frame_compliance, moving)
     return negative + cables.clamped_count(omega).sum(axis=-1)
 
 
@@ -110,7 +108,7 @@ def highest_omega(point: OperatingPoint, cables: CableDynamics, count: int, asse
 
 def static_frequencies(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
     """Six frequencies [Hz] of the platform on massless cables (K_static); nan where the stiffness is negative."""
-    mass = platform_mass_matrix(point.robot, point.rotation)
+    mass = platform_mass_matrix(point.arrays, point.rotation)
     lower = np.linalg.inv(np.linalg.cholesky(mass))
     squared = np.linalg.eigvalsh(lower @ platform_static_stiffness(point, assembly) @ lower.T)
     return np.sqrt(np.where(squared > 0.0, squared, np.nan)) / (2.0 * np.pi)

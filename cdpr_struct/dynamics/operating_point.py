@@ -1,10 +1,11 @@
 """The static equilibrium about which the robot vibrates."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates
 
 
@@ -12,12 +13,30 @@ from cdpr_struct.statics.cable_state import CableStates
 class OperatingPoint:
     """A robot at rest.
 
+    robot    : as entered, or as arrays with batch axes (...)
     position : (..., 3) r [m]
     rotation : (..., 3, 3) platform to world
     cables   : `CableStates` of shape (..., m) in equilibrium with the platform's load
+    arrays   : the robot's; made here
     """
 
-    robot: Robot
+    robot: Robot | RobotArrays
     position: np.ndarray
     rotation: np.ndarray
     cables: CableStates
+    arrays: RobotArrays = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "arrays", RobotArrays.of(self.robot))
+
+    @property
+    def entered(self) -> Robot:
+        """The robot with its name and all that arrays leave out.
+
+        Raises
+        ------
+        TypeError : the point was made from arrays.
+        """
+        if isinstance(self.robot, RobotArrays):
+            raise TypeError("this operating point was made from RobotArrays, which have no name, home or description")
+        return self.robot

@@ -8,7 +8,6 @@ from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, assemble, attachment, platform_mass_matrix
 from cdpr_struct.errors import UnstableEquilibriumError
-from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.statics.masts import carriers, of_each_mast
 
 
@@ -66,7 +65,7 @@ def ritz_modes(
     """
     ends, masts = _with_masts(point)
     to_cable, to_mast = (np.swapaxes(expansion.frame, -1, -2) @ motion for motion in (ends, masts))
-    platform_mass = platform_mass_matrix(point.robot, point.rotation)
+    platform_mass = platform_mass_matrix(point.arrays, point.rotation)
     turn, stretch = _unit_stiffness(point, expansion, ends, assembly)
     n = ends.shape[-1]
     mass = _mass(expansion, to_cable, to_mast, platform_mass)
@@ -85,14 +84,19 @@ def ritz_modes(
 
 
 def _with_masts(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
-    """Motion (..., m, 3, n) of the cable ends against their masts, and of these, per motion of platform and masts."""
+    """Motion (..., m, 3, n) of the cable ends against their masts, and of these, per motion of platform and masts.
+
+    That of a mast counts in units of the root of its compliance: its own stiffness is one, even if it is rigid.
+    """
     ends = attachment(point)
-    give, masts = point.robot.extensions.frame_compliance, masts_of(point.robot.frame_anchors)
-    if not give.any():
+    masts = point.arrays.masts
+    if not point.arrays.has_masts:
         return ends, np.zeros_like(ends)
-    carried = carriers(masts)[:, of_each_mast(masts, give) > 0.0]
-    own = np.einsum("mq,ab->maqb", carried, np.eye(3)).reshape(len(carried), 3, -1)
-    own = np.broadcast_to(own, (*ends.shape[:-1], own.shape[-1]))
+    give = of_each_mast(masts, point.arrays.frame_compliance)
+    soft = give.reshape(-1, give.shape[-1]).any(axis=0)
+    carried = carriers(masts)[:, soft] * np.sqrt(give[..., None, soft])
+    own = np.einsum("...mq,ab->...maqb", carried, np.eye(3))
+    own = np.broadcast_to(own.reshape((*carried.shape[:-1], 3, -1)), (*ends.shape[:-1], 3 * int(soft.sum())))
     return np.concatenate([ends, -own], axis=-1), np.concatenate([np.zeros_like(ends), own], axis=-1)
 
 
@@ -106,8 +110,7 @@ def _unit_stiffness(
     if n > 6:
         body, stiffness = stiffness, np.einsum("...mai,...mab,...mbj->...ij", ends, cables, ends, optimize=True)
         stiffness[..., :6, :6] += body
-        give = of_each_mast(masts_of(point.robot.frame_anchors), point.robot.extensions.frame_compliance)
-        stiffness[..., range(6, n), range(6, n)] += np.repeat(1.0 / give[give > 0.0], 3)
+        stiffness[..., range(6, n), range(6, n)] += 1.0
     try:
         lower = np.linalg.cholesky(stiffness)
     except np.linalg.LinAlgError as error:

@@ -7,7 +7,6 @@ import numpy as np
 from cdpr_struct.dynamics.cable_dynamics import CableDynamics
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.generated import platform as generated
-from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import end_stiffness
@@ -17,10 +16,10 @@ from cdpr_struct.statics.masts import Inertia, behind_masts
 Assembly = Literal["consistent", "thesis"]
 
 
-def platform_mass_matrix(robot: Robot, rotation: np.ndarray) -> np.ndarray:
+def platform_mass_matrix(robot: Robot | RobotArrays, rotation: np.ndarray) -> np.ndarray:
     """Mass matrix (..., 6, 6) of the platform about its origin, world axes [kg, kg m, kg m^2]."""
-    body = robot.platform
-    center = np.einsum("...ij,j->...i", rotation, body.center_of_mass)
+    body = RobotArrays.of(robot)
+    center = np.einsum("...ij,...j->...i", rotation, body.center_of_mass)
     inertia = rotation @ body.inertia @ np.swapaxes(rotation, -1, -2)
     return generated.mass_matrix(
         body.mass,
@@ -49,13 +48,16 @@ def assemble(
     -------
     (..., 6, 6), world axes, rotations about the platform origin [N/m, N, N m].
     """
-    compliance, masts = point.robot.extensions.frame_compliance, masts_of(point.robot.frame_anchors)
-    stiffness = behind_masts(cable_stiffness, attachment(point), masts, compliance, mast_inertia)
-    stiffness[..., :3, :3] += point.robot.extensions.hose * np.eye(3)
+    robot = point.arrays
+    cables = behind_masts(cable_stiffness, attachment(point), robot.masts, robot.frame_compliance, mast_inertia)
+    held = np.zeros((*robot.hose.shape, 6, 6))
+    held[..., :3, :3] = robot.hose[..., None, None] * np.eye(3)
     if assembly == "thesis":
-        return stiffness
-    stiffness[..., 3:, 3:] += geometric_stiffness(point)
-    return stiffness
+        return cables + held
+    turned = geometric_stiffness(point)
+    geometric = np.zeros((*turned.shape[:-2], 6, 6))
+    geometric[..., 3:, 3:] = turned
+    return cables + held + geometric
 
 
 def geometric_stiffness(point: OperatingPoint) -> np.ndarray:
@@ -65,15 +67,14 @@ def geometric_stiffness(point: OperatingPoint) -> np.ndarray:
     cables = generated.geometric_stiffness(*(force[..., i] for i in range(3)), *(arms[..., i] for i in range(3))).sum(
         axis=-3
     )
-    body = point.robot.platform
-    center = np.einsum("...ij,j->...i", point.rotation, body.center_of_mass)
-    weight = weight_force(RobotArrays.of(point.robot))
+    center = np.einsum("...ij,...j->...i", point.rotation, point.arrays.center_of_mass)
+    weight = np.moveaxis(weight_force(point.arrays), -1, 0)
     return cables + generated.geometric_stiffness(*weight, *(center[..., i] for i in range(3)))
 
 
 def platform_static_stiffness(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
     """(..., 6, 6) stiffness with massless cable dynamics (K_static of the thesis, eqs 2.29 and 3.8)."""
-    return assemble(point, end_stiffness(RobotArrays.of(point.robot), point.cables), assembly)
+    return assemble(point, end_stiffness(point.arrays, point.cables), assembly)
 
 
 def platform_dynamic_stiffness(
@@ -83,12 +84,12 @@ def platform_dynamic_stiffness(
 
     omega_squared : broadcasts against (..., m) [rad^2/s^2]; complex for damped cables, see `damped`
     """
-    inertia = cables.mast_stiffness(omega_squared) if point.robot.extensions.frame_compliance.any() else None
+    inertia = cables.mast_stiffness(omega_squared) if point.arrays.has_masts else None
     return assemble(point, cables.stiffness(omega_squared), assembly, inertia)
 
 
 def _arms(point: OperatingPoint) -> np.ndarray:
-    return np.einsum("...ij,mj->...mi", point.rotation, point.robot.platform_anchors)
+    return np.asarray(point.arrays.platform_anchors @ np.swapaxes(point.rotation, -1, -2))
 
 
 def attachment(point: OperatingPoint) -> np.ndarray:

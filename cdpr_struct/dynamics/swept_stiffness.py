@@ -53,7 +53,7 @@ def dynamic_stiffness(
     for start in range(0, len(omega), _BLOCK):
         part = omega[start : start + _BLOCK]
         matrices[start : start + _BLOCK] = _cable_part(point, cables, law, part, assembly)
-    return matrices - (omega**2)[:, None, None] * platform_mass_matrix(point.robot, point.rotation)
+    return matrices - (omega**2)[:, None, None] * platform_mass_matrix(point.arrays, point.rotation)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,7 +95,7 @@ def swept_stiffness(
 ) -> SweptStiffness:
     """The dynamic stiffness over a band (lowest, highest) [rad/s]."""
     low, high = band
-    if point.robot.extensions.frame_compliance.any():  # masts move the poles
+    if point.arrays.has_masts:  # masts move the poles
         return SweptStiffness(point, cables, law, assembly, low, [], None)
     poles = _poles(point, cables, high)
     inside = int((np.sqrt(poles.omega_squared) < high).sum())
@@ -235,7 +235,7 @@ def _at_nodes(
     if isinstance(cables, ClosedFormCables):
         return dynamic_stiffness(point, cables, law, omega, assembly)[:, *_UPPER]
     rigid = assemble(point, np.zeros((len(poles.static), 3, 3)), assembly)[_UPPER]
-    mass = platform_mass_matrix(point.robot, point.rotation)[_UPPER]
+    mass = platform_mass_matrix(point.arrays, point.rotation)[_UPPER]
     inertia = law.inertia(omega[:, None], poles.first_frequency)
     elasticity = law.elasticity(omega[:, None], poles.first_frequency)
     smooth = elasticity @ poles.static - inertia @ poles.mass + rigid - (omega**2)[:, None] * mass
@@ -248,7 +248,7 @@ def _cable_part(
     first = cables.first_frequency
     inertia, elasticity = law.inertia(omega[:, None], first), law.elasticity(omega[:, None], first)
     stiffness = elasticity[..., None, None] * cables.stiffness(inertia / elasticity)
-    if not point.robot.extensions.frame_compliance.any():
+    if not point.arrays.has_masts:
         return assemble(point, stiffness, assembly)
     ends, own = (elasticity[..., None, None] * part for part in cables.mast_stiffness(inertia / elasticity))
     return assemble(point, stiffness, assembly, (ends, own))

@@ -1,6 +1,6 @@
 """The cables as the closed-form DSM sees them: taut, with a small parabolic sag about the chord."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -34,6 +34,12 @@ class TautCables:
         """omega / Omega = sqrt(tau / mu) / l_c [rad/s], eq. (2.38)."""
         return np.sqrt(self.tension / self.linear_density) / self.chord
 
+    def flattened(self) -> "TautCables":
+        """The same cables with the batch of poses and m in one axis."""
+        shape = self.chord.shape
+        flat = {f.name: np.broadcast_to(getattr(self, f.name), shape).reshape(-1) for f in fields(self)[:-1]}
+        return TautCables(**flat, frame=self.frame.reshape((-1, 3, 3)))
+
 
 def taut_cables(point: OperatingPoint) -> TautCables:
     """Parameters (2.36)-(2.38) of the cables' closed-form dynamic stiffness.
@@ -45,15 +51,15 @@ def taut_cables(point: OperatingPoint) -> TautCables:
     ------
     CdprError : a cable carries no tension along its chord, so it has no small-sag stiffness.
     """
-    cables, robot = point.cables, point.robot
+    cables, robot = point.cables, point.arrays
     slack = ~(np.asarray(cables.tension) > 0.0)
     if slack.any():
         number = int(np.argwhere(slack)[0][-1]) + 1
         raise CdprError(f"cable {number} carries no tension along its chord: the closed-form DSM needs taut cables")
-    weight = robot.weight_per_length * np.cos(cables.inclination)
+    weight = robot.weight * np.cos(cables.inclination)
     epsilon = cable_dsm.epsilon(cables.chord, cables.tension, weight)
     effective = cable_dsm.effective_length_integral(cables.chord, epsilon)
-    ea = cables.axial_stiffness / (1.0 + robot.extensions.series_compliance * cables.axial_stiffness / effective)
+    ea = cables.axial_stiffness / (1.0 + robot.series_compliance * cables.axial_stiffness / effective)
     return TautCables(
         chord=cables.chord,
         tension=cables.tension,

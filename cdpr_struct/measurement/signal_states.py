@@ -188,4 +188,4 @@ def channel_weight(state: StateModes, record: SignalRecord) -> np.ndarray:
     """(c,) factors that make channels comparable: turns count by what they do at the radius of the anchors."""
     if record.kind != "platform_motion":
         return np.ones(len(record.channels))
-    return np.array([1.0] * 3 + [arm_scale(RobotArrays.of(state.point.robot))] * 3)
+    return np.array([1.0] * 3 + [arm_scale(RobotArrays.of(state.point.entered))] * 3)

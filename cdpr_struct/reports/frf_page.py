@@ -28,7 +28,7 @@ def frf_files(sweep: ResponseSweep, result: Mapping[str, Any]) -> dict[str, str 
     )
     return {
         "frf.csv": frf_csv(sweep),
-        "frf.uff": universal_file(sweep.evenly, sweep.point.robot.name, axes),
+        "frf.uff": universal_file(sweep.evenly, sweep.point.entered.name, axes),
         "modes.csv": csv_text({"frequency_hz": sweep.modes.hertz, "kind": sweep.modes.kinds}),
         "frf.svg": plate.svg,
         "report.html": render_page(_page(sweep, result, plate)),
@@ -51,7 +51,7 @@ def frf_csv(sweep: ResponseSweep) -> str:
 
 
 def _page(sweep: ResponseSweep, result: Mapping[str, Any], plate: Plate) -> Page:
-    robot, (x, y, z) = sweep.point.robot, sweep.point.position
+    robot, (x, y, z) = sweep.point.entered, sweep.point.position
     return Page(
         title=f"{robot.name}: frequency response",
         subtitle=(

@@ -20,7 +20,7 @@ def frf_json(sweep: ResponseSweep, described: Mapping[str, Any]) -> dict[str, An
     angles = np.degrees(angles_from_rotation(sweep.point.rotation))
     listed = modes.hertz >= found.hertz[0]
     return {
-        "robot": sweep.point.robot.name,
+        "robot": sweep.point.entered.name,
         "pose": [*sweep.point.position, *angles],
         "model": sweep.model,
         "quantity": found.quantity,

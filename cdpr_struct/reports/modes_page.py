@@ -49,7 +49,7 @@ def _plates(point: OperatingPoint, result: Mapping[str, Any]) -> list[Plate]:
 
 
 def _page(point: OperatingPoint, result: Mapping[str, Any], plates: list[Plate]) -> Page:
-    robot = point.robot
+    robot = point.entered
     return Page(
         title=f"{result['robot']}: eigenfrequencies",
         subtitle=(

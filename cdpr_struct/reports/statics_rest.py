@@ -126,7 +126,7 @@ def _files(point: OperatingPoint, result: Mapping[str, Any], verdict: list[str],
     )
     page = Page(
         title=f"{result['robot']} at rest",
-        subtitle=f"{len(point.robot.cables)} cables, platform {result['mass_kg']:g} kg, {result['model']} model",
+        subtitle=f"{len(point.entered.cables)} cables, platform {result['mass_kg']:g} kg, {result['model']} model",
         verdict=verdict,
         holds=holds,
         facts=_facts(result, point.cables),
@@ -145,7 +145,7 @@ def _caption(point: OperatingPoint, model: str) -> str:
     tension = point.cables.tension_at_platform
     shape = "hang in catenaries" if model == "sagging" else "are taken as straight"
     return (
-        f"{point.robot.name} to scale. Numbers at the frame anchors are cables; colour is the tension, "
+        f"{point.entered.name} to scale. Numbers at the frame anchors are cables; colour is the tension, "
         f"{tension.min():.4g} to {tension.max():.4g} N. The cables {shape}."
     )
 

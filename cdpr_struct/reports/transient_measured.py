@@ -30,7 +30,7 @@ def measured_json(
     known = len(modes.hertz) > 0 and np.isfinite(dominant)
     nearest = float(modes.hertz[np.abs(modes.hertz - dominant).argmin()]) if known else float("nan")
     return {
-        "robot": point.robot.name,
+        "robot": point.entered.name,
         "pose": [*point.position, *np.degrees(angles_from_rotation(point.rotation))],
         "model": model,
         "samples": len(time),

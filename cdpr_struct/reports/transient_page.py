@@ -69,7 +69,7 @@ def spectrogram_csv(spectrum: Spectrogram, highest_hertz: float) -> str:
 
 
 def _page(record: VibrationRecord, result: Mapping[str, Any], plate: Plate) -> Page:
-    robot, (x, y, z) = record.point.robot, record.point.position
+    robot, (x, y, z) = record.point.entered, record.point.position
     summary = transient_summary(result)
     return Page(
         title=f"{robot.name}: vibration in time",

@@ -20,7 +20,7 @@ def transient_json(record: VibrationRecord, described: Mapping[str, Any]) -> dic
     angles = np.degrees(angles_from_rotation(record.point.rotation))
     moving = not is_silent(record)[:3].all()
     return {
-        "robot": record.point.robot.name,
+        "robot": record.point.entered.name,
         "pose": [*record.point.position, *angles],
         "model": record.model,
         **described,
@@ -55,7 +55,7 @@ def _port(record: VibrationRecord, column: int) -> dict[str, Any]:
 
 def is_silent(record: VibrationRecord) -> np.ndarray:
     """(n,) of every port: it moves by nothing but rounding, 1e-9 of the largest motion or less than 1e-12 m."""
-    body = record.point.robot.platform
+    body = record.point.entered.platform
     gyration = float(np.sqrt(np.trace(body.inertia) / 3.0 / body.mass))
     arms = np.array([gyration if port.turns else 1.0 for port in record.ports])
     moved = np.abs(record.vibration.displacement).max(axis=0) * arms

@@ -28,7 +28,7 @@ def verification_files(trial: Verification) -> dict[str, str | bytes]:
 
 def verification_page(trial: Verification, plates: list[Plate]) -> Page:
     """The report page around the given figures."""
-    robot, (x, y, z) = trial.point.robot, trial.point.position
+    robot, (x, y, z) = trial.point.entered, trial.point.position
     return Page(
         title=f"{robot.name}: the closed-form dynamic stiffness on trial",
         subtitle=(

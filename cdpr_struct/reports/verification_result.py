@@ -18,10 +18,10 @@ from cdpr_struct.crosscheck.verification import Verification
 def verification_json(v: Verification, pose: list[float]) -> dict[str, Any]:
     """The result under the keys that scripts rely on; SI units and Hz, nan where a model has no such mode."""
     return {
-        "robot": v.point.robot.name,
+        "robot": v.point.entered.name,
         "pose": pose,
-        "platform_mass_kg": v.point.robot.platform.mass,
-        "platform_inertia_kg_m2": v.point.robot.platform.inertia,
+        "platform_mass_kg": v.point.entered.platform.mass,
+        "platform_inertia_kg_m2": v.point.entered.platform.inertia,
         "assembly": v.assembly,
         "lengths_m": v.point.cables.length,
         "tensions_N": v.point.cables.tension_at_platform,

@@ -56,7 +56,7 @@ def violations_text(v: Verification) -> str:
 
 def _headline(v: Verification) -> str:
     return (
-        f"{v.point.robot.name} at {place(v.point.position)}, platform {v.point.robot.platform.mass:g} kg, "
+        f"{v.point.entered.name} at {place(v.point.position)}, platform {v.point.entered.platform.mass:g} kg, "
         f"assembly {v.assembly}; FEM with {', '.join(map(str, v.elements))} elements per cable, extrapolated"
     )
 

@@ -32,24 +32,37 @@ class Platform:
             raise ValueError(f"payload must be >= 0 kg, got {load!r}")
         if load == 0.0:
             return self
-        mass = self.mass + load
-        center = self.center_of_mass * self.mass / mass
-        reduced = self.mass * load / mass
-        c = self.center_of_mass
-        return Platform(mass, center, self.inertia + reduced * (c @ c * np.eye(3) - np.outer(c, c)))
+        return self.with_masses_at(np.array([load]), np.zeros((1, 3)))
 
     def with_masses_at(self, masses: np.ndarray, points: np.ndarray) -> "Platform":
         """Platform with further point masses (k,) [kg] fixed at points (k, 3) [m] of its frame."""
-        every, places = np.append(self.mass, masses), np.vstack([self.center_of_mass, points])
-        center = every @ places / every.sum()
-        inertia = np.array(self.inertia)
-        for mass, arm in zip(every, places - center, strict=True):
-            inertia = inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-        return Platform(float(every.sum()), center, 0.5 * (inertia + inertia.T))
+        mass, center, inertia = joined_masses(np.asarray(self.mass), self.center_of_mass, self.inertia, masses, points)
+        return Platform(float(mass), center, 0.5 * (inertia + inertia.T))
 
     def with_mass(self, mass: float) -> "Platform":
         """Platform of another mass [kg], with the same centre of mass and inertia."""
         return replace(self, mass=mass)
+
+
+def joined_masses(
+    mass: np.ndarray, center: np.ndarray, inertia: np.ndarray, masses: np.ndarray, points: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mass (...), centre (..., 3) and inertia (..., 3, 3) about it of a body with point masses (..., k) at (..., k, 3).
+
+    Parallel axes: each part adds m (a^2 - a a^T), a its place seen from the common centre.
+    """
+    total = mass + masses.sum(axis=-1)
+    moment = mass[..., None] * center + (masses[..., None] * points).sum(axis=-2)
+    common = moment / total[..., None]
+    own, arms = center - common, points - common[..., None, :]
+    added = mass[..., None, None] * _about(own) + (masses[..., None, None] * _about(arms)).sum(axis=-3)
+    return total, common, inertia + added
+
+
+def _about(arm: np.ndarray) -> np.ndarray:
+    """(..., 3, 3) inertia of one kilogram at `arm` (..., 3)."""
+    square: np.ndarray = (arm**2).sum(axis=-1)[..., None, None] * np.eye(3)
+    return square - arm[..., :, None] * arm[..., None, :]
 
 
 def is_inertia(moments: np.ndarray) -> np.ndarray:

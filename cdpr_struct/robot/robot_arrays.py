@@ -1,56 +1,77 @@
-"""The robot as arrays, any of which may carry batch axes: what batched statics computes with."""
+"""The robot as arrays, any of which may carry batch axes: what statics, dynamics and observation compute with."""
 
 from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
+import numpy.typing as npt
 
-from cdpr_struct.robot.extensions import KEYS, masts_of
+from cdpr_struct.robot.extensions import masts_of
+from cdpr_struct.robot.parameters import EXTENSIONS, PARAMETERS
+from cdpr_struct.robot.platform import joined_masses
 from cdpr_struct.robot.robot import Robot
+
+_LEAST_MODULUS = 0.05  # of E as entered: the law is a straight line and would end below zero
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotArrays:
     """Robot with m cables; leading axes (...) of any field are batch axes, for parameter studies and Monte Carlo.
 
+    `robot/parameters.py` has unit, bounds and meaning of each field.
+
     platform_anchors, frame_anchors : (..., m, 3) platform frame, world frame [m]
     axial_stiffness : (..., m) EA [N]
-    weight          : (..., m) w = mu g [N/m]
+    linear_density  : (..., m) mu [kg/m]
     pulley_radius   : (..., m) [m], 0 where the cable starts at a fixed point
     pulley_axis     : (..., m, 3) unit, world; the cable passes the frame anchor travelling along +axis
     mass            : (...) [kg]
-    center_of_mass  : (..., 3) platform frame [m]
+    center_of_mass  : (..., 3) platform frame [m];  inertia : (..., 3, 3) about it, platform frame [kg m^2]
     gravity         : (...) g [m/s^2]
-    force_min, force_max : (..., m) limits of the tension at the platform [N]; none unless given
+    damping_ratio   : (..., m) xi [-];  force_min, force_max : (..., m) [N], limits of the tension at the platform
 
-    Extensions (`robot/extensions.py` says what they mean), neutral unless given:
-    series_compliance, length_offset, length_scale : (..., m) [m/N], [m], [-]
+    Extensions, without effect unless given:
+    series_compliance, length_offset, length_scale, bending_stiffness, added_mass : (..., m)
     frame_compliance : (..., m) [m/N] of each cable's mast;  masts : (m, m) 1 where cables share one
     hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  tilt : (..., 2) [rad]
     nonlinearity    : (...) k with reference_tension (...) [N]
+    cell_gain, cell_bias, friction, slip : (..., m);  tracker, accelerometer_gain : (..., 6)
+    creep, sensor_mass : (...)
     """
 
     platform_anchors: np.ndarray
     frame_anchors: np.ndarray
     axial_stiffness: np.ndarray
-    weight: np.ndarray
+    linear_density: np.ndarray
     pulley_radius: np.ndarray
     pulley_axis: np.ndarray
     mass: np.ndarray
     center_of_mass: np.ndarray
+    inertia: np.ndarray
     gravity: np.ndarray
-    force_min: np.ndarray = field(default_factory=lambda: np.zeros(1))
-    force_max: np.ndarray = field(default_factory=lambda: np.full(1, np.inf))
-    series_compliance: np.ndarray = field(default_factory=lambda: np.zeros(1))
-    length_offset: np.ndarray = field(default_factory=lambda: np.zeros(1))
-    length_scale: np.ndarray = field(default_factory=lambda: np.ones(1))
-    frame_compliance: np.ndarray = field(default_factory=lambda: np.zeros(1))
-    masts: np.ndarray = field(default_factory=lambda: np.eye(1))
-    hose: np.ndarray = field(default_factory=lambda: np.zeros(()))
-    hose_center: np.ndarray = field(default_factory=lambda: np.zeros(3))
-    force: np.ndarray = field(default_factory=lambda: np.zeros(3))
-    tilt: np.ndarray = field(default_factory=lambda: np.zeros(2))
-    nonlinearity: np.ndarray = field(default_factory=lambda: np.zeros(()))
-    reference_tension: np.ndarray = field(default_factory=lambda: np.ones(()))
+    damping_ratio: np.ndarray = field(default_factory=PARAMETERS["damping_ratio"].without_effect)
+    force_min: np.ndarray = field(default_factory=PARAMETERS["force_min"].without_effect)
+    force_max: np.ndarray = field(default_factory=PARAMETERS["force_max"].without_effect)
+    series_compliance: np.ndarray = field(default_factory=PARAMETERS["series_compliance"].without_effect)
+    length_offset: np.ndarray = field(default_factory=PARAMETERS["length_offset"].without_effect)
+    length_scale: np.ndarray = field(default_factory=PARAMETERS["length_scale"].without_effect)
+    frame_compliance: np.ndarray = field(default_factory=PARAMETERS["frame_compliance"].without_effect)
+    masts: np.ndarray = field(default_factory=PARAMETERS["masts"].without_effect)
+    hose: np.ndarray = field(default_factory=PARAMETERS["hose"].without_effect)
+    hose_center: np.ndarray = field(default_factory=PARAMETERS["hose_center"].without_effect)
+    force: np.ndarray = field(default_factory=PARAMETERS["force"].without_effect)
+    tilt: np.ndarray = field(default_factory=PARAMETERS["tilt"].without_effect)
+    nonlinearity: np.ndarray = field(default_factory=PARAMETERS["nonlinearity"].without_effect)
+    reference_tension: np.ndarray = field(default_factory=PARAMETERS["reference_tension"].without_effect)
+    bending_stiffness: np.ndarray = field(default_factory=PARAMETERS["bending_stiffness"].without_effect)
+    added_mass: np.ndarray = field(default_factory=PARAMETERS["added_mass"].without_effect)
+    cell_gain: np.ndarray = field(default_factory=PARAMETERS["cell_gain"].without_effect)
+    cell_bias: np.ndarray = field(default_factory=PARAMETERS["cell_bias"].without_effect)
+    friction: np.ndarray = field(default_factory=PARAMETERS["friction"].without_effect)
+    tracker: np.ndarray = field(default_factory=PARAMETERS["tracker"].without_effect)
+    creep: np.ndarray = field(default_factory=PARAMETERS["creep"].without_effect)
+    slip: np.ndarray = field(default_factory=PARAMETERS["slip"].without_effect)
+    accelerometer_gain: np.ndarray = field(default_factory=PARAMETERS["accelerometer_gain"].without_effect)
+    sensor_mass: np.ndarray = field(default_factory=PARAMETERS["sensor_mass"].without_effect)
 
     @classmethod
     def of(cls, robot: "Robot | RobotArrays", mass: np.ndarray | float | None = None) -> "RobotArrays":
@@ -62,17 +83,24 @@ class RobotArrays:
             platform_anchors=robot.platform_anchors,
             frame_anchors=robot.frame_anchors,
             axial_stiffness=robot.axial_stiffness,
-            weight=robot.weight_per_length,
+            linear_density=robot.linear_density,
             pulley_radius=np.array([0.0 if p is None else p.radius for p in robot.pulleys]),
             pulley_axis=np.array([vertical if p is None else p.axis for p in robot.pulleys]),
             mass=np.asarray(robot.platform.mass if mass is None else mass, dtype=float),
             center_of_mass=robot.platform.center_of_mass,
+            inertia=robot.platform.inertia,
             gravity=np.asarray(robot.gravity, dtype=float),
+            damping_ratio=robot.damping_ratio,
             force_min=robot.force_min,
             force_max=robot.force_max,
             masts=masts_of(robot.frame_anchors),
             **{name: np.asarray(getattr(more, name), dtype=float) for name in EXTENSIONS},
         )
+
+    @property
+    def weight(self) -> np.ndarray:
+        """(..., m) of the cables, w = mu g [N/m]."""
+        return self.linear_density * self.gravity[..., None]
 
     @property
     def cable_count(self) -> int:
@@ -126,6 +154,14 @@ class RobotArrays:
             frame_compliance=self.frame_compliance / factor,
         )
 
+    def with_point_masses(self, masses: npt.ArrayLike, places: npt.ArrayLike) -> "RobotArrays":
+        """The platform with point masses (..., p) [kg] fixed at places (..., p, 3) of its frame [m]."""
+        added = np.asarray(masses, dtype=float)
+        if not added.any():
+            return self
+        body = joined_masses(self.mass, self.center_of_mass, self.inertia, added, np.asarray(places, dtype=float))
+        return replace(self, **dict(zip(("mass", "center_of_mass", "inertia"), body, strict=True)))
+
     @property
     def batch_shape(self) -> tuple[int, ...]:
         """Broadcast batch axes of all fields."""
@@ -149,34 +185,6 @@ class RobotArrays:
         return np.broadcast_to(value, shape + core).reshape((-1, *core))
 
 
-_CORE_AXES = {
-    "platform_anchors": 2,
-    "frame_anchors": 2,
-    "axial_stiffness": 1,
-    "weight": 1,
-    "pulley_radius": 1,
-    "pulley_axis": 2,
-    "mass": 0,
-    "center_of_mass": 1,
-    "gravity": 0,
-    "force_min": 1,
-    "force_max": 1,
-    "series_compliance": 1,
-    "length_offset": 1,
-    "length_scale": 1,
-    "frame_compliance": 1,
-    "masts": 2,
-    "hose": 0,
-    "hose_center": 1,
-    "force": 1,
-    "tilt": 1,
-    "nonlinearity": 0,
-    "reference_tension": 0,
-}
-EXTENSIONS = tuple(name for name in _CORE_AXES if name in KEYS)
-_LEAST_MODULUS = 0.05  # of E as entered: the law is a straight line and would end below zero
-
-
 def _batch(arrays: RobotArrays, name: str) -> tuple[int, ...]:
     shape: tuple[int, ...] = getattr(arrays, name).shape
-    return shape[: len(shape) - _CORE_AXES[name]]
+    return shape[: len(shape) - PARAMETERS[name].axes]

@@ -11,7 +11,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError, known_names
 from cdpr_struct.robot.cable import Cable, Pulley
-from cdpr_struct.robot.extensions import KEYS, Extensions, divided_mast
+from cdpr_struct.robot.extensions import Extensions, divided_mast
+from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
@@ -190,8 +191,8 @@ def _extensions(table: RobotTable, source: str) -> Extensions:
     if not isinstance(causes, list) or not all(isinstance(c, str) for c in causes):
         raise InputError(source, "extensions.causes", causes, "give a list of names in quotes")
     for name, value in given.items():
-        if name not in KEYS:
-            known = ", ".join(["causes", "joint_mass", *KEYS])
+        if name not in EXTENSIONS:
+            known = ", ".join(["causes", "joint_mass", *EXTENSIONS])
             raise InputError(source, f"extensions.{name}", value, f"no such key is known here; known: {known}")
         _check_extension(name, value, len(table.cables), source)
     made = Extensions.of(len(table.cables), given, tuple(causes))
@@ -204,7 +205,7 @@ def _extensions(table: RobotTable, source: str) -> Extensions:
 
 
 def _check_extension(name: str, value: Any, cables: int, source: str) -> None:
-    key = KEYS[name]
+    key = EXTENSIONS[name]
     count = key.entries(cables)
     single = "one number" if not count else f"{count} numbers in square brackets, or one for all"
     unit = "" if key.unit == "1" else f" in {key.unit}"

@@ -37,7 +37,7 @@ def _cable_table(item: str, table: str, where: str, position: np.ndarray) -> Rep
     point = _at(load_robot("cogiro"), position)
     i = CABLE - 1
     chord, tau = float(point.cables.chord[i]), float(point.cables.tension[i])
-    density = float(point.robot.linear_density[i])
+    density = float(point.entered.linear_density[i])
     first = np.sqrt(tau / density) / (2.0 * chord)
     rows = printed_table(table)
     cells, implied = [], {}
@@ -68,7 +68,7 @@ def _trace_figure(item: str, where: str, position: np.ndarray, table: Reproducti
     point = _at(load_robot("cogiro"), position)
     cables = cable_dynamics(point, "dsm")
     hertz = np.arange(0.01, 20.0, 0.01)
-    squared = damped(cables, point.robot.damping_ratio, 2.0 * np.pi * hertz[:, None])
+    squared = damped(cables, point.entered.damping_ratio, 2.0 * np.pi * hertz[:, None])
     trace = np.abs(np.trace(cables.stiffness(squared)[:, CABLE - 1], axis1=-2, axis2=-1))
     static = float(np.trace(cable_stiffness(point.cables)[CABLE - 1]))
     columns = {
@@ -169,7 +169,7 @@ def _modes(mass: float, x: np.ndarray) -> np.ndarray:
     """Six modes [Hz] on massless cables; x[:3] gives the inertia, x[3], if there, the logarithm of a factor on EA."""
     factor = float(np.exp(x[3])) if len(x) > 3 else 1.0
     point = _stiffened(mass, factor)
-    robot = point.robot
+    robot = point.entered
     platform = dataclasses.replace(robot.platform, inertia=np.diag(_inertia(mass, x)))
     return static_frequencies(dataclasses.replace(point, robot=dataclasses.replace(robot, platform=platform)))
 

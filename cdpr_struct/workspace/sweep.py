@@ -37,10 +37,9 @@ class Sweep:
     @property
     def fingerprint(self) -> str:
         """Hexadecimal digest of everything that the result depends on."""
-        arrays, robot = RobotArrays.of(self.robot), self.robot
+        arrays = RobotArrays.of(self.robot)
         parts = [np.asarray(getattr(arrays, f.name), dtype=float) for f in fields(arrays)]
-        parts += [robot.platform.inertia, robot.damping_ratio, *self.grid.axes, self.grid.angles]
-        parts += [robot.extensions.bending_stiffness, robot.extensions.added_mass]
+        parts += [*self.grid.axes, self.grid.angles]
         digest = hashlib.sha256(f"{version('cdpr-struct')} {self.quantity} {self.chunk}".encode())
         for part in parts:
             digest.update(f"{part.shape}".encode() + np.ascontiguousarray(part).tobytes())

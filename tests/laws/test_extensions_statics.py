@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cdpr_struct.robot.extensions import KEYS, Extensions, masts_of
+from cdpr_struct.robot.extensions import Extensions, masts_of
+from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
@@ -174,4 +175,4 @@ def test_values_are_checked_at_birth():
         Extensions.of(8, {"tracker": [0.0, 0.0]})
     assert Extensions.of(3).active == ()
     assert set(Extensions.of(3, {"slip": 1.0}).entered) == {"slip"}
-    assert set(KEYS) >= {"hose", "hose_center"}
+    assert set(EXTENSIONS) >= {"hose", "hose_center"}

@@ -100,8 +100,8 @@ def robot_caption(point: OperatingPoint) -> str:
     x, y, z = point.position
     worst = int(np.argmax(cables.sag))
     return (
-        f"{point.robot.name} at rest at ({x:g}, {y:g}, {z:g}) m, drawn to scale: {len(tension)} cables, platform "
-        f"{point.robot.platform.mass:g} kg. Numbers at the frame anchors are cables; colour is the tension, "
+        f"{point.entered.name} at rest at ({x:g}, {y:g}, {z:g}) m, drawn to scale: {len(tension)} cables, platform "
+        f"{point.entered.platform.mass:g} kg. Numbers at the frame anchors are cables; colour is the tension, "
         f"{tension.min():.4g} to {tension.max():.4g} N. The cables hang in catenaries; cable {worst + 1} sags most, "
         f"{1000.0 * cables.sag[worst]:.4g} mm on a chord of {cables.chord[worst]:.2f} m."
     )

@@ -46,7 +46,7 @@ class RobotGeometry:
 
 def robot_geometry(point: OperatingPoint) -> RobotGeometry:
     """Geometry of the robot at rest."""
-    platform, _ = anchors_in_world(point.robot, point.position, point.rotation)
+    platform, _ = anchors_in_world(point.entered, point.position, point.rotation)
     frame = platform - point.cables.offset
     edges, triangles = _hull(platform, point.position)
     return RobotGeometry(_curves(point, frame), frame, platform, edges, triangles)

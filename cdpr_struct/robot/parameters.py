@@ -1,0 +1,120 @@
+"""Every number that describes a robot, in one table: shape, unit, neutral value, bounds, meaning, place in a file."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+CABLES = "m"  # stands for the number of cables in a shape
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A parameter of a robot with m cables.
+
+    shape   : axes of its own, `CABLES` for m
+    unit    : SI
+    meaning : half a sentence
+    place   : table and key of a robot file, "[]" where each cable has its own; "" if it follows from others
+    neutral : value without effect; None where a robot has none
+    least, above, most : bounds
+    """
+
+    shape: tuple[int | str, ...]
+    unit: str
+    meaning: str
+    place: str
+    neutral: float | None = None
+    least: float = -np.inf
+    above: float = -np.inf
+    most: float = np.inf
+
+    @property
+    def axes(self) -> int:
+        """Number of axes of its own; those before are a batch."""
+        return len(self.shape)
+
+    def entries(self, cables: int) -> int:
+        """Numbers in it; 0 for a single number."""
+        return math.prod(self._lengths(cables)) if self.shape else 0
+
+    def without_effect(self, cables: int = 1) -> np.ndarray:
+        """The neutral value as an array; one cable's broadcasts against those of all.
+
+        Raises
+        ------
+        ValueError : every robot needs its own value.
+        """
+        if self.neutral is None:
+            raise ValueError(f"there is no neutral value: {self.meaning}")
+        return np.full(self._lengths(cables), self.neutral)
+
+    def _lengths(self, cables: int) -> list[int]:
+        return [cables if n == CABLES else int(n) for n in self.shape]
+
+    @property
+    def range(self) -> str:
+        """What values may be, as the end of a sentence; "" if all may."""
+        lowest = f", above {self.above:g}" if np.isfinite(self.above) else ""
+        lowest = lowest or (f", not below {self.least:g}" if np.isfinite(self.least) else "")
+        return lowest + (f", not above {self.most:g}" if np.isfinite(self.most) else "")
+
+
+def _of_cables(unit: str, meaning: str, place: str, neutral: float | None = None, **bounds: float) -> Parameter:
+    return Parameter((CABLES,), unit, meaning, place, neutral, **bounds)
+
+
+def _extra(shape: tuple[int | str, ...], neutral: float, unit: str, meaning: str, **bounds: float) -> Parameter:
+    return Parameter(shape, unit, meaning, "extensions", neutral, **bounds)
+
+
+_EACH: tuple[int | str, ...] = (CABLES,)
+_RULES: dict[str, Parameter] = {
+    "platform_anchors": Parameter((CABLES, 3), "m", "where cables end, platform frame", "cables[].platform_anchor"),
+    "frame_anchors": Parameter((CABLES, 3), "m", "where cables begin, world frame", "cables[].frame_anchor"),
+    "axial_stiffness": _of_cables("N", "EA of the cable", "cable.axial_stiffness", above=0.0),
+    "linear_density": _of_cables("kg/m", "mu of the cable, unstrained", "cable.linear_density", least=0.0),
+    "pulley_radius": _of_cables("m", "of the swivelling pulley", "cables[].pulley.radius", 0.0, least=0.0),
+    "pulley_axis": Parameter((CABLES, 3), "1", "unit vector of the swivel, world frame", "cables[].pulley.axis"),
+    "mass": Parameter((), "kg", "of the platform", "platform.mass", above=0.0),
+    "center_of_mass": Parameter((3,), "m", "of the platform, platform frame", "platform.center_of_mass", 0.0),
+    "inertia": Parameter((3, 3), "kg m^2", "about the centre of mass, platform frame", "platform.inertia"),
+    "gravity": Parameter((), "m/s^2", "along world -z", "gravity", above=0.0),
+    "damping_ratio": _of_cables(
+        "1", "viscous, referred to the cable's first frequency", "cable.damping_ratio", 0.0, least=0.0, most=1.0
+    ),
+    "force_min": _of_cables("N", "least tension at the platform to ask for", "cable.force_min", 0.0, least=0.0),
+    "force_max": _of_cables("N", "largest tension at the platform", "cable.force_max", np.inf, above=0.0),
+    "masts": Parameter((CABLES, CABLES), "1", "1 where cables share a mast, by the frame anchors", "", 1.0),
+}
+EXTENSIONS: dict[str, Parameter] = {
+    "series_compliance": _extra(_EACH, 0.0, "m/N", "spring in line with the cable, at its frame end",
+                                least=0.0, most=0.1),
+    "frame_compliance": _extra(_EACH, 0.0, "m/N", "of the mast, alike in all directions; one a mast",
+                               least=0.0, most=0.1),
+    "hose": _extra((), 0.0, "N/m", "stiffness that holds the platform origin to hose_center", least=0.0),
+    "hose_center": _extra((3,), 0.0, "m", "where the hose is relaxed, world frame"),
+    "force": _extra((3,), 0.0, "N", "constant force on the platform origin, world frame"),
+    "tilt": _extra((2,), 0.0, "rad", "of the platform's weight: m g (tilt_x, tilt_y, -1)"),
+    "nonlinearity": _extra((), 0.0, "1", "k in EA (1 + k (T / T0 - 1)), T the tension at the platform"),
+    "reference_tension": _extra((), 1.0, "N", "T0 of nonlinearity", above=0.0),
+    "length_offset": _extra(_EACH, 0.0, "m", "length paid out = encoder length * length_scale + length_offset"),
+    "length_scale": _extra(_EACH, 1.0, "1", "see length_offset", above=0.0),
+    "bending_stiffness": _extra(_EACH, 0.0, "N m^2", "EI of the cable, both ends clamped", least=0.0),
+    "added_mass": _extra(_EACH, 0.0, "kg", "at mid-cable, for vibration only", least=0.0),
+    "cell_gain": _extra(_EACH, 1.0, "1", "load cell reading = cell_gain * tension + cell_bias", above=0.0),
+    "cell_bias": _extra(_EACH, 0.0, "N", "see cell_gain"),
+    "friction": _extra(_EACH, 0.0, "1", "load cell = tension * exp(friction * last direction * turn at the exit)"),
+    "tracker": _extra((6,), 0.0, "m, rad", "true pose = tracker's pose, turned and shifted by this"),
+    "creep": _extra((), 0.0, "1", "share of the elastic strain per decade of time after 1 min"),
+    "slip": _extra(_EACH, 0.0, "m/h", "of the winch"),
+    "accelerometer_gain": _extra((6,), 1.0, "1", "accelerometer reading = gain * acceleration, x to rz", above=0.0),
+    "sensor_mass": _extra((), 0.0, "kg", "on the platform origin while vibration is measured, not when tensions are",
+                          least=0.0),
+}  # fmt: skip
+"""Those that the table [extensions] of a robot file holds under their own names."""
+PARAMETERS: dict[str, Parameter] = {**_RULES, **EXTENSIONS}
+SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain", "sensor_mass")
+"""Act only where readings are compared: they describe sensors, or need the time of a reading."""
+AUXILIARY = {"hose_center": "hose", "reference_tension": "nonlinearity"}
+"""Mean something only with the other parameter."""
