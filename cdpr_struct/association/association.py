@@ -1,0 +1,169 @@
+"""Peaks as soft readings of modes: one pseudo-reading per mode, and what the lists add to the log evidence.
+
+With the assignment held, the exponent of every peak is quadratic in the ln f of its modes. So the peaks act as one
+reading per mode, of precision w = sum_j r_j / (tau kappa s_j)^2 and value sum_j r_j ln f_j / (tau kappa s_j)^2 / w. For
+modes that are N(m, v) when the assignment is made,
+
+    constant = ln Z(m, v) + sum_mu w ((value - m)^2 + v) / 2  +  noise after minus noise before its update
+
+makes  ln integral prior exp(-sum_mu w (value - ln f)^2 / 2) + constant  a lower bound of the log evidence; Z is the
+likelihood of the lists summed over assignments.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import expit, xlogy
+
+from cdpr_struct.association.detection import Clutter
+from cdpr_struct.association.modes import PredictedModes, allowed_pairs
+from cdpr_struct.association.pair_density import PairDensity, pair_density
+from cdpr_struct.association.peak_noise import SCALES, PeakNoise, ScaleCounts, stated_noise
+from cdpr_struct.association.peaks import KINDS, PeakLists
+from cdpr_struct.association.poisson_process import Matching, poisson_matching
+from cdpr_struct.inference.soft_rows import SoftExpectation
+
+WRONG_STATE = 0.02
+"""Prior probability [-] that a whole list was recorded at another pose than stated: one list in fifty."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Assignment:
+    """The last matching of an association.
+
+    matching : which peak is which mode, if the list is of its state
+    scale (4, L, J, M) : probability that the peak is the mode's with this scale of error, wrong lists allowed for
+    own_state (L,) : probability that the list is of the state it is filed under
+    """
+
+    matching: Matching
+    scale: np.ndarray
+    own_state: np.ndarray
+
+
+class Association:
+    """Lists of peaks as the soft rows of an inference.
+
+    Each call of `expect` updates the noise, so that the bound of a fit never falls. The object carries that state:
+    `noise` and `assignment`; `at` gives an independent copy, for other modes or another start.
+    """
+
+    def __init__(
+        self,
+        peaks: PeakLists,
+        modes: PredictedModes,
+        clutter: Clutter,
+        noise: PeakNoise | None = None,
+        shape_factor: np.ndarray | None = None,
+        wrong_state: float = 0.0,
+    ) -> None:
+        """Peaks, the modes they may belong to, and what is known of their noise.
+
+        Parameters
+        ----------
+        shape_factor : (L, J, M) ln of how much better the measured shape fits the mode than it fits clutter [nats]; 0
+            where no shape was measured.
+        wrong_state : prior probability that a whole list is of another pose; 0 in the first steps of a fit, then
+            WRONG_STATE: earlier it may swallow a large but true shift of a harmonic series.
+        """
+        self.peaks, self.modes, self.clutter = peaks, modes, clutter
+        self.noise = stated_noise() if noise is None else noise
+        self.wrong_state = wrong_state
+        self.assignment: Assignment | None = None
+        self._shape_factor = shape_factor
+        pair = allowed_pairs(peaks, modes).astype(float)
+        self._pair = pair if shape_factor is None else pair * np.exp(shape_factor)
+
+    def at(
+        self,
+        modes: PredictedModes | None = None,
+        noise: PeakNoise | None = None,
+        shape_factor: np.ndarray | None = None,
+        wrong_state: float | None = None,
+    ) -> "Association":
+        """A copy with its own state, at other modes, another noise or another prior of wrong lists."""
+        return Association(
+            self.peaks,
+            self.modes if modes is None else modes,
+            self.clutter,
+            self.noise if noise is None else noise,
+            self._shape_factor if modes is None and shape_factor is None else shape_factor,
+            self.wrong_state if wrong_state is None else wrong_state,
+        )
+
+    def expect(self, mean: np.ndarray, variance: np.ndarray, predictive: bool = False) -> SoftExpectation:
+        """Pseudo-readings at the best assignment for modes ln f ~ N(ln_frequency + mean, variance).
+
+        Parameters
+        ----------
+        mean, variance : (K, M), mean relative to `modes.ln_frequency` [-].
+        predictive : weigh pairs by the predictive density; see `pair_density`. For the first step of a fit.
+        """
+        state, peaks = self.peaks.state, self.peaks
+        located = (self.modes.ln_frequency + mean)[state]
+        density = pair_density(peaks, self.noise, located, variance[state], predictive)
+        matching = self._matching(density.total * self._pair)
+        own = self._own_state(matching)
+        pair = matching.pair * own[:, None, None]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            share = np.where(density.total > 0.0, pair / density.total, 0.0)
+        self.assignment = Assignment(matching, density.by_scale * share, own)
+        constant = self._update_noise(self.assignment, density)
+        value, precision = self._pseudo_readings(self.assignment.scale)
+        constant += 0.5 * float((precision * ((value - mean) ** 2 + variance)).sum())
+        return SoftExpectation(value, precision, constant)
+
+    def _matching(self, density: np.ndarray) -> Matching:
+        return poisson_matching(density, self.modes.detection, self.clutter, self.peaks)
+
+    def _own_state(self, matching: Matching) -> np.ndarray:
+        """(L,) probability that each list is of the state it is filed under."""
+        if self.wrong_state == 0.0:
+            return np.ones(len(self.peaks.state))
+        prior = np.log1p(-self.wrong_state) - np.log(self.wrong_state)
+        return expit(matching.log_likelihood - self._elsewhere() + prior)
+
+    def _elsewhere(self) -> np.ndarray:
+        """(L,) log likelihood of a list that is of another pose: as many peaks as expected, anywhere in the band."""
+        expected = self.modes.detection.sum(axis=1) + self.clutter.expected
+        return self.peaks.count * np.log(expected / self.peaks.bandwidth) - expected
+
+    def _lists_log_likelihood(self, matching: Matching, own: np.ndarray) -> float:
+        """Bound of ln L of all lists at the noise and modes of the matching [nats]."""
+        right = matching.log_likelihood
+        if self.wrong_state == 0.0:
+            return float(right.sum())
+        mixed = own * (right + np.log1p(-self.wrong_state)) + (1.0 - own) * (
+            self._elsewhere() + np.log(self.wrong_state)
+        )
+        return float((mixed - xlogy(own, own) - xlogy(1.0 - own, 1.0 - own)).sum())
+
+    def _scale_counts(self, scale: np.ndarray, density: PairDensity) -> ScaleCounts:
+        per_peak = scale.sum(axis=3)  # (4, L, J)
+        lists = per_peak.sum(axis=2).T  # (L, 4)
+        unassigned = self.peaks.count - lists.sum(axis=1)
+        number = lists + unassigned[:, None] * self.noise.weight[self.peaks.kind]
+        precision = (SCALES**-2.0)[:, None, None] * self.peaks.sd**-2.0
+        square = np.einsum("cljm,clj,ljm->l", scale, precision, density.square, optimize=True)
+        by_kind = (self.peaks.kind == np.arange(len(KINDS))[:, None]).astype(float)  # (n, L)
+        return ScaleCounts(by_kind @ number, by_kind @ lists.sum(axis=1), by_kind @ square)
+
+    def _update_noise(self, made: Assignment, density: PairDensity) -> float:
+        """Updates the noise at an assignment; returns the expected log likelihood plus entropies after it [nats]."""
+        counts = self._scale_counts(made.scale, density)
+        before, self.noise = self.noise, self.noise.updated(counts)
+        bound = self._lists_log_likelihood(made.matching, made.own_state)
+        if density.correction is not None:
+            bound += float((made.scale * density.correction).sum())
+        return bound + self.noise.bound(counts) - before.expected_log(counts)
+
+    def _pseudo_readings(self, scale: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Value, relative to `modes.ln_frequency`, and precision of each mode, both (K, M)."""
+        peaks = self.peaks
+        sd = SCALES[:, None, None] * peaks.sd * self.noise.tau[peaks.kind][:, None]
+        pull = np.einsum("cljm,clj->ljm", scale, sd**-2.0)
+        offset = peaks.ln_frequency[:, :, None] - self.modes.ln_frequency[peaks.state][:, None, :]
+        precision, moment = np.zeros((2, *self.modes.ln_frequency.shape))
+        np.add.at(precision, peaks.state, pull.sum(axis=1))
+        np.add.at(moment, peaks.state, (pull * offset).sum(axis=1))
+        return np.where(precision > 0.0, moment / np.where(precision > 0.0, precision, 1.0), 0.0), precision
