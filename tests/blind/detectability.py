@@ -55,7 +55,7 @@ STEP = 5e-5  # all others: m, rad, ratios
 
 
 class Sensitivity:
-    """Changes of the readings of one robot and plan, in sigmas of their noise, by any field; `statics`: of these alone."""
+    """Changes of the readings of one robot and plan, in sigmas of their noise, by any field; or of statics alone."""
 
     def __init__(self, robot: EnteredRobot, plan_seed: int, statics: bool = False) -> None:
         self.robot, self.exact, self.plan_seed = robot, Deviations.none(robot.cables), plan_seed

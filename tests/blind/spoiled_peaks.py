@@ -20,7 +20,7 @@ GEARS = (2.0, 12.0)  # reduction of the mains frequency to that of a motor's sha
 
 @dataclass
 class PeakSpoiler:
-    """Reads the peaks of robot modes in a spoilt way; one for each campaign, since its steady line is one for all poses.
+    """Reads the peaks of robot modes in a spoilt way; one for each campaign, whose steady line is one for all poses.
 
     line : [Hz], drawn at the first pose so that it lies among the modes
     """
