@@ -20,6 +20,7 @@ from cdpr_struct.diagnosis.selection import FURTHER, Selection, select
 from cdpr_struct.diagnosis.significance import DRAWS, OUTSIDE, SEED, p_of_noise
 from cdpr_struct.diagnosis.stray_peaks import p_of_strays, strays_left
 from cdpr_struct.diagnosis.suspect_reading import Suspect
+from cdpr_struct.diagnosis.whole_readings import whole_readings
 from cdpr_struct.measurement.campaign import Campaign
 
 NAMED = 5.0  # nats that a named cause must bring
@@ -82,7 +83,7 @@ def diagnose(campaign: Campaign, budget: str = "small", progress: Callable[[str]
     InputError : the campaign holds nothing that can be diagnosed.
     """
     plan = BUDGETS[budget]
-    data = handled(campaign, plan, progress)
+    data = handled(whole_readings(campaign), plan, progress)
     prepared, entered, found = data.prepared, data.entered, data.corrections
     progress("fitting causes")
     selection = _selected(prepared, plan, bool(found))

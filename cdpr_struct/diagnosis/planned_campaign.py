@@ -10,6 +10,7 @@ from cdpr_struct.diagnosis.plan import confusable, minimum_detectable
 from cdpr_struct.diagnosis.planned_gain import Gain, next_measurements
 from cdpr_struct.diagnosis.planned_states import one_sided
 from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
+from cdpr_struct.diagnosis.whole_readings import whole_readings
 from cdpr_struct.measurement.campaign import Campaign
 
 _FRICTION = "pulley_friction"
@@ -45,7 +46,7 @@ def planned(campaign: Campaign, progress: Callable[[str], None] = lambda name: N
     InputError : the campaign holds nothing that can be diagnosed.
     """
     progress("simulating the campaign")
-    prepared = prepare(one_sided(campaign), BUDGETS["small"])
+    prepared = prepare(one_sided(whole_readings(campaign)), BUDGETS["small"])
     ground, not_testable = prepared.ground, prepared.not_testable
     if not np.isfinite(campaign.states.approach).any() and _FRICTION in {c.name for c in ground.candidates}:
         not_testable[_FRICTION] = "needs a column approach (+1 or -1)"

@@ -9,15 +9,7 @@ from cdpr_struct.measurement.assumed_angles import angle_note
 from cdpr_struct.measurement.campaign import SIGNALS, CableFrequencies, RobotFrequencies, Series, Sigmas, States
 from cdpr_struct.measurement.campaign_rows import POSE, Rows, length_columns
 
-_SAME_POSE = (1e-9, 1e-9)
-_WHOLE = (
-    "one row and value for each cable; where a cell could not be read, leave all cells of that column empty for this "
-    "case (what else was read there still counts), or leave the case out"
-)
-_WHOLE_ROW = (
-    "one value for each cable; where one could not be read, leave all of {columns} empty in this row (what else was "
-    "read there still counts), or leave the row out"
-)
+_SAME = 1e-9  # m, deg: two notes of the same number
 
 
 @dataclass(slots=True)
@@ -80,11 +72,12 @@ class Gathering:
         if found is None:
             found = self._new(name, pose, payload, sigmas)
             found.temperature, found.time = float(rows.get("temperature_K")[i]), float(rows.get("time_s")[i])
-        elif np.abs(found.pose - pose).max() > _SAME_POSE[0] or found.payload != payload:
+        elif _differ(found.pose, pose) or found.payload != payload:
             expected = f"the pose and payload given before for this case, {[*found.pose.tolist(), found.payload]}"
             if note := angle_note("this file", list(rows.numbers)):
                 expected += f" ({note.removesuffix('.')})"
             raise InputError(rows.file, f"{rows.place(i)}, case {name}", [*pose.tolist(), payload], expected)
+        found.pose = np.where(np.isfinite(found.pose), found.pose, pose)
         return found
 
     def _new(self, name: str, pose: np.ndarray, payload: float, sigmas: Sigmas) -> _State:
@@ -129,22 +122,18 @@ class Gathering:
             state.length[cable] = rows.get("length_m")[i]
             state.length_sigma[cable] = sigmas.length_m if has_tension else given or sigmas.length_m
             state.approach[cable] = rows.get("approach")[i]
-        for state in states:
-            for column, values in (("tension_N", state.tension), ("length_m", state.length)):
-                lacking = ~np.isfinite(values)
-                if lacking.any() and not lacking.all():
-                    raise _incomplete(rows, state.name, column, np.flatnonzero(lacking) + 1)
 
     def _loaded(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         own = rows.get("sigma")
         for i, state in enumerate(states):
             length = np.array([rows.numbers[c][i] for c in length_columns(self.m)])
             state.loaded = True
-            if np.isfinite(state.length).all() and np.abs(state.length - length).max() > _SAME_POSE[0]:
+            if _differ(state.length, length):
                 raise InputError(
                     rows.file, f"{rows.place(i)}, case {state.name}", length.tolist(), "the lengths given before"
                 )
-            state.length, state.length_sigma = length, np.full(self.m, sigmas.length_m)
+            state.length = np.where(np.isfinite(length), length, state.length)
+            state.length_sigma = np.full(self.m, sigmas.length_m)
             state.sigma_position = own[i] if np.isfinite(own[i]) else sigmas.position_m
 
     def _cable_frequency(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
@@ -217,17 +206,17 @@ def _twice(rows: Rows, i: int, case: str) -> InputError:
     return InputError(rows.file, f"{rows.place(i)}, column cable", cable, f"one row a cable in {case}")
 
 
-def _incomplete(rows: Rows, case: str, column: str, cables: np.ndarray) -> InputError:
-    """A case in which a quantity was read of some cables only."""
-    columns = rows.headings.get(column)
-    expected = _WHOLE if columns is None else _WHOLE_ROW.format(columns=columns)
-    return InputError(rows.file, f"case {case}", f"no value for cables {cables.tolist()}", expected)
+def _differ(before: np.ndarray, after: np.ndarray) -> bool:
+    """Whether two notes of the same numbers contradict each other; what was not noted, nan, contradicts nothing."""
+    both = np.isfinite(before) & np.isfinite(after)
+    return bool((np.abs(before - after)[both] > _SAME).any())
 
 
 def _locks(length: np.ndarray) -> np.ndarray:
-    """(S,) number of the lock of each state, -1 without lengths: equal lengths are one lock."""
+    """(S,) number of the lock of each state, -1 without lengths: equal lengths of the same cables are one lock."""
     found: dict[tuple[float, ...], int] = {}
     locks = []
     for row in length:
-        locks.append(found.setdefault(tuple(row.tolist()), len(found)) if np.isfinite(row).all() else -1)
+        read = tuple(np.where(np.isfinite(row), row, 0.0).tolist())  # no cable has no length
+        locks.append(found.setdefault(read, len(found)) if any(read) else -1)
     return np.array(locks, dtype=int)

@@ -13,6 +13,7 @@ from cdpr_struct.measurement.assumed_angles import angle_note
 from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
+from cdpr_struct.measurement.missing_readings import missing_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
 from cdpr_struct.measurement.unit_scale import check_scale
@@ -129,7 +130,10 @@ def load_campaign(path: str | Path, lower_bound: float | None = None, upper_boun
         lower_bound=lowest,
         checked=table.checked,
         sheets=tuple(sheets),
-        notes=tuple(note for sheet in sheets if (note := angle_note(sheet.file, sheet.columns))),
+        notes=(
+            *(note for sheet in sheets if (note := angle_note(sheet.file, sheet.columns))),
+            *missing_notes(gathering.states()),
+        ),
     )
 
 

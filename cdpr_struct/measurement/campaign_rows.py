@@ -37,6 +37,7 @@ _POSITIVE = ("tension", "length", "frequency", "sigma", "temperature", "mode", "
 COMMENTS = ("comment", "note", "remark")  # columns for people, not read
 HIGHEST = 1e3  # of any frequency [Hz]
 _BLANK_ALLOWED = ("sigma", "temperature_K", "approach", "tension_N", "length_m", "time_s")
+_READINGS_MAY_LACK = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency")  # of a pose or a cable
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,7 +84,7 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
     _check_columns(kind, str(path), names, cables)
     table.require_rows()
     wide = is_wide(kind, names)
-    blank = _blank_allowed(kind, cables, wide)
+    blank = _blank_allowed(kind, cables)
     numbers = {c: _numbers(str(path), c, table.column(c), c in blank) for c in names if c not in _WORDS}
     words = {c: table.column(c) for c in names if c in _WORDS}
     rows = Rows(kind, str(path), numbers, words)
@@ -159,10 +160,11 @@ def _known(kind: str, columns: Sequence[str], cables: int) -> list[str]:
     return known if "cable" in columns else list(dict.fromkeys([*known, *own]))
 
 
-def _blank_allowed(kind: str, cables: int, wide: bool) -> set[str]:
-    """Columns in which a cell may be empty; of a row that is a pose, each reading of a cable."""
-    own = [name for q in QUANTITIES.get(kind, ()) for name in q.columns(cables)] if wide else []
-    return {*_BLANK_ALLOWED, *own}
+def _blank_allowed(kind: str, cables: int) -> set[str]:
+    """Columns in which a cell may be empty: any reading of a pose or a cable, but of signals the pose is needed."""
+    if kind not in _READINGS_MAY_LACK:
+        return set(_BLANK_ALLOWED)
+    return {*_BLANK_ALLOWED, *POSE, *(name for q in QUANTITIES.get(kind, ()) for name in q.columns(cables))}
 
 
 def _unknown(kind: str, name: str, known: Sequence[str], cables: int) -> str:

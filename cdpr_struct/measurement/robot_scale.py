@@ -49,7 +49,8 @@ def _check_cables(source: str, robot: Robot, states: States) -> None:
         expected += f"{100.0 * strain:.3g} % in the median (is it in kN, or are the tensions not in N?)"
         raise InputError(source, "axial_stiffness", float(np.median(robot.axial_stiffness)), expected)
     weight = robot.linear_density * robot.gravity * chords(robot, states.position, states.angles)
-    times = float(np.nanmedian(weight / states.tension))
+    ratio = weight / states.tension
+    times = float(np.median(ratio[np.isfinite(ratio)])) if np.isfinite(ratio).any() else 0.0
     if times > _TIMES_TENSION:
         expected = f"kg/m: such cables would weigh {times:.3g} times the tensions measured, in the median "
         expected += "(is it in g/m, or are the tensions not in N?)"
@@ -58,7 +59,8 @@ def _check_cables(source: str, robot: Robot, states: States) -> None:
 
 def _check_weight(source: str, robot: Robot, states: States) -> None:
     """Tensions together do not carry many times what the platform weighs, also without the one that pulls most."""
-    whole = np.isfinite(states.tension).all(axis=1)
+    posed = np.isfinite(states.position + states.angles).all(axis=1)
+    whole = np.isfinite(states.tension).all(axis=1) & posed
     if not whole.any():
         return
     vectors = cable_vectors(robot, states.position[whole], states.angles[whole])

@@ -23,6 +23,7 @@ def join_signals(gathering: Gathering, robot: Robot, model: str) -> tuple[Identi
     poses = {
         name: np.concatenate([s.pose[:3], np.radians(s.pose[3:]), [s.payload]]) for name, s in gathering.known.items()
     }
+    _check_known(gathering, poses)
     placed = [
         (record, sigmas) for series, sigmas in gathering.series for record in placed_records(series, robot, poses)
     ]
@@ -42,6 +43,15 @@ def join_signals(gathering: Gathering, robot: Robot, model: str) -> tuple[Identi
             pose = np.concatenate([record.position, np.degrees(record.angles)])
             gathering.add_frequencies(record.case, pose, record.payload, record.lengths, sigmas, rows)
     return tuple(found)
+
+
+def _check_known(gathering: Gathering, poses: dict[str, np.ndarray]) -> None:
+    """Modes in signals are held against those of the model at the pose, which has to be known there."""
+    for series, _ in gathering.series:
+        for case in dict.fromkeys(series.case):
+            if case in poses and not np.isfinite(poses[case]).all():
+                expected = "a pose that was measured in full: position and angles"
+                raise InputError(series.file, f"case {case}", "a pose with empty cells in another file", expected)
 
 
 def _check_pose(record: SignalRecord, poses: dict[str, np.ndarray]) -> None:

@@ -56,7 +56,10 @@ def _check_position(source: str, name: str, robot: Robot, position: np.ndarray) 
 
 
 def _check_lengths(source: str, name: str, length: np.ndarray, chord: np.ndarray, locked: bool) -> None:
-    known = np.isfinite(length)
+    known = np.isfinite(length) & np.isfinite(chord)
+    if not known.any():
+        return
+    chord = np.where(known, chord, 1.0)
     ratio = np.where(known, length, chord) / chord
     off, unit = np.flatnonzero(~((ratio > 1.0 / _TIMES) & (ratio < _TIMES))), "mm"
     if locked and known.all() and not off.size and _all_beyond(ratio, _TIMES_LOCKED):
@@ -90,7 +93,7 @@ def _check_tensions(source: str, name: str, tension: np.ndarray, robot: Robot, p
 
 def _check_files(source: str, robot: Robot, states: States) -> None:
     """Lengths of static states and locked ones are in one unit."""
-    known = np.isfinite(states.length).all(axis=1)
+    known = np.isfinite(states.length).all(axis=1) & np.isfinite(states.position + states.angles).all(axis=1)
     held, locked = (np.flatnonzero(known & own) for own in (states.has_tension, ~states.has_tension))
     if not (held.size and locked.size):
         return

@@ -33,14 +33,17 @@ from tests.blind.mesh_error import all_mesh_errors
 from tests.blind.report_page import write_page
 from tests.blind.running import default_command, diagnose_all
 from tests.blind.scoring import case_rows, figures, scored_cases
+from tests.blind.spoilt_sets import SpoiltKind, spoilt_cases, spoilt_kinds
 from tests.blind.suite import FINAL_RATES, FULL, composed, record_final_use, set_seed
 
+_Group = tuple[list[tuple[str, SpoiltKind]], int, Path, Path]  # named kinds of one reality, seed, where to
 _Job = tuple[CaseKind, str, tuple[int, ...], Path, Path]  # what, name, seed, where to, where the truth goes
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "blind_tests.md"
 MESH = Path(__file__).with_name("mesh_error.json")
 FOLLOW_UPS = "followups"  # ambiguous cases measured again
 RATES = "rates"  # more nulls, just detectable effects and pairs beside a final set, which has few of each
 WHOLE = {"dev": 200, "final": 200, "ci": 12, "unseen": 24, "rates": 800}
+SPOILT = {"messy": 210, "peaks": 180, "sizes": 224, "messy-dev": 63, "peaks-dev": 63, "sizes-dev": 64}
 
 
 def campaigns_of(out: Path) -> Path:
@@ -56,12 +59,12 @@ def sealed_of(options: argparse.Namespace) -> Path:
 def make(options: argparse.Namespace) -> int:
     """Draw and write all cases of a set that are not there yet."""
     out, sealed = Path(options.out), sealed_of(options)
-    total = options.count or WHOLE[options.set]
+    total = options.count or (WHOLE | SPOILT)[options.set]
     run = {"set": options.set, "release": options.release, "count": total}
     if other := _other_set(out, run):
         print(f"tests.blind: --out {out} holds {other}; give another directory", file=sys.stderr)
         return 2
-    jobs = _jobs(options.set, options.release, total, out, sealed)
+    jobs: list[Any] = (_groups if options.set in SPOILT else _jobs)(options.set, options.release, total, out, sealed)
     if options.set == "final":
         more = round(total * sum(FINAL_RATES.values()) / sum(FULL.values()))
         jobs += _jobs("final-rates", options.release, more, out / RATES, sealed / RATES)
@@ -70,7 +73,7 @@ def make(options: argparse.Namespace) -> int:
     out.mkdir(parents=True, exist_ok=True)
     (out / "run.json").write_text(json.dumps(run) + "\n", "utf-8")
     with ProcessPoolExecutor(options.workers) as pool:
-        made = pool.map(_made, jobs)
+        made = pool.map(_made_group if options.set in SPOILT else _made, jobs)
         for _ in track(made, "make", len(jobs), disable=not sys.stderr.isatty()):
             pass
     return 0
@@ -83,6 +86,22 @@ def _jobs(name: str, release: str, total: int, out: Path, sealed: Path) -> list[
     letter = "r" if name == "final-rates" else "c"
     jobs = [(kind, f"{letter}{n:03d}", (base, n), out, sealed) for n, kind in enumerate(kinds, start=1)]
     return [job for job in jobs if not (campaigns_of(out) / job[1] / "manifest.json").exists()]
+
+
+def _groups(name: str, release: str, total: int, out: Path, sealed: Path) -> list[_Group]:
+    """What is still to be made of a set of spoilt campaigns; cases of one reality together, since it is drawn once."""
+    base = set_seed(name, release)
+    groups: dict[int, list[tuple[str, SpoiltKind]]] = {}
+    for number, kind in enumerate(spoilt_kinds(name, total, base), start=1):
+        groups.setdefault(kind.group, []).append((f"c{number:03d}", kind))
+    written = {path.parent.name for path in campaigns_of(out).glob("*/manifest.json")}
+    return [(kinds, base, out, sealed) for kinds in groups.values() if not {case for case, _ in kinds} <= written]
+
+
+def _made_group(job: _Group) -> None:
+    kinds, base, out, sealed = job
+    for name, case, seed in spoilt_cases(kinds, base):
+        write_case(case, name, seed, campaigns_of(out), sealed)
 
 
 def _other_set(out: Path, run: dict[str, Any]) -> str:
@@ -146,7 +165,9 @@ def report(options: argparse.Namespace) -> int:
 
 def sizes(options: argparse.Namespace) -> int:
     """Measure the smallest detectable sizes of the robots named, or of all."""
-    write_table([options.robot] if options.robot else list(ROBOTS), options.workers)
+    robots = [options.robot] if options.robot else list(ROBOTS)
+    write_table(robots, options.workers)
+    write_table(robots, options.workers, statics=True)
     return 0
 
 
@@ -160,7 +181,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Command line of the harness."""
     parser = argparse.ArgumentParser(prog="python -m tests.blind", description=__doc__.splitlines()[0])
     parser.add_argument("step", choices=("make", "run", "score", "report", "sizes", "mesh"))
-    parser.add_argument("--set", choices=tuple(WHOLE), default="dev")
+    parser.add_argument("--set", choices=tuple(WHOLE | SPOILT), default="dev")
     parser.add_argument("--count", type=int, default=0, help="cases (default: the whole set)")
     parser.add_argument("--out", default="", help="directory of campaigns and answers (default: results/blind-SET)")
     parser.add_argument("--sealed", default="", help="directory of the truth (default: OUT-sealed)")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -22,9 +23,9 @@ from tests.blind.catalogue import (
 from tests.blind.detectability import reference_size, sigmas_left
 from tests.blind.deviations import Deviations, drawn_tolerances
 from tests.blind.entered_robot import EnteredRobot, entered_robot
-from tests.blind.measuring_plan import PlanSize, drawn_plan
+from tests.blind.measuring_plan import Plan, PlanSize, drawn_plan
 from tests.blind.note_errors import spoiled
-from tests.blind.observation import SlackStateError, observed
+from tests.blind.observation import Observation, SlackStateError, observed
 from tests.blind.sensors import Noise, Tables, filed
 from tests.blind.true_robot import bare_inertia
 
@@ -33,6 +34,7 @@ SHARES = (0.35, 0.25, 0.25, 0.15)
 SUSPENDED = ROBOTS[:2]
 SMALLEST_MULTIPLE_KEPT = 0.8  # of the multiple asked for, where the plausible size ends earlier
 ATTEMPTS = 60
+CABLES = 8  # of every robot here
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,7 @@ class CaseKind:
     noise    : white, coloured or outlier
     lengths  : whether lengths are filed
     separated : an ambiguous case with the measurements that tell its names apart, where there are any
+    statics  : without frequencies; sizes are then multiples of what statics alone can detect
     """
 
     kind: str
@@ -51,6 +54,7 @@ class CaseKind:
     noise: str = "white"
     lengths: bool = True
     separated: bool = False
+    statics: bool = False
     size: PlanSize = field(default_factory=PlanSize)
 
 
@@ -84,28 +88,18 @@ def drawn_case(kind: CaseKind, seed: tuple[int, ...]) -> Case:
 
 def _attempt(kind: CaseKind, seed: tuple[int, ...], attempt: int) -> Case:
     streams = np.random.SeedSequence([*seed, attempt]).spawn(6)
-    choice, workshop, hidden, route, sensor, beside = (np.random.default_rng(stream) for stream in streams)
-    robot = entered_robot(str(choice.choice(ROBOTS, p=SHARES)))
-    tolerances, names = drawn_tolerances(robot.cables, workshop), [name for name, _ in kind.effects]
-    if robot.pulley_radius is None:
-        tolerances = tolerances.plus("pulley_radius", -tolerances["pulley_radius"])
-    deviations = tolerances
-    effects: list[dict[str, Any]] = []
-    if kind.kind != "handling":
-        deviations, effects = _hidden(kind, robot, tolerances, hidden)
+    hidden, sensor, beside = (np.random.default_rng(streams[number]) for number in (2, 4, 5))
+    real = drawn_reality(kind, streams, hidden)
+    robot, deviations, effects, names = real.robot, real.deviations, real.effects, [name for name, _ in kind.effects]
     lengths = kind.lengths and "internal_force" not in names
-    confused = kind.kind == "ambiguous" and not kind.separated
-    one_sided = confused and names[0] in ONE_SIDED
-    plan = drawn_plan(robot, route, deviations, kind.size, one_sided)
-    seen = observed(robot, deviations, plan)
-    tables = filed(plan, seen, deviations, Noise(sensor, kind.noise), lengths)
-    weighed = None
+    tables = filed(real.plan, real.seen, deviations, Noise(sensor, kind.noise), lengths)
+    confused, weighed = _is_confused(kind), None
     if kind.kind == "ambiguous" and names[0] in STATICS_ONLY:
         del tables["robot_frequency"]
         weighed = None if confused else round(float(robot.mass + deviations["platform_mass"][0]), 2)
     if kind.kind == "handling":
         effects = [{"cause": names[0], "multiple": None, "variant": spoiled(names[0], tables, hidden)}]
-    truth = _truth(kind, robot, effects, deviations) | ({} if weighed is None else {"weighed_kg": weighed})
+    truth = truth_record(kind, robot, effects, deviations) | ({} if weighed is None else {"weighed_kg": weighed})
     check = None
     if kind.separated and names[0] in CHECKED:
         check = CHECKED[names[0]](robot, deviations, beside)
@@ -113,20 +107,53 @@ def _attempt(kind: CaseKind, seed: tuple[int, ...], attempt: int) -> Case:
     return Case(robot, tables, truth, weighed, check)
 
 
+@dataclass(frozen=True, eq=False)
+class Reality:
+    """What is there before anybody reads a sensor; effects are the records of what is hidden."""
+
+    robot: EnteredRobot
+    deviations: Deviations
+    effects: list[dict[str, Any]]
+    plan: Plan
+    seen: Observation
+
+
+def drawn_reality(kind: CaseKind, streams: Sequence[np.random.SeedSequence], hidden: np.random.Generator) -> Reality:
+    """Robot, tolerances, effects and what the referee sees of them; the first, second and fourth stream are used."""
+    choice, workshop, route = (np.random.default_rng(streams[number]) for number in (0, 1, 3))
+    robot = entered_robot(str(choice.choice(ROBOTS, p=SHARES)))
+    deviations = drawn_tolerances(robot.cables, workshop)
+    if robot.pulley_radius is None:
+        deviations = deviations.plus("pulley_radius", -deviations["pulley_radius"])
+    effects: list[dict[str, Any]] = []
+    if kind.kind != "handling":
+        deviations, effects = _hidden(kind, robot, deviations, hidden)
+    one_sided = _is_confused(kind) and kind.effects[0][0] in ONE_SIDED
+    plan = drawn_plan(robot, route, deviations, kind.size, one_sided)
+    if kind.statics:
+        plan = replace(plan, frequency_states=0)
+    return Reality(robot, deviations, effects, plan, observed(robot, deviations, plan))
+
+
+def _is_confused(kind: CaseKind) -> bool:
+    """Whether nothing in the case tells the names of an ambiguous effect apart."""
+    return kind.kind == "ambiguous" and not kind.separated
+
+
 def _hidden(
     kind: CaseKind, robot: EnteredRobot, tolerances: Deviations, rng: np.random.Generator
 ) -> tuple[Deviations, list[dict[str, Any]]]:
     """The tolerances with the effects on top, and a record of each effect."""
     effects = []
-    catalogue = {**(EQUIVALENT if kind.kind == "ambiguous" else LIBRARY), **BEYOND}
+    catalogue = {**EQUIVALENT, **BEYOND, **LIBRARY} | (EQUIVALENT if kind.kind == "ambiguous" else {})
     deviations = tolerances
     for name, multiple in kind.effects:
         effect = catalogue[name]
         seen_as = "load_cell_gain" if kind.kind == "ambiguous" and name in ONE_SIDED else name
-        shape, pattern, size, reached = _sized(effect, robot, multiple, rng, seen_as)
+        shape, pattern, size, reached = sized(effect, robot.name, multiple, rng, seen_as, kind.statics)
         deviations = deviations.plus(name, size * pattern)
         record = {"cause": name, "multiple": reached, "size": size, "unit": effect.unit, "shape": shape}
-        record["sigmas_left"] = sigmas_left(robot.name, name, size * pattern)
+        record["sigmas_left"] = sigmas_left(robot.name, name, size * pattern, kind.statics)
         effects.append(record | {"change": (size * pattern).tolist(), "rivals": list(effect.rivals)})
     for record in effects:
         record["total"] = deviations[str(record["cause"])].tolist()
@@ -134,17 +161,18 @@ def _hidden(
     return deviations, effects
 
 
-def _sized(
-    effect: Effect, robot: EnteredRobot, multiple: float, rng: np.random.Generator, seen_as: str
+def sized(
+    effect: Effect, robot: str, multiple: float, rng: np.random.Generator, seen_as: str, statics: bool
 ) -> tuple[str, np.ndarray, float, float]:
     """Shape, pattern, size and the multiple of the reference size that it reaches.
 
     seen_as : effect whose reference size counts; approached from one side only, friction is a gain
+    statics : of what can be detected without frequencies
     """
-    if effect.name == "internal_force" and robot.name not in SUSPENDED:
+    if effect.name == "internal_force" and robot not in SUSPENDED:
         raise RejectedDrawError
-    shape, pattern = drawn_pattern(effect, robot.cables, rng)
-    reference = reference_size(robot.name, seen_as, pattern, unknowns(shape, pattern))
+    shape, pattern = drawn_pattern(effect, CABLES, rng)
+    reference = reference_size(robot, seen_as, pattern, unknowns(shape, pattern), statics)
     if reference is None:
         raise RejectedDrawError
     size = min(multiple * reference, effect.largest)
@@ -165,7 +193,7 @@ def _refuse_impossible(robot: EnteredRobot, deviations: Deviations) -> None:
         raise RejectedDrawError
 
 
-def _truth(
+def truth_record(
     kind: CaseKind, robot: EnteredRobot, effects: list[dict[str, Any]], deviations: Deviations
 ) -> dict[str, Any]:
     return {

@@ -6,12 +6,14 @@ sqrt(d^T S^-1 d) sigmas. A pattern of one number is found with power 0.8 at a fa
 out by 4.1 of them; one of more numbers, all of which are to be found, by what a noncentral chi^2 of as many degrees of
 freedom asks (4.6 for 3, 5.1 for 6, 6.3 for 24). The products d_i^T S^-1 d_k of all effects, averaged over plans of
 which only those peaks are read that somebody picks, are kept in `reference_sizes.npz`, so that every drawn pattern has
-its own size and its own distance from whatever else could explain it.
+its own size and its own distance from whatever else could explain it. `static_sizes.npz` holds the same of campaigns
+without frequencies.
 """
 
 from __future__ import annotations
 
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from functools import cache
 from itertools import product
 from pathlib import Path
@@ -29,10 +31,12 @@ from tests.blind.sensors import CABLE_HZ, PICKED, ROBOT_HZ, SIGMA, pose_readings
 from tests.blind.vibrations import CABLE_MODES, VISIBLE_SHARE
 
 TABLE = Path(__file__).with_name("reference_sizes.npz")
+STATIC_TABLE = Path(__file__).with_name("static_sizes.npz")  # of campaigns without frequencies
 FALSE_ALARMS, POWER = 1e-3, 0.8
 PLAUSIBLE = 0.2  # of the largest size of the catalogue: one sigma of what a rival may be
 ELEMENTS = 12
 PLAN_SEEDS = (1, 2, 3, 4, 5)
+STATIC_PLAN_SEEDS = PLAN_SEEDS[:2]  # statics depend less on the plan than the few states with frequencies
 CELL_FIELDS = (
     "load_cell_gain",
     "load_cell_bias",
@@ -51,10 +55,11 @@ STEP = 5e-5  # all others: m, rad, ratios
 
 
 class Sensitivity:
-    """Changes of the readings of one robot and plan, in sigmas of their noise, by any field."""
+    """Changes of the readings of one robot and plan, in sigmas of their noise, by any field; or of statics alone."""
 
-    def __init__(self, robot: EnteredRobot, plan_seed: int) -> None:
+    def __init__(self, robot: EnteredRobot, plan_seed: int, statics: bool = False) -> None:
         self.robot, self.exact, self.plan_seed = robot, Deviations.none(robot.cables), plan_seed
+        self.statics = statics
         self.plan = self._planned(self.exact)
         self.seen = observed(robot, self.exact, self.plan, ELEMENTS)
         read = np.random.default_rng([plan_seed, 1]).random(self.seen.shares.shape) < PICKED
@@ -64,7 +69,8 @@ class Sensitivity:
         self._white: dict[str, np.ndarray] = {}
 
     def _planned(self, deviations: Deviations) -> Plan:
-        return drawn_plan(self.robot, np.random.default_rng(self.plan_seed), deviations)
+        plan = drawn_plan(self.robot, np.random.default_rng(self.plan_seed), deviations)
+        return replace(plan, frequency_states=0) if self.statics else plan
 
     def _readings(self, plan: Plan, seen: Observation, deviations: Deviations) -> np.ndarray:
         pose = np.repeat([SIGMA["position_m"], SIGMA["rotation_deg"]], 3)
@@ -135,9 +141,9 @@ class Sensitivity:
         return np.concatenate([*parts, np.nonzero(self.peaks)[0]])
 
 
-def measured_table(name: str, plan_seed: int) -> tuple[list[str], np.ndarray, np.ndarray]:
+def measured_table(name: str, plan_seed: int, statics: bool = False) -> tuple[list[str], np.ndarray, np.ndarray]:
     """Effect of each column, d^T S^-1 d of all columns (k, k), and that of the internal force by the cells (2, 2)."""
-    sensitivity = Sensitivity(entered_robot(name), plan_seed)
+    sensitivity = Sensitivity(entered_robot(name), plan_seed, statics)
     without = "pulley_radius" if sensitivity.robot.pulley_radius is None else "frame_compliance"
     effects = [effect for effect in dict.fromkeys([*LIBRARY, *EQUIVALENT, *BEYOND]) if effect != without]
     alone = sensitivity.whitened("internal_force")
@@ -149,8 +155,8 @@ def measured_table(name: str, plan_seed: int) -> tuple[list[str], np.ndarray, np
 
 
 @cache
-def _table(robot: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    with np.load(TABLE) as kept:
+def _table(robot: str, statics: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    with np.load(STATIC_TABLE if statics else TABLE) as kept:
         labels, gram, internal = (kept[f"{robot}/{part}"] for part in ("labels", "gram", "internal"))
     return labels, gram.astype(float), internal
 
@@ -163,19 +169,22 @@ def sigmas_to_find(unknowns: int) -> float:
     return float(found)
 
 
-def reference_size(robot: str, effect: str, pattern: np.ndarray, unknowns: int = 1) -> float | None:
+def reference_size(
+    robot: str, effect: str, pattern: np.ndarray, unknowns: int = 1, statics: bool = False
+) -> float | None:
     """Size of a pattern of so many unknown numbers that can be found; None where the robot cannot have the effect.
 
     Outside the library only that part counts which the nearest cause of the library leaves.
+    statics : by a campaign without frequencies
     """
-    labels, gram, internal = _table(robot)
+    labels, gram, internal = _table(robot, statics)
     if effect == "internal_force":
         return sigmas_to_find(unknowns) / float(np.sqrt(pattern @ internal @ pattern))
     own = labels == effect
     if not own.any():
         return None
     seen = (
-        sigmas_left(robot, effect, pattern)
+        sigmas_left(robot, effect, pattern, statics)
         if effect in BEYOND
         else float(pattern @ gram[np.ix_(own, own)] @ pattern) ** 0.5
     )
@@ -197,9 +206,9 @@ def typical_size(robot: str, effect: str) -> float | None:
     return sigmas_to_find(1) / float(np.sqrt(spread)) if spread > 0.0 else None
 
 
-def sigmas_left(robot: str, effect: str, change: np.ndarray) -> float:
+def sigmas_left(robot: str, effect: str, change: np.ndarray, statics: bool = False) -> float:
     """Sigmas of a change of a field that the nearest other cause of the library cannot imitate at a plausible size."""
-    labels, gram, _ = _table(robot)
+    labels, gram, _ = _table(robot, statics)
     own = labels == effect
     if not own.any():
         return np.inf
@@ -216,17 +225,18 @@ def sigmas_left(robot: str, effect: str, change: np.ndarray) -> float:
     return float(np.sqrt(max(min(left), 0.0)))
 
 
-def write_table(names: list[str], workers: int = 1) -> None:
+def write_table(names: list[str], workers: int = 1, statics: bool = False) -> None:
     """Measure the robots named, averaged over plans, and store them beside the others."""
     table: dict[str, np.ndarray] = {}
-    if TABLE.exists():
-        with np.load(TABLE) as kept:
+    file, seeds = (STATIC_TABLE, STATIC_PLAN_SEEDS) if statics else (TABLE, PLAN_SEEDS)
+    if file.exists():
+        with np.load(file) as kept:
             table = dict(kept.items())
     with ProcessPoolExecutor(workers) as pool:
-        measured = list(pool.map(measured_table, *zip(*product(names, PLAN_SEEDS), strict=True)))
+        measured = list(pool.map(measured_table, *zip(*product(names, seeds, [statics]), strict=True)))
     for number, name in enumerate(names):
-        plans = measured[number * len(PLAN_SEEDS) : (number + 1) * len(PLAN_SEEDS)]
+        plans = measured[number * len(seeds) : (number + 1) * len(seeds)]
         gram, internal = (np.mean([plan[part] for plan in plans], axis=0) for part in (1, 2))
         table |= {f"{name}/labels": np.array(plans[0][0]), f"{name}/gram": gram.astype(np.float32)}
         table[f"{name}/internal"] = internal
-    np.savez_compressed(TABLE, **table)
+    np.savez_compressed(file, **table)

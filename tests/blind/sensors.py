@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,13 +23,19 @@ POSE = ["x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"]
 COLOUR = 0.7  # correlation of one reading with the next in coloured noise
 OUTLIER = 7.0  # sigma
 PICTURE = 3.0  # m, from the middle of the tracker's picture, where its lens error is given
+TAILS = 3.0  # degrees of freedom of `student` noise
 
 Tables = dict[str, pd.DataFrame]
+Picker = Callable[[np.ndarray, np.ndarray, np.random.Generator], np.ndarray]
+"""Peaks read of modes (k,) [Hz] with shares (k,) of their energy in the platform."""
 
 
 @dataclass
 class Noise:
-    """Draws noise of unit variance: `white`, `coloured` (a slow wander over the day), or white with an `outlier`."""
+    """Draws noise of unit variance: `white`, `coloured` (a slow wander over the day), or white with an `outlier`.
+
+    `student` noise has long tails: Student's t with three degrees of freedom, of unit scale and so of variance 3.
+    """
 
     rng: np.random.Generator
     kind: str = "white"
@@ -40,6 +46,8 @@ class Noise:
 
     def draw(self, name: str, size: int) -> np.ndarray:
         """Next (size,) numbers of the sensor `name`."""
+        if self.kind == "student":
+            return np.asarray(self.scale * self.rng.standard_t(TAILS, size))
         fresh = self.scale * self.rng.standard_normal(size)
         if self.kind != "coloured":
             return fresh
@@ -81,8 +89,21 @@ def noisy_pose(deviations: Deviations, rest: Rest, noise: Noise) -> np.ndarray:
     return np.asarray(pose_readings(deviations, rest) + sigma * noise.draw("pose", 6))
 
 
-def filed(plan: Plan, seen: Observation, deviations: Deviations, noise: Noise, with_lengths: bool = True) -> Tables:
-    """Rows of all files, by kind of measurement."""
+def picked(modes: np.ndarray, shares: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """Peaks somebody picks among those that show on the platform."""
+    visible = modes[shares > VISIBLE_SHARE]
+    return np.asarray(visible[rng.random(len(visible)) < PICKED])
+
+
+def filed(
+    plan: Plan,
+    seen: Observation,
+    deviations: Deviations,
+    noise: Noise,
+    with_lengths: bool = True,
+    picker: Picker = picked,
+) -> Tables:
+    """Rows of all files, by kind of measurement; no frequencies if none were observed."""
     static = static_rows(plan, seen, deviations, noise)
     tables = {"static_state": static, "loaded_pose": loaded_rows(plan, seen, deviations, noise)}
     if noise.kind == "outlier":
@@ -90,9 +111,11 @@ def filed(plan: Plan, seen: Observation, deviations: Deviations, noise: Noise, w
         static.loc[row, "tension_N"] += OUTLIER * SIGMA["tension_N"] * noise.rng.choice([-1.0, 1.0])
     if not with_lengths:
         del static["length_m"], tables["loaded_pose"]
+    if not len(seen.cable_hz):
+        return tables
     states = static.drop_duplicates("case").set_index("case")
     tables["cable_frequency"] = cable_rows(seen, static, states, noise)
-    tables["robot_frequency"] = robot_rows(seen, states, noise)
+    tables["robot_frequency"] = robot_rows(seen, states, noise, picker)
     return tables
 
 
@@ -138,14 +161,12 @@ def cable_rows(seen: Observation, static: pd.DataFrame, states: pd.DataFrame, no
     return pd.DataFrame(rows)
 
 
-def robot_rows(seen: Observation, states: pd.DataFrame, noise: Noise) -> pd.DataFrame:
-    """Peaks somebody picked among those that show on the platform, without labels."""
+def robot_rows(seen: Observation, states: pd.DataFrame, noise: Noise, picker: Picker) -> pd.DataFrame:
+    """Peaks read, without labels."""
     rows = []
     for number, (modes, shares) in enumerate(zip(seen.robot_hz, seen.shares, strict=True), start=1):
-        case = f"s{number:02d}"
-        visible = modes[shares > VISIBLE_SHARE]
-        picked = visible[noise.rng.random(len(visible)) < PICKED]
-        for reading in np.sort(picked * (1.0 + ROBOT_HZ * noise.draw("robot frequency", len(picked)))):
+        case, peaks = f"s{number:02d}", picker(modes, shares, noise.rng)
+        for reading in np.sort(peaks * (1.0 + ROBOT_HZ * noise.draw("robot frequency", len(peaks)))):
             row = {"case": case, **_state(states, case), "frequency_hz": reading, "sigma": ROBOT_HZ * reading}
             rows.append(row)
     return pd.DataFrame(rows)

@@ -83,14 +83,6 @@ def test_frfs_without_a_pose_are_refused_before_their_modes_are_sought(tmp_path,
     assert "carries no pose" in capsys.readouterr().err
 
 
-def test_an_empty_cell_says_what_to_do(tmp_path, capsys):
-    rows = (HEAD + ROWS).splitlines()
-    rows[-1] = rows[-1].rsplit(",", 1)[0] + ","
-    assert "leave all cells of that column empty for this case" in complaint(
-        tmp_path, capsys, rows="\n".join(rows) + "\n"
-    )
-
-
 def test_version(capsys):
     assert run(["--version"]) == 0
     assert capsys.readouterr().out == f"cdpr-struct {version('cdpr-struct')}\n"

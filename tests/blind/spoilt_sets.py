@@ -1,0 +1,166 @@
+"""Sets of spoilt campaigns: one drawn reality, read in several ways, and one drawn cause in several sizes.
+
+messy : static campaigns, clean and spoilt in six ways
+peaks : campaigns with frequencies, clean, spoilt in six ways, and in all of them at once
+sizes : the same cause at 2, 4, 8 and 16 times what can be detected, with and without frequencies
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fem_reference import FemError
+from tests.blind.case_drawing import (
+    ATTEMPTS,
+    ROBOTS,
+    Case,
+    CaseKind,
+    Reality,
+    RejectedDrawError,
+    drawn_reality,
+    sized,
+    truth_record,
+)
+from tests.blind.catalogue import EQUIVALENT, LIBRARY
+from tests.blind.measuring_plan import PlanSize
+from tests.blind.observation import SlackStateError
+from tests.blind.sensors import Noise, filed, picked
+from tests.blind.spoiled_peaks import PeakSpoiler, spoil_peak_tables
+from tests.blind.spoiled_readings import spoil_readings
+
+DEVELOPMENT = "-dev"
+MESSY = ("clean", "student", "outliers", "poses", "missing", "drift", "rounded")
+PEAKS = ("clean", "missing", "spurious", "merged", "line", "exchanged", "student", "all", "all")
+SIZES = (2.0, 4.0, 8.0, 16.0)
+CLEAR = 4.0  # multiple of effects whose size is not the question
+NULLS = 3  # every third reality holds no effect
+FREQUENCY_STATES = 6  # of `peaks`: two of them are exchanged
+IN_SERIES = ("joint_compliance", "dead_length")
+UNSEEN_IN_STATICS = ("platform_inertia",)
+MOTIONLESS = "static"
+VIBRATING = "with frequencies"
+PATTERNS_TRIED = 10  # of an effect for each robot, to see whether it can be that large
+
+
+@dataclass(frozen=True)
+class SpoiltKind:
+    """What a case is to hold.
+
+    group   : cases of one group share their reality, up to the size of its effect
+    reality : null or single
+    way     : how its readings are spoilt
+    largest : largest multiple in the group; all have to be possible
+    """
+
+    group: int
+    reality: CaseKind
+    way: str
+    largest: float = CLEAR
+
+
+def spoilt_kinds(name: str, total: int, base: int) -> list[SpoiltKind]:
+    """Kinds of all cases in the order in which they are numbered, which tells nothing about them."""
+    rng = np.random.default_rng([base, 0])
+    kind = name.removesuffix(DEVELOPMENT)
+    makers = {"messy": _messy, "peaks": _peaks, "sizes": _sizes}
+    kinds = list(makers[kind](total, rng))
+    return [kinds[index] for index in rng.permutation(len(kinds))]
+
+
+def _realities(count: int, names: list[str], rng: np.random.Generator) -> list[CaseKind]:
+    """A third of nulls, the rest single effects, each name once before any is used again."""
+    dealt = np.concatenate([rng.permutation(names) for _ in range(count // len(names) + 1)])
+    singles = (CaseKind("single", ((str(name), CLEAR),)) for name in dealt)
+    return [CaseKind("null") if number % NULLS == 0 else next(singles) for number in range(count)]
+
+
+def _names(statics: bool) -> list[str]:
+    names = [*LIBRARY, *IN_SERIES]
+    return [name for name in names if not (statics and name in UNSEEN_IN_STATICS)]
+
+
+def _messy(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
+    for group, kind in enumerate(_realities(total // len(MESSY), _names(True), rng)):
+        yield from (SpoiltKind(group, replace(kind, statics=True), way) for way in MESSY)
+
+
+def _peaks(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
+    size = PlanSize(frequency_states=FREQUENCY_STATES)
+    for group, kind in enumerate(_realities(total // len(PEAKS), _names(False), rng)):
+        yield from (SpoiltKind(group, replace(kind, size=size), way) for way in PEAKS)
+
+
+def _sizes(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
+    """Causes whose largest size is still plausible, see `Effect.largest`; a group is one cause in four sizes."""
+    draws = total // (2 * len(SIZES))
+    for number, statics in enumerate((True, False)):
+        names = [name for name in _names(statics) if _reaches(name, SIZES[-1], statics)]
+        dealt = np.concatenate([rng.permutation(names) for _ in range(draws // len(names) + 1)])
+        for group, name in enumerate(dealt[:draws], start=draws * number):
+            for size in SIZES:
+                kind = CaseKind("single", ((str(name), size),), statics=statics)
+                yield SpoiltKind(group, kind, MOTIONLESS if statics else VIBRATING, SIZES[-1])
+
+
+def _reaches(name: str, multiple: float, statics: bool) -> bool:
+    """Whether some robot can have an effect of so many times its detectable size that is not absurd."""
+    effect, rng = {**EQUIVALENT, **LIBRARY}[name], np.random.default_rng(0)
+    for robot in ROBOTS:
+        for _ in range(PATTERNS_TRIED):
+            try:
+                sized(effect, robot, multiple, rng, name, statics)
+            except RejectedDrawError:
+                continue
+            return True
+    return False
+
+
+def spoilt_cases(kinds: list[tuple[str, SpoiltKind]], base: int) -> Iterator[tuple[str, Case, tuple[int, ...]]]:
+    """Name, case and seed of the numbered cases of one group, whose reality is drawn once for every size in it."""
+    group = kinds[0][1].group
+    realities = group_realities([kind for _, kind in kinds], (base, 1, group))
+    for number, (name, kind) in enumerate(kinds):
+        seed = (base, 2, group, number)
+        yield name, read_case(kind, realities[kind.reality], seed), seed
+
+
+def group_realities(kinds: list[SpoiltKind], seed: tuple[int, ...]) -> dict[CaseKind, Reality]:
+    """The reality of every kind of a group: same robot, tolerances, pattern and plan, from one seed.
+
+    What fails for one of them, or at the largest size, is drawn again for all.
+    """
+    largest = max(kind.largest for kind in kinds)
+    wanted = dict.fromkeys(kind.reality for kind in kinds)
+    first = next(iter(wanted))
+    widest = replace(first, effects=tuple((name, largest) for name, _ in first.effects))
+    for attempt in range(ATTEMPTS):
+        try:
+            return {kind: _drawn(kind, seed, attempt) for kind in dict.fromkeys([widest, *wanted])}
+        except (RejectedDrawError, SlackStateError, FemError):
+            continue
+    raise RuntimeError(f"no campaign for {widest} with seed {seed} in {ATTEMPTS} attempts")
+
+
+def _drawn(kind: CaseKind, seed: tuple[int, ...], attempt: int) -> Reality:
+    streams = np.random.SeedSequence([*seed, attempt]).spawn(4)
+    return drawn_reality(kind, streams, np.random.default_rng(streams[2]))
+
+
+def read_case(kind: SpoiltKind, real: Reality, seed: tuple[int, ...]) -> Case:
+    """The reality as sensors and note-taker of this seed leave it."""
+    sensor, spoiler = (np.random.default_rng(stream) for stream in np.random.SeedSequence(seed).spawn(2))
+    ways = frozenset(PEAKS) - {"all", "clean"} if kind.way == "all" else frozenset([kind.way])
+    noise = Noise(sensor, "student" if "student" in ways else "white")
+    if kind.reality.statics:
+        tables = filed(real.plan, real.seen, real.deviations, noise)
+        said = spoil_readings(kind.way, tables, spoiler)
+    else:
+        peaks = PeakSpoiler(ways)
+        picker = picked if kind.way == VIBRATING else peaks.picker()
+        tables = filed(real.plan, real.seen, real.deviations, noise, picker=picker)
+        said = f"{peaks.said} {spoil_peak_tables(ways, tables, spoiler)}"
+    truth = truth_record(kind.reality, real.robot, real.effects, real.deviations)
+    return Case(real.robot, tables, truth | {"way": kind.way, "group": kind.group, "spoilt": said})
