@@ -14,7 +14,7 @@ from cdpr_struct.diagnosis.assembled import Layout, rows_of
 from cdpr_struct.diagnosis.hypotheses.cause import Cause, Pattern, Seen
 from cdpr_struct.diagnosis.hypothesis import PRICE, SCALES, Part
 from cdpr_struct.diagnosis.judge import Judged
-from cdpr_struct.diagnosis.linearised import Term, columns
+from cdpr_struct.diagnosis.linearised import Local, Term
 from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.inference.screening import Screen
@@ -63,15 +63,12 @@ class Gains:
 
 def offered(data: Recorded, where: Layout, seen: Seen, causes: Sequence[Cause], about: Judged) -> list[Offered]:
     """What causes do about the point of a fitted hypothesis."""
-    terms = []
+    local, found = Local.about(data, about.point), []
     for cause in causes:
         sigma = np.array([p.prior for p in cause.basic(seen)])
-        terms.append(Term(cause.apply, np.eye(len(sigma)), sigma))
-    found = columns(data, about.point, terms)
-    return [
-        Offered(cause, tuple(cause.patterns(seen)), rows_of(where, own) / term.sigma)
-        for cause, own, term in zip(causes, found, terms, strict=True)
-    ]
+        own = local.columns(Term(cause.apply, np.eye(len(sigma)), sigma))
+        found.append(Offered(cause, tuple(cause.patterns(seen)), rows_of(where, own) / sigma))
+    return found
 
 
 def gains(causes: Sequence[Offered], about: Judged, noise: NoiseState | None = None) -> list[Gains]:

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.diagnosis.linearised import Slopes
 from cdpr_struct.diagnosis.recorded import LENGTH, POSITION, ROTATION, TENSION, Recorded
 from cdpr_struct.inference.linear_model import LinearModel
 from cdpr_struct.inference.scale_mixture import NoiseGroups
@@ -76,17 +75,19 @@ def _groups(data: Recorded, block: np.ndarray, place: np.ndarray, width: int) ->
     return NoiseGroups(index, np.array(kind), np.array(fixed))
 
 
-def assembled(data: Recorded, where: Layout, slopes: Slopes, columns: np.ndarray) -> LinearModel:
-    """The linear model of residuals r = A u + X z, columns (S, 6 + m, t) of z."""
+def assembled(
+    data: Recorded, where: Layout, residual: np.ndarray, by_noise: np.ndarray, columns: np.ndarray
+) -> LinearModel:
+    """The linear model r = A u + X z of residuals (S, 6 + m), slopes (S, 6 + m, 6 + 2 m), columns (S, 6 + m, t)."""
     own, m = 6 + data.cables, data.cables
     k, n = where.blocks, where.rows
     r, floor = np.zeros((k, n)), np.ones((k, n))
     a, x = np.zeros((k, n, where.width)), np.zeros((k, n, columns.shape[-1]))
     for s in range(data.states):
         block, rows = where.block[s], slice(where.place[s] * own, (where.place[s] + 1) * own)
-        r[block, rows], floor[block, rows] = slopes.r[s], np.repeat(FLOOR, (6, m))
-        a[block, rows, rows] = slopes.by_noise[s, :, :own]
-        a[block, rows, where.width - m :] = slopes.by_noise[s, :, own:]
+        r[block, rows], floor[block, rows] = residual[s], np.repeat(FLOOR, (6, m))
+        a[block, rows, rows] = by_noise[s, :, :own]
+        a[block, rows, where.width - m :] = by_noise[s, :, own:]
         x[block, rows] = columns[s]
     return LinearModel(r, a, x, floor, where.groups, np.zeros(0, dtype=int))
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.assembled import Layout, assembled, noise_of_states
 from cdpr_struct.diagnosis.hypothesis import Hypothesis
-from cdpr_struct.diagnosis.linearised import Point, Slopes, own_columns, slopes
+from cdpr_struct.diagnosis.linearised import Local, Point
 from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.inference.evidence import Fit, fit
 from cdpr_struct.inference.linear_model import LinearModel
@@ -84,23 +84,23 @@ def _begun(data: Recorded, hypothesis: Hypothesis, start: Point | None) -> Point
     return point
 
 
-def _once(
-    data: Recorded, where: Layout, hypothesis: Hypothesis, point: Point, noise: NoiseState | None
-) -> Judged:
+def _once(data: Recorded, where: Layout, hypothesis: Hypothesis, point: Point, noise: NoiseState | None) -> Judged:
     model = linear_model(data, where, point)
     found = fit(model, noise, one_sided=hypothesis.positive(point))
     here = np.concatenate(point.z)
     there = noise_of_states(data, where, found.noise_mean)
-    moved = max(float(np.abs(found.z_mean - here).max()), float(np.abs((there - point.noise)[data.read]).max(initial=0.0)))
+    moved = max(
+        float(np.abs(found.z_mean - here).max()), float(np.abs((there - point.noise)[data.read]).max(initial=0.0))
+    )
     return Judged(hypothesis, point, model, found, moved)
 
 
 def linear_model(data: Recorded, where: Layout, point: Point) -> LinearModel:
     """Residuals about a point, referred to zero noise and zero numbers: r = R + A u0 + X z0."""
-    own: Slopes = slopes(data, point)
-    columns = own_columns(data, point, own.r)
-    shift = np.einsum("srj,sj->sr", own.by_noise, point.noise) + columns @ np.concatenate(point.z)
-    return assembled(data, where, replace(own, r=own.r + shift), columns)
+    local = Local.about(data, point)
+    by_noise, columns = local.by_noise(), local.own_columns()
+    shift = np.einsum("srj,sj->sr", by_noise, point.noise) + columns @ np.concatenate(point.z)
+    return assembled(data, where, local.r + shift, by_noise, columns)
 
 
 def best(found: Sequence[Judged]) -> Judged:

@@ -7,15 +7,15 @@ With the true readings y - n and numbers z of the robot the residual R(n, z) is 
 Each block of states that share a reading has rows and noise of its own; z belongs to all.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.diagnosis.tolerances import tolerance_count, tolerated
+from cdpr_struct.observation.nearby_rest import NearbyRest
 from cdpr_struct.observation.readings import Readings
-from cdpr_struct.observation.rest import static_residuals
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
 Change = Callable[[RobotArrays, np.ndarray], RobotArrays]
@@ -80,47 +80,49 @@ def less(data: Recorded, readings: Readings, noise: np.ndarray) -> Readings:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Slopes:
-    """Residuals at a point and what noise does to them: r (S, 6 + m), by_noise (S, 6 + m, 6 + 2 m) = -dR/du."""
+class Local:
+    """A campaign about a point: the robot and the readings there, and the states at rest near it.
 
+    r (S, 6 + m) : residuals at the point
+    """
+
+    data: Recorded
+    point: Point
+    arrays: RobotArrays
+    nearby: NearbyRest
     r: np.ndarray
-    by_noise: np.ndarray
 
+    @classmethod
+    def about(cls, data: Recorded, point: Point) -> "Local":
+        """The states that the readings less their noise mean for the point's robot."""
+        arrays, readings = point.robot(data), point.readings(data)
+        nearby = NearbyRest.about(arrays, readings, data.known, data.radius)
+        return cls(data, point, arrays, nearby, nearby.residuals(arrays, readings))
 
-def slopes(data: Recorded, point: Point) -> Slopes:
-    """Residuals and their slopes by the noise of the readings, each reading of all states moved at once."""
-    count = 6 + 2 * data.cables
-    steps = np.concatenate([np.zeros((1, 1, count)), _STEP * np.eye(count)[:, None, :]])
-    found = residuals(data, point.robot(data), point.readings(data, steps))
-    return Slopes(found[0], -np.moveaxis(found[1:] - found[0], 0, -1) / _STEP)
+    def by_noise(self) -> np.ndarray:
+        """(S, 6 + m, 6 + 2 m) -dR/du, each reading of all states moved at once."""
+        steps = _STEP * np.eye(self.data.sigma.shape[1])[:, None, :]
+        found = self.nearby.residuals(self.arrays, self.point.readings(self.data, steps))
+        return self._slope(found)
 
+    def columns(self, term: Term) -> np.ndarray:
+        """-dR/dz (S, 6 + m, d) of one more term, from zero."""
+        return self._moved(term.applied(self.arrays, _STEP * np.eye(len(term.sigma))[:, None, :]), len(term.sigma))
 
-def residuals(data: Recorded, arrays: RobotArrays, readings: Readings) -> np.ndarray:
-    """(..., S, 6 + m)."""
-    return static_residuals(arrays, readings, data.known, data.radius)
+    def own_columns(self) -> np.ndarray:
+        """-dR/dz (S, 6 + m, t) of the point's own terms, at their numbers."""
+        parts = []
+        for i, term in enumerate(self.point.terms):
+            arrays = self.data.arrays
+            for j, (other, z) in enumerate(zip(self.point.terms, self.point.z, strict=True)):
+                steps = z + _STEP * np.eye(len(z))[:, None, :] if i == j else z[None]
+                arrays = other.applied(arrays, steps)
+            parts.append(self._moved(arrays, len(term.sigma)))
+        return np.concatenate(parts, axis=-1)
 
+    def _moved(self, arrays: RobotArrays, count: int) -> np.ndarray:
+        found = self.nearby.residuals(arrays, self.point.readings(self.data))
+        return self._slope(np.broadcast_to(found, (count, *self.r.shape)))
 
-def columns(data: Recorded, point: Point, terms: Sequence[Term], base: np.ndarray | None = None) -> list[np.ndarray]:
-    """-dR/dz (S, 6 + m, d) of further terms at a point, each from zero."""
-    arrays, readings = point.robot(data), point.readings(data)
-    start = residuals(data, arrays, readings) if base is None else base
-    return [_columns(data, arrays, readings, term, start) for term in terms]
-
-
-def _columns(data: Recorded, arrays: RobotArrays, readings: Readings, term: Term, start: np.ndarray) -> np.ndarray:
-    moved = term.applied(arrays, _STEP * np.eye(len(term.sigma))[:, None, :])
-    found = residuals(data, moved, readings)
-    return -np.moveaxis(np.broadcast_to(found, (len(term.sigma), *start.shape)) - start, 0, -1) / _STEP
-
-
-def own_columns(data: Recorded, point: Point, base: np.ndarray) -> np.ndarray:
-    """-dR/dz (S, 6 + m, t) of the point's own terms, at their numbers."""
-    readings, parts = point.readings(data), []
-    for i, term in enumerate(point.terms):
-        arrays = data.arrays
-        for j, (other, z) in enumerate(zip(point.terms, point.z, strict=True)):
-            steps = z + _STEP * np.eye(len(z))[:, None, :] if i == j else z[None]
-            arrays = other.applied(arrays, steps)
-        found = np.broadcast_to(residuals(data, arrays, readings), (len(term.sigma), *base.shape))
-        parts.append(-np.moveaxis(found - base, 0, -1) / _STEP)
-    return np.concatenate(parts, axis=-1)
+    def _slope(self, found: np.ndarray) -> np.ndarray:
+        return -np.moveaxis(found - self.r, 0, -1) / _STEP

@@ -150,5 +150,3 @@ def _tensions(campaign: Campaign, there: RobotArrays, readings: Readings, known:
         found = found.copy()
         found[index[near]] = rest_.tensions[near]
     return found
-
-

@@ -5,7 +5,7 @@ outliers that one start sets aside may be what another explains. The best of all
 never finds less.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +15,7 @@ from cdpr_struct.diagnosis.alternatives import Gains, Offered, gains, offered
 from cdpr_struct.diagnosis.assembled import Layout, layout
 from cdpr_struct.diagnosis.hypotheses.cause import Cause, Seen
 from cdpr_struct.diagnosis.hypotheses.drift import AMPLITUDES
-from cdpr_struct.diagnosis.hypothesis import SCALES, Hypothesis, Part
+from cdpr_struct.diagnosis.hypothesis import Hypothesis
 from cdpr_struct.diagnosis.judge import Judged, judged
 from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.inference.evidence import fit
@@ -116,7 +116,7 @@ class Search:
 
     def _fit_best(self, rows: list[tuple[float, Gains, Judged, NoiseState]], most: int | None = None) -> None:
         for i, (score, row, base, noise) in enumerate(rows):
-            if i < self.budget.causes or score > rows[0][0] - self.budget.near and (most is None or i < most):
+            if i < self.budget.causes or (score > rows[0][0] - self.budget.near and (most is None or i < most)):
                 hypothesis = Hypothesis((*base.hypothesis.parts, row.part), base.hypothesis.drift)
                 self.spread[hypothesis.key] = row.spread
                 self.fitted(hypothesis, base, noise)

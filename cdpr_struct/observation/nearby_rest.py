@@ -1,0 +1,127 @@
+"""States at rest near known ones, to first order: residuals of many slightly different robots without any catenary.
+
+A cable that carries a given tension depends on where its ends are, its tension, stiffness, weight, pulley and what is
+in line with it: ten numbers. Their slopes are taken once; what a robot or a reading changes of them is geometry.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cdpr_struct.observation.circumstances import Circumstances
+from cdpr_struct.observation.readings import Readings, paid_out, true_pose, true_tension
+from cdpr_struct.observation.rest import Rest, at_states, rest
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.cable_models import cable_model
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.equilibrium import PlatformArms, load_wrench
+from cdpr_struct.statics.tensioned_cables import tensioned
+
+_ANCHOR, _SHARE, _RADIUS, _COMPLIANCE = 1e-5, 1e-5, 1e-6, 1e-10  # steps: m, of the value, m, m/N
+_PULLS = 3  # rounds of masts that are pulled by what they move: each is a thousandth of the one before
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NearbyRest:
+    """Known states, and slopes of the cables there.
+
+    inputs (S, m, 8) : exit to platform anchor with rigid masts (3) [m], tension, EA, weight, pulley radius, compliance
+    outputs (S, m, 7) : force on the platform, pull at the frame (3 each) [N], length from the frame anchor on [m]
+    slopes (S, m, 7, 8)
+    """
+
+    known: Circumstances
+    radius: float
+    inputs: np.ndarray
+    outputs: np.ndarray
+    slopes: np.ndarray
+
+    @classmethod
+    def about(cls, arrays: RobotArrays, readings: Readings, known: Circumstances, radius: float) -> "NearbyRest":
+        """Slopes at the states (S) that readings mean for a robot."""
+        state = rest(arrays, readings, known)
+        tension = true_tension(state.arrays, readings, known)
+        rigid = _rigid(state, tension)
+        base = _outputs(state.cables)
+        columns = [
+            (_outputs(tensioned(cable_model(known.model), moved, state.arms.points, pulled)) - base) / step
+            for moved, pulled, step in _steps(rigid, tension)
+        ]
+        inputs = _inputs(state.arrays, state.arms, tension, _mast_shift(state.arrays, base))
+        return cls(known, radius, inputs, base, np.stack(columns, axis=-1))
+
+    def residuals(self, arrays: RobotArrays, readings: Readings) -> np.ndarray:
+        """(..., S, 6 + m) as `static_residuals`, to first order in the change of the cables."""
+        there = at_states(arrays, self.known)
+        position, rotation = true_pose(there, readings)
+        arms = PlatformArms.at(there, position, rotation)
+        found = self._cables(there, arms, true_tension(there, readings, self.known))
+        force, length = found[..., :3], found[..., 6]
+        moment = np.cross(arms.arms, force).sum(axis=-2)
+        load = load_wrench(there, arms)
+        gap = paid_out(there, readings, self.known) - length
+        rows = [force.sum(axis=-2) + load[..., :3], (moment + load[..., 3:]) / self.radius, gap]
+        lead = np.broadcast_shapes(*(part.shape[:-1] for part in rows))
+        return np.concatenate([np.broadcast_to(part, (*lead, part.shape[-1])) for part in rows], axis=-1)
+
+    def _cables(self, there: RobotArrays, arms: PlatformArms, tension: np.ndarray) -> np.ndarray:
+        """(..., S, m, 7) outputs."""
+        found = self.outputs
+        for _ in range(_PULLS if there.has_masts else 1):
+            change = _inputs(there, arms, tension, _mast_shift(there, found)) - self.inputs
+            found = self.outputs + np.einsum("smoi,...smi->...smo", self.slopes, change)
+        return found
+
+
+def _rigid(state: Rest, tension: np.ndarray) -> RobotArrays:
+    """The robot of a state with masts rigid where they stand, and the stiffness that its cables have."""
+    moved = state.arrays.frame_anchors + _mast_shift(state.arrays, _outputs(state.cables))
+    stiff = state.arrays.stiffness_at(tension)
+    return replace(
+        state.arrays,
+        frame_anchors=moved,
+        axial_stiffness=stiff,
+        frame_compliance=np.zeros(1),
+        nonlinearity=np.zeros(()),
+    )
+
+
+def _outputs(cables: CableStates) -> np.ndarray:
+    """(..., m, 7)."""
+    parts = [cables.force_on_platform, cables.force_at_frame, cables.total_length[..., None]]
+    return np.concatenate(parts, axis=-1)
+
+
+def _mast_shift(arrays: RobotArrays, outputs: np.ndarray) -> np.ndarray:
+    """(..., m, 3) by which the pull on the masts moves their exits."""
+    if not arrays.has_masts:
+        return np.zeros(3)
+    return arrays.frame_compliance[..., None] * (arrays.masts @ outputs[..., 3:6])
+
+
+def _inputs(arrays: RobotArrays, arms: PlatformArms, tension: np.ndarray, shift: np.ndarray) -> np.ndarray:
+    """(..., m, 8)."""
+    offset = arms.points - arrays.frame_anchors - shift
+    single = [tension, arrays.stiffness_at(tension), arrays.weight, arrays.pulley_radius, arrays.series_compliance]
+    lead = np.broadcast_shapes(offset.shape[:-1], *(value.shape for value in single))
+    parts = [np.broadcast_to(offset, (*lead, 3)), *(np.broadcast_to(value, lead)[..., None] for value in single)]
+    return np.concatenate(parts, axis=-1)
+
+
+def _steps(rigid: RobotArrays, tension: np.ndarray) -> list[tuple[RobotArrays, np.ndarray, np.ndarray]]:
+    """The robot and its tensions with one input changed at a time, and by how much."""
+    one = np.ones((*tension.shape, 1))
+    found = [
+        (replace(rigid, frame_anchors=rigid.frame_anchors - _ANCHOR * axis), tension, _ANCHOR * one)
+        for axis in np.eye(3)
+    ]
+    found.append((rigid, tension * (1.0 + _SHARE), (_SHARE * tension)[..., None]))
+    stiff, density = rigid.axial_stiffness, rigid.linear_density
+    found.append((replace(rigid, axial_stiffness=stiff * (1.0 + _SHARE)), tension, (_SHARE * stiff)[..., None] * one))
+    heavier = replace(rigid, linear_density=density * (1.0 + _SHARE))
+    found.append((heavier, tension, (_SHARE * rigid.weight)[..., None] * one))
+    wider = replace(rigid, pulley_radius=rigid.pulley_radius + _RADIUS)
+    found.append((wider, tension, _RADIUS * one))
+    softer = replace(rigid, series_compliance=rigid.series_compliance + _COMPLIANCE)
+    found.append((softer, tension, _COMPLIANCE * one))
+    return found
