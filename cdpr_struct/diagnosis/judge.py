@@ -13,7 +13,8 @@ from cdpr_struct.inference.evidence import Fit, fit
 from cdpr_struct.inference.linear_model import LinearModel
 from cdpr_struct.inference.scale_mixture import NoiseState
 
-PASSES = 4  # linearisations at most; the steps shrink by ten and more each
+PASSES = 3  # linearisations at most; the steps shrink by ten and more each
+WORTH = 0.1  # nats: by so much must another start be better to be followed
 _SETTLED = 0.2  # sigmas: a point that moves less is where it was
 
 
@@ -56,42 +57,58 @@ class Judged:
 
 
 def judged(
-    data: Recorded,
-    where: Layout,
-    hypothesis: Hypothesis,
-    start: Point | None = None,
-    noise: NoiseState | None = None,
-    passes: int = PASSES,
+    data: Recorded, where: Layout, hypothesis: Hypothesis, start: Point | None = None, noise: NoiseState | None = None
 ) -> Judged:
     """The evidence of a hypothesis, from a point and sizes of noise to begin with (default: as entered, as stated)."""
-    point = _begun(data, hypothesis, start)
-    for _ in range(passes):
-        found = _once(data, where, hypothesis, point, noise)
+    point = _with_terms(data, hypothesis, Point.entered(data) if start is None else start)
+    return settled(data, where, _fitted(data, where, hypothesis, point, noise))
+
+
+def extended(data: Recorded, where: Layout, base: Judged, more: Hypothesis, columns: np.ndarray) -> Judged:
+    """A hypothesis with one more cause than a judged one, columns (K, n, d) of its numbers about the same point."""
+    point = _with_terms(data, more, base.point)
+    found = _of_model(data, where, more, point, base.model.with_columns(columns), base.fit.noise)
+    return settled(data, where, found)
+
+
+def again(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> Judged:
+    """A hypothesis from other sizes of the noise, about the point that it has; the better of both."""
+    other = _of_model(data, where, found.hypothesis, found.point, found.model, noise)
+    if other.log_evidence < found.log_evidence + WORTH:
+        return found
+    return settled(data, where, other)
+
+
+def settled(data: Recorded, where: Layout, found: Judged) -> Judged:
+    """Linearised about its likeliest point until that stays where it is."""
+    for _ in range(PASSES):
         if found.moved < _SETTLED:
             break
-        point, noise = found.likeliest(data, where), found.fit.noise
+        found = _fitted(data, where, found.hypothesis, found.likeliest(data, where), found.fit.noise)
     return found
 
 
-def _begun(data: Recorded, hypothesis: Hypothesis, start: Point | None) -> Point:
-    """The point with the hypothesis's own terms; tolerances and noise as at the start."""
-    if start is not None and len(start.terms) == 1 + len(hypothesis.terms(data)):
-        return start
-    base = Point.entered(data) if start is None else start
-    point = replace(base, terms=base.terms[:1], z=base.z[:1])
-    for term in hypothesis.terms(data):
+def _with_terms(data: Recorded, hypothesis: Hypothesis, start: Point) -> Point:
+    """A point of the hypothesis: what it shares with the start in front keeps its numbers, the rest is zero."""
+    terms = (start.terms[0], *hypothesis.terms(data))
+    kept = start.z if len(start.z) <= len(terms) else start.z[:1]
+    point = replace(start, terms=terms[: len(kept)], z=kept)
+    for term in terms[len(kept) :]:
         point = point.with_term(term)
     return point
 
 
-def _once(data: Recorded, where: Layout, hypothesis: Hypothesis, point: Point, noise: NoiseState | None) -> Judged:
-    model = linear_model(data, where, point)
+def _fitted(data: Recorded, where: Layout, hypothesis: Hypothesis, point: Point, noise: NoiseState | None) -> Judged:
+    return _of_model(data, where, hypothesis, point, linear_model(data, where, point), noise)
+
+
+def _of_model(
+    data: Recorded, where: Layout, hypothesis: Hypothesis, point: Point, model: LinearModel, noise: NoiseState | None
+) -> Judged:
     found = fit(model, noise, one_sided=hypothesis.positive(point))
-    here = np.concatenate(point.z)
     there = noise_of_states(data, where, found.noise_mean)
-    moved = max(
-        float(np.abs(found.z_mean - here).max()), float(np.abs((there - point.noise)[data.read]).max(initial=0.0))
-    )
+    by_noise = np.abs(there - point.noise)[data.read].max(initial=0.0)
+    moved = max(float(np.abs(found.z_mean - np.concatenate(point.z)).max()), float(by_noise))
     return Judged(hypothesis, point, model, found, moved)
 
 

@@ -6,7 +6,7 @@ never finds less.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import logsumexp
@@ -16,7 +16,7 @@ from cdpr_struct.diagnosis.assembled import Layout, layout
 from cdpr_struct.diagnosis.hypotheses.cause import Cause, Seen
 from cdpr_struct.diagnosis.hypotheses.drift import AMPLITUDES
 from cdpr_struct.diagnosis.hypothesis import Hypothesis
-from cdpr_struct.diagnosis.judge import Judged, judged
+from cdpr_struct.diagnosis.judge import Judged, again, extended, judged
 from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.inference.evidence import fit
 from cdpr_struct.inference.scale_mixture import NoiseState
@@ -31,11 +31,12 @@ class Budget:
 
     causes: int = 3
     near: float = 14.0
+    pair_near: float = 5.0
     beginnings: int = 3
     pairs: int = 3
 
 
-BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 5, 6)}
+BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 5, 6)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,6 +48,16 @@ class Answer:
     score: float
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Screened:
+    """A cause beside a base at sizes of the noise: ln of evidence times prior, in closed form."""
+
+    score: float
+    gains: Gains
+    base: Judged
+    noise: NoiseState
+
+
 class Search:
     """Hypotheses of one campaign, each with the best fit found so far."""
 
@@ -56,24 +67,22 @@ class Search:
         self.found: dict[tuple[object, ...], Judged] = {}
         self.spread: dict[tuple[object, ...], float] = {}
 
-    def fitted(self, hypothesis: Hypothesis, start: Judged | None = None, noise: NoiseState | None = None) -> Judged:
-        """The best fit of a hypothesis so far, after one more from a start."""
-        point = None if start is None else start.likeliest(self.data, self.where)
-        sizes = noise if noise is not None or start is None else start.fit.noise
-        own = judged(self.data, self.where, hypothesis, point, sizes)
-        before = self.found.get(hypothesis.key)
-        if before is None or own.log_evidence > before.log_evidence:
-            self.found[hypothesis.key] = own
-        return self.found[hypothesis.key]
+    def keep(self, found: Judged) -> Judged:
+        """The best fit of a hypothesis so far."""
+        before = self.found.get(found.hypothesis.key)
+        if before is None or found.log_evidence > before.log_evidence:
+            self.found[found.hypothesis.key] = found
+        return self.found[found.hypothesis.key]
 
     def run(self) -> list[Answer]:
         """Everything worth fitting, best first."""
         nulls = self._nulls()
         base = max(nulls, key=lambda one: one.score)
         menu = offered(self.data, self.where, self.seen, self.causes, base)
-        self._fit_best(self._screened(menu, nulls, self._rich(menu, base)))
+        rows = self._screened(menu, nulls, self._rich(menu, base))
+        self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
         self._transfer()
-        for first in self._singles()[: self.budget.beginnings]:
+        for first in self._ranked(1)[: self.budget.beginnings]:
             self._pairs(first)
         self._transfer()
         return self.answers()
@@ -91,8 +100,10 @@ class Search:
 
     def _nulls(self) -> list[Judged]:
         """Nothing wrong, load cells drifting or not."""
-        first = self.fitted(Hypothesis())
-        return [first, *(self.fitted(Hypothesis(drift=size), first) for size, _ in AMPLITUDES if size > 0.0)]
+        first = self.keep(judged(self.data, self.where, Hypothesis()))
+        start, noise = first.likeliest(self.data, self.where), first.fit.noise
+        drifting = [Hypothesis(drift=size) for size, _ in AMPLITUDES if size > 0.0]
+        return [first, *(self.keep(judged(self.data, self.where, one, start, noise)) for one in drifting)]
 
     def _rich(self, menu: Sequence[Offered], base: Judged) -> NoiseState:
         """Sizes of the noise where every cause may act at once: what none of them explains."""
@@ -100,40 +111,50 @@ class Search:
         everything = base.model.with_columns(np.concatenate(columns, axis=-1))
         return fit(everything, base.fit.noise).noise
 
-    def _screened(
-        self, menu: Sequence[Offered], bases: Sequence[Judged], rich: NoiseState | None
-    ) -> list[tuple[float, Gains, Judged, NoiseState]]:
-        """Gains of every cause beside every base, at its own noise and at the rich one; the best of each cause."""
-        best: dict[str, tuple[float, Gains, Judged, NoiseState]] = {}
+    def _screened(self, menu: Sequence[Offered], bases: Sequence[Judged], rich: NoiseState | None) -> list[_Screened]:
+        """The best of each cause beside every base, at its own noise and at the rich one; best first."""
+        best: dict[str, _Screened] = {}
         for base in bases:
             for noise in [base.fit.noise, *([rich] if rich is not None else [])]:
                 bound = base.log_evidence if noise is base.fit.noise else fit(base.model, noise).bounds[0]
-                level = bound + base.hypothesis.log_prior
                 for row in gains(menu, base, noise):
-                    if row.cause.name not in best or level + row.total > best[row.cause.name][0]:
-                        best[row.cause.name] = (level + row.total, row, base, noise)
-        return sorted(best.values(), key=lambda row: -row[0])
+                    score = bound + base.hypothesis.log_prior + row.total
+                    if row.cause.name not in best or score > best[row.cause.name].score:
+                        best[row.cause.name] = _Screened(score, row, base, noise)
+        return sorted(best.values(), key=lambda one: -one.score)
 
-    def _fit_best(self, rows: list[tuple[float, Gains, Judged, NoiseState]], most: int | None = None) -> None:
-        for i, (score, row, base, noise) in enumerate(rows):
-            if i < self.budget.causes or (score > rows[0][0] - self.budget.near and (most is None or i < most)):
-                hypothesis = Hypothesis((*base.hypothesis.parts, row.part), base.hypothesis.drift)
-                self.spread[hypothesis.key] = row.spread
-                self.fitted(hypothesis, base, noise)
+    def _fit_best(self, menu: Sequence[Offered], rows: Sequence[_Screened], at_least: int, above: float) -> None:
+        """Fits of what screening finds best: some at least, and all above a score."""
+        columns = {cause.cause.name: cause.columns for cause in menu}
+        for i, row in enumerate(rows):
+            if i < at_least or row.score > above:
+                part = row.gains.part
+                more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
+                self.spread[more.key] = row.gains.spread
+                own = columns[part.cause.name] @ part.pattern.basis * part.term.sigma
+                base = (
+                    row.base
+                    if row.noise is row.base.fit.noise
+                    else replace(row.base, fit=fit(row.base.model, row.noise))
+                )
+                self.keep(extended(self.data, self.where, base, more, own))
 
-    def _singles(self) -> list[Judged]:
-        own = [one for one in self.found.values() if len(one.hypothesis.parts) == 1]
+    def _ranked(self, causes: int | None = None) -> list[Judged]:
+        own = [one for one in self.found.values() if causes is None or len(one.hypothesis.parts) == causes]
         return sorted(own, key=lambda one: -one.score)
 
     def _transfer(self) -> None:
-        """Every hypothesis again from the noise of the best two."""
-        ranked = sorted(self.found.values(), key=lambda one: -one.score)
+        """Every hypothesis that may matter again from the noise of the best two."""
+        ranked = self._ranked()
+        near = [one for one in ranked if one.score > ranked[0].score - self.budget.near or not one.hypothesis.parts]
         for other in ranked[:2]:
-            for one in [o for o in ranked if o is not other and o.score > ranked[0].score - self.budget.near - 20.0]:
-                self.fitted(one.hypothesis, one, other.fit.noise)
+            for one in near:
+                if one is not other:
+                    self.keep(again(self.data, self.where, self.found[one.hypothesis.key], other.fit.noise))
 
     def _pairs(self, first: Judged) -> None:
-        """A second cause beside one."""
+        """A second cause beside one, where that may come near the best."""
         left = [cause for cause in self.causes if cause.name not in first.hypothesis.names]
         menu = offered(self.data, self.where, self.seen, left, first)
-        self._fit_best(self._screened(menu, [first], None)[: self.budget.pairs], self.budget.pairs)
+        rows = self._screened(menu, [first], None)[: self.budget.pairs]
+        self._fit_best(menu, rows, 0, self._ranked()[0].score - self.budget.pair_near)

@@ -82,7 +82,7 @@ CAUSES = (
         "a constant force on the platform",
         tuple(Parameter(f"force_{a}", "N", 10.0) for a in _XYZ),
         _force,
-        seen_in=("EQ"),
+        seen_in=("EQ",),
         sentence="a constant force of {norm} N acts on the platform",
         separated_by="a payload series; removing hoses and wires",
         extension="force",

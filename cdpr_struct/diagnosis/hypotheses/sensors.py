@@ -80,7 +80,7 @@ CAUSES = (
         (Parameter("slip", "m/h", 2e-3),),
         _slip,
         carrier="cable",
-        seen_in=("CO"),
+        seen_in=("CO",),
         needs=_times,
         sentence="a winch slips by {rms} m an hour",
         sign="above zero pays out",

@@ -97,7 +97,7 @@ CAUSES = (
         "cables creep",
         (Parameter("creep_per_decade", "1", 0.1, positive=True),),
         _creep,
-        seen_in=("CO"),
+        seen_in=("CO",),
         needs=_times,
         sentence="the cables creep, {value} of the elastic strain per decade of time",
         separated_by="a load held for 30 minutes",
