@@ -101,18 +101,27 @@ def test_bound_rises_under_its_own_updates(wrong_state, rule):
     assert bounds[-1] > bounds[0] + 1.0
 
 
-@pytest.mark.parametrize("rule", ["one_to_one", "poisson"])
-def test_predictive_densities_lie_below_the_best_bound(rule):
-    """At the same modes, any other assignment gives less; here by the whole doubt of the modes."""
-    peaks, modes = lists_of(np.random.default_rng(5))
+def test_bound_of_predictive_densities_is_that_of_their_assignment():
+    """One peak, one mode: expected ln L at the responsibilities that a wider mode would have, and their entropy."""
+    y, s, v, detected, expected = np.log(10.05), 0.003, 0.004**2, 0.8, 1.0
+    peaks = padded([PeakList([10.05], [s], BAND)])
+    spurious, modes = (
+        clutter(peaks, spurious=np.array([expected])),
+        robot_modes(np.log([[10.0]]), np.array([[detected]])),
+    )
     noise = known_noise(np.stack([WEIGHT, WEIGHT]), np.ones(2))
-    shape = modes.ln_frequency.shape
-    mean, variance = np.zeros(shape), np.full(shape, 0.004**2)
-    bounds = []
-    for predictive in (True, False):
-        soft = Association(peaks, modes, clutter(peaks), noise, rule=rule).expect(mean, variance, predictive)
-        bounds.append(soft.constant - 0.5 * (soft.precision * ((soft.value - mean) ** 2 + variance)).sum())
-    assert bounds[0] < bounds[1] - 0.1
+    association = Association(peaks, modes, spurious, noise, rule="poisson")
+    soft = association.expect(np.zeros((1, 1)), np.full((1, 1), v), predictive=True)
+    error, distance = (SCALES * s) ** 2, (y - np.log(10.0)) ** 2
+
+    def emitted(variance):
+        return detected * WEIGHT * np.exp(-0.5 * distance / variance) / np.sqrt(2.0 * np.pi * variance)
+
+    stray = spurious.density[0, 0]
+    r = np.append(emitted(error + v), stray) / (emitted(error + v).sum() + stray)
+    expected_log = np.log(np.append(emitted(error), stray)) - np.append(0.5 * v / error, 0.0)
+    bound = (r * (expected_log - np.log(r))).sum() - detected - expected
+    assert soft.constant - 0.5 * float((soft.precision * (soft.value**2 + v)).sum()) == pytest.approx(bound, abs=1e-9)
 
 
 def test_wrong_lists_mix_two_likelihoods():
