@@ -11,18 +11,23 @@ likelihood of the lists summed over assignments.
 """
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from scipy.special import expit, xlogy
 
+from cdpr_struct.association.belief_propagation import neighbours
 from cdpr_struct.association.detection import Clutter
+from cdpr_struct.association.matching import Matching
 from cdpr_struct.association.modes import PredictedModes, allowed_pairs
+from cdpr_struct.association.one_to_one import one_to_one_matching
 from cdpr_struct.association.pair_density import PairDensity, pair_density
 from cdpr_struct.association.peak_noise import SCALES, PeakNoise, ScaleCounts, stated_noise
 from cdpr_struct.association.peaks import KINDS, PeakLists
-from cdpr_struct.association.poisson_process import Matching, poisson_matching
+from cdpr_struct.association.poisson_process import poisson_matching
 from cdpr_struct.inference.soft_rows import SoftExpectation
 
+Rule = Literal["one_to_one", "exact", "poisson"]
 WRONG_STATE = 0.02
 """Prior probability [-] that a whole list was recorded at another pose than stated: one list in fifty."""
 
@@ -56,6 +61,7 @@ class Association:
         noise: PeakNoise | None = None,
         shape_factor: np.ndarray | None = None,
         wrong_state: float = 0.0,
+        rule: Rule = "one_to_one",
     ) -> None:
         """Peaks, the modes they may belong to, and what is known of their noise.
 
@@ -65,14 +71,16 @@ class Association:
             where no shape was measured.
         wrong_state : prior probability that a whole list is of another pose; 0 in the first steps of a fit, then
             WRONG_STATE: earlier it may swallow a large but true shift of a harmonic series.
+        rule : how the sum over assignments is taken; `exact` is one_to_one with small blocks summed exactly.
         """
         self.peaks, self.modes, self.clutter = peaks, modes, clutter
         self.noise = stated_noise() if noise is None else noise
-        self.wrong_state = wrong_state
+        self.wrong_state, self.rule = wrong_state, rule
         self.assignment: Assignment | None = None
         self._shape_factor = shape_factor
         pair = allowed_pairs(peaks, modes).astype(float)
         self._pair = pair if shape_factor is None else pair * np.exp(shape_factor)
+        self._slots = neighbours(modes.ln_frequency[peaks.state], modes.detection > 0.0)
 
     def at(
         self,
@@ -80,8 +88,9 @@ class Association:
         noise: PeakNoise | None = None,
         shape_factor: np.ndarray | None = None,
         wrong_state: float | None = None,
+        rule: Rule | None = None,
     ) -> "Association":
-        """A copy with its own state, at other modes, another noise or another prior of wrong lists."""
+        """A copy with its own state, at other modes, another noise, another prior of wrong lists or by another rule."""
         return Association(
             self.peaks,
             self.modes if modes is None else modes,
@@ -89,6 +98,7 @@ class Association:
             self.noise if noise is None else noise,
             self._shape_factor if modes is None and shape_factor is None else shape_factor,
             self.wrong_state if wrong_state is None else wrong_state,
+            self.rule if rule is None else rule,
         )
 
     def expect(self, mean: np.ndarray, variance: np.ndarray, predictive: bool = False) -> SoftExpectation:
@@ -114,7 +124,10 @@ class Association:
         return SoftExpectation(value, precision, constant)
 
     def _matching(self, density: np.ndarray) -> Matching:
-        return poisson_matching(density, self.modes.detection, self.clutter, self.peaks)
+        detection, exact = self.modes.detection, self.rule == "exact"
+        if self.rule == "poisson":
+            return poisson_matching(density, detection, self.clutter, self.peaks)
+        return one_to_one_matching(density, detection, self.clutter, self.peaks, self._slots, exact)
 
     def _own_state(self, matching: Matching) -> np.ndarray:
         """(L,) probability that each list is of the state it is filed under."""

@@ -6,25 +6,11 @@ A mode may emit two peaks, and a mode that stays silent costs P_mu instead of -l
 all assignments is closed.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from cdpr_struct.association.detection import Clutter
+from cdpr_struct.association.matching import Matching
 from cdpr_struct.association.peaks import PeakLists
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Matching:
-    """Which peak is which mode, and the likelihood of the lists.
-
-    pair (L, J, M) : probability that the peak is the mode's ; unassigned (L, J) : that it is no mode's, 0 for padding
-    log_likelihood (L,) : of each list, summed over all assignments [nats]
-    """
-
-    pair: np.ndarray
-    unassigned: np.ndarray
-    log_likelihood: np.ndarray
 
 
 def poisson_matching(density: np.ndarray, detection: np.ndarray, clutter: Clutter, peaks: PeakLists) -> Matching:
@@ -36,6 +22,5 @@ def poisson_matching(density: np.ndarray, detection: np.ndarray, clutter: Clutte
     pair = density * detection[:, None, :]
     intensity = pair.sum(axis=2) + clutter.density
     pair /= intensity[:, :, None]
-    unassigned = clutter.density / intensity
     logs = np.where(peaks.present, np.log(intensity), 0.0).sum(axis=1)
-    return Matching(pair, np.where(peaks.present, unassigned, 0.0), logs - detection.sum(axis=1) - clutter.expected)
+    return Matching(pair, logs - detection.sum(axis=1) - clutter.expected)

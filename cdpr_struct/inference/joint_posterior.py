@@ -62,19 +62,15 @@ class Marginal:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ParameterPosterior:
-    """z ~ N(mean, root root'), some of it restricted to positive values by a change of the covariance.
+    """z with mean and covariance root root'.
 
     log_evidence : of the rows, z integrated out [nat]
-    root         : (t, t)
-    reach        : (t, d) change of z per change of its restricted entries
-    change       : (d, d) what the restriction adds to the covariance of these entries
+    mean, root   : (t,), (t, t)
     """
 
     log_evidence: float
     mean: np.ndarray
     root: np.ndarray
-    reach: np.ndarray
-    change: np.ndarray
 
     @classmethod
     def of(cls, marginal: Marginal, rows: int, one_sided: np.ndarray) -> "ParameterPosterior":
@@ -86,39 +82,25 @@ class ParameterPosterior:
         misfit = marginal.r @ marginal.r - score @ score
         determinant = marginal.log_determinant + 2.0 * np.log(np.diag(factor)).sum()
         log_evidence = -0.5 * float(misfit + determinant + rows * np.log(2.0 * np.pi))
-        free = cls(log_evidence, root @ score, root, np.zeros((len(gram), 0)), np.zeros((0, 0)))
+        free = cls(log_evidence, root @ score, root)
         return free._positive(one_sided) if len(one_sided) else free
 
-    def _positive(self, one_sided: np.ndarray) -> "ParameterPosterior":
-        beside = self.root @ self.root[one_sided].T
-        covariance = beside[one_sided]
-        part = positive_part(self.mean[one_sided], covariance)
-        reach = np.linalg.solve(covariance, beside.T).T
-        mean = self.mean + reach @ (part.mean - self.mean[one_sided])
-        log_evidence = self.log_evidence + part.log_probability + len(one_sided) * np.log(2.0)
-        return ParameterPosterior(log_evidence, mean, self.root, reach, part.covariance - covariance)
-
-    def variance(self, rows: np.ndarray) -> np.ndarray:
-        """Variance of rows @ z, for rows (..., t)."""
-        spread = np.einsum("...i,...i->...", *(2 * [rows @ self.root]))
-        if not self.change.size:
-            return spread
-        restricted = rows @ self.reach
-        return spread + np.einsum("...i,...i->...", restricted @ self.change, restricted)
-
-    def spread(self, rows: np.ndarray) -> np.ndarray:
-        """Covariance (..., q, q) of rows @ z, for rows (..., q, t)."""
-        turned = rows @ self.root
-        covariance = turned @ turned.swapaxes(-1, -2)
-        if not self.change.size:
-            return covariance
-        restricted = rows @ self.reach
-        return covariance + restricted @ self.change @ restricted.swapaxes(-1, -2)
+    def _positive(self, entries: np.ndarray) -> "ParameterPosterior":
+        """Restricted to positive values of some entries; the others follow by regression on them."""
+        basis, factor = np.linalg.qr(self.root[entries].T)
+        covariance = factor.T @ factor
+        part = positive_part(self.mean[entries], covariance)
+        carried = self.root @ basis
+        shift = carried @ np.linalg.solve(factor.T, part.mean - self.mean[entries])
+        half = np.linalg.solve(factor.T, part.covariance)
+        shrinkage = np.linalg.cholesky(np.linalg.solve(factor.T, half.T)) - np.eye(len(entries))
+        log_evidence = self.log_evidence + part.log_probability + len(entries) * np.log(2.0)
+        return ParameterPosterior(log_evidence, self.mean + shift, self.root + carried @ shrinkage @ basis.T)
 
     @property
     def covariance(self) -> np.ndarray:
         """(t, t)"""
-        return self.root @ self.root.T + self.reach @ self.change @ self.reach.T
+        return self.root @ self.root.T
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -147,18 +129,16 @@ class JointPosterior:
         parameters = ParameterPosterior.of(marginal, rows.rows, one_sided)
         blocks, n = rows.r.shape
         rest = (marginal.r - marginal.X @ parameters.mean).reshape(blocks, n, 1)
-        turned = marginal.A.swapaxes(1, 2)
-        noise_mean = variance * (turned @ rest)[..., 0]
-        carried = variance[..., None] * (turned @ marginal.X.reshape(blocks, n, -1))
-        known = variance[..., None] * turned
-        noise_covariance = parameters.spread(carried) - known @ known.swapaxes(1, 2)
+        known = variance[..., None] * marginal.A.swapaxes(1, 2)  # u = known (r - X z), and what is not known of it
+        spread = known @ (marginal.X @ parameters.root).reshape(blocks, n, -1)
+        noise_mean = (known @ rest)[..., 0]
+        noise_covariance = spread @ spread.swapaxes(1, 2) - known @ known.swapaxes(1, 2)
         np.einsum("kii->ki", noise_covariance)[...] += variance
         A, X = rows.A[:, rows.soft], rows.X[:, rows.soft]
         soft_mean = (A @ noise_mean[..., None])[..., 0] + X @ parameters.mean
-        scaled = A * variance[:, None]
-        seen = scaled @ turned
-        own = np.einsum("ksq,ksq->ks", scaled, A) - np.einsum("ksn,ksn->ks", seen, seen)
-        soft_variance = own + parameters.variance(X - A @ carried)
+        reached = X @ parameters.root - A @ spread
+        seen = A @ known
+        soft_variance = (A**2 @ variance[..., None])[..., 0] - (seen**2).sum(axis=2) + (reached**2).sum(axis=2)
         return cls(parameters, noise_mean, noise_covariance, soft_mean, soft_variance)
 
     @property

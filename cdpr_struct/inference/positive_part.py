@@ -13,7 +13,7 @@ from scipy.special import erfcx, log_ndtr
 # Sweeps of expectation propagation at most, and the change of a standardised mean [-] at which it stops.
 MAX_SWEEPS = 50
 SETTLED = 1e-9
-# Below this many standard deviations, moments of the tail come from their asymptotic series (error 1e-8 there).
+# Below this many standard deviations, moments of the tail come from their asymptotic series (error 2e-8 there).
 FAR_TAIL = -60.0
 
 
@@ -37,8 +37,8 @@ def tail_moments(ratio: np.ndarray | float) -> tuple[np.ndarray, np.ndarray, np.
     near = np.maximum(a, FAR_TAIL)
     hazard = np.sqrt(2.0 / np.pi) / erfcx(-near / np.sqrt(2.0))
     far = 1.0 / np.minimum(a, FAR_TAIL) ** 2
-    mean = np.where(a > FAR_TAIL, near + hazard, np.sqrt(far) * (1.0 - 2.0 * far))
-    variance = np.where(a > FAR_TAIL, 1.0 - hazard * (near + hazard), far * (1.0 - 6.0 * far))
+    mean = np.where(a > FAR_TAIL, near + hazard, np.sqrt(far) * (1.0 - far * (2.0 - 10.0 * far)))
+    variance = np.where(a > FAR_TAIL, 1.0 - hazard * (near + hazard), far * (1.0 - far * (6.0 - 50.0 * far)))
     return log_ndtr(a), mean, variance
 
 

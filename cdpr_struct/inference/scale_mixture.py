@@ -73,7 +73,13 @@ class NoiseGroups:
 
     def sums(self, values: np.ndarray) -> np.ndarray:
         """Sum over the readings of each group, (K, q) to (G,)."""
-        return np.bincount(self.index.ravel() + 1, values.ravel(), minlength=len(self.kind) + 1)[1:]
+        return self.sums_of(self.index, values[None])[0]
+
+    def sums_of(self, index: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """Sums of values (S, K, q) that belong to the groups `index` (K, q), to (S, G)."""
+        sets, width = len(values), len(self.kind) + 1
+        cell = (index + 1).ravel() + width * np.arange(sets)[:, None]
+        return np.bincount(cell.ravel(), values.ravel(), minlength=sets * width).reshape(sets, width)[:, 1:]
 
     def spread(self, values: np.ndarray) -> np.ndarray:
         """Give each reading the value of its group, (G,) to (K, q); zero for padding."""
@@ -147,6 +153,11 @@ def mixture_bound(groups: NoiseGroups, state: NoiseState) -> float:
     return float(
         scales[free].sum() + factors + _weight_bound(groups, state) - _tau_divergence(shape, prior_shape, state.tau)
     )
+
+
+def log_density_tau(tau: np.ndarray) -> np.ndarray:
+    """Prior density of ln tau, up to a constant: tau^2 is scaled inverse chi-squared around 1."""
+    return -TAU_DEGREES * (np.log(tau) + 0.5 / tau**2)
 
 
 def _weight_bound(groups: NoiseGroups, state: NoiseState) -> float:
