@@ -12,6 +12,7 @@ from scipy.special import logsumexp
 
 from cdpr_struct.diagnosis.assembled import Layout, rows_of
 from cdpr_struct.diagnosis.hypotheses.cause import Cause, Pattern, Seen
+from cdpr_struct.diagnosis.hypotheses.laws import OUTSIDE, laws, patterns
 from cdpr_struct.diagnosis.hypothesis import PRICE, SCALES, Part
 from cdpr_struct.diagnosis.judge import Judged
 from cdpr_struct.diagnosis.linearised import Local, Term
@@ -23,20 +24,31 @@ from cdpr_struct.inference.screening import gains as scaled_gains
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Offered:
-    """A cause with what its basic parameters do at a point, columns (K, n, d0) a unit, and its patterns."""
+    """A cause with what its basic parameters do at a point, columns (K, n, d0) a unit, and its patterns.
+
+    laws : of laws outside the model, what each pattern does to the rows of the states, (S, 6 + m, d)
+    """
 
     cause: Cause
     patterns: tuple[Pattern, ...]
     columns: np.ndarray
+    laws: tuple[np.ndarray, ...] = ()
+
+    def part(self, i: int, scale: float) -> Part:
+        """The i-th pattern at a scale."""
+        return Part(self.cause, self.patterns[i], scale, self.laws[i] if self.laws else None)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Gains:
     """A cause beside a fitted hypothesis: ln of evidence times prior it adds, by pattern and scale (p, s)."""
 
-    cause: Cause
-    patterns: tuple[Pattern, ...]
+    offered: Offered
     logs: np.ndarray
+
+    @property
+    def cause(self) -> Cause:
+        return self.offered.cause
 
     @property
     def total(self) -> float:
@@ -47,18 +59,12 @@ class Gains:
     def part(self) -> Part:
         """The best alternative."""
         i, j = np.unravel_index(int(self.logs.argmax()), self.logs.shape)
-        return Part(self.cause, self.patterns[i], SCALES[j])
+        return self.offered.part(int(i), SCALES[j])
 
     @property
     def spread(self) -> float:
         """By how much all alternatives together exceed the best."""
         return self.total - float(self.logs.max())
-
-    def parts(self, within: float) -> list[Part]:
-        """The best alternative of each pattern that lies within some nats of the best."""
-        best = self.logs.max(axis=1)
-        picked = [i for i in np.argsort(-best) if best[i] > best.max() - within]
-        return [Part(self.cause, self.patterns[i], SCALES[int(self.logs[i].argmax())]) for i in picked]
 
 
 def offered(data: Recorded, where: Layout, seen: Seen, causes: Sequence[Cause], about: Judged) -> list[Offered]:
@@ -68,7 +74,16 @@ def offered(data: Recorded, where: Layout, seen: Seen, causes: Sequence[Cause], 
         sigma = np.array([p.prior for p in cause.basic(seen)])
         own = local.columns(Term(cause.apply, np.eye(len(sigma)), sigma))
         found.append(Offered(cause, tuple(cause.patterns(seen)), rows_of(where, own) / sigma))
-    return found
+    return [*found, *_laws(local, where)]
+
+
+def _laws(local: Local, where: Layout) -> list[Offered]:
+    """Laws outside the library, all as one more cause."""
+    found = laws(local)
+    if not found:
+        return []
+    columns = np.concatenate([law.columns for law in found], axis=-1)
+    return [Offered(OUTSIDE, patterns(found), rows_of(where, columns), tuple(law.columns for law in found))]
 
 
 def gains(causes: Sequence[Offered], about: Judged, noise: NoiseState | None = None) -> list[Gains]:
@@ -90,4 +105,4 @@ def _gains(cause: Offered, gram: np.ndarray, score: np.ndarray) -> Gains:
         basis, weight = pattern.basis * pattern.prior, np.log(pattern.weight / len(SCALES)) - PRICE
         own = scaled_gains(basis.T @ gram @ basis, basis.T @ score, np.array(SCALES), pattern.positive)
         logs.append(own + weight)
-    return Gains(cause.cause, cause.patterns, np.array(logs))
+    return Gains(cause, np.array(logs))

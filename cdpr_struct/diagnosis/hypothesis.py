@@ -16,15 +16,21 @@ PRICE = 3.0  # nats that a cause costs before it is found: one campaign in twent
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Part:
-    """A cause in a pattern of occurrence at a scale of its prior."""
+    """A cause in a pattern of occurrence at a scale of its prior.
+
+    law (S, 6 + m, d) : of what is no change of the robot, what its basic parameters of this pattern do to the rows
+    """
 
     cause: Cause
     pattern: Pattern
     scale: float
+    law: np.ndarray | None = None
 
     @property
     def term(self) -> Term:
-        """What it changes of the robot."""
+        """What it changes of the robot, or what it does to the rows."""
+        if self.law is not None:
+            return Term.outside(self.law * (self.scale * self.pattern.prior))
         return Term(self.cause.apply, self.pattern.basis, self.scale * self.pattern.prior)
 
     @property

@@ -64,10 +64,12 @@ def judged(
     return settled(data, where, _fitted(data, where, hypothesis, point, noise))
 
 
-def extended(data: Recorded, where: Layout, base: Judged, more: Hypothesis, columns: np.ndarray) -> Judged:
+def extended(
+    data: Recorded, where: Layout, base: Judged, more: Hypothesis, columns: np.ndarray, noise: NoiseState
+) -> Judged:
     """A hypothesis with one more cause than a judged one, columns (K, n, d) of its numbers about the same point."""
     point = _with_terms(data, more, base.point)
-    found = _of_model(data, where, more, point, base.model.with_columns(columns), base.fit.noise)
+    found = _of_model(data, where, more, point, base.model.with_columns(columns), noise)
     return settled(data, where, found)
 
 
@@ -116,7 +118,7 @@ def linear_model(data: Recorded, where: Layout, point: Point) -> LinearModel:
     """Residuals about a point, referred to zero noise and zero numbers: r = R + A u0 + X z0."""
     local = Local.about(data, point)
     by_noise, columns = local.by_noise(), local.own_columns()
-    shift = np.einsum("srj,sj->sr", by_noise, point.noise) + columns @ np.concatenate(point.z)
+    shift = np.einsum("srj,sj->sr", by_noise, point.noise) + columns @ local.told()
     return assembled(data, where, local.r + shift, by_noise, columns)
 
 

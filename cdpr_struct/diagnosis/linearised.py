@@ -24,15 +24,29 @@ _STEP = 0.05  # of a sigma, of differences: the residuals are smooth, and all bu
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Term:
-    """A change of the robot by numbers theta0 = basis @ (sigma * z), z (d,) standard normal under its prior."""
+    """A change of the robot by numbers theta0 = basis @ (sigma * z), z (d,) standard normal under its prior.
+
+    columns (S, 6 + m, d) : of a law outside the model instead, -dR/dz as it stands; it changes no robot
+    """
 
     change: Change
     basis: np.ndarray
     sigma: np.ndarray
+    columns: np.ndarray | None = None
+
+    @classmethod
+    def outside(cls, columns: np.ndarray) -> "Term":
+        """A law outside the model."""
+        count = columns.shape[-1]
+        return cls(_nothing, np.eye(count), np.ones(count), columns)
 
     def applied(self, arrays: RobotArrays, z: np.ndarray) -> RobotArrays:
         """The robot with z (..., 1, d) put in; the axes before d are batch and states of its fields."""
         return self.change(arrays, (z * self.sigma) @ self.basis.T)
+
+
+def _nothing(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return arrays
 
 
 def tolerance_term(data: Recorded) -> Term:
@@ -107,18 +121,32 @@ class Local:
 
     def columns(self, term: Term) -> np.ndarray:
         """-dR/dz (S, 6 + m, d) of one more term, from zero."""
+        if term.columns is not None:
+            return term.columns
         return self._moved(term.applied(self.arrays, _STEP * np.eye(len(term.sigma))[:, None, :]), len(term.sigma))
+
+    def moved(self, change: Change, step: float) -> np.ndarray:
+        """-dR (S, 6 + m, 3) by each of three numbers of a change, a unit."""
+        return self.columns(Term(change, np.eye(3), np.full(3, step))) / step
 
     def own_columns(self) -> np.ndarray:
         """-dR/dz (S, 6 + m, t) of the point's own terms, at their numbers."""
         parts = []
         for i, term in enumerate(self.point.terms):
+            if term.columns is not None:
+                parts.append(term.columns)
+                continue
             arrays = self.data.arrays
             for j, (other, z) in enumerate(zip(self.point.terms, self.point.z, strict=True)):
                 steps = z + _STEP * np.eye(len(z))[:, None, :] if i == j else z[None]
                 arrays = other.applied(arrays, steps)
             parts.append(self._moved(arrays, len(term.sigma)))
         return np.concatenate(parts, axis=-1)
+
+    def told(self) -> np.ndarray:
+        """(t,) numbers of the point's terms that the robot there has; zero those of laws outside the model."""
+        pairs = zip(self.point.terms, self.point.z, strict=True)
+        return np.concatenate([z if term.columns is None else 0.0 * z for term, z in pairs])
 
     def _moved(self, arrays: RobotArrays, count: int) -> np.ndarray:
         found = self.nearby.residuals(arrays, self.point.readings(self.data))

@@ -6,7 +6,7 @@ never finds less.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import logsumexp
@@ -107,7 +107,8 @@ class Search:
 
     def _rich(self, menu: Sequence[Offered], base: Judged) -> NoiseState:
         """Sizes of the noise where every cause may act at once: what none of them explains."""
-        columns = [cause.columns * cause.patterns[-1].prior.max() for cause in menu]
+        known = [cause for cause in menu if not cause.laws]
+        columns = [cause.columns * cause.patterns[-1].prior.max() for cause in known]
         everything = base.model.with_columns(np.concatenate(columns, axis=-1))
         return fit(everything, base.fit.noise).noise
 
@@ -132,12 +133,7 @@ class Search:
                 more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
                 self.spread[more.key] = row.gains.spread
                 own = columns[part.cause.name] @ part.pattern.basis * part.term.sigma
-                base = (
-                    row.base
-                    if row.noise is row.base.fit.noise
-                    else replace(row.base, fit=fit(row.base.model, row.noise))
-                )
-                self.keep(extended(self.data, self.where, base, more, own))
+                self.keep(extended(self.data, self.where, row.base, more, own, row.noise))
 
     def _ranked(self, causes: int | None = None) -> list[Judged]:
         own = [one for one in self.found.values() if causes is None or len(one.hypothesis.parts) == causes]
