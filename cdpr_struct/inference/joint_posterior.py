@@ -94,7 +94,7 @@ class ParameterPosterior:
         shift = carried @ np.linalg.solve(factor.T, part.mean - self.mean[entries])
         half = np.linalg.solve(factor.T, part.covariance)
         shrinkage = np.linalg.cholesky(np.linalg.solve(factor.T, half.T)) - np.eye(len(entries))
-        log_evidence = self.log_evidence + part.log_probability + len(entries) * np.log(2.0)
+        log_evidence = self.log_evidence + float(part.log_probability) + len(entries) * np.log(2.0)
         return ParameterPosterior(log_evidence, self.mean + shift, self.root + carried @ shrinkage @ basis.T)
 
     @property
