@@ -30,6 +30,14 @@ def test_gaussian_evidence_is_that_of_the_dense_normal_density(given, floor):
     assert found.converged
 
 
+def test_a_model_without_parameters_has_evidence():
+    model = campaign(1, shape=(4, 5, 7, 0), given=2.0)
+    exact = dense_log_density(model, np.full(len(model.groups.kind), 2.0))
+    assert fit(model).log_evidence == pytest.approx(exact, abs=1e-9)
+    with pytest.raises(ValueError, match="one_sided needs one entry"):
+        fit(model, one_sided=np.array([True]))
+
+
 def test_gaussian_posterior_is_that_of_one_least_squares_problem():
     """(u, z, e) jointly: rows r = A u + X z + floor e, priors N(0, variance), N(0, 1), N(0, 1)."""
     model = campaign(2, shape=(1, 4, 6, 3), given=3.0)
