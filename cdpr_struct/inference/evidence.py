@@ -76,6 +76,8 @@ def fit(
     """
     rows, groups = WhiteRows.of(model), model.groups
     sided = np.flatnonzero(np.zeros(model.parameters, bool) if one_sided is None else one_sided)
+    if one_sided is not None and len(one_sided) != model.parameters:
+        raise ValueError(f"one_sided needs one entry for each of {model.parameters} parameters, got {len(one_sided)}")
     noise = first_noise(rows, groups, soft_start, sided) if start is None else start
     mixture = soft_start
     if soft is not None and mixture is None:

@@ -53,7 +53,7 @@ class Marginal:
 
     @staticmethod
     def _stacked(inverse: np.ndarray, scale: np.ndarray, columns: np.ndarray) -> np.ndarray:
-        return ((inverse * scale[:, None]) @ columns).reshape(-1, columns.shape[2])
+        return ((inverse * scale[:, None]) @ columns).reshape(scale.size, columns.shape[2])
 
     def white(self, columns: np.ndarray) -> np.ndarray:
         """Columns (K, n, d) of white rows as columns (K n, d) here."""
@@ -77,7 +77,7 @@ class ParameterPosterior:
         """Posterior for z ~ N(0, I); of entries `one_sided` (d,) only the positive half, doubled."""
         gram = marginal.X.T @ marginal.X
         factor = np.linalg.cholesky(gram + np.eye(len(gram)))
-        root = np.triu(dtrtri(factor, lower=1)[0].T)
+        root = np.triu(dtrtri(factor, lower=1)[0].T) if len(gram) else gram
         score = root.T @ (marginal.X.T @ marginal.r)
         misfit = marginal.r @ marginal.r - score @ score
         determinant = marginal.log_determinant + 2.0 * np.log(np.diag(factor)).sum()
@@ -94,7 +94,7 @@ class ParameterPosterior:
         shift = carried @ np.linalg.solve(factor.T, part.mean - self.mean[entries])
         half = np.linalg.solve(factor.T, part.covariance)
         shrinkage = np.linalg.cholesky(np.linalg.solve(factor.T, half.T)) - np.eye(len(entries))
-        log_evidence = self.log_evidence + part.log_probability + len(entries) * np.log(2.0)
+        log_evidence = self.log_evidence + float(part.log_probability) + len(entries) * np.log(2.0)
         return ParameterPosterior(log_evidence, self.mean + shift, self.root + carried @ shrinkage @ basis.T)
 
     @property
@@ -130,7 +130,7 @@ class JointPosterior:
         blocks, n = rows.r.shape
         rest = (marginal.r - marginal.X @ parameters.mean).reshape(blocks, n, 1)
         known = variance[..., None] * marginal.A.swapaxes(1, 2)  # u = known (r - X z), and what is not known of it
-        spread = known @ (marginal.X @ parameters.root).reshape(blocks, n, -1)
+        spread = known @ (marginal.X @ parameters.root).reshape(blocks, n, len(parameters.mean))
         noise_mean = (known @ rest)[..., 0]
         noise_covariance = spread @ spread.swapaxes(1, 2) - known @ known.swapaxes(1, 2)
         np.einsum("kii->ki", noise_covariance)[...] += variance

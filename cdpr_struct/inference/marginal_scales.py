@@ -7,7 +7,6 @@ product of these likelihoods. Repeated for all groups together, this raises no b
 """
 
 import numpy as np
-from scipy.special import logsumexp
 
 from cdpr_struct.inference.joint_posterior import JointPosterior
 from cdpr_struct.inference.scale_mixture import KAPPA, PSEUDO_COUNTS, NoiseGroups, NoiseState, log_density_tau
@@ -31,9 +30,12 @@ def first_noise(
         joint = JointPosterior.of(rows, groups.spread(state.variance), soft, one_sided)
         weight = np.log(PSEUDO_COUNTS + groups.members @ state.responsibility)[groups.kind]
         logit = weight[:, None] + scale_likelihood(groups, state, joint, TAU[:, None] * KAPPA)  # (G, tau, kappa)
-        best = (groups.members @ logsumexp(logit, axis=2) + log_density_tau(TAU)).argmax(axis=1)
-        logit = logit[every, best[groups.kind]]
-        responsibility = np.exp(logit - logsumexp(logit, axis=1, keepdims=True))
+        peak = logit.max(axis=2, keepdims=True)
+        share = np.exp(logit - peak)
+        total = share.sum(axis=2)
+        best = (groups.members @ (peak[..., 0] + np.log(total)) + log_density_tau(TAU)).argmax(axis=1)
+        chosen = every, best[groups.kind]
+        responsibility = share[chosen] / total[chosen][:, None]
         change = np.abs(responsibility - state.responsibility)[groups.inferred].max(initial=0.0)
         settled = change < SETTLED and np.array_equal(state.tau, TAU[best])
         state = NoiseState.of(groups, responsibility, TAU[best])
@@ -47,19 +49,33 @@ def scale_likelihood(groups: NoiseGroups, state: NoiseState, joint: JointPosteri
 
     Relative to the present scale. Correlation between blocks of a group that lies in several is left out.
     """
-    # In units of the present scale the posterior covariance of a group lies between 0 and 1. A shift by twice the
-    # group's place in the block keeps the eigenvectors of different groups apart.
-    root = groups.spread(1.0 / np.sqrt(state.variance))
-    same = groups.index[:, :, None] == groups.index[:, None]
-    covariance = joint.noise_covariance * same * root[:, :, None] * root[:, None]
-    first = same.argmax(axis=2)
-    np.einsum("kii->ki", covariance)[...] += 2.0 * first
-    value, vector = np.linalg.eigh(covariance)
-    place = np.floor(0.5 * value + 0.25).astype(int)
-    value = np.clip(value - 2.0 * place, 0.0, 1.0)
-    along = np.einsum("kij,ki->kj", vector, root * joint.noise_mean) ** 2
-    owner = np.take_along_axis(groups.index, place, axis=1)
+    value, along, owner = _principal(groups, joint, groups.spread(1.0 / np.sqrt(state.variance)))
     precision = state.variance[owner] / scales.reshape(-1, 1, 1) ** 2  # of the prior, relative to the present one
     shrunk = 1.0 + value * (precision - 1.0)
     gain = 0.5 * (np.log(precision / shrunk) - along * (precision - 1.0) / shrunk)
     return groups.sums_of(owner, gain).T.reshape(-1, *scales.shape)
+
+
+def _principal(
+    groups: NoiseGroups, joint: JointPosterior, root: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Principal variances of each group in units of its present scale, squares of the mean along them, and whose.
+
+    All (K, q). Variances lie between 0 and 1, so a shift by twice the group's place in the block keeps the principal
+    axes of different groups apart.
+    """
+    scaled = joint.noise_covariance * root[:, :, None] * root[:, None]
+    mean, owner = root * joint.noise_mean, groups.index.copy()
+    value, along = np.einsum("kii->ki", scaled).copy(), mean**2
+    same = owner[:, :, None] == owner[:, None]
+    shared = np.flatnonzero((same.sum(axis=2) > 1).any(axis=0))
+    if len(shared):
+        same = same[:, shared[:, None], shared]
+        covariance = scaled[:, shared[:, None], shared] * same
+        np.einsum("kii->ki", covariance)[...] += 2.0 * same.argmax(axis=2)
+        shifted, vector = np.linalg.eigh(covariance)
+        place = np.floor(0.5 * shifted + 0.25).astype(int)
+        value[:, shared] = shifted - 2.0 * place
+        along[:, shared] = np.einsum("kij,ki->kj", vector, mean[:, shared]) ** 2
+        owner[:, shared] = np.take_along_axis(owner[:, shared], place, axis=1)
+    return np.clip(value, 0.0, 1.0), along, owner

@@ -5,14 +5,14 @@ Lacoste-Julien, Gaussian probabilities and expectation propagation, arXiv:1111.6
 order of the quantities.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import erfcx, log_ndtr
 
 # Sweeps of expectation propagation at most, and the change of a standardised mean [-] at which it stops.
 MAX_SWEEPS = 50
-SETTLED = 1e-9
+SETTLED = 1e-8
 # Below this many standard deviations, moments of the tail come from their asymptotic series (error 2e-8 there).
 FAR_TAIL = -60.0
 
@@ -21,12 +21,12 @@ FAR_TAIL = -60.0
 class PositivePart:
     """A Gaussian restricted to positive values.
 
-    log_probability : ln P(all > 0)
-    mean            : (d,) given that all are positive
-    covariance      : (d, d) given that all are positive
+    log_probability : (...) ln P(all > 0)
+    mean            : (..., d) given that all are positive
+    covariance      : (..., d, d) given that all are positive
     """
 
-    log_probability: float
+    log_probability: np.ndarray
     mean: np.ndarray
     covariance: np.ndarray
 
@@ -43,54 +43,51 @@ def tail_moments(ratio: np.ndarray | float) -> tuple[np.ndarray, np.ndarray, np.
 
 
 def positive_part(mean: np.ndarray, covariance: np.ndarray) -> PositivePart:
-    """Restrict x ~ N(mean (d,), covariance (d, d)) to x > 0."""
-    scale = np.sqrt(np.diag(covariance))
-    ratio, correlation = mean / scale, covariance / np.outer(scale, scale)
-    if len(mean) == 1:
-        exact = tail_moments(ratio)
-        return PositivePart(float(exact[0][0]), scale * exact[1], exact[2][:, None] * covariance)
-    log_probability, centre, spread = _propagated(ratio, correlation)
-    return PositivePart(log_probability, scale * centre, spread * np.outer(scale, scale))
+    """Restrict x ~ N(mean (..., d), covariance (..., d, d)) to x > 0."""
+    scale = np.sqrt(np.einsum("...ii->...i", covariance))
+    product = scale[..., :, None] * scale[..., None, :]
+    ratio = mean / scale
+    if mean.shape[-1] == 1:
+        log_probability, centre, spread = tail_moments(ratio)
+        return PositivePart(log_probability[..., 0], scale * centre, spread[..., None] * product)
+    part = _propagated(ratio, covariance / product)
+    return PositivePart(part.log_probability, scale * part.mean, part.covariance * product)
 
 
-def _propagated(ratio: np.ndarray, correlation: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
-    """ln P(x > 0), mean and covariance of x ~ N(ratio, correlation), given x > 0."""
-    slope, precision = np.zeros(len(ratio)), np.zeros(len(ratio))
+def _propagated(ratio: np.ndarray, correlation: np.ndarray) -> PositivePart:
+    """The positive part of x ~ N(ratio, correlation) by one site exp(slope x - precision x^2/2) per quantity."""
+    slope, precision = np.zeros(ratio.shape), np.zeros(ratio.shape)
     mean, covariance = ratio.copy(), correlation.copy()
     for _ in range(MAX_SWEEPS):
         before = mean
-        for i in range(len(ratio)):
-            cavity_precision = 1.0 / covariance[i, i] - precision[i]
-            cavity = (mean[i] / covariance[i, i] - slope[i]) / cavity_precision
-            _, centre, spread = tail_moments(cavity * np.sqrt(cavity_precision))
-            target = spread / cavity_precision
-            change = 1.0 / target - cavity_precision - precision[i]
-            precision[i] += change
-            step = centre / np.sqrt(cavity_precision) / target - cavity * cavity_precision - slope[i]
-            slope[i] += step
-            column = covariance[:, i] / (1.0 + change * covariance[i, i])
-            mean = mean + column * (step - change * mean[i])
-            covariance = covariance - change * np.outer(column, covariance[i])
-        if np.abs(mean - before).max() < SETTLED:
+        for i in range(ratio.shape[-1]):
+            variance = covariance[..., i, i]
+            cavity_precision = 1.0 / variance - precision[..., i]
+            root = np.sqrt(cavity_precision)
+            cavity_slope = mean[..., i] / variance - slope[..., i]
+            _, centre, spread = tail_moments(cavity_slope / root)
+            change = cavity_precision / spread - cavity_precision - precision[..., i]
+            step = centre * root / spread - cavity_slope - slope[..., i]
+            precision[..., i] += change
+            slope[..., i] += step
+            column = covariance[..., i] / (1.0 + change * variance)[..., None]
+            covariance = covariance - change[..., None, None] * column[..., :, None] * covariance[..., None, i, :]
+            mean = mean + column * (step - change * mean[..., i])[..., None]
+        if np.abs(mean - before).max(initial=0.0) < SETTLED:
             break
-    return _log_probability(ratio, correlation, slope, precision, mean, covariance), mean, covariance
+    found = PositivePart(np.zeros(ratio.shape[:-1]), mean, covariance)
+    return replace(found, log_probability=_log_probability(ratio, correlation, slope, precision, found))
 
 
 def _log_probability(
-    ratio: np.ndarray,
-    correlation: np.ndarray,
-    slope: np.ndarray,
-    precision: np.ndarray,
-    mean: np.ndarray,
-    covariance: np.ndarray,
-) -> float:
-    """ln P(x > 0) from converged sites exp(slope x - precision x^2/2)."""
-    variance = np.diag(covariance)
-    cavity_precision = 1.0 / variance - precision
-    cavity_slope = mean / variance - slope
+    ratio: np.ndarray, correlation: np.ndarray, slope: np.ndarray, precision: np.ndarray, found: PositivePart
+) -> np.ndarray:
+    """ln P(x > 0) from sites that have settled."""
+    mean, variance = found.mean, np.einsum("...ii->...i", found.covariance)
+    cavity_precision, cavity_slope = 1.0 / variance - precision, mean / variance - slope
     own = log_ndtr(cavity_slope / np.sqrt(cavity_precision))
     own -= 0.5 * (mean**2 / variance - cavity_slope**2 / cavity_precision + np.log(cavity_precision * variance))
-    sign, log_determinant = np.linalg.slogdet(np.eye(len(ratio)) + correlation * precision)
+    joint = np.linalg.slogdet(np.eye(ratio.shape[-1]) + correlation * precision[..., None, :])[1]
     # (slope + P m)' C (slope + P m) - m' P m with P the prior's precision, without forming P.
-    gain = slope @ mean + ratio @ (slope - precision * mean)
-    return float(own.sum() + 0.5 * (gain - log_determinant)) if sign > 0 else -np.inf
+    gain = (slope * mean + ratio * (slope - precision * mean)).sum(axis=-1)
+    return own.sum(axis=-1) + 0.5 * (gain - joint)

@@ -10,7 +10,7 @@ import numpy as np
 
 from cdpr_struct.inference.joint_posterior import Marginal, ParameterPosterior
 from cdpr_struct.inference.linear_model import LinearModel
-from cdpr_struct.inference.positive_part import positive_part, tail_moments
+from cdpr_struct.inference.positive_part import positive_part
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.inference.soft_rows import SoftExpectation
 from cdpr_struct.inference.white_rows import WhiteRows
@@ -83,12 +83,4 @@ def gains(gram: np.ndarray, score: np.ndarray, scales: np.ndarray, one_sided: np
     turned = vector[..., None, sided, :]
     mean = np.einsum("...ij,...j->...i", turned, variance * along)
     covariance = np.einsum("...ik,...k,...jk->...ij", turned, variance, turned)
-    return gain + _positive(mean, covariance) + len(sided) * np.log(2.0)
-
-
-def _positive(mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
-    """ln P(all > 0) of Gaussians, (..., d) and (..., d, d) to (...)."""
-    if mean.shape[-1] == 1:
-        return tail_moments(mean[..., 0] / np.sqrt(covariance[..., 0, 0]))[0]
-    items = zip(mean.reshape(-1, mean.shape[-1]), covariance.reshape(-1, *covariance.shape[-2:]), strict=True)
-    return np.array([positive_part(*item).log_probability for item in items]).reshape(mean.shape[:-1])
+    return gain + positive_part(mean, covariance).log_probability + len(sided) * np.log(2.0)

@@ -30,6 +30,14 @@ def test_gaussian_evidence_is_that_of_the_dense_normal_density(given, floor):
     assert found.converged
 
 
+def test_a_model_without_parameters_has_evidence():
+    model = campaign(1, shape=(4, 5, 7, 0), given=2.0)
+    exact = dense_log_density(model, np.full(len(model.groups.kind), 2.0))
+    assert fit(model).log_evidence == pytest.approx(exact, abs=1e-9)
+    with pytest.raises(ValueError, match="one_sided needs one entry"):
+        fit(model, one_sided=np.array([True]))
+
+
 def test_gaussian_posterior_is_that_of_one_least_squares_problem():
     """(u, z, e) jointly: rows r = A u + X z + floor e, priors N(0, variance), N(0, 1), N(0, 1)."""
     model = campaign(2, shape=(1, 4, 6, 3), given=3.0)
@@ -203,9 +211,9 @@ def test_an_outlier_is_set_aside_and_the_estimates_stay():
     group = spoilt.groups.index[0, -1]
     assert other.noise.responsibility[group, 2:].sum() > 0.999
     assert np.delete(other.noise.responsibility[:, 0], group).min() > 0.5
-    assert other.noise_mean[0, -1] == pytest.approx(one.noise_mean[0, -1] + 20.0, abs=3.0)
+    assert other.noise_mean[0, -1] == pytest.approx(one.noise_mean[0, -1] + 20.0, abs=1.0)
     shift = (other.z_mean - one.z_mean) / np.sqrt(np.diag(one.z_covariance))
-    assert np.abs(shift).max() < 1.0  # measured .5; without the mixture 6.6
+    assert np.abs(shift).max() < 0.2  # measured .04; with Gaussian noise .8
 
 
 def test_sigmas_that_are_twice_the_stated_are_found():

@@ -77,6 +77,15 @@ def test_a_one_sided_size_that_looks_negative_stays_near_zero():
     assert sided.log_evidence < fit(model.with_residual(data.r)).log_evidence < free.log_evidence
 
 
+def test_a_one_sided_posterior_is_that_of_drawing_and_rejecting():
+    model = campaign(9, shape=(2, 2, 4, 3), given=1.0)
+    free, sided = fit(model), fit(model, one_sided=np.array([True, False, True]))
+    draws = np.random.default_rng(9).multivariate_normal(free.z_mean, free.z_covariance, 400_000)
+    kept = draws[(draws[:, [0, 2]] > 0.0).all(axis=1)]
+    np.testing.assert_allclose(sided.z_mean, kept.mean(axis=0), atol=0.02)  # drawn .005, propagated .01
+    np.testing.assert_allclose(sided.z_covariance, np.cov(kept.T), atol=0.02)
+
+
 def test_moments_of_a_tail_are_those_of_quadrature_and_meet_their_series():
     x, width = np.linspace(0.0, 60.0, 2_000_001, retstep=True)
     for ratio in (-20.0, -3.0, 0.0, 4.0):
