@@ -101,14 +101,17 @@ class Association:
             self.rule if rule is None else rule,
         )
 
-    def expect(self, mean: np.ndarray, variance: np.ndarray, predictive: bool = False) -> SoftExpectation:
+    def expect(self, mean: np.ndarray, variance: np.ndarray, predictive: bool | None = None) -> SoftExpectation:
         """Pseudo-readings at the best assignment for modes ln f ~ N(ln_frequency + mean, variance).
 
         Parameters
         ----------
         mean, variance : (K, M), mean relative to `modes.ln_frequency` [-].
-        predictive : weigh pairs by the predictive density; see `pair_density`. For the first step of a fit.
+        predictive : weigh pairs by the predictive density, see `pair_density`; by default in the first call only. To
+            start a fit from the assignment of another, call this with its `soft_mean` and `soft_variance` and False,
+            and hand the answer to the fit.
         """
+        predictive = self.assignment is None if predictive is None else predictive
         state, peaks = self.peaks.state, self.peaks
         located = (self.modes.ln_frequency + mean)[state]
         density = pair_density(peaks, self.noise, located, variance[state], predictive)
