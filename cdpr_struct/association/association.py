@@ -37,13 +37,15 @@ class Assignment:
     """The last matching of an association.
 
     matching : which peak is which mode, if the list is of its state
-    scale (4, L, J, M) : probability that the peak is the mode's with this scale of error, wrong lists allowed for
     own_state (L,) : probability that the list is of the state it is filed under
+    number (L, 4) : expected number of assigned peaks on each scale of error, wrong lists allowed for
+    pull (L, J, M) : expected 1 / (kappa s)^2 of each pair, tau apart, wrong lists allowed for
     """
 
     matching: Matching
-    scale: np.ndarray
     own_state: np.ndarray
+    number: np.ndarray
+    pull: np.ndarray
 
 
 class Association:
@@ -101,27 +103,39 @@ class Association:
             self.rule if rule is None else rule,
         )
 
-    def expect(self, mean: np.ndarray, variance: np.ndarray, predictive: bool = False) -> SoftExpectation:
+    def expect(self, mean: np.ndarray, variance: np.ndarray, predictive: bool | None = None) -> SoftExpectation:
         """Pseudo-readings at the best assignment for modes ln f ~ N(ln_frequency + mean, variance).
 
         Parameters
         ----------
         mean, variance : (K, M), mean relative to `modes.ln_frequency` [-].
-        predictive : weigh pairs by the predictive density; see `pair_density`. For the first step of a fit.
+        predictive : weigh pairs by the predictive density, see `pair_density`; by default in the first call only. To
+            start a fit from the assignment of another, call this with its `soft_mean` and `soft_variance` and False,
+            and hand the answer to the fit.
         """
-        state, peaks = self.peaks.state, self.peaks
+        predictive = self.assignment is None if predictive is None else predictive
+        state = self.peaks.state
         located = (self.modes.ln_frequency + mean)[state]
-        density = pair_density(peaks, self.noise, located, variance[state], predictive)
-        matching = self._matching(density.total * self._pair)
-        own = self._own_state(matching)
-        pair = matching.pair * own[:, None, None]
-        with np.errstate(invalid="ignore", divide="ignore"):
-            share = np.where(density.total > 0.0, pair / density.total, 0.0)
-        self.assignment = Assignment(matching, density.by_scale * share, own)
-        constant = self._update_noise(self.assignment, density)
-        value, precision = self._pseudo_readings(self.assignment.scale)
+        density = pair_density(self.peaks, self.noise, located, variance[state], predictive)
+        constant = self._assign(density)
+        value, precision = self._pseudo_readings()
         constant += 0.5 * float((precision * ((value - mean) ** 2 + variance)).sum())
         return SoftExpectation(value, precision, constant)
+
+    def _assign(self, density: PairDensity) -> float:
+        """Updates assignment and noise; returns the expected log likelihood plus entropies after it [nats]."""
+        matching = self._matching(density.total * self._pair)
+        own = self._own_state(matching)
+        share = matching.pair * own[:, None, None] / np.where(density.total > 0.0, density.total, 1.0)
+        number = np.einsum("cljm,ljm->lc", density.by_scale, share)
+        pull = np.einsum("c,cljm->ljm", SCALES**-2.0, density.by_scale) * share * self.peaks.sd[:, :, None] ** -2.0
+        self.assignment = Assignment(matching, own, number, pull)
+        counts = self._scale_counts(number, (pull * density.square).sum(axis=(1, 2)))
+        before, self.noise = self.noise, self.noise.updated(counts)
+        bound = self._lists_log_likelihood(matching, own) + self.noise.bound(counts) - before.expected_log(counts)
+        if density.correction is not None:
+            bound += float((density.by_scale * share * density.correction).sum())
+        return bound
 
     def _matching(self, density: np.ndarray) -> Matching:
         detection, exact = self.modes.detection, self.rule == "exact"
@@ -151,32 +165,20 @@ class Association:
         )
         return float((mixed - xlogy(own, own) - xlogy(1.0 - own, 1.0 - own)).sum())
 
-    def _scale_counts(self, scale: np.ndarray, density: PairDensity) -> ScaleCounts:
-        per_peak = scale.sum(axis=3)  # (4, L, J)
-        lists = per_peak.sum(axis=2).T  # (L, 4)
-        unassigned = self.peaks.count - lists.sum(axis=1)
-        number = lists + unassigned[:, None] * self.noise.weight[self.peaks.kind]
-        precision = (SCALES**-2.0)[:, None, None] * self.peaks.sd**-2.0
-        square = np.einsum("cljm,clj,ljm->l", scale, precision, density.square, optimize=True)
+    def _scale_counts(self, number: np.ndarray, square: np.ndarray) -> ScaleCounts:
+        """Sums over the lists of each kind of their numbers (L, 4) and squares (L,)."""
+        assigned = number.sum(axis=1)
+        everything = number + (self.peaks.count - assigned)[:, None] * self.noise.weight[self.peaks.kind]
         by_kind = (self.peaks.kind == np.arange(len(KINDS))[:, None]).astype(float)  # (n, L)
-        return ScaleCounts(by_kind @ number, by_kind @ lists.sum(axis=1), by_kind @ square)
+        return ScaleCounts(by_kind @ everything, by_kind @ assigned, by_kind @ square)
 
-    def _update_noise(self, made: Assignment, density: PairDensity) -> float:
-        """Updates the noise at an assignment; returns the expected log likelihood plus entropies after it [nats]."""
-        counts = self._scale_counts(made.scale, density)
-        before, self.noise = self.noise, self.noise.updated(counts)
-        bound = self._lists_log_likelihood(made.matching, made.own_state)
-        if density.correction is not None:
-            bound += float((made.scale * density.correction).sum())
-        return bound + self.noise.bound(counts) - before.expected_log(counts)
-
-    def _pseudo_readings(self, scale: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _pseudo_readings(self) -> tuple[np.ndarray, np.ndarray]:
         """Value, relative to `modes.ln_frequency`, and precision of each mode, both (K, M)."""
-        peaks = self.peaks
-        sd = SCALES[:, None, None] * peaks.sd * self.noise.tau[peaks.kind][:, None]
-        pull = np.einsum("cljm,clj->ljm", scale, sd**-2.0)
-        offset = peaks.ln_frequency[:, :, None] - self.modes.ln_frequency[peaks.state][:, None, :]
-        precision, moment = np.zeros((2, *self.modes.ln_frequency.shape))
-        np.add.at(precision, peaks.state, pull.sum(axis=1))
-        np.add.at(moment, peaks.state, (pull * offset).sum(axis=1))
+        state, modes = self.peaks.state, self.modes.ln_frequency
+        precision, moment = np.zeros((2, *modes.shape))
+        if self.assignment is not None:
+            pull = self.assignment.pull * self.noise.tau[self.peaks.kind][:, None, None] ** -2.0
+            offset = self.peaks.ln_frequency[:, :, None] - modes[state][:, None, :]
+            np.add.at(precision, state, pull.sum(axis=1))
+            np.add.at(moment, state, (pull * offset).sum(axis=1))
         return np.where(precision > 0.0, moment / np.where(precision > 0.0, precision, 1.0), 0.0), precision

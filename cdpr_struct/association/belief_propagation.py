@@ -38,20 +38,24 @@ def neighbours(ln_frequency: np.ndarray, visible: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Edges:
-    """Edges (E,) between peaks and pairs of modes: their nodes, their list, and the odds (2, E) of both modes."""
+    """Edges (E,) between peaks and pairs of modes.
+
+    peak, node, which (E,) : peak and pair of modes, counted through all lists, and the list
+    odds (2, E) : of both modes of the pair
+    shape : (L, J, M)
+    """
 
     peak: np.ndarray
     node: np.ndarray
     which: np.ndarray
     odds: np.ndarray
-    peaks: int
-    nodes: int
+    shape: tuple[int, int, int]
 
     def at_peak(self, value: np.ndarray) -> np.ndarray:
-        return np.bincount(self.peak, value, self.peaks)
+        return np.bincount(self.peak, value, self.shape[0] * self.shape[1])
 
     def at_node(self, value: np.ndarray) -> np.ndarray:
-        return np.bincount(self.node, value, self.nodes)
+        return np.bincount(self.node, value, self.shape[0] * self.shape[2])
 
 
 def bethe_matching(odds: np.ndarray, slots: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -67,15 +71,16 @@ def bethe_matching(odds: np.ndarray, slots: np.ndarray) -> tuple[np.ndarray, np.
     slotted = slotted.reshape(lists, peaks, modes, 2)
     kept = (slotted > NEGLIGIBLE).any(axis=3)
     which, peak, node = np.nonzero(kept)
-    edges = _Edges(peak + peaks * which, node + modes * which, which, slotted[kept].T, lists * peaks, lists * modes)
-    probability, log_sum = _propagated(edges, lists)
+    edges = _Edges(peak + peaks * which, node + modes * which, which, slotted[kept].T, odds.shape)
+    probability, log_sum = _propagated(edges)
     slotted[:] = 0.0
     slotted[kept] = probability.T
-    return np.take_along_axis(slotted.reshape(lists, peaks, -1), place, axis=2), log_sum
+    return np.take_along_axis(slotted.reshape(lists, peaks, 2 * modes), place, axis=2), log_sum
 
 
-def _propagated(edges: _Edges, lists: int) -> tuple[np.ndarray, np.ndarray]:
+def _propagated(edges: _Edges) -> tuple[np.ndarray, np.ndarray]:
     """Probability (2, E) of each edge, and the Bethe sum (L,), at the fixed point."""
+    lists, peaks, modes = edges.shape
     to_peak = edges.odds.copy()  # odds of each mode of the node taking the peak, the other peaks summed out
     probability = np.zeros(edges.odds.shape)
     for _ in range(MAX_ROUNDS):
@@ -88,8 +93,8 @@ def _propagated(edges: _Edges, lists: int) -> tuple[np.ndarray, np.ndarray]:
         before, probability = probability, both / (1.0 + both.sum(axis=0))
         if np.abs(probability - before).max(initial=0.0) < TOLERANCE:
             break
-    at_peak = np.log1p(edges.at_peak(to_peak.sum(axis=0))).reshape(lists, -1).sum(axis=1)
-    at_node = np.log(ways).reshape(lists, -1).sum(axis=1)
+    at_peak = np.log1p(edges.at_peak(to_peak.sum(axis=0))).reshape(lists, peaks).sum(axis=1)
+    at_node = np.log(ways).reshape(lists, modes).sum(axis=1)
     return probability, at_peak + at_node - np.bincount(edges.which, np.log1p(both.sum(axis=0)), lists)
 
 

@@ -20,7 +20,7 @@ def subset_matching(odds: np.ndarray) -> tuple[np.ndarray, float]:
     pair = np.zeros(odds.shape)
     for item, row in enumerate(odds):
         scale = np.exp(log_used[item] + log_free[item + 1] - log_sum)
-        for bit in np.flatnonzero(row):
+        for bit in np.flatnonzero(row).tolist():
             without, within = _halves(used[item], bit)[:, 0], _halves(free[item + 1], bit)[:, 1]
             pair[item, bit] = row[bit] * scale * (without * within).sum()
     return pair, log_sum
@@ -38,7 +38,7 @@ def _used(odds: np.ndarray) -> tuple[list[np.ndarray], list[float]]:
     tables, scales = [table], [0.0]
     for row in odds:
         grown = table.copy()
-        for bit in np.flatnonzero(row):
+        for bit in np.flatnonzero(row).tolist():
             _halves(grown, bit)[:, 1] += row[bit] * _halves(table, bit)[:, 0]
         table = grown / grown.max()
         tables.append(table)
@@ -52,7 +52,7 @@ def _free(odds: np.ndarray) -> tuple[list[np.ndarray], list[float]]:
     tables, scales = [table], [0.0]
     for row in odds[::-1]:
         grown = table.copy()
-        for bit in np.flatnonzero(row):
+        for bit in np.flatnonzero(row).tolist():
             _halves(grown, bit)[:, 0] += row[bit] * _halves(table, bit)[:, 1]
         table = grown / grown.max()
         tables.append(table)

@@ -1,5 +1,7 @@
 """Peaks as soft readings: the bound they give to an inference, and its rise."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.special import expit
@@ -9,6 +11,9 @@ from cdpr_struct.association.detection import clutter
 from cdpr_struct.association.modes import robot_modes
 from cdpr_struct.association.peak_noise import SCALES, known_noise, stated_noise
 from cdpr_struct.association.peaks import PeakList, padded
+from cdpr_struct.inference.evidence import fit
+from cdpr_struct.inference.linear_model import LinearModel
+from cdpr_struct.inference.scale_mixture import NoiseGroups
 
 WEIGHT = np.array([0.9, 0.06, 0.03, 0.01])
 BAND = (2.0, 60.0)  # Hz
@@ -151,3 +156,26 @@ def test_padding_and_modes_out_of_sight_carry_no_weight():
     np.testing.assert_array_equal(padded_soft.precision[0, 8:], 0.0)
     np.testing.assert_allclose(padded_soft.precision[:, :8], plain.precision, rtol=1e-12)
     assert padded_soft.constant == pytest.approx(plain.constant, abs=1e-9)
+
+
+def test_fit_finds_a_shift_that_only_peaks_show():
+    """Four states, ten modes each with its own sensitivity to one parameter; z = 1.5 moves them by up to 6 %."""
+    rng = np.random.default_rng(9)
+    states, modes, true = 4, 10, 1.5
+    ln_frequency = np.sort(rng.uniform(np.log(4.0), np.log(40.0), (states, modes)), axis=1)
+    slope = rng.uniform(0.0, 0.04, (states, modes))
+    moved = np.exp(ln_frequency + true * slope + 0.003 * rng.standard_normal((states, modes)))
+    seen = [row[rng.random(modes) < 0.85] for row in moved]
+    lists = [PeakList(found, np.full(len(found), 0.003), BAND, state=k) for k, found in enumerate(seen)]
+    peaks, predicted = padded(lists), robot_modes(ln_frequency, np.full((states, modes), 0.85))
+    X = np.concatenate([np.zeros((states, 1, 1)), slope[:, :, None]], axis=1)  # first row: a reading that says nothing
+    A, r = np.zeros((states, modes + 1, 1)), np.zeros((states, modes + 1))
+    A[:, 0] = 1.0
+    groups = NoiseGroups(np.arange(states)[:, None], np.zeros(states, int), np.ones(states))
+    model = LinearModel(r, A, X, np.ones(r.shape), groups, np.arange(1, modes + 1))
+    association = Association(peaks, predicted, clutter(peaks))
+    found = fit(model, soft=association)
+    null = fit(replace(model, X=0.0 * X), soft=association.at(noise=stated_noise()))
+    assert np.diff(found.bounds).min() > -1e-6  # tolerance of the propagation
+    assert abs(found.z_mean[0] - true) < 4.0 * np.sqrt(found.z_covariance[0, 0])
+    assert found.log_evidence > null.log_evidence + 10.0

@@ -172,3 +172,15 @@ def test_list_of_another_pose_is_set_aside(rule):
         association = Association(peaks, modes, clutter(peaks), NOISE, wrong_state=0.02, rule=rule)
         association.expect(np.zeros((1, 7)), np.zeros((1, 7)))
         assert association.assignment.own_state[0] == pytest.approx(own, abs=0.02)
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_a_list_without_peaks_is_evidence_and_no_list_is_none(rule):
+    modes, nothing = robot_modes(np.log([[5.0, 20.0]]), np.array([[0.8, 0.7]])), np.zeros((1, 2))
+    silent, soft, _ = ln_likelihood([], modes, rule)
+    assert silent == pytest.approx(-1.0 - 1.5 if rule == "poisson" else -1.0 + np.log(0.2 * 0.3))
+    np.testing.assert_array_equal(soft.precision, nothing)
+    peaks = padded([])
+    absent = PredictedModes(modes.ln_frequency, np.zeros((0, 2)), modes.cable, modes.order)
+    soft = Association(peaks, absent, clutter(peaks), NOISE, rule=rule).expect(nothing, nothing)
+    assert soft.constant == 0.0
