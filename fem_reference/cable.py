@@ -8,6 +8,7 @@ import numpy as np
 
 from fem_reference.bar_element import MassModel, bar_mass, bar_stiffness
 from fem_reference.pulley import Wrap
+from fem_reference.sliding_bar import Eyelet
 
 
 @dataclass(frozen=True)
@@ -17,26 +18,25 @@ class CableData:
     unstrained_length : L [m]
     axial_stiffness   : EA [N]
     linear_density    : mu [kg/m], per unstrained length
-    first_bar_give    : further compliance of the first bar, the one at the start [m/N]; with many bars a spring there
+    line_give         : compliance [m/N] of what is elastic in line behind the start: joint, load cell, dead cable
     """
 
     unstrained_length: float
     axial_stiffness: float
     linear_density: float
-    first_bar_give: float = 0.0
+    line_give: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("unstrained_length", "axial_stiffness", "linear_density"):
             if not 0.0 < getattr(self, name) < np.inf:
                 raise ValueError(f"CableData.{name} must be positive and finite, got {getattr(self, name)!r}")
-        if not 0.0 <= self.first_bar_give < np.inf:
-            raise ValueError(f"CableData.first_bar_give must be zero or more, got {self.first_bar_give!r}")
+        if not 0.0 <= self.line_give < np.inf:
+            raise ValueError(f"CableData.line_give must be zero or more, got {self.line_give!r}")
 
-    def bar_stiffness(self, elements: int) -> np.ndarray:
-        """EA (n,) [N] of each of n bars."""
-        stiffness = np.full(elements, self.axial_stiffness)
-        stiffness[0] /= 1.0 + self.first_bar_give * self.axial_stiffness * elements / self.unstrained_length
-        return stiffness
+    @property
+    def path_behind(self) -> float:
+        """Length [m] of a cable that gives way like what is in line behind the start."""
+        return self.line_give * self.axial_stiffness
 
     @property
     def mass(self) -> float:
@@ -46,16 +46,16 @@ class CableData:
 
 @dataclass(frozen=True, eq=False)
 class CableEquilibrium:
-    """A cable of n bars at rest between two held ends, the first of which may be the exit of a pulley.
+    """A cable of n bars at rest between two held ends; at the first it may slide, over a pulley or through an eyelet.
 
-    cable, gravity   : the data it was solved for, without what lies on a pulley; gravity (3,) [m/s^2]
+    cable, gravity   : the data it was solved for, of what lies beyond its start; gravity (3,) [m/s^2]
     nodes            : (n + 1, 3) [m], world, from start to end
     tension_vectors  : (n, 3) [N], world, pull of each bar along its way from start to end
     start_force      : (3,) [N], applied to the cable at its start to hold it
     end_force        : (3,) [N], applied to the cable at its end to hold it
     residual_norm    : largest force [N] left over at an interior node, evaluated from `nodes` alone
     iterations       : Newton steps spent
-    wrap             : where it lies on its pulley, None without a pulley
+    wrap             : where it lies on its pulley, or the eyelet through which it slides, None if it is held
     """
 
     cable: CableData
@@ -66,7 +66,7 @@ class CableEquilibrium:
     end_force: np.ndarray
     residual_norm: float
     iterations: int
-    wrap: Wrap | None = None
+    wrap: Wrap | Eyelet | None = None
 
     @property
     def elements(self) -> int:
@@ -96,7 +96,7 @@ class CableEquilibrium:
         `wrap.angle`, where the first bar leaves, is behind by half the turn of a bar. The pull at the exit
         corrects that, and also the turn of the cable over the distance by which the exit then shifts.
         """
-        if self.wrap is None:
+        if not isinstance(self.wrap, Wrap):
             return 0.0
         pull, bar = -self.start_force, self.element_length * (1.0 + self.tensions[0] / self.cable.axial_stiffness)
         late = float(np.arctan2(pull @ self.wrap.outward, pull @ self.wrap.pulley.axis)) - self.wrap.angle
@@ -113,21 +113,17 @@ class CableEquilibrium:
             self.tension_vectors / tensions[:, None],
             tensions,
             np.array(self.element_length),
-            self.cable.bar_stiffness(self.elements),
+            np.array(stiffness),
         )
         if self.wrap is not None:
-            matrices[0] = 0.0
-            matrices[0, 3:, 3:] = self.wrap.bar_stiffness(float(tensions[0]), self.element_length, stiffness)
+            matrices[0] = self.wrap.first_bar_stiffness(float(tensions[0]), self.element_length, stiffness)
         return matrices
 
     def element_mass(self, mass: MassModel = "lumped") -> np.ndarray:
-        """Mass matrix (n, 6, 6) [kg] of every bar; at a pulley the exit moves as the first free node demands."""
+        """Mass matrix (n, 6, 6) [kg] of every bar; a start that slides moves as the first free node demands."""
         each = np.full(self.elements, self.cable.linear_density * self.element_length)
         matrices = bar_mass(each, mass)
         if self.wrap is not None:
-            start = self.wrap.exit_motion(float(self.tensions[0]), self.element_length, self.cable.axial_stiffness)
-            motion = np.vstack([start, np.eye(3)])
-            on_node = motion.T @ matrices[0] @ motion
-            matrices[0] = 0.0
-            matrices[0, 3:, 3:] = on_node
+            state = float(self.tensions[0]), self.element_length, self.cable.axial_stiffness
+            matrices[0] = self.wrap.first_bar_mass(matrices[0], *state)
         return matrices

@@ -11,6 +11,7 @@ from scipy.sparse import csc_array, eye_array, kron
 from fem_reference.bar_element import MassModel
 from fem_reference.cable import CableEquilibrium
 from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
+from fem_reference.pulley import Wrap
 from fem_reference.sparse_chain import chain_matrix
 from fem_reference.substructure import condensed_and_counted, dynamic_ends
 
@@ -71,7 +72,7 @@ def cable_modes(equilibrium: CableEquilibrium, count: int, mass: MassModel = "lu
         raise ValueError(f"count must be between 1 and {3 * interior}, got {count!r}")
     frame, matrices = cable_frame(equilibrium), clamped_matrices(equilibrium, mass)
     values, shapes, shares = [], [], []
-    for axes in (frame[:2], frame[2:]) if equilibrium.wrap is None else (frame,):
+    for axes in (frame[:2], frame[2:]) if not isinstance(equilibrium.wrap, Wrap) else (frame,):
         basis = csc_array(kron(eye_array(interior), axes.T))
         stiffness, inertia = (csc_array(basis.T @ matrix @ basis) for matrix in matrices)
         found, vectors = lowest_eigenpairs(

@@ -30,8 +30,9 @@ EPS = float(np.finfo(float).eps)
 class CableBatch:
     """m cables of n bars each, as arrays: lengths, EA (m,), weight of one bar (m, 3) [N].
 
-    bar_stiffness : EA (m, n) [N] of every bar
     handed_on : (m, 3) [N], a further force on the first free node, from a pulley
+    line_give, line_tension : (m,) [m/N], [N]; the first bar is longer by give (N - tension), for what slides into it
+        from behind the start when its tension N is not yet the one for which the lengths were taken
     """
 
     cables: tuple[CableData, ...]
@@ -39,9 +40,10 @@ class CableBatch:
     gravity: np.ndarray
     element_length: np.ndarray
     axial_stiffness: np.ndarray
-    bar_stiffness: np.ndarray
     element_weight: np.ndarray
     handed_on: np.ndarray
+    line_give: np.ndarray
+    line_tension: np.ndarray
 
     @classmethod
     def of(cls, cables: tuple[CableData, ...], elements: int, gravity: ArrayLike) -> CableBatch:
@@ -55,9 +57,9 @@ class CableBatch:
             acceleration,
             length,
             np.array([cable.axial_stiffness for cable in cables]),
-            np.array([cable.bar_stiffness(elements) for cable in cables]),
             (density * length)[:, None] * acceleration,
             np.zeros((len(length), 3)),
+            *np.zeros((2, len(length))),
         )
 
     @property
@@ -96,15 +98,21 @@ class ChainState:
 
 def chain_state(batch: CableBatch, chord: np.ndarray, mid_force: np.ndarray) -> ChainState:
     """Evaluate the chains with mid forces (m, 3) [N] against their chords (m, 3) [m]."""
-    length, stiffness = batch.element_length[:, None], batch.bar_stiffness
+    length, stiffness = batch.element_length[:, None], batch.axial_stiffness[:, None]
     vectors = batch.tension_vectors(mid_force)
     tension = np.maximum(np.linalg.norm(vectors, axis=-1), batch.slack_tension[:, None])
     directions = vectors / tension[..., None]
-    gap = np.einsum("mn,mnk->mk", length * (1.0 + tension / stiffness), directions) - chord
-    across = length / tension
-    flexibility = -np.einsum("mnk,mn,mnl->mkl", directions, across, directions)
-    flexibility += (across + length / stiffness).sum(axis=1)[:, None, None] * np.eye(3)
+    give, slid = batch.line_give, batch.line_give * (tension[:, 0] - batch.line_tension)
+    spans = length * (1.0 + tension / stiffness)
+    spans[:, 0] += slid
+    gap = np.einsum("mn,mnk->mk", spans, directions) - chord
+    along = np.repeat(length / stiffness, batch.elements, axis=1)
+    along[:, 0] += give
+    across = spans / tension
+    flexibility = np.einsum("mnk,mn,mnl->mkl", directions, along - across, directions)
+    flexibility += across.sum(axis=1)[:, None, None] * np.eye(3)
     energy = (length * (tension + 0.5 * tension**2 / stiffness)).sum(axis=1) - (mid_force * chord).sum(axis=1)
+    energy += give * tension[:, 0] * (0.5 * tension[:, 0] - batch.line_tension)
     return ChainState(mid_force, vectors, gap, flexibility, energy)
 
 
@@ -200,10 +208,10 @@ def _equilibrium(
 ) -> CableEquilibrium:
     cable, vectors, handed = batch.cables[index], state.tension_vectors[index], batch.handed_on[index]
     length, weight = float(batch.element_length[index]), batch.element_weight[index]
-    tensions, bars = np.linalg.norm(vectors, axis=-1), batch.bar_stiffness[index]
-    steps = vectors * (length * (1.0 / tensions + 1.0 / bars))[:, None]
+    tensions = np.linalg.norm(vectors, axis=-1)
+    steps = vectors * (length * (1.0 / tensions + 1.0 / cable.axial_stiffness))[:, None]
     nodes = np.vstack([start, start + np.cumsum(steps, axis=0)])
-    left_over = internal_forces(nodes, length, bars)[1:-1] - weight
+    left_over = internal_forces(nodes, length, cable.axial_stiffness)[1:-1] - weight
     left_over[0] -= handed
     weakest = int(np.argmin(np.linalg.norm(np.diff(nodes, axis=0), axis=-1)))
     stretch = float(np.linalg.norm(nodes[weakest + 1] - nodes[weakest])) / length - 1.0
@@ -237,8 +245,10 @@ def solve_cable(
     ------
     FoldedCableError : an exactly vertical slack cable that folds inside a bar.
     CableNotConvergedError : the iteration stopped.
-    ValueError : wrong shapes or numbers.
+    ValueError : wrong shapes or numbers, or something in line behind the start, which `solve_robot` knows.
     """
+    if cable.line_give:
+        raise ValueError(f"solve_cable knows no CableData.line_give, got {cable.line_give!r}; use solve_robot")
     batch = CableBatch.of((cable,), elements, gravity)
     starts = fixed_array("start", start, (3,))[None]
     ends = fixed_array("end", end, (3,))[None]

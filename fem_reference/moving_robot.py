@@ -1,8 +1,9 @@
 """A robot in large motion: bars, and one rigid body that carries the platform and the last half bars.
 
 Lumped mass. The body is described about its own centre of mass, so that its two balances do not couple. Bars
-pull by Hooke's law and do not push. Forces of a step are those of the discrete-gradient kind: they do exactly
-the work by which the stored energy falls between the ends of the step.
+pull by Hooke's law and do not push; a first bar that slides through an eyelet is one with the path behind it, as long
+as both are together, and its half mass stays at the start. Forces of a step are those of the discrete-gradient kind:
+they do exactly the work by which the stored energy falls between the ends of the step.
 """
 
 from __future__ import annotations
@@ -36,6 +37,7 @@ class MovingState:
 class MovingRobot:
     """Constants of the motion; arrays of cables broadcast against (m, n) or (m, n, 3).
 
+    natural_length, bar_rate   : (m, n) [m] at which a bar is slack, [N/m] of its stretch beyond
     node_mass, end_mass, rates : (m, 1, 1) [kg], (m,) [kg] of the last half bars, (m,) [1/s]
     mass, inertia              : [kg], (3, 3) [kg m^2] of the body, body axes
     center                     : (3,) [m] centre of mass from the reference point, body axes
@@ -44,8 +46,8 @@ class MovingRobot:
     """
 
     starts: np.ndarray
-    element_length: np.ndarray
-    axial_stiffness: np.ndarray
+    natural_length: np.ndarray
+    bar_rate: np.ndarray
     node_mass: np.ndarray
     end_mass: np.ndarray
     rates: np.ndarray
@@ -67,8 +69,7 @@ class MovingRobot:
         push = rest.external_force
         return cls(
             np.array([cable.nodes[0] for cable in rest.cables]),
-            length[:, None],
-            np.array([[cable.axial_stiffness] for cable in robot.cables]),
+            *_bars(problem),
             lumps[:, None, None],
             0.5 * lumps,
             problem.rates,
@@ -89,8 +90,8 @@ class MovingRobot:
     def energy(self, state: MovingState) -> float:
         """Kinetic and potential energy [J]; the height of the potential is arbitrary."""
         spans = np.linalg.norm(np.diff(self.points(state.nodes, state.center, state.rotation), axis=1), axis=-1)
-        stretch = np.maximum(spans - self.element_length, 0.0)
-        strain = (0.5 * self.axial_stiffness / self.element_length * stretch**2).sum()
+        stretch = np.maximum(spans - self.natural_length, 0.0)
+        strain = (0.5 * self.bar_rate * stretch**2).sum()
         moving = (
             0.5 * (self.node_mass * state.node_velocity**2).sum() + 0.5 * self.mass * state.velocity @ state.velocity
         )
@@ -98,6 +99,20 @@ class MovingRobot:
         weight = (self.node_mass * state.nodes).sum(axis=(0, 1)) + self.mass * state.center
         push = self.load @ (state.center + state.rotation @ self.load_point)
         return float(strain + moving + turning - weight @ self.gravity - push)
+
+
+def _bars(problem: MotionProblem) -> tuple[np.ndarray, np.ndarray]:
+    """Natural lengths (m, n) [m] and rates (m, n) [N/m] of all bars, such that they pull at rest as they do."""
+    rest = problem.equilibrium
+    stiffness = np.array([cable.axial_stiffness for cable in rest.robot.cables])
+    unstrained = np.repeat([[cable.element_length] for cable in rest.cables], rest.elements, axis=1)
+    natural = unstrained.copy()
+    for index, cable in enumerate(rest.cables):
+        if cable.wrap is not None:
+            behind, pull = cable.wrap.behind, float(cable.tensions[0])
+            unstrained[index, 0] += behind / (1.0 + pull / stiffness[index])
+            natural[index, 0] = unstrained[index, 0] - behind
+    return natural, stiffness[:, None] / unstrained
 
 
 def _with_points(problem: MotionProblem, lumps: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
@@ -117,7 +132,7 @@ def secant_stiffness(robot: MovingRobot, before: np.ndarray, after: np.ndarray) 
     before, after : (m, n) [m] lengths. Returns (m, n) [N/m], never negative, and (m, n) [N/m^2]. Times the mean
     of the two bar vectors the first is the force that does the work.
     """
-    length, rate = robot.element_length, robot.axial_stiffness / robot.element_length
+    length, rate = robot.natural_length, robot.bar_rate
     old, new = np.maximum(before - length, 0.0), np.maximum(after - length, 0.0)
     taut = (before >= length) & (after >= length)
     turning = (before >= length) != (after >= length)

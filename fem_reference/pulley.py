@@ -34,6 +34,7 @@ import numpy as np
 
 from fem_reference.arrays import fixed_array
 from fem_reference.errors import UndefinedSwivelError
+from fem_reference.sliding_bar import SlidingBar
 
 PARALLEL = 1e-9  # sine of the angle between cable and axis below which the pulley has no plane
 
@@ -67,8 +68,9 @@ class Wrap:
     outward           : (3,) unit vector e from b to the pulley's centre
     angle             : theta [rad] at which the first bar leaves
     tension           : [N] of the cable on the pulley
-    unstrained_length : [m] of the cable on the pulley
+    unstrained_length : [m] of the cable on the pulley and on the path behind it
     half_weight       : (3,) [N], half the weight of the first bar, which rides on the exit
+    behind            : P [m], length of a straight path behind the entry point, see `sliding_bar.py`
     """
 
     pulley: PulleyData
@@ -78,6 +80,7 @@ class Wrap:
     tension: float
     unstrained_length: float
     half_weight: np.ndarray
+    behind: float = 0.0
 
     @property
     def arc(self) -> float:
@@ -121,21 +124,28 @@ class Wrap:
 
         tension [N] and unstrained length [m] of the bar alone, axial_stiffness: EA [N].
         """
-        strain, on_pulley = 1.0 + tension / axial_stiffness, 1.0 + self.tension / axial_stiffness
-        bar, wrap_length, radius = free_length * strain, self.unstrained_length, self.pulley.radius
-        directions = self.directions()
-        wound = radius / bar * directions[1]
-        lengthened = directions[0] - wound
-        soft = strain**2 * wrap_length + on_pulley**2 * free_length
-        path = on_pulley * lengthened + strain * wound
+        first = SlidingBar(
+            tension, self.tension, free_length, self.unstrained_length, axial_stiffness, self.half_weight
+        )
+        bar, directions = first.bar, self.directions()
+        along = first.axial_stiffness_matrix(directions[0], self.pulley.radius / bar * directions[1])
         rates = np.array([0.0, tension / bar, tension / (bar + self._swivel_reach())])
-        sliding = (strain * wrap_length * lengthened - on_pulley * free_length * wound) / soft
-        weight = (self.half_weight + self.half_weight @ directions[0] * wound) / free_length
-        gained = np.outer(weight, sliding) + np.outer(sliding, weight)
-        gained += 2.0 * on_pulley / free_length * (self.half_weight @ directions[0]) * np.outer(sliding, sliding)
-        gained += np.outer(weight, weight) * wrap_length * free_length / (axial_stiffness * soft)
-        stiffness = axial_stiffness / soft * np.outer(path, path) + directions.T @ (rates[:, None] * directions)
-        return np.asarray(stiffness - gained + self._riding_weight_stiffness(bar))
+        return np.asarray(along + directions.T @ (rates[:, None] * directions) + self._riding_weight_stiffness(bar))
+
+    def first_bar_stiffness(self, tension: float, free_length: float, axial_stiffness: float) -> np.ndarray:
+        """The same for both nodes of the first bar (6, 6); the start is the held entry point."""
+        matrix = np.zeros((6, 6))
+        matrix[3:, 3:] = self.bar_stiffness(tension, free_length, axial_stiffness)
+        return matrix
+
+    def first_bar_mass(
+        self, mass: np.ndarray, tension: float, free_length: float, axial_stiffness: float
+    ) -> np.ndarray:
+        """Mass (6, 6) [kg] of the first bar from that of a bar with free ends: the exit moves as its end demands."""
+        motion = np.vstack([self.exit_motion(tension, free_length, axial_stiffness), np.eye(3)])
+        matrix = np.zeros((6, 6))
+        matrix[3:, 3:] = motion.T @ mass @ motion
+        return matrix
 
     def _riding_weight_stiffness(self, bar: float) -> np.ndarray:
         """Part (3, 3) [N/m] of the weight on the moving exit, together with the tension step W . t there."""
@@ -155,7 +165,8 @@ class Wrap:
         Across, the cable on the pulley moves with the swivel only; along, it slides as the wrap stretches.
         """
         strain = 1.0 + tension / axial_stiffness
-        slid = self.arc / (self.arc + free_length * strain)
+        before = self.arc + self.behind
+        slid = before / (before + free_length * strain)
         directions, swung = self.directions(), self.swivel_share(free_length * strain)
         return np.asarray(directions.T @ (np.array([slid, 0.0, swung])[:, None] * directions))
 
@@ -167,11 +178,13 @@ def wrapped(
     tension: float,
     half_weight: np.ndarray,
     axial_stiffness: float,
+    behind: float = 0.0,
 ) -> Wrap:
     """The wrap that lets a first bar leave along the vector `first_bar` (3,), of any length.
 
     tension : T [N] of the first bar; half_weight : (3,) [N], half its weight; axial_stiffness : EA [N]. The
-    tension at the exit prevails all along the wrap, and R theta / (1 + T / EA) is its unstrained length.
+    tension at the exit prevails all along the wrap and the path of length `behind` P [m] before it, and
+    (R theta + P) / (1 + T / EA) is their unstrained length.
 
     Raises
     ------
@@ -187,5 +200,5 @@ def wrapped(
     outward = aside / np.linalg.norm(aside)
     angle = float(np.arctan2(reach, axial))
     at_exit = tension + float(half_weight @ first_bar) / float(np.linalg.norm(first_bar))
-    length = pulley.radius * angle / (1.0 + at_exit / axial_stiffness)
-    return Wrap(pulley, entry, outward, angle, at_exit, length, half_weight)
+    length = (pulley.radius * angle + behind) / (1.0 + at_exit / axial_stiffness)
+    return Wrap(pulley, entry, outward, angle, at_exit, length, half_weight, behind)

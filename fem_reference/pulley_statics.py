@@ -1,9 +1,11 @@
-"""Where do the cables of a robot leave their pulleys?
+"""Where do the cables of a robot leave their pulleys, and how much slides in from what is elastic behind?
 
 With the exits held, the robot is a plain one: frame anchors at the exits, lengths less what lies on the
 pulleys. Its first bars say where the exits should be. Repeating that settles fast, since an exit moves by about
 radius / cable length of what its cable's end moves. No energy is needed to find the exits: moving one along
 its tangent costs nothing to first order, as the path length over a pulley is stationary where it is tangent.
+What slides in grows with the tension; between two rounds it is part of the first bar's own flexibility
+(`CableBatch.line_give`), so that it settles as fast however soft the line is.
 """
 
 from __future__ import annotations
@@ -13,10 +15,12 @@ import dataclasses
 import numpy as np
 
 from fem_reference.cable import CableData, CableEquilibrium
-from fem_reference.pulley import Wrap, wrapped
+from fem_reference.cable_statics import CableBatch
+from fem_reference.pulley import PulleyData, Wrap, wrapped
 from fem_reference.robot import RobotData
+from fem_reference.sliding_bar import Eyelet
 
-Wraps = tuple[Wrap | None, ...]
+Wraps = tuple[Wrap | Eyelet | None, ...]
 
 
 def guessed_wraps(robot: RobotData, position: np.ndarray, rotation: np.ndarray) -> Wraps:
@@ -28,11 +32,29 @@ def guessed_wraps(robot: RobotData, position: np.ndarray, rotation: np.ndarray) 
 def wraps_towards(robot: RobotData, first_bars: np.ndarray, tensions: np.ndarray, half_weights: np.ndarray) -> Wraps:
     """Wraps for first bars of directions (m, 3), tensions (m,) [N] and half weights (m, 3) [N]."""
     pulleys = robot.pulleys or (None,) * len(robot.cables)
-    each = zip(pulleys, robot.frame_anchors, first_bars, tensions, half_weights, robot.cables, strict=True)
-    return tuple(
-        None if pulley is None else wrapped(pulley, entry, bar, float(tension), weight, cable.axial_stiffness)
-        for pulley, entry, bar, tension, weight, cable in each
-    )
+    each = zip(pulleys, robot.cables, robot.frame_anchors, first_bars, tensions, half_weights, strict=True)
+    return tuple(_start(*one) for one in each)
+
+
+def _start(
+    pulley: PulleyData | None,
+    cable: CableData,
+    anchor: np.ndarray,
+    bar: np.ndarray,
+    tension: float,
+    half_weight: np.ndarray,
+) -> Wrap | Eyelet | None:
+    """How a cable starts: over its pulley, through an eyelet, or held."""
+    stiffness, behind = cable.axial_stiffness, cable.path_behind
+    if pulley is not None:
+        return wrapped(pulley, anchor, bar, float(tension), half_weight, stiffness, behind)
+    return Eyelet.at(anchor, behind, bar, float(tension), half_weight, stiffness) if behind else None
+
+
+def sliding_in(batch: CableBatch, handed: np.ndarray, tensions: np.ndarray) -> CableBatch:
+    """The cables with forces handed on (m, 3) [N], about first bars of tensions (m,) [N] whose lengths they have."""
+    give = np.array([cable.line_give for cable in batch.cables]) / (1.0 + tensions / batch.axial_stiffness)
+    return dataclasses.replace(batch, handed_on=handed, line_give=give, line_tension=tensions)
 
 
 def handed_on(wraps: Wraps, bars: np.ndarray) -> np.ndarray:
@@ -42,7 +64,7 @@ def handed_on(wraps: Wraps, bars: np.ndarray) -> np.ndarray:
 
 
 def unwound(robot: RobotData, wraps: Wraps) -> RobotData:
-    """The robot without pulleys: frame anchors at the exits, lengths without what lies on the pulleys."""
+    """The robot without pulleys and eyelets: frame anchors at the exits, lengths of what lies beyond them."""
     pairs = list(zip(robot.cables, robot.frame_anchors, wraps, strict=True))
     anchors = [anchor if wrap is None else wrap.exit_point for _, anchor, wrap in pairs]
     return dataclasses.replace(
@@ -53,10 +75,11 @@ def unwound(robot: RobotData, wraps: Wraps) -> RobotData:
     )
 
 
-def _beyond(cable: CableData, wrap: Wrap | None) -> CableData:
+def _beyond(cable: CableData, wrap: Wrap | Eyelet | None) -> CableData:
     if wrap is None:
         return cable
-    return dataclasses.replace(cable, unstrained_length=cable.unstrained_length - wrap.unstrained_length)
+    beyond = cable.unstrained_length + wrap.behind - wrap.unstrained_length
+    return dataclasses.replace(cable, unstrained_length=beyond)
 
 
 def movement(before: Wraps, after: Wraps) -> tuple[float, float]:
@@ -66,8 +89,9 @@ def movement(before: Wraps, after: Wraps) -> tuple[float, float]:
         if old is not None and new is not None:
             exit_moved = float(np.linalg.norm(new.exit_point - old.exit_point))
             moved = max(moved, exit_moved, abs(new.unstrained_length - old.unstrained_length))
-            place = float(np.abs(new.entry).max()) + new.pulley.radius
-            floor = max(floor, 1e-11 * new.pulley.radius + 64.0 * float(np.finfo(float).eps) * place)
+            radius = new.pulley.radius if isinstance(new, Wrap) else 0.0
+            place = float(np.abs(new.exit_point).max()) + radius + new.behind
+            floor = max(floor, 1e-11 * radius + 64.0 * float(np.finfo(float).eps) * place)
     return moved, floor
 
 

@@ -48,9 +48,8 @@ class RobotData:
         if len(pulleys) not in (0, len(cables)):
             raise ValueError(f"RobotData.pulleys must be empty or hold {len(cables)} entries, got {len(pulleys)}")
         object.__setattr__(self, "pulleys", pulleys)
-        bent = bool(self.surroundings.bending)
-        if any(pulleys) and (bent or any(cable.first_bar_give for cable in cables)):
-            raise ValueError("RobotData: pulleys go neither with masts that bend nor with CableData.first_bar_give")
+        if any(pulleys) and self.surroundings.bending:
+            raise ValueError("RobotData: pulleys do not go with masts that bend")
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,6 @@ what it finds is a stable rest position, not merely a balance of forces.
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,7 +17,15 @@ from fem_reference.bent_masts import bend, softened
 from fem_reference.cable import CableEquilibrium
 from fem_reference.cable_statics import EPS, CableBatch, ChainState, equilibria
 from fem_reference.errors import FoldedCableError, PulleysNotSettledError, RobotNotConvergedError
-from fem_reference.pulley_statics import guessed_wraps, handed_on, movement, rewrapped, unwound, wraps_towards
+from fem_reference.pulley_statics import (
+    guessed_wraps,
+    handed_on,
+    movement,
+    rewrapped,
+    sliding_in,
+    unwound,
+    wraps_towards,
+)
 from fem_reference.rigid_platform import point_motion, rotating_arm_stiffness, turned
 from fem_reference.robot import DeadLoads, PointForce, RobotData, RobotEquilibrium
 
@@ -187,10 +194,10 @@ def _settled(
 ) -> tuple[PlatformState, tuple[CableEquilibrium, ...], int]:
     """Statics with the exits of the pulleys held, until the exits stay; one round without pulleys."""
     wraps, first, iterations = guessed_wraps(robot, place, turn), None, 0
-    handed = np.zeros_like(robot.frame_anchors)
+    handed, tensions = np.zeros_like(robot.frame_anchors), np.zeros(len(robot.cables))
     for _ in range(MAX_ITERATIONS):
         bare = unwound(robot, wraps)
-        batch = dataclasses.replace(CableBatch.of(bare.cables, elements, bare.gravity), handed_on=handed)
+        batch = sliding_in(CableBatch.of(bare.cables, elements, bare.gravity), handed, tensions)
         state = platform_state(bare, batch, loads, place, turn, first)
         if not hold_pose:
             state, steps = _balanced(bare, batch, loads, state)

@@ -13,6 +13,7 @@ from fem_reference.linear_motion import linear_motion
 from fem_reference.motion_problem import MotionProblem, TimeHistory, Wrench, motion_problem
 from fem_reference.moving_robot import MovingRobot, MovingState, secant_stiffness
 from fem_reference.nonlinear_motion import Stepper, body_wrench
+from fem_reference.pulley import Wrap
 from fem_reference.robot import RobotEquilibrium
 
 
@@ -49,8 +50,8 @@ def integrate(
     ValueError : unfit arguments; large motion with pulleys or with consistent mass.
     """
     robot = equilibrium.robot
-    if not robot.surroundings.still or any(cable.first_bar_give for cable in robot.cables):
-        raise ValueError("motion in time knows neither SurroundingsData nor CableData.first_bar_give")
+    if not robot.surroundings.still:
+        raise ValueError("motion in time knows no SurroundingsData")
     problem = motion_problem(
         equilibrium, duration, time_step, initial_velocity, damping_ratio, external_wrench, record, mass
     )
@@ -58,7 +59,7 @@ def integrate(
         return linear_motion(problem)
     if mass != "lumped":
         raise ValueError(f"mass must be 'lumped' with linear=False, got {mass!r}")
-    if any(cable.wrap is not None for cable in equilibrium.cables):
+    if any(isinstance(cable.wrap, Wrap) for cable in equilibrium.cables):
         raise ValueError("linear must be True for a robot with pulleys, got False")
     return _large_motion(problem)
 
@@ -94,9 +95,9 @@ def _platform(robot: MovingRobot, state: MovingState, still: MovingState) -> tup
 
 def _acceleration(robot: MovingRobot, state: MovingState, wrench: np.ndarray) -> np.ndarray:
     """Acceleration (6,) at the reference point, from the forces on the body in this very state."""
-    bars = np.diff(robot.points(state.nodes, state.center, state.rotation), axis=1)[:, -1]
-    spans = np.linalg.norm(bars, axis=-1)[:, None]
-    pulls = secant_stiffness(robot, spans, spans)[0] * bars
+    bars = np.diff(robot.points(state.nodes, state.center, state.rotation), axis=1)
+    spans = np.linalg.norm(bars, axis=-1)
+    pulls = secant_stiffness(robot, spans, spans)[0][:, -1:] * bars[:, -1]
     rate, arm = state.rotation @ state.spin, -state.rotation @ robot.center
     speeds = state.velocity + np.cross(rate, robot.anchors @ state.rotation.T)
     ends = -pulls - (robot.end_mass * robot.rates)[:, None] * speeds

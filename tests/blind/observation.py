@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem_reference import RobotEquilibrium
+from fem_reference import CableEquilibrium, RobotEquilibrium, Wrap
 from tests.blind.deviations import Deviations
 from tests.blind.entered_robot import UP, EnteredRobot
 from tests.blind.measuring_plan import Plan
@@ -23,7 +23,7 @@ class Rest:
 
     position, rotation : (3,) [m], (3, 3)
     tensions           : (m,) [N] at the platform
-    exit_angles        : (m,) [rad] between the upward axis and the cable at its exit
+    exit_angles        : (m,) [rad] by which a cable that comes up from its winch turns at its exit
     """
 
     position: np.ndarray
@@ -34,10 +34,16 @@ class Rest:
     @classmethod
     def of(cls, equilibrium: RobotEquilibrium) -> Rest:
         """What is seen of an equilibrium."""
-        leaving = np.array([cable.tension_vectors[0] for cable in equilibrium.cables])
-        upward = leaving @ UP / np.linalg.norm(leaving, axis=1)
         tensions = np.array([np.linalg.norm(cable.end_force) for cable in equilibrium.cables])
-        return cls(equilibrium.position, equilibrium.rotation, tensions, np.arccos(upward))
+        angles = np.array([_turn(cable) for cable in equilibrium.cables])
+        return cls(equilibrium.position, equilibrium.rotation, tensions, angles)
+
+
+def _turn(cable: CableEquilibrium) -> float:
+    """Angle [rad] of a cable's pull at its exit from the upward axis: over a pulley, what it wraps."""
+    if isinstance(cable.wrap, Wrap):
+        return cable.wrap_angle
+    return float(np.arccos(-cable.start_force @ UP / np.linalg.norm(cable.start_force)))
 
 
 @dataclass(frozen=True, eq=False)

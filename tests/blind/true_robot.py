@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from fem_reference import CableData, PlatformData, PointForce, PulleyData, RobotData, RobotEquilibrium, solve_robot
+from tests.blind.bending_masts import mast_deflections
 from tests.blind.deviations import EXPANSION, Deviations
 from tests.blind.entered_robot import UP, EnteredRobot
 
@@ -16,6 +17,7 @@ SETTLED = 1e-9  # m, rad
 DRUM_CIRCUMFERENCE = 0.4  # m, of the eccentric drum
 HINGE_TILT = 0.05  # rad, over which the hinge tips
 BEDDED = 300.0  # N, over which the wires of a rope bed down
+JOINT_RADIUS = 0.03  # m, a joint is a ball of it
 HOOK = np.array([1.0, -0.5, 2.5])  # m from home, of the balancer's line
 
 
@@ -58,18 +60,17 @@ def bedding(deviations: Deviations, tensions: np.ndarray) -> tuple[np.ndarray, n
 def true_cables(
     robot: EnteredRobot, deviations: Deviations, paid: np.ndarray, tensions: np.ndarray
 ) -> tuple[CableData, ...]:
-    """Cables whose stiffness also holds what is in series with them, spread over the free length.
+    """Cables with what is in line behind their exits: joints, and the dead piece of the same rope to the winch.
 
     paid, tensions : unstrained lengths (m,) [m], and tensions (m,) [N] about which a rope that beds down is linear
     """
     stretch, slope = bedding(deviations, tensions)
-    lengths = paid * (1.0 + stretch)
+    lengths = paid * (1.0 + stretch) + deviations["dead_length"] * stretch
     stiffness = robot.axial_stiffness * np.exp(deviations["axial_stiffness"])
     stiffness = stiffness / (1.0 + slope * stiffness)
-    longer = lengths + deviations["dead_length"] + deviations["joint_compliance"] * stiffness
     density = robot.linear_density * np.exp(deviations["cable_linear_density"])
-    effective = stiffness * lengths / longer
-    return tuple(CableData(*map(float, each)) for each in zip(lengths, effective, density, strict=True))
+    give = deviations["joint_compliance"] + deviations["dead_length"] / stiffness
+    return tuple(CableData(*map(float, each)) for each in zip(lengths, stiffness, density, give, strict=True))
 
 
 def true_platform(robot: EnteredRobot, deviations: Deviations, payload: float, rotation: np.ndarray) -> PlatformData:
@@ -82,7 +83,8 @@ def true_platform(robot: EnteredRobot, deviations: Deviations, payload: float, r
     points = np.vstack([center, hung, robot.platform_anchors + _offsets(deviations, "platform")])
     whole = masses @ points / masses.sum()
     arms = points - whole
-    inertia = bare_inertia(robot, deviations) + np.einsum("k,kab->ab", masses, _point_inertia(arms))
+    joints = 0.4 * float(deviations["joint_mass"].sum()) * JOINT_RADIUS**2 * np.eye(3)
+    inertia = bare_inertia(robot, deviations) + joints + np.einsum("k,kab->ab", masses, _point_inertia(arms))
     return PlatformData(float(masses.sum()), whole, inertia)
 
 
@@ -139,15 +141,15 @@ def true_robot(
     tensions : (m,) [N], about which ropes that bed down are linear (default: none)
     """
     about = np.zeros(robot.cables) if tensions is None else tensions
-    anchors = robot.frame_anchors + _offsets(deviations, "frame")
-    anchors = anchors * (1.0 + EXPANSION * deviations["temperature"]) + yielded
+    warmth = 1.0 + EXPANSION * deviations["temperature"]
+    anchors = (robot.frame_anchors + _offsets(deviations, "frame")) * warmth + yielded
     pulleys: tuple[PulleyData, ...] = ()
     if robot.pulley_radius is not None:
         pulleys = tuple(PulleyData(float(robot.pulley_radius + d), UP) for d in deviations["pulley_radius"])
     platform = true_platform(robot, deviations, command.payload, rotation)
     return RobotData(
         anchors,
-        robot.platform_anchors + _offsets(deviations, "platform"),
+        (robot.platform_anchors + _offsets(deviations, "platform")) * warmth,
         true_cables(robot, deviations, true_lengths(deviations, command), about),
         platform,
         true_gravity(robot, deviations),
@@ -156,10 +158,9 @@ def true_robot(
 
 
 def mast_yield(robot: EnteredRobot, deviations: Deviations, equilibrium: RobotEquilibrium) -> np.ndarray:
-    """Shift (m, 3) [m] of the exit points under the sum of the cable forces on their mast."""
+    """Shift (m, 3) [m] of the exit points under the cable forces on their masts."""
     pulls = -np.array([cable.start_force for cable in equilibrium.cables])
-    sums = np.array([pulls[robot.masts == mast].sum(axis=0) for mast in range(4)])
-    return np.asarray((deviations["frame_compliance"][:, None] * sums)[robot.masts])
+    return mast_deflections(robot, deviations["frame_compliance"], pulls)
 
 
 def at_rest(robot: EnteredRobot, deviations: Deviations, command: Command, elements: int) -> RobotEquilibrium:

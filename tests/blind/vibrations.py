@@ -9,6 +9,7 @@ from fem_reference import RobotEquilibrium, cable_modes
 from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
 from fem_reference.rigid_platform import platform_mass_matrix
 from fem_reference.robot_modes import robot_matrices
+from tests.blind.bending_masts import exit_blocks, mast_motion, mast_springs
 from tests.blind.deviations import Deviations
 from tests.blind.entered_robot import EnteredRobot
 from tests.blind.true_robot import balancer_stiffness
@@ -42,31 +43,18 @@ def whole_matrices(
         line = lil_array(stiffness.shape)
         line[-6:-3, -6:-3] = balancer_stiffness(robot, deviations, equilibrium.position)
         stiffness = csc_array(stiffness + line)
-    soft = np.flatnonzero(deviations["frame_compliance"])
-    if not len(soft):
+    compliance = deviations["frame_compliance"]
+    if not np.any(compliance):
         return stiffness, mass
-    springs = np.diag(np.repeat(1.0 / deviations["frame_compliance"][soft], 3))
+    springs, motion = mast_springs(robot, compliance), mast_motion(robot, compliance)
     bars = 0.5 * (equilibrium.element_mass("lumped") + equilibrium.element_mass("consistent"))
-    between, own = _exit_blocks(equilibrium.element_stiffness()[:, 0], robot, soft, mass.shape[0], equilibrium.elements)
-    dragged, carried = _exit_blocks(bars[:, 0], robot, soft, mass.shape[0], equilibrium.elements)
+    size = mass.shape[0], equilibrium.elements
+    between, own = exit_blocks(equilibrium.element_stiffness()[:, 0], motion, *size)
+    dragged, carried = exit_blocks(bars[:, 0], motion, *size)
     return (
         csc_array(block_array([[stiffness, between.T], [between, csc_array(own + springs)]])),
         csc_array(block_array([[mass, dragged.T], [dragged, csc_array(carried)]])),
     )
-
-
-def _exit_blocks(
-    first: np.ndarray, robot: EnteredRobot, soft: np.ndarray, unknowns: int, elements: int
-) -> tuple[csc_array, np.ndarray]:
-    """Coupling of the soft masts with the first free nodes, and their own block, from first elements (m, 6, 6)."""
-    between, own = lil_array((3 * len(soft), unknowns)), np.zeros((3 * len(soft), 3 * len(soft)))
-    for row, mast in enumerate(soft):
-        rows = slice(3 * row, 3 * row + 3)
-        for cable in np.flatnonzero(robot.masts == mast):
-            node = 3 * (elements - 1) * int(cable)
-            own[rows, rows] += first[cable, :3, :3]
-            between[rows, node : node + 3] = first[cable, :3, 3:]
-    return csc_array(between), own
 
 
 def robot_frequencies(
