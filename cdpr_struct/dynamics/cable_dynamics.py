@@ -146,7 +146,8 @@ def frame_give(point: OperatingPoint) -> FrameGive | None:
         directions.append(across)
         gives.append(per_arm * arm)
         least.append(per_arm * short)
-    return FrameGive(np.stack(directions, axis=-1), np.stack(gives, axis=-1), np.stack(least, axis=-1))
+    stacked = (np.stack(np.broadcast_arrays(*parts), axis=-1) for parts in (directions, gives, least))
+    return FrameGive(*stacked)
 
 
 def _swivel(arrays: RobotArrays, tension: np.ndarray, tangent: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

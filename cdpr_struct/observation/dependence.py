@@ -38,10 +38,10 @@ class Dependence:
     @classmethod
     def of(cls, point: OperatingPoint, assembly: Assembly) -> "Dependence":
         arrays = point.arrays
-        stiffness = np.zeros((*point.position.shape[:-1], 6, 6))
-        stiffness[..., :3, :3] = arrays.hose[..., None, None] * np.eye(3)
-        if assembly == "consistent":
-            stiffness[..., 3:, 3:] = geometric_stiffness(point)
+        held = arrays.hose[..., None, None] * np.eye(3)
+        turned = geometric_stiffness(point) if assembly == "consistent" else np.zeros((3, 3))
+        stiffness = np.zeros((*np.broadcast_shapes(held.shape, turned.shape)[:-2], 6, 6))
+        stiffness[..., :3, :3], stiffness[..., 3:, 3:] = held, turned
         mass = platform_mass_matrix(arrays, point.rotation)
         return cls(cable_dependence(point), of_each_mast(arrays.masts, arrays.frame_compliance), mass, stiffness)
 
@@ -57,9 +57,7 @@ class Dependence:
 def cable_dependence(point: OperatingPoint) -> np.ndarray:
     """(..., m, CABLE_COLUMNS) of the cables."""
     arrays, cables = point.arrays, point.cables
-    shape = cables.length.shape
-    bends = arrays.bending_stiffness
-    tightened = np.ones(shape)
+    bends, tightened = arrays.bending_stiffness, np.ones(1)
     if bends.any():
         ends = 2.0 * slenderness(bends, cables.tension, cables.chord)
         tightened = (1.0 + ends + ends**2) ** 2
@@ -68,15 +66,15 @@ def cable_dependence(point: OperatingPoint) -> np.ndarray:
         arrays.added_mass,
     )  # fmt: skip
     arms = arrays.platform_anchors @ np.swapaxes(point.rotation, -1, -2)
-    columns = [np.broadcast_to(value, shape)[..., None] for value in singles]
-    parts = [cables.force_at_frame, *columns, frame_compliance(point), arms]
+    parts = [cables.force_at_frame, *(value[..., None] for value in singles), frame_compliance(point), arms]
+    shape = np.broadcast_shapes(*(part.shape[:-1] for part in parts))
     return np.concatenate([np.broadcast_to(p, (*shape, p.shape[-1])) for p in parts], axis=-1)
 
 
 def frame_compliance(point: OperatingPoint) -> np.ndarray:
     """(..., m, 9) by which frame ends give way, rows and columns of the world's axes [m/N]; zero for fixed points."""
-    give, shape = frame_give(point), point.cables.length.shape
+    give = frame_give(point)
     if give is None:
-        return np.zeros((*shape, 9))
+        return np.zeros((*point.cables.length.shape, 9))
     matrix = (give.directions * give.compliance[..., None, :]) @ np.swapaxes(give.directions, -1, -2)
-    return np.asarray(matrix.reshape((*shape, 9)))
+    return np.asarray(matrix.reshape((*matrix.shape[:-2], 9)))

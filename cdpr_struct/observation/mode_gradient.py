@@ -1,9 +1,9 @@
 """How omega^2 of a mode changes with everything that the vibration depends on: Rayleigh's quotient, its field held.
 
-Of a mode of unit modal mass, d(omega^2) = dQ, Q twice the elastic energy less omega^2 times twice the kinetic energy per
-omega^2. Each cable's field is held as a function of the fraction of its length; a ramp follows its lever arm. A frame
-end that gives way by C under its reaction g changes Q by -g' dC g, also where nothing gave way before: a mast does so
-under the reactions of all its cables.
+Of a mode of unit modal mass, d(omega^2) = dQ, with Q = displacement^T (stiffness - omega^2 mass) displacement. Each
+cable's field is held as a function of the fraction of its length; a ramp follows its lever arm. A frame end that gives
+way by C under its reaction g changes Q by -g' dC g, also where nothing gave way before: a mast does so under the
+reactions of all its cables.
 """
 
 from dataclasses import dataclass
@@ -12,8 +12,18 @@ import numpy as np
 
 from cdpr_struct.observation.cable_fields import CableFields
 from cdpr_struct.observation.dependence import (
-    ARM, BENDING, CABLE_COLUMNS, DENSITY, EA, GIVE, LENGTH, MIDDLE, PULL, TIGHTENED, WEIGHT,
-)  # fmt: skip
+    ARM,
+    BENDING,
+    CABLE_COLUMNS,
+    DENSITY,
+    EA,
+    GIVE,
+    LENGTH,
+    MIDDLE,
+    PULL,
+    TIGHTENED,
+    WEIGHT,
+)
 from cdpr_struct.statics.masts import carriers
 
 
