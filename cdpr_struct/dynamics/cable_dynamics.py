@@ -59,10 +59,14 @@ def cable_dynamics(
         return StaticCables(point)
     if model == "dsm":
         return ClosedFormCables(taut_cables(point))
+    return CatenaryCables(expand_catenaries_at(point, polynomial_order(point, highest_omega, rough)))
+
+
+def polynomial_order(point: OperatingPoint, highest_omega: float, rough: bool = False) -> int:
+    """Order of the polynomials with which "exact" is as accurate as `cable_dynamics` says."""
     half_waves = highest_omega / _first_frequency(point).min()
     spare, least = (10.0, 14.0) if rough else (24.0, 32.0)
-    order = int(np.clip(2.0 * half_waves + spare, least, 400.0))
-    return CatenaryCables(expand_catenaries_at(point, order))
+    return int(np.clip(2.0 * half_waves + spare, least, 400.0))
 
 
 def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
@@ -74,11 +78,11 @@ def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
     extras = CableExtras(
         *(np.broadcast_to(value, shape).reshape(-1) for value in (robot.bending_stiffness, robot.added_mass))
     )
-    flat = _flattened(cables)
-    return expand_catenaries(flat, density, order, stiffness, _frame_ends(point), extras).reshaped(shape)
+    flat = flattened(cables)
+    return expand_catenaries(flat, density, order, stiffness, frame_ends(point), extras).reshaped(shape)
 
 
-def _flattened(cables: CableStates) -> CableStates:
+def flattened(cables: CableStates) -> CableStates:
     """The same cables with the batch of poses and m in one axis."""
     shape = cables.length.shape
 
@@ -102,28 +106,52 @@ def _first_frequency(point: OperatingPoint) -> np.ndarray:
     return np.pi / cables.chord * np.sqrt(cables.tension / point.arrays.linear_density)
 
 
-def _frame_ends(point: OperatingPoint) -> FrameEnds | None:
-    """How far frame ends give way along the cable: what is elastic in line, and the stretch of cable on a pulley."""
-    arrays = point.arrays
+def frame_ends(point: OperatingPoint) -> FrameEnds | None:
+    """The frame ends of all cables as springs; None where all are fixed points."""
+    give = frame_give(point)
+    if give is None:
+        return None
+    q = give.compliance.shape[-1]
+    spring = 1.0 / np.maximum(give.compliance, give.least)
+    return FrameEnds(give.directions.reshape(-1, 3, q), spring.reshape(-1, q))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FrameGive:
+    """How far frame ends give way: directions (..., m, 3, q), orthonormal, and compliance (..., m, q) [m/N] along them.
+
+    least : (..., m, q) compliance that counts as none
+    """
+
+    directions: np.ndarray
+    compliance: np.ndarray
+    least: np.ndarray
+
+
+def frame_give(point: OperatingPoint) -> FrameGive | None:
+    """Along the cable, by what is elastic in line and the stretch of cable on a pulley; across it where pulleys swivel.
+
+    None where all frame ends are fixed points.
+    """
+    arrays, cables = point.arrays, point.cables
     if not arrays.has_yielding_frame_ends:
         return None
-    cables = point.cables
-    tension = cables.tension_at_frame
+    tension, stiff = cables.tension_at_frame, cables.axial_stiffness
     tangent = cables.force_at_frame / tension[..., None]
-    stiff = cables.axial_stiffness
-    give = np.maximum(cables.wrapped_length, _SHORT * cables.length) / stiff
-    along = 1.0 / (give + arrays.series_compliance / (1.0 + tension / stiff))
-    directions, springs = [tangent], [along]
+    short = _SHORT * cables.length
+    directions, least = [tangent], [short / stiff]
+    gives = [cables.wrapped_length / stiff + arrays.series_compliance / (1.0 + tension / stiff)]
     if arrays.has_pulleys:
-        across, swivel = _swivel(arrays, cables, tangent)
+        across, per_arm, arm = _swivel(arrays, tension, tangent)
         directions.append(across)
-        springs.append(swivel)
-    q = len(springs)
-    return FrameEnds(np.stack(directions, axis=-1).reshape(-1, 3, q), np.stack(springs, axis=-1).reshape(-1, q))
+        gives.append(per_arm * arm)
+        least.append(per_arm * short)
+    stacked = (np.stack(np.broadcast_arrays(*parts), axis=-1) for parts in (directions, gives, least))
+    return FrameGive(*stacked)
 
 
-def _swivel(arrays: RobotArrays, cables: CableStates, tangent: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Direction (..., m, 3) across the wheel's plane and the stiffness (..., m) of the swivelling wheel there [N/m].
+def _swivel(arrays: RobotArrays, tension: np.ndarray, tangent: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Direction (..., m, 3) across the wheel's plane; compliance there (..., m) [m/N] per lever arm, and that arm [m].
 
     A cable that leaves the wheel at the angle phi from the axis pulls it back with T sin(phi) / (R (1 - cos(phi))). In
     the wheel's plane, rolling on or off the wheel is of second order: the exit is a fixed point.
@@ -131,8 +159,7 @@ def _swivel(arrays: RobotArrays, cables: CableStates, tangent: np.ndarray) -> tu
     cos = np.einsum("...mi,...mi->...m", tangent, arrays.pulley_axis)
     across = np.cross(arrays.pulley_axis, tangent)
     sin = np.linalg.norm(across, axis=-1)
-    arm = np.maximum(arrays.pulley_radius * (1.0 - cos), _SHORT * cables.length)
-    return across / sin[..., None], cables.tension_at_frame * sin / arm
+    return across / sin[..., None], 1.0 / (tension * sin), arrays.pulley_radius * (1.0 - cos)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -161,8 +188,9 @@ class StaticCables:
         ends = self._ends
         cables = ends.shape[:-2]
 
-        def shapes(stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            straight = np.broadcast_to(stations[:, None, None] * np.eye(3), (*cables, len(stations), 3, 3))
+        def shapes(stations: np.ndarray, derivative: int = 0) -> tuple[np.ndarray, np.ndarray]:
+            share = (stations, np.ones_like(stations), np.zeros_like(stations))[derivative]
+            straight = np.broadcast_to(share[:, None, None] * np.eye(3), (*cables, len(stations), 3, 3))
             return straight, np.zeros((*cables, 0, len(stations), 3))
 
         world = np.broadcast_to(np.eye(3), ends.shape)

@@ -117,7 +117,7 @@ def expand_catenaries(
         rigid_mass=_end_mass([(plane.components, plane.rigid_mass) for plane in planes]),
         rigid_end=_end_mass([(plane.components, plane.rigid_end) for plane in planes]),
         rigid_modes=_coupling([(plane.components, plane.rigid_modes) for plane in planes]),
-        shapes=lambda stations: _shapes(planes, coordinate.xi(stations), order),
+        shapes=lambda stations, derivative=0: _shapes(planes, coordinate, order, stations, derivative),
     )
     return found.ascending()
 
@@ -260,9 +260,15 @@ def _coupling(parts: list[tuple[tuple[int, ...], np.ndarray]]) -> np.ndarray:
     return np.concatenate(blocks, axis=1)
 
 
-def _shapes(planes: list[_Plane], xi: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
-    """Static shapes (m, s, 3, 3) and modes (m, p, s, 3) at the coordinates xi (m, s)."""
-    values, _ = _basis(xi, order)
+def _shapes(
+    planes: list[_Plane], coordinate: CatenaryCoordinate, order: int, stations: np.ndarray, derivative: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Static shapes (m, s, 3, 3) and modes (m, p, s, 3) as `Shapes` says; the second derivative for taut cables."""
+    xi = coordinate.xi(stations)
+    values, slopes = _basis(xi, order)
+    if derivative:
+        stretch = coordinate.length[:, None] / coordinate.arc(xi)[1]
+        values = slopes * stretch if derivative == 1 else _curvatures(xi, order) * stretch**2
     inner, ramp = values[:-1], values[-1]
     static = np.zeros((*xi.shape, 3, 3))
     blocks = []

@@ -4,12 +4,21 @@ In these coordinates the robot's eigenproblem is an ordinary matrix one: nothing
 frequency, so mode shapes are found there too.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
+from typing import Protocol
 
 import numpy as np
 
-Shapes = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+class Shapes(Protocol):
+    """Static shapes (..., m, s, 3, 3) [motion component, end component] and modes (..., m, p, s, 3) [kg^(-1/2)].
+
+    stations : (s,) in (0, 1), fractions of the unstrained cable from the frame; or (n, s), those of each of the n
+        cables of a whole batch
+    derivative : 0, 1 or 2 times by that fraction
+    """
+
+    def __call__(self, stations: np.ndarray, derivative: int = 0) -> tuple[np.ndarray, np.ndarray]: ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,8 +33,7 @@ class ModalExpansion:
     rigid_mass       : (..., m, 3, 3) of the cable moved as a whole with its mast [kg]
     rigid_end        : (..., m, 3, 3) mass coupling of static shapes (rows) and that motion [kg]
     rigid_modes      : (..., m, p, 3) mass coupling of modes and that motion [kg^(1/2)]
-    shapes           : stations (s,) in (0, 1), fractions of the cable from the frame -> static shapes (..., m, s, 3, 3)
-                       [motion component, end component] and modes (..., m, p, s, 3) [kg^(-1/2)]
+    shapes           : of the cables, see `Shapes`
     """
 
     frame: np.ndarray
@@ -73,8 +81,8 @@ class ModalExpansion:
         """The same expansion with each cable's modes in the order of frequency, which `reduced` needs."""
         rank = np.argsort(self.omega_squared, axis=-1)
 
-        def shapes(stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            static, modes = self.shapes(stations)
+        def shapes(stations: np.ndarray, derivative: int = 0) -> tuple[np.ndarray, np.ndarray]:
+            static, modes = self.shapes(stations, derivative)
             return static, np.take_along_axis(modes, rank[..., None, None], axis=-3)
 
         return replace(
@@ -99,8 +107,8 @@ class ModalExpansion:
         vectors, squared = _tail_vectors(fast, self.coupling[..., keep:, :])
         tail = np.swapaxes(vectors, -1, -2)
 
-        def shapes(stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            static, modes = self.shapes(stations)
+        def shapes(stations: np.ndarray, derivative: int = 0) -> tuple[np.ndarray, np.ndarray]:
+            static, modes = self.shapes(stations, derivative)
             condensed = np.einsum("...kp,...psa->...ksa", tail, modes[..., keep:, :, :], optimize=True)
             return static, np.concatenate([modes[..., :keep, :, :], condensed], axis=-3)
 
@@ -120,8 +128,8 @@ class ModalExpansion:
         def unfold(value: np.ndarray) -> np.ndarray:
             return value.reshape(shape + value.shape[1:])
 
-        def shapes(stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            static, modes = self.shapes(stations)
+        def shapes(stations: np.ndarray, derivative: int = 0) -> tuple[np.ndarray, np.ndarray]:
+            static, modes = self.shapes(stations, derivative)
             return unfold(static), unfold(modes)
 
         arrays = [f.name for f in fields(self) if f.name != "shapes"]

@@ -23,7 +23,9 @@ def expand_taut_cables(cables: TautCables, pairs: int) -> ModalExpansion:
     coupling = (mass[:, None] * scale)[..., None] * np.einsum("mpsc,mscb,s->mpb", raw, static, weights, optimize=True)
     end_mass = mass[:, None, None] * np.einsum("msca,mscb,s->mab", static, static, weights, optimize=True)
 
-    def shapes(stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def shapes(stations: np.ndarray, derivative: int = 0) -> tuple[np.ndarray, np.ndarray]:
+        if derivative:
+            raise ValueError(f"derivative of the closed form's shapes must be 0, got {derivative}")
         static = _static_shapes(cables, stations)
         static[:, :, 0, 0] = stations
         return static, scale[..., None, None] * _clamped_shapes(symmetric, stations)
