@@ -10,11 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
-from cdpr_struct.diagnosis.assembled import Layout, rows_of
+from cdpr_struct.diagnosis.assembled import stacked
 from cdpr_struct.diagnosis.hypotheses.cause import Cause, Pattern, Seen
 from cdpr_struct.diagnosis.hypotheses.laws import OUTSIDE, laws, patterns
 from cdpr_struct.diagnosis.hypothesis import PRICE, SCALES, Part
 from cdpr_struct.diagnosis.judge import Judged
+from cdpr_struct.diagnosis.layout import Layout
 from cdpr_struct.diagnosis.linearised import Local, Term
 from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.inference.scale_mixture import NoiseState
@@ -24,14 +25,14 @@ from cdpr_struct.inference.screening import gains as scaled_gains
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Offered:
-    """A cause with what its basic parameters do at a point, columns (K, n, d0) a unit, and its patterns.
+    """A cause with what its basic parameters do at a point, columns (K, n, d0) a shelf and unit, and its patterns.
 
     laws : of laws outside the model, what each pattern does to the rows of the states, (S, 6 + m, d)
     """
 
     cause: Cause
     patterns: tuple[Pattern, ...]
-    columns: np.ndarray
+    columns: list[np.ndarray]
     laws: tuple[np.ndarray, ...] = ()
 
     def part(self, i: int, scale: float) -> Part:
@@ -73,7 +74,8 @@ def offered(data: Recorded, where: Layout, seen: Seen, causes: Sequence[Cause], 
     for cause in causes:
         sigma = np.array([p.prior for p in cause.basic(seen)])
         own = local.columns(Term(cause.apply, np.eye(len(sigma)), sigma))
-        found.append(Offered(cause, tuple(cause.patterns(seen)), rows_of(where, own) / sigma))
+        columns = [part / sigma for part in stacked(where, own)]
+        found.append(Offered(cause, tuple(cause.patterns(seen)), columns))
     return [*found, *_laws(local, where)]
 
 
@@ -83,16 +85,21 @@ def _laws(local: Local, where: Layout) -> list[Offered]:
     if not found:
         return []
     columns = np.concatenate([law.columns for law in found], axis=-1)
-    return [Offered(OUTSIDE, patterns(found), rows_of(where, columns), tuple(law.columns for law in found))]
+    return [
+        Offered(
+            OUTSIDE, patterns(found), stacked(where, local.r.only_static(columns)), tuple(law.columns for law in found)
+        )
+    ]
 
 
 def gains(causes: Sequence[Offered], about: Judged, noise: NoiseState | None = None) -> list[Gains]:
     """What each cause adds to a hypothesis, best first; at other sizes of the noise than its own if given."""
     screen = Screen.of(about.model, about.fit.noise if noise is None else noise, about.fit.soft)
-    said = screen.screened(np.concatenate([cause.columns for cause in causes], axis=-1))
+    shelves = zip(*(cause.columns for cause in causes), strict=True)
+    said = screen.screened([np.concatenate(parts, axis=-1) for parts in shelves])
     rows, start = [], 0
     for cause in causes:
-        own = slice(start, start + cause.columns.shape[-1])
+        own = slice(start, start + cause.columns[0].shape[-1])
         start = own.stop
         rows.append(_gains(cause, said.gram[own, own], said.score[own]))
     return sorted(rows, key=lambda row: -row.total)

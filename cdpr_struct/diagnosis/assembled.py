@@ -1,109 +1,150 @@
-"""Rows and readings of a campaign laid out in blocks: the linear model that evidence is computed from.
-
-A block holds states that share a reading of their lengths. Its rows are those of its states, one after the other; its
-readings are pose and tensions of each state, and the lengths of all at the end.
-"""
-
-from dataclasses import dataclass
+"""The linear model that evidence is computed from: residuals, their slopes and columns, laid out in blocks."""
 
 import numpy as np
 
-from cdpr_struct.diagnosis.recorded import LENGTH, POSITION, ROTATION, TENSION, Recorded
-from cdpr_struct.inference.linear_model import LinearModel
-from cdpr_struct.inference.scale_mixture import NoiseGroups
+from cdpr_struct.association.association import Association
+from cdpr_struct.diagnosis.layout import Layout, Shelf
+from cdpr_struct.diagnosis.linearised import Local, Rows
+from cdpr_struct.inference.linear_model import LinearModel, Stack
+from cdpr_struct.inference.soft_rows import SoftExpectation
 
-FLOOR = (0.05, 2e-5)  # N, m: what catenary and rigid bodies miss of balance and lengths of the FEM, meshes refined
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Layout:
-    """Where the rows and readings of states stand in blocks.
-
-    block, place (S,) : of each state;  rows, width : of a block, padding included
-    groups : readings that fail together
-    """
-
-    block: np.ndarray
-    place: np.ndarray
-    rows: int
-    width: int
-    groups: NoiseGroups
-
-    @property
-    def blocks(self) -> int:
-        """K."""
-        return len(self.groups.index)
+FLOOR = (0.05, 2e-5, 3e-4)  # N, m, of ln f: what the model misses of the FEM's balance, lengths, frequencies
 
 
-def layout(data: Recorded) -> Layout:
-    """The layout of a campaign's static readings."""
-    states, own = data.states, 6 + data.cables
-    block, place = np.zeros(states, dtype=int), np.zeros(states, dtype=int)
-    for k, members in enumerate(data.blocks):
-        block[members], place[members] = k, np.arange(len(members))
-    most = max(len(members) for members in data.blocks)
-    width = most * own + data.cables
-    return Layout(block, place, most * own, width, _groups(data, block, place, width))
+def linear_model(local: Local, where: Layout) -> LinearModel:
+    """r = A u + X z about a point, referred to zero noise and zero numbers: r = R + A u0 + X z0."""
+    by_noise, columns = local.by_noise(), local.own_columns()
+    shift = shifts(local, by_noise, columns)
+    residual = Rows(local.r.static + shift.static, local.r.cables + shift.cables, local.r.robot)
+    stacks = []
+    for shelf in where.shelves:
+        r, x = of_shelf(where, shelf, residual), of_shelf(where, shelf, columns)
+        stacks.append(Stack(r, _noise(local, where, shelf, by_noise), x, _floor(where, shelf, r.shape), shelf.index,
+                            soft_rows(where, shelf, local)))  # fmt: skip
+    return LinearModel(tuple(stacks), where.groups)
 
 
-def _groups(data: Recorded, block: np.ndarray, place: np.ndarray, width: int) -> NoiseGroups:
-    """Position, rotation, and each tension of a state; each length of a block. What nobody read has its own size."""
-    index = np.full((len(data.blocks), width), -1)
-    kind: list[int] = []
-    fixed: list[float] = []
-
-    def add(sensor: int, state: int, which: slice, where: np.ndarray) -> None:
-        read = data.read[state, which]
-        ratio = data.unread[state, which] / data.sigma[state, which]
-        parts = [np.arange(len(where))] if read.all() else [np.array([i]) for i in range(len(where))]
-        for part in parts:
-            index[block[state], where[part]] = len(kind)
-            kind.append(sensor)
-            fixed.append(np.nan if read[part].all() else float(ratio[part].max() ** 2))
-
-    m, own = data.cables, 6 + data.cables
-    for s in range(data.states):
-        start = place[s] * own
-        add(POSITION, s, slice(0, 3), start + np.arange(3))
-        add(ROTATION, s, slice(3, 6), start + np.arange(3, 6))
-        for i in range(m):
-            add(TENSION, s, slice(6 + i, 7 + i), np.array([start + 6 + i]))
-    for members in data.blocks:
-        first = int(members[0])
-        for i in range(m):
-            add(LENGTH, first, slice(6 + m + i, 7 + m + i), np.array([width - m + i]))
-    return NoiseGroups(index, np.array(kind), np.array(fixed))
+def shifts(local: Local, by_noise: Rows, columns: Rows) -> Rows:
+    """A u0 + X z0: what noise and numbers of the point add to the residuals there."""
+    noise, z = local.point.noise, local.told()
+    static = np.einsum("srj,sj->sr", by_noise.static, noise) + columns.static @ z
+    if local.vibrating is None:
+        return Rows(static, local.r.cables, local.r.robot)
+    own = noise[local.vibrating.measured.states]
+    cables = np.einsum("rj,rj->r", by_noise.cables, own[local.vibrating.measured.rows.state]) + columns.cables @ z
+    robot = np.einsum("fmj,fj->fm", by_noise.robot, own) + columns.robot @ z
+    return Rows(static, cables, robot)
 
 
-def assembled(
-    data: Recorded, where: Layout, residual: np.ndarray, by_noise: np.ndarray, columns: np.ndarray
-) -> LinearModel:
-    """The linear model r = A u + X z of residuals (S, 6 + m), slopes (S, 6 + m, 6 + 2 m), columns (S, 6 + m, t)."""
-    own, m = 6 + data.cables, data.cables
-    k, n = where.blocks, where.rows
-    r, floor = np.zeros((k, n)), np.ones((k, n))
-    a, x = np.zeros((k, n, where.width)), np.zeros((k, n, columns.shape[-1]))
-    for s in range(data.states):
-        block, rows = where.block[s], slice(where.place[s] * own, (where.place[s] + 1) * own)
-        r[block, rows], floor[block, rows] = residual[s], np.repeat(FLOOR, (6, m))
-        a[block, rows, rows] = by_noise[s, :, :own]
-        a[block, rows, where.width - m :] = by_noise[s, :, own:]
-        x[block, rows] = columns[s]
-    return LinearModel(r, a, x, floor, where.groups, np.zeros(0, dtype=int))
+def of_shelf(where: Layout, shelf: Shelf, rows: Rows) -> np.ndarray:
+    """Rows (or columns) as they stand in the blocks of a shelf, (K, n, ...)."""
+    extra = rows.static.shape[2:]
+    k = len(shelf.states)
+    parts = []
+    for index, values in ((shelf.states, rows.static), (shelf.cables, rows.cables), (shelf.vibrating, rows.robot)):
+        if index.shape[1]:
+            own = np.where((index >= 0).reshape((*index.shape, *(1,) * (values.ndim - 1))), values[index], 0.0)
+            parts.append(own.reshape((k, -1, *extra)))
+    return np.concatenate(parts, axis=1)
 
 
-def rows_of(where: Layout, columns: np.ndarray) -> np.ndarray:
-    """Columns (S, 6 + m, d) as they stand in blocks (K, n, d)."""
-    own = columns.shape[1]
-    found = np.zeros((where.blocks, where.rows, columns.shape[-1]))
-    for s, (block, place) in enumerate(zip(where.block, where.place, strict=True)):
-        found[block, place * own : (place + 1) * own] = columns[s]
+def stacked(where: Layout, rows: Rows) -> list[np.ndarray]:
+    """Columns as they stand in the blocks of every shelf."""
+    return [of_shelf(where, shelf, rows) for shelf in where.shelves]
+
+
+def _noise(local: Local, where: Layout, shelf: Shelf, by_noise: Rows) -> np.ndarray:
+    """(K, n, q) what readings do: those of a state to its rows, lengths to all, each cable frequency to its own."""
+    own, m = 6 + where.m, where.m
+    slopes = of_shelf(where, shelf, by_noise)
+    k, n, _ = slopes.shape
+    (_, p), (_, c) = shelf.states.shape, shelf.cables.shape
+    found = np.zeros((k, n, shelf.index.shape[1]))
+    found[..., p * own : p * own + m] = slopes[..., own:]
+    place = _places(local, shelf, n, own)
+    for j in range(p):
+        found[..., j * own : (j + 1) * own] = np.where((place == j)[..., None], slopes[..., :own], 0.0)
+    if c and local.vibrating is not None:
+        sigma = np.where(shelf.cables >= 0, local.vibrating.measured.sigma[shelf.cables], 0.0)
+        for j in range(c):
+            found[:, p * own + j, p * own + m + j] = sigma[:, j]
+    found[np.broadcast_to((shelf.index < 0)[:, None, :], found.shape)] = 0.0
     return found
 
 
-def noise_of_states(data: Recorded, where: Layout, noise: np.ndarray) -> np.ndarray:
-    """(S, 6 + 2 m) noise of each state's readings from that of the blocks (K, q)."""
-    own, m = 6 + data.cables, data.cables
-    starts = where.place[:, None] * own + np.arange(own)
-    of_state = np.take_along_axis(noise[where.block], starts, axis=1)
-    return np.concatenate([of_state, noise[where.block, where.width - m :]], axis=1)
+def _places(local: Local, shelf: Shelf, rows: int, own: int) -> np.ndarray:
+    """(K, n) which state of its block each row belongs to."""
+    k, p = shelf.states.shape
+    place = np.zeros((k, rows), dtype=int)
+    place[:, : p * own] = np.repeat(np.arange(p), own)
+    if local.vibrating is None or p == 1:
+        return place
+    measured, c = local.vibrating.measured, shelf.cables.shape[1]
+    of_cables = measured.states[measured.rows.state[shelf.cables]] if c else np.zeros((k, 0), dtype=int)
+    of_robot = np.repeat(measured.states[shelf.vibrating], local.r.robot.shape[1], axis=1)
+    state = np.concatenate([of_cables, of_robot], axis=1)
+    place[:, p * own :] = (shelf.states[:, None, :] == state[:, :, None]).argmax(axis=-1)
+    return place
+
+
+def _floor(where: Layout, shelf: Shelf, shape: tuple[int, ...]) -> np.ndarray:
+    """(K, n)."""
+    floor = np.ones(shape)
+    own, (_, p), (_, c) = 6 + where.m, shelf.states.shape, shelf.cables.shape
+    state = np.repeat(FLOOR[:2], (6, where.m))
+    floor[:, : p * own] = np.where(np.repeat(shelf.states >= 0, own, axis=1), np.tile(state, p), 1.0)
+    floor[:, p * own : p * own + c] = np.where(shelf.cables >= 0, FLOOR[2], 1.0)
+    return floor
+
+
+def soft_rows(where: Layout, shelf: Shelf, local: Local) -> np.ndarray:
+    """(s,) rows of the robot's modes in the blocks of a shelf."""
+    start = shelf.states.shape[1] * (6 + where.m) + shelf.cables.shape[1]
+    return start + np.arange(shelf.vibrating.shape[1] * local.r.robot.shape[1])
+
+
+class Lists:
+    """Lists of peaks as soft rows of a linear model, whose predictions refer to zero noise and numbers.
+
+    shift (F, M) : prediction of ln f at the point of linearisation;  columns (F, M, t) of it
+    """
+
+    def __init__(self, association: Association, shift: np.ndarray, columns: np.ndarray, shelf: Shelf) -> None:
+        self.association, self.shift, self.columns, self.shelf = association, shift, columns, shelf
+
+    def copy(self) -> "Lists":
+        """The same lists, to be assigned anew."""
+        return Lists(self.association.at(), self.shift, self.columns, self.shelf)
+
+    @classmethod
+    def of(cls, local: Local, where: Layout) -> "Lists | None":
+        """None without peaks."""
+        found = None if local.vibrating is None else local.vibrating.association()
+        if found is None:
+            return None
+        columns = local.own_columns()
+        shift = shifts(local, local.by_noise(), columns).robot
+        shelf = next(shelf for shelf in where.shelves if shelf.vibrating.shape[1])
+        return cls(found, shift, columns.robot, shelf)
+
+    def expect(self, mean: np.ndarray, variance: np.ndarray, predictive: bool | None = None) -> SoftExpectation:
+        """As `Association.expect`, for rows (K, s) of the shelf's blocks."""
+        said = self.association.expect(self._modes(mean) - self.shift, self._modes(variance), predictive)
+        return SoftExpectation(self._rows(said.value + self.shift), self._rows(said.precision), said.constant)
+
+    def at_point(self, covariance: np.ndarray) -> SoftExpectation:
+        """As if the modes were those of the point, as sure as numbers z of a covariance (t, t) are."""
+        variance = np.einsum("fmt,tu,fmu->fm", self.columns, covariance, self.columns, optimize=True)
+        return self.expect(self._rows(self.shift), self._rows(variance), False)
+
+    def _modes(self, rows: np.ndarray) -> np.ndarray:
+        """(F, M) from (K, s)."""
+        k, v = np.nonzero(self.shelf.vibrating >= 0)
+        found = np.zeros_like(self.shift)
+        found[self.shelf.vibrating[k, v]] = rows.reshape((*self.shelf.vibrating.shape, -1))[k, v]
+        return found
+
+    def _rows(self, modes: np.ndarray) -> np.ndarray:
+        """(K, s) from (F, M)."""
+        index = self.shelf.vibrating
+        return np.where((index >= 0)[..., None], modes[index], 0.0).reshape((len(index), -1))

@@ -5,13 +5,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cdpr_struct.diagnosis.assembled import Layout, assembled, noise_of_states
+from cdpr_struct.diagnosis.assembled import Lists, linear_model
 from cdpr_struct.diagnosis.hypothesis import Hypothesis
+from cdpr_struct.diagnosis.layout import Layout, noise_of_states
 from cdpr_struct.diagnosis.linearised import Local, Point
 from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.inference.evidence import Fit, fit
 from cdpr_struct.inference.linear_model import LinearModel
 from cdpr_struct.inference.scale_mixture import NoiseState
+from cdpr_struct.inference.soft_rows import SoftExpectation
 
 PASSES = 3  # linearisations at most; the steps shrink by ten and more each
 WORTH = 0.1  # nats: by so much must another start be better to be followed
@@ -22,12 +24,14 @@ _SETTLED = 0.2  # sigmas: a point that moves less is where it was
 class Judged:
     """A hypothesis with its evidence: fitted numbers, and the linear model about the point they were found from.
 
+    lists : peaks of the robot as they were assigned, None without any
     moved : by how many sigmas the likeliest numbers lie from that point, at most
     """
 
     hypothesis: Hypothesis
     point: Point
     model: LinearModel
+    lists: Lists | None
     fit: Fit
     moved: float
 
@@ -65,17 +69,19 @@ def judged(
 
 
 def extended(
-    data: Recorded, where: Layout, base: Judged, more: Hypothesis, columns: np.ndarray, noise: NoiseState
+    data: Recorded, where: Layout, base: Judged, more: Hypothesis, columns: Sequence[np.ndarray], noise: NoiseState
 ) -> Judged:
-    """A hypothesis with one more cause than a judged one, columns (K, n, d) of its numbers about the same point."""
+    """A hypothesis with one more cause than a judged one, columns (K, n, d) of its numbers a shelf."""
     point = _with_terms(data, more, base.point)
-    found = _of_model(data, where, more, point, base.model.with_columns(columns), noise)
+    model = base.model.with_columns(columns)
+    found = _of_model(data, where, more, point, model, noise, _copied(base.lists), base.fit.soft)
     return settled(data, where, found)
 
 
 def again(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> Judged:
     """A hypothesis from other sizes of the noise, about the point that it has; the better of both."""
-    other = _of_model(data, where, found.hypothesis, found.point, found.model, noise)
+    point, model, lists = found.point, found.model, _copied(found.lists)
+    other = _of_model(data, where, found.hypothesis, point, model, noise, lists, found.fit.soft)
     if other.log_evidence < found.log_evidence + WORTH:
         return found
     return settled(data, where, other)
@@ -86,8 +92,12 @@ def settled(data: Recorded, where: Layout, found: Judged) -> Judged:
     for _ in range(PASSES):
         if found.moved < _SETTLED:
             break
-        found = _fitted(data, where, found.hypothesis, found.likeliest(data, where), found.fit.noise)
+        found = _fitted(data, where, found.hypothesis, found.likeliest(data, where), found.fit.noise, found)
     return found
+
+
+def _copied(lists: Lists | None) -> Lists | None:
+    return None if lists is None else lists.copy()
 
 
 def _with_terms(data: Recorded, hypothesis: Hypothesis, start: Point) -> Point:
@@ -100,26 +110,26 @@ def _with_terms(data: Recorded, hypothesis: Hypothesis, start: Point) -> Point:
     return point
 
 
-def _fitted(data: Recorded, where: Layout, hypothesis: Hypothesis, point: Point, noise: NoiseState | None) -> Judged:
-    return _of_model(data, where, hypothesis, point, linear_model(data, where, point), noise)
+def _fitted(
+    data: Recorded, where: Layout, hypothesis: Hypothesis, point: Point, noise: NoiseState | None,
+    before: Judged | None = None,
+) -> Judged:  # fmt: skip
+    """Linearised about a point; peaks assigned there as sure as numbers are after an earlier fit, if any."""
+    local = Local.about(data, point)
+    model, lists = linear_model(local, where), Lists.of(local, where)
+    sure = None if before is None or lists is None else lists.at_point(before.fit.z_covariance)
+    return _of_model(data, where, hypothesis, point, model, noise, lists, sure)
 
 
 def _of_model(
-    data: Recorded, where: Layout, hypothesis: Hypothesis, point: Point, model: LinearModel, noise: NoiseState | None
-) -> Judged:
-    found = fit(model, noise, one_sided=hypothesis.positive(point))
+    data: Recorded, where: Layout, hypothesis: Hypothesis, point: Point, model: LinearModel,
+    noise: NoiseState | None, lists: Lists | None, assigned: SoftExpectation | None,
+) -> Judged:  # fmt: skip
+    found = fit(model, noise, lists, assigned, hypothesis.positive(point))
     there = noise_of_states(data, where, found.noise_mean)
     by_noise = np.abs(there - point.noise)[data.read].max(initial=0.0)
     moved = max(float(np.abs(found.z_mean - np.concatenate(point.z)).max()), float(by_noise))
-    return Judged(hypothesis, point, model, found, moved)
-
-
-def linear_model(data: Recorded, where: Layout, point: Point) -> LinearModel:
-    """Residuals about a point, referred to zero noise and zero numbers: r = R + A u0 + X z0."""
-    local = Local.about(data, point)
-    by_noise, columns = local.by_noise(), local.own_columns()
-    shift = np.einsum("srj,sj->sr", by_noise, point.noise) + columns @ local.told()
-    return assembled(data, where, local.r + shift, by_noise, columns)
+    return Judged(hypothesis, point, model, lists, found, moved)
 
 
 def best(found: Sequence[Judged]) -> Judged:

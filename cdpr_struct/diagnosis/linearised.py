@@ -7,13 +7,14 @@ With the true readings y - n and numbers z of the robot the residual R(n, z) is 
 Each block of states that share a reading has rows and noise of its own; z belongs to all.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.diagnosis.tolerances import tolerance_count, tolerated
+from cdpr_struct.diagnosis.vibrations import Vibrating
 from cdpr_struct.observation.nearby_rest import NearbyRest
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.robot.robot_arrays import RobotArrays
@@ -94,63 +95,98 @@ def less(data: Recorded, readings: Readings, noise: np.ndarray) -> Readings:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Local:
-    """A campaign about a point: the robot and the readings there, and the states at rest near it.
+class Rows:
+    """Residuals, or their columns with one more axis (d).
 
-    r (S, 6 + m) : residuals at the point
+    static (S, 6 + m, ...) [N, m];  cables (r, ...) : ln f of single cables;  robot (F, M, ...) : predictions of the
+    robot's ln f, against which peaks are held
+    """
+
+    static: np.ndarray
+    cables: np.ndarray
+    robot: np.ndarray
+
+    @classmethod
+    def joined(cls, parts: Sequence["Rows"]) -> "Rows":
+        """Columns side by side."""
+        return cls(*(np.concatenate([getattr(p, f.name) for p in parts], axis=-1) for f in fields(cls)))
+
+    def times(self, z: np.ndarray) -> "Rows":
+        """Columns times numbers z (d,), or (d, e)."""
+        return Rows(self.static @ z, self.cables @ z, self.robot @ z)
+
+    def only_static(self, columns: np.ndarray) -> "Rows":
+        """Columns (S, 6 + m, d) of what acts on static rows alone, in the form of these residuals."""
+        d = columns.shape[-1]
+        return Rows(columns, np.zeros((*self.cables.shape, d)), np.zeros((*self.robot.shape, d)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Local:
+    """A campaign about a point: the robot and the readings there, and the states near it, at rest and vibrating.
+
+    r : residuals at the point; of the robot's frequencies zero, as they are predictions
     """
 
     data: Recorded
     point: Point
     arrays: RobotArrays
     nearby: NearbyRest
-    r: np.ndarray
+    vibrating: Vibrating | None
+    r: Rows
 
     @classmethod
     def about(cls, data: Recorded, point: Point) -> "Local":
         """The states that the readings less their noise mean for the point's robot."""
         arrays, readings = point.robot(data), point.readings(data)
         nearby = NearbyRest.about(arrays, readings, data.known, data.radius)
-        return cls(data, point, arrays, nearby, nearby.residuals(arrays, readings))
+        found, measured = None, data.vibrations
+        cables, robot = np.zeros(0), np.zeros((0, 0))
+        if measured is not None:
+            found = Vibrating.about(data.campaign, data.known, measured, arrays, readings)
+            cables, robot = measured.log_hertz - found.cables.log_hertz, np.zeros_like(found.log_hertz)
+        return cls(data, point, arrays, nearby, found, Rows(nearby.residuals(arrays, readings), cables, robot))
 
-    def by_noise(self) -> np.ndarray:
-        """(S, 6 + m, 6 + 2 m) -dR/du, each reading of all states moved at once."""
+    def by_noise(self) -> Rows:
+        """-dR/du, each reading of all states moved at once: d = 6 + 2 m."""
         steps = _STEP * np.eye(self.data.sigma.shape[1])[:, None, :]
-        found = self.nearby.residuals(self.arrays, self.point.readings(self.data, steps))
-        return self._slope(found)
+        return self._slope(self.arrays, self.point.readings(self.data, steps), len(steps))
 
-    def columns(self, term: Term) -> np.ndarray:
-        """-dR/dz (S, 6 + m, d) of one more term, from zero."""
+    def columns(self, term: Term) -> Rows:
+        """-dR/dz of one more term, from zero."""
         if term.columns is not None:
-            return term.columns
-        return self._moved(term.applied(self.arrays, _STEP * np.eye(len(term.sigma))[:, None, :]), len(term.sigma))
+            return self.r.only_static(term.columns)
+        moved = term.applied(self.arrays, _STEP * np.eye(len(term.sigma))[:, None, :])
+        return self._slope(moved, self.point.readings(self.data), len(term.sigma))
 
-    def moved(self, change: Change, step: float) -> np.ndarray:
-        """-dR (S, 6 + m, 3) by each of three numbers of a change, a unit."""
-        return self.columns(Term(change, np.eye(3), np.full(3, step))) / step
+    def of_three(self, change: Change, step: float) -> np.ndarray:
+        """-dR (S, 6 + m, 3) of the static rows by each of three numbers of a change, a unit."""
+        return self.columns(Term(change, np.eye(3), np.full(3, step))).static / step
 
-    def own_columns(self) -> np.ndarray:
-        """-dR/dz (S, 6 + m, t) of the point's own terms, at their numbers."""
-        parts = []
+    def own_columns(self) -> Rows:
+        """-dR/dz of the point's own terms, at their numbers."""
+        parts, readings = [], self.point.readings(self.data)
         for i, term in enumerate(self.point.terms):
             if term.columns is not None:
-                parts.append(term.columns)
+                parts.append(self.r.only_static(term.columns))
                 continue
             arrays = self.data.arrays
             for j, (other, z) in enumerate(zip(self.point.terms, self.point.z, strict=True)):
                 steps = z + _STEP * np.eye(len(z))[:, None, :] if i == j else z[None]
                 arrays = other.applied(arrays, steps)
-            parts.append(self._moved(arrays, len(term.sigma)))
-        return np.concatenate(parts, axis=-1)
+            parts.append(self._slope(arrays, readings, len(term.sigma)))
+        return Rows.joined(parts)
 
     def told(self) -> np.ndarray:
         """(t,) numbers of the point's terms that the robot there has; zero those of laws outside the model."""
         pairs = zip(self.point.terms, self.point.z, strict=True)
         return np.concatenate([z if term.columns is None else 0.0 * z for term, z in pairs])
 
-    def _moved(self, arrays: RobotArrays, count: int) -> np.ndarray:
-        found = self.nearby.residuals(arrays, self.point.readings(self.data))
-        return self._slope(np.broadcast_to(found, (count, *self.r.shape)))
-
-    def _slope(self, found: np.ndarray) -> np.ndarray:
-        return -np.moveaxis(found - self.r, 0, -1) / _STEP
+    def _slope(self, arrays: RobotArrays, readings: Readings, count: int) -> Rows:
+        """-dR by `count` steps of size `_STEP`, which robots or readings (count, ...) have taken."""
+        found = np.broadcast_to(self.nearby.residuals(arrays, readings), (count, *self.r.static.shape))
+        static = np.moveaxis(self.r.static - found, 0, -1) / _STEP
+        if self.vibrating is None:
+            return self.r.only_static(static)
+        cables, robot = self.vibrating.changes(arrays, readings, count)
+        return Rows(static, np.moveaxis(cables, 0, -1) / _STEP, np.moveaxis(robot, 0, -1) / _STEP)

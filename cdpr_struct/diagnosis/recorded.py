@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cdpr_struct.diagnosis.vibrations import Vibrations, vibrations
 from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.measurement.campaign import Campaign
@@ -18,7 +19,7 @@ from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.tensioned_cables import tensioned
 
-POSITION, ROTATION, TENSION, LENGTH = range(4)
+POSITION, ROTATION, TENSION, LENGTH, CABLE_FREQUENCY = range(5)
 """Kinds of sensors: what shares a size of its noise."""
 _UNREAD_LENGTH = 1.0  # m, one sigma of a length that nobody read: nothing is known of it
 _UNREAD_POSE = (1.0, 0.5)  # m, rad, of a pose that nobody read
@@ -32,6 +33,7 @@ class Recorded:
     sigma (S, 6 + 2 m) : stated, of position and rotation [m, rad], tensions [N], lengths [m]
     read (S, 6 + 2 m) : bool, whether the reading exists;  unread (S, 6 + 2 m) : one sigma of it if not
     blocks : states that share a reading of lengths, in order of the campaign
+    vibrations : frequencies, None without any
     """
 
     campaign: Campaign
@@ -43,6 +45,7 @@ class Recorded:
     read: np.ndarray
     unread: np.ndarray
     blocks: tuple[np.ndarray, ...]
+    vibrations: Vibrations | None
 
     @property
     def cables(self) -> int:
@@ -79,7 +82,7 @@ def recorded(campaign: Campaign) -> Recorded:
     unread = [np.repeat([_UNREAD_POSE], len(mean), axis=0).repeat(3, axis=1), mean, np.full_like(mean, _UNREAD_LENGTH)]
     return Recorded(
         campaign, arrays, readings, known, arm_scale(arrays), np.concatenate([pose, tension, length], axis=1), read,
-        np.concatenate(unread, axis=1), _blocks(states.lock),
+        np.concatenate(unread, axis=1), _blocks(states.lock), vibrations(campaign),
     )  # fmt: skip
 
 

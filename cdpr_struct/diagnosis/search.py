@@ -12,13 +12,13 @@ import numpy as np
 from scipy.special import logsumexp
 
 from cdpr_struct.diagnosis.alternatives import Gains, Offered, gains, offered
-from cdpr_struct.diagnosis.assembled import Layout, layout
 from cdpr_struct.diagnosis.hypotheses.cause import Cause, Seen
 from cdpr_struct.diagnosis.hypotheses.drift import AMPLITUDES
 from cdpr_struct.diagnosis.hypothesis import Hypothesis
 from cdpr_struct.diagnosis.judge import Judged, again, extended, judged
+from cdpr_struct.diagnosis.layout import Layout, layout
 from cdpr_struct.diagnosis.recorded import Recorded
-from cdpr_struct.inference.evidence import fit
+from cdpr_struct.inference.evidence import bound_at, fit
 from cdpr_struct.inference.scale_mixture import NoiseState
 
 
@@ -108,16 +108,17 @@ class Search:
     def _rich(self, menu: Sequence[Offered], base: Judged) -> NoiseState:
         """Sizes of the noise where every cause may act at once: what none of them explains."""
         known = [cause for cause in menu if not cause.laws]
-        columns = [cause.columns * cause.patterns[-1].prior.max() for cause in known]
-        everything = base.model.with_columns(np.concatenate(columns, axis=-1))
-        return fit(everything, base.fit.noise).noise
+        columns = [[part * cause.patterns[-1].prior.max() for part in cause.columns] for cause in known]
+        everything = base.model.with_columns([np.concatenate(parts, axis=-1) for parts in zip(*columns, strict=True)])
+        lists = None if base.lists is None else base.lists.copy()
+        return fit(everything, base.fit.noise, lists, base.fit.soft).noise
 
     def _screened(self, menu: Sequence[Offered], bases: Sequence[Judged], rich: NoiseState | None) -> list[_Screened]:
         """The best of each cause beside every base, at its own noise and at the rich one; best first."""
         best: dict[str, _Screened] = {}
         for base in bases:
             for noise in [base.fit.noise, *([rich] if rich is not None else [])]:
-                bound = base.log_evidence if noise is base.fit.noise else fit(base.model, noise).bounds[0]
+                bound = base.log_evidence if noise is base.fit.noise else bound_at(base.model, noise, base.fit.soft)
                 for row in gains(menu, base, noise):
                     score = bound + base.hypothesis.log_prior + row.total
                     if row.cause.name not in best or score > best[row.cause.name].score:
@@ -132,7 +133,7 @@ class Search:
                 part = row.gains.part
                 more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
                 self.spread[more.key] = row.gains.spread
-                own = columns[part.cause.name] @ part.pattern.basis * part.term.sigma
+                own = [shelf @ part.pattern.basis * part.term.sigma for shelf in columns[part.cause.name]]
                 self.keep(extended(self.data, self.where, row.base, more, own, row.noise))
 
     def _ranked(self, causes: int | None = None) -> list[Judged]:

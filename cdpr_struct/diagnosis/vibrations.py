@@ -9,15 +9,14 @@ from cdpr_struct.association.detection import clutter, robot_detection
 from cdpr_struct.association.doubles import detection_of_doubles
 from cdpr_struct.association.modes import robot_modes
 from cdpr_struct.association.peaks import PeakList, PeakLists, padded
-from cdpr_struct.diagnosis.recorded import Recorded
-from cdpr_struct.inference.soft_rows import SoftExpectation
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.cable_modes import CableModes, CableRows, cable_modes_at, cable_rates
 from cdpr_struct.observation.circumstances import Circumstances
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.observation.rest import rest
 from cdpr_struct.observation.robot_modes import VibratingModes, modes_at, rates
 from cdpr_struct.observation.vibrating import of_states, vibrating
-from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _BELOW = 0.7  # of the lowest peak: where somebody who picked it began to look
@@ -42,9 +41,9 @@ class Vibrations:
     highest: np.ndarray
 
 
-def vibrations(data: Recorded) -> Vibrations | None:
+def vibrations(campaign: Campaign) -> Vibrations | None:
     """The frequencies of a campaign; None if it has none."""
-    cables, robot = data.campaign.cable_frequencies, data.campaign.robot_frequencies
+    cables, robot = campaign.cable_frequencies, campaign.robot_frequencies
     states = np.unique(np.concatenate([cables.state, robot.state])).astype(int)
     if not states.size:
         return None
@@ -64,22 +63,24 @@ def vibrations(data: Recorded) -> Vibrations | None:
 class Vibrating:
     """Frequencies that the model has in the states where some were measured, and how they change near a point."""
 
-    data: Recorded
+    states: int
     measured: Vibrations
     known: Circumstances
     cables: CableModes
     robot: VibratingModes | None
 
     @classmethod
-    def about(cls, data: Recorded, measured: Vibrations, arrays: RobotArrays, readings: Readings) -> "Vibrating":
+    def about(
+        cls, campaign: Campaign, known: Circumstances, measured: Vibrations, arrays: RobotArrays, readings: Readings
+    ) -> "Vibrating":
         """At the robot and readings (S) of a point."""
-        known = data.known.at(measured.states)
-        point = _point(data, measured, known, arrays, readings)
+        known, states = known.at(measured.states), len(campaign.states.names)
+        point = _point(states, measured, known, arrays, readings)
         robot = None
         if measured.peaks is not None:
-            massless = data.campaign.model == "static"
-            robot = modes_at(point, measured.highest, data.campaign.assembly, "static" if massless else "exact")
-        return cls(data, measured, known, cable_modes_at(point, measured.rows), robot)
+            massless = campaign.model == "static"
+            robot = modes_at(point, measured.highest, campaign.assembly, "static" if massless else "exact")
+        return cls(states, measured, known, cable_modes_at(point, measured.rows), robot)
 
     @property
     def log_hertz(self) -> np.ndarray:
@@ -88,7 +89,7 @@ class Vibrating:
 
     def changes(self, arrays: RobotArrays, readings: Readings, count: int) -> tuple[np.ndarray, np.ndarray]:
         """Changes of ln f, of cable modes (count, r) and the robot's (count, F, M), for nearby robots or readings."""
-        point = _point(self.data, self.measured, self.known, arrays, readings)
+        point = _point(self.states, self.measured, self.known, arrays, readings)
         ones = np.ones(count)
         own = cable_rates(self.cables, point, ones)
         if self.robot is None:
@@ -108,26 +109,11 @@ class Vibrating:
 
 
 def _point(
-    data: Recorded, measured: Vibrations, known: Circumstances, arrays: RobotArrays, readings: Readings
+    states: int, measured: Vibrations, known: Circumstances, arrays: RobotArrays, readings: Readings
 ) -> OperatingPoint:
     """States where vibration was measured, (..., F)."""
     some = Readings(
         np.take(readings.position, measured.states, axis=-2), np.take(readings.rotation, measured.states, axis=-3),
         np.take(readings.tension, measured.states, axis=-2), np.take(readings.length, measured.states, axis=-2),
     )  # fmt: skip
-    return vibrating(rest(of_states(arrays, measured.states, data.states), some, known), known)
-
-
-class Shifted:
-    """Lists of peaks as soft rows whose predictions refer to the robot as entered, not to the point.
-
-    shift (F, M) : prediction of ln f at the point less its value there
-    """
-
-    def __init__(self, association: Association, shift: np.ndarray) -> None:
-        self.association, self.shift = association, shift
-
-    def expect(self, mean: np.ndarray, variance: np.ndarray, predictive: bool | None = None) -> SoftExpectation:
-        """As `Association.expect`."""
-        said = self.association.expect(mean - self.shift, variance, predictive)
-        return SoftExpectation(said.value + self.shift, said.precision, said.constant)
+    return vibrating(rest(of_states(arrays, measured.states, states), some, known), known)

@@ -77,15 +77,15 @@ class _Parts:
     @classmethod
     def of(cls, local: Local) -> "_Parts":
         data, m = local.data, local.data.cables
-        by_noise = local.by_noise()
+        by_noise = local.by_noise().static
         sigma, read = data.sigma, data.read
         readings, known = data.readings, data.known
         spread = np.maximum(readings.position.std(axis=0), 1e-3)
         turn = Rotation.from_matrix(readings.rotation).as_rotvec()
         tension = by_noise[..., 6 : 6 + m] / sigma[:, None, 6 : 6 + m] * read[:, None, 6 : 6 + m]
         length = by_noise[..., 6 + m :] / sigma[:, None, 6 + m :] * read[:, None, 6 + m :]
-        moved = local.moved(lambda arrays, z: plus(arrays, force=z), 0.1)
-        placed = local.moved(lambda arrays, z: plus(arrays, center_of_mass=z), 1e-4)
+        moved = local.of_three(lambda arrays, z: plus(arrays, force=z), 0.1)
+        placed = local.of_three(lambda arrays, z: plus(arrays, center_of_mass=z), 1e-4)
         return cls(
             pose=by_noise[..., :6] * read[:, None, :6], tension=tension, length=length, force=moved, place=placed,
             position=(readings.position - readings.position.mean(axis=0)) / spread,
