@@ -32,6 +32,7 @@ STEPS = {
 }  # fmt: skip
 STEP = 1e-6  # m, or the unit of what is not named: a millionth, so that close modes do not veer
 TENSION_STEP = 1e-3  # N
+NOISE = 1e-12  # rounding of ln omega, a few differences summed
 
 
 @dataclass(frozen=True)
@@ -140,12 +141,13 @@ def test_rates_of_robot_modes_are_derivatives_of_the_full_computation(case):
     order = polynomial_order(point, 1.3 * highest, rough="everything" not in case)
 
     def log_omega(points: OperatingPoint) -> np.ndarray:
-        return np.log(ritz_modes(points, expand_catenaries_at(points, order), count).omega)
+        return np.log(ritz_modes(points, expand_catenaries_at(points, order).reduced(1.3 * highest), count).omega)
 
     for name in READINGS + tuple(n for n in ACTING if n not in skipped(state)):
         expected, step = derivative(state, name, log_omega)
         found = rates(modes, nearby(state, name, step), np.array([1e-2 * step]))[0, 0, :count]
-        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-4 * np.abs(expected).max(), err_msg=name)
+        atol = 1e-4 * np.abs(expected).max() + NOISE / step
+        np.testing.assert_allclose(found, expected, rtol=0, atol=atol, err_msg=name)
 
 
 def skipped(state: State) -> set[str]:
@@ -173,7 +175,8 @@ def test_rates_on_massless_cables_are_derivatives_too(case):
     for name in READINGS + tuple(n for n in ACTING if n not in skipped(state) | {"added_mass", "bending_stiffness"}):
         expected, step = derivative(state, name, log_omega)
         found = rates(modes, nearby(state, name, step), np.array([1e-2 * step]))[0, 0]
-        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-4 * np.abs(expected).max(), err_msg=name)
+        atol = 1e-4 * np.abs(expected).max() + NOISE / step
+        np.testing.assert_allclose(found, expected, rtol=0, atol=atol, err_msg=name)
 
 
 @pytest.mark.parametrize("case", STATES)
@@ -191,8 +194,8 @@ def test_rates_of_cable_modes_are_derivatives_of_the_full_computation(case):
     for name in READINGS + tuple(n for n in ACTING if n not in skipped(state)):
         expected, step = derivative(state, name, log_omega)
         found = cable_rates(modes, nearby(state, name, step), np.array([1e-2 * step]))[0]
-        size = max(float(np.abs(expected).max()), 1e-9)
-        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-4 * size, err_msg=name)
+        atol = 1e-4 * np.abs(expected).max() + NOISE / step
+        np.testing.assert_allclose(found, expected, rtol=0, atol=atol, err_msg=name)
 
 
 @pytest.mark.parametrize("name", sorted(IDLE))
@@ -232,13 +235,13 @@ def test_cable_modes_of_one_plane_are_the_clamped_cables_own():
 def test_modes_that_symmetry_makes_equal_share_the_rate_of_their_mean():
     """Four-fold symmetry about the vertical: pairs of equal frequencies, which EA of one cable splits."""
     state = symmetric()
-    modes = modes_at(single(state), np.array([60.0]))
+    modes = modes_at(single(state), np.array([200.0]))
     log = modes.log_hertz[0][modes.mask[0]]
     pairs = np.flatnonzero(np.diff(log) < 1e-8)
     assert len(pairs) > 3
 
     def log_omega(points: OperatingPoint) -> np.ndarray:
-        order = polynomial_order(single(state), 78.0, rough=True)
+        order = polynomial_order(single(state), 260.0, rough=True)
         return np.log(ritz_modes(points, expand_catenaries_at(points, order), len(log)).omega)
 
     expected, step = derivative(state, "axial_stiffness", log_omega)
