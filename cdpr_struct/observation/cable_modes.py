@@ -53,19 +53,23 @@ def cable_modes_at(point: OperatingPoint, rows: CableRows) -> CableModes:
         return CableModes(rows, np.zeros(0), nothing, nothing)
     if rows.mode.min() < 1:
         raise ValueError(f"mode numbers count from 1, got {int(rows.mode.min())}")
-    one = _one_cable_each(point, rows)
+    pairs, place = np.unique(np.stack([rows.state, rows.cable]), axis=1, return_inverse=True)
+    one, place = _one_cable_each(point, *pairs), place.reshape(-1)
     slack = float((one.cables.weight * one.cables.length / one.cables.tension).max())
     order = _SPARE + _PER_HALF_WAVE * int(rows.mode.max()) + int(_SAG * slack)
     expansion = expand_catenaries_at(one, order)
-    number = _numbers(expansion.shapes(np.linspace(0.0, 1.0, _STATIONS)[1:-1])[1][:, 0], rows)
-    squared = np.take_along_axis(expansion.omega_squared[:, 0], number[:, None], axis=-1)
-    own = np.zeros((len(number), 1, 1, expansion.omega_squared.shape[-1]))
-    own[np.arange(len(number)), 0, 0, number] = 1.0
-    still = np.zeros((len(number), 1, 1, 3))
+    number = _numbers(expansion.shapes(np.linspace(0.0, 1.0, _STATIONS)[1:-1])[1][:, 0], place, rows)
+    rank = _ranks(place)
+    squared = np.ones((len(one.position), rank.max() + 1))
+    squared[place, rank] = expansion.omega_squared[place, 0, number]
+    own = np.zeros((*squared.shape, 1, expansion.omega_squared.shape[-1]))
+    own[place, rank, 0, number] = 1.0
+    still = np.zeros((*squared.shape, 1, 3))
     now = cable_dependence(one)
     moved = cable_gradient(now, fields_of_expansion(one, order, expansion, still, own, still), squared)
-    gradient = moved.columns[:, 0, 0] / (2.0 * squared)
-    return CableModes(rows, np.log(np.sqrt(squared[:, 0]) / (2.0 * np.pi)), now[:, 0], gradient)
+    mine = squared[place, rank]
+    gradient = moved.columns[place, 0, rank] / (2.0 * mine[:, None])
+    return CableModes(rows, np.log(np.sqrt(mine) / (2.0 * np.pi)), now[place, 0], gradient)
 
 
 def cable_rates(modes: CableModes, points: OperatingPoint, steps: np.ndarray) -> np.ndarray:
@@ -76,13 +80,13 @@ def cable_rates(modes: CableModes, points: OperatingPoint, steps: np.ndarray) ->
     return np.asarray(change / np.asarray(steps, dtype=float)[:, None])
 
 
-def _one_cable_each(point: OperatingPoint, rows: CableRows) -> OperatingPoint:
-    """(r,) operating points of one cable, that of each row."""
+def _one_cable_each(point: OperatingPoint, state: np.ndarray, cable: np.ndarray) -> OperatingPoint:
+    """(u,) operating points of one cable: `cable` (u,) in `state` (u,)."""
     shape = point.cables.length.shape
 
     def picked(value: np.ndarray, core: int) -> np.ndarray:
         whole = np.broadcast_to(value, shape + value.shape[value.ndim - core :])
-        return whole[rows.state, rows.cable][:, None]
+        return whole[state, cable][:, None]
 
     own = {}
     for name, rule in PARAMETERS.items():
@@ -90,16 +94,25 @@ def _one_cable_each(point: OperatingPoint, rows: CableRows) -> OperatingPoint:
         if rule.shape[:1] == (CABLES,) and name != "masts":
             own[name] = picked(value, rule.axes - 1)
         elif value.ndim > rule.axes:
-            own[name] = np.broadcast_to(value, shape[:-1] + value.shape[value.ndim - rule.axes :])[rows.state]
+            own[name] = np.broadcast_to(value, shape[:-1] + value.shape[value.ndim - rule.axes :])[state]
     arrays: RobotArrays = replace(point.arrays, **own, masts=np.eye(1))
     cables = point.cables
     states = {f.name: picked(getattr(cables, f.name), f.name in ("offset", "heading")) for f in fields(cables)}
-    return OperatingPoint(arrays, point.position[rows.state], point.rotation[rows.state], type(cables)(**states))
+    return OperatingPoint(arrays, point.position[state], point.rotation[state], type(cables)(**states))
 
 
-def _numbers(shapes: np.ndarray, rows: CableRows) -> np.ndarray:
-    """(r,) place in the expansion of each row's mode; shapes (r, p, s, 3) of all modes, local axes."""
+def _numbers(shapes: np.ndarray, place: np.ndarray, rows: CableRows) -> np.ndarray:
+    """(r,) which mode of the expansion each row's is; shapes (u, p, s, 3) of all modes, local axes."""
     energy = (shapes**2).sum(axis=-2)
     sideways = energy[..., 1] > 0.5 * energy.sum(axis=-1)
-    mine = np.cumsum(sideways != rows.in_plane[:, None], axis=-1)
+    mine = np.cumsum(sideways[place] != rows.in_plane[:, None], axis=-1)
     return np.asarray((mine == rows.mode[:, None]).argmax(axis=-1))
+
+
+def _ranks(place: np.ndarray) -> np.ndarray:
+    """(r,) how many rows before have the same place."""
+    order = np.argsort(place, kind="stable")
+    starts = np.flatnonzero(np.diff(place[order], prepend=-1))
+    rank = np.empty(len(place), dtype=int)
+    rank[order] = np.arange(len(place)) - np.repeat(starts, np.diff(starts, append=len(place)))
+    return rank

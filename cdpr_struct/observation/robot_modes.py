@@ -8,7 +8,7 @@ from cdpr_struct.dynamics.cable_dynamics import CableModel, StaticCables, expand
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import RitzModes, ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
-from cdpr_struct.observation.cable_fields import CableFields, fields_of_expansion, massless_fields
+from cdpr_struct.observation.cable_fields import fields_of_expansion, massless_fields
 from cdpr_struct.observation.dependence import BENDING, TIGHTENED, Dependence
 from cdpr_struct.observation.mode_gradient import CableGradient, cable_gradient, whole_gradient
 
@@ -47,13 +47,13 @@ def modes_at(
     Raises
     ------
     UnstableEquilibriumError : a state is unstable.
-    ValueError : the model is "dsm", whose fields are not known to it.
+    ValueError : the model is neither "exact" nor "static".
     """
     limit = BEYOND * np.asarray(highest_omega, dtype=float)
     now = Dependence.of(point, assembly)
     if model == "static":
         shapes = ritz_modes(point, StaticCables(point).expansion(0.0), 6, assembly)
-        own = cable_gradient(now.cables, _massless(point, shapes), 0.0 * shapes.omega, shapes.platform[..., 3:])
+        own = _massless_gradient(point, shapes, now.cables)
         limit = np.full_like(limit, np.inf)
     elif model == "exact":
         shapes, own = _catenary_modes(point, float(limit.max()), assembly, now.cables)
@@ -91,19 +91,20 @@ def _catenary_modes(
     if not point.arrays.bending_stiffness.any():
         return shapes, own
     static = fields_of_expansion(point, order, expansion, shapes.end, 0.0 * shapes.modal, shapes.mast).at_rest
-    flexible = (
-        cables.copy()
-    )  # the static stiffness of the platform's ends is that of cables which do not resist bending
-    flexible[..., [TIGHTENED, BENDING]] = 1.0, 0.0
-    plain = cable_gradient(flexible, _massless(point, shapes), 0.0 * squared, turn)
-    plain.columns[..., [TIGHTENED, BENDING]] = 0.0
-    return shapes, own.plus(cable_gradient(cables, static, 0.0 * squared, turn), -1.0).plus(plain)
+    bent = cable_gradient(cables, static, 0.0 * squared, turn)
+    return shapes, own.plus(bent, -1.0).plus(_massless_gradient(point, shapes, cables))  # K(0) knows no bending
 
 
-def _massless(point: OperatingPoint, shapes: RitzModes) -> CableFields:
+def _massless_gradient(point: OperatingPoint, shapes: RitzModes, cables: np.ndarray) -> CableGradient:
+    """Of the energy in cables without mass that do not resist bending, at the ends' motion of these modes."""
     frame, local = shapes.expansion.frame, shapes.expansion.static_stiffness
-    force = (frame @ local)[..., None, :, :, :] @ shapes.end[..., None]
-    return massless_fields(point, _STATIC_ORDER, force[..., 0])
+    force = ((frame @ local)[..., None, :, :, :] @ shapes.end[..., None])[..., 0]
+    flexible = cables.copy()
+    flexible[..., [TIGHTENED, BENDING]] = 1.0, 0.0
+    fields = massless_fields(point, _STATIC_ORDER, force)
+    found = cable_gradient(flexible, fields, 0.0 * shapes.omega, shapes.platform[..., 3:])
+    found.columns[..., [TIGHTENED, BENDING]] = 0.0
+    return found
 
 
 def _first(shapes: RitzModes, count: int) -> RitzModes:

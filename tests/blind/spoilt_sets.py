@@ -163,4 +163,6 @@ def read_case(kind: SpoiltKind, real: Reality, seed: tuple[int, ...]) -> Case:
         tables = filed(real.plan, real.seen, real.deviations, noise, picker=picker)
         said = f"{peaks.said} {spoil_peak_tables(ways, tables, spoiler)}"
     truth = truth_record(kind.reality, real.robot, real.effects, real.deviations)
-    return Case(real.robot, tables, truth | {"way": kind.way, "group": kind.group, "spoilt": said})
+    asked = max((multiple for _, multiple in kind.reality.effects), default=0.0)
+    truth |= {"way": kind.way, "group": kind.group, "spoilt": said, "asked": asked}
+    return Case(real.robot, tables, truth | {"by_size": kind.way in (MOTIONLESS, VIBRATING)})

@@ -28,10 +28,11 @@ IDLE = {
 STEPS = {
     "axial_stiffness": 30.0, "mass": 1e-3, "series_compliance": 2e-10, "frame_compliance": 2e-11, "hose": 1e-2,
     "linear_density": 2e-7, "bending_stiffness": 1e-4, "added_mass": 3e-6, "gravity": 1e-4, "inertia": 1e-5,
-    "tilt": 1e-5,
+    "tilt": 1e-4,
 }  # fmt: skip
 STEP = 1e-6  # m, or the unit of what is not named: a millionth, so that close modes do not veer
 TENSION_STEP = 1e-3  # N
+NOISE = 1e-12  # rounding of ln omega, a few differences summed
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,7 @@ def _rest(name: str) -> int:
     return PARAMETERS[name].axes - (PARAMETERS[name].shape[:1] == ("m",))
 
 
-def state_of(name: str, **more: float) -> State:
+def state_of(name: str, **more: float | np.ndarray) -> State:
     """A pose off the middle; extensions alike for all cables."""
     robot = load_robot(name)
     arrays, m = RobotArrays.of(robot), len(robot.cables)
@@ -98,7 +99,7 @@ def single(state: State) -> OperatingPoint:
 
 EXTENDED = {
     "pulley_radius": 0.05, "series_compliance": 5e-7, "frame_compliance": 3e-7, "bending_stiffness": 2.0,
-    "added_mass": 0.02, "hose": 500.0,
+    "added_mass": 0.02, "hose": 500.0, "center_of_mass": np.array([0.05, -0.02, 0.08]),
 }  # fmt: skip
 STATES: dict[str, Callable[[], State]] = {
     "six cables": lambda: state_of("six-cable-4mm"),
@@ -140,12 +141,13 @@ def test_rates_of_robot_modes_are_derivatives_of_the_full_computation(case):
     order = polynomial_order(point, 1.3 * highest, rough="everything" not in case)
 
     def log_omega(points: OperatingPoint) -> np.ndarray:
-        return np.log(ritz_modes(points, expand_catenaries_at(points, order), count).omega)
+        return np.log(ritz_modes(points, expand_catenaries_at(points, order).reduced(1.3 * highest), count).omega)
 
     for name in READINGS + tuple(n for n in ACTING if n not in skipped(state)):
         expected, step = derivative(state, name, log_omega)
         found = rates(modes, nearby(state, name, step), np.array([1e-2 * step]))[0, 0, :count]
-        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-4 * np.abs(expected).max(), err_msg=name)
+        atol = 1e-4 * np.abs(expected).max() + NOISE / step
+        np.testing.assert_allclose(found, expected, rtol=0, atol=atol, err_msg=name)
 
 
 def skipped(state: State) -> set[str]:
@@ -161,19 +163,21 @@ def first_string(point: OperatingPoint) -> float:
     return float((np.pi / point.cables.chord * np.sqrt(point.cables.tension / point.arrays.linear_density)).min())
 
 
+@pytest.mark.parametrize("assembly", ["consistent", "thesis"])
 @pytest.mark.parametrize("case", ["six cables", "everything gives way"])
-def test_rates_on_massless_cables_are_derivatives_too(case):
+def test_rates_on_massless_cables_are_derivatives_too(case, assembly):
     state = STATES[case]()
-    modes = modes_at(single(state), np.array([1.0]), model="static")
+    modes = modes_at(single(state), np.array([1.0]), assembly, "static")
     assert modes.mask.sum() == 6
 
     def log_omega(points: OperatingPoint) -> np.ndarray:
-        return np.log(ritz_modes(points, StaticCables(points).expansion(0.0), 6).omega)
+        return np.log(ritz_modes(points, StaticCables(points).expansion(0.0), 6, assembly).omega)
 
     for name in READINGS + tuple(n for n in ACTING if n not in skipped(state) | {"added_mass", "bending_stiffness"}):
         expected, step = derivative(state, name, log_omega)
         found = rates(modes, nearby(state, name, step), np.array([1e-2 * step]))[0, 0]
-        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-4 * np.abs(expected).max(), err_msg=name)
+        atol = 1e-4 * np.abs(expected).max() + NOISE / step
+        np.testing.assert_allclose(found, expected, rtol=0, atol=atol, err_msg=name)
 
 
 @pytest.mark.parametrize("case", STATES)
@@ -191,8 +195,8 @@ def test_rates_of_cable_modes_are_derivatives_of_the_full_computation(case):
     for name in READINGS + tuple(n for n in ACTING if n not in skipped(state)):
         expected, step = derivative(state, name, log_omega)
         found = cable_rates(modes, nearby(state, name, step), np.array([1e-2 * step]))[0]
-        size = max(float(np.abs(expected).max()), 1e-9)
-        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-4 * size, err_msg=name)
+        atol = 1e-4 * np.abs(expected).max() + NOISE / step
+        np.testing.assert_allclose(found, expected, rtol=0, atol=atol, err_msg=name)
 
 
 @pytest.mark.parametrize("name", sorted(IDLE))
@@ -232,13 +236,13 @@ def test_cable_modes_of_one_plane_are_the_clamped_cables_own():
 def test_modes_that_symmetry_makes_equal_share_the_rate_of_their_mean():
     """Four-fold symmetry about the vertical: pairs of equal frequencies, which EA of one cable splits."""
     state = symmetric()
-    modes = modes_at(single(state), np.array([60.0]))
+    modes = modes_at(single(state), np.array([200.0]))
     log = modes.log_hertz[0][modes.mask[0]]
     pairs = np.flatnonzero(np.diff(log) < 1e-8)
     assert len(pairs) > 3
 
     def log_omega(points: OperatingPoint) -> np.ndarray:
-        order = polynomial_order(single(state), 78.0, rough=True)
+        order = polynomial_order(single(state), 260.0, rough=True)
         return np.log(ritz_modes(points, expand_catenaries_at(points, order), len(log)).omega)
 
     expected, step = derivative(state, "axial_stiffness", log_omega)

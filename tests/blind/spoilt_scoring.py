@@ -1,0 +1,85 @@
+"""What was said about spoilt campaigns: right, and wrong with confidence, for every way of spoiling or every size."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+import numpy as np
+
+from tests.blind.answers import LARGEST_AMBIGUOUS_CLASS, right_class, wrong_confident_class, wrong_confident_name
+from tests.blind.intervals import share
+from tests.blind.scoring import Scored
+
+WHOLE = "whole set"
+
+
+def spoilt_right(case: Scored) -> bool:
+    """A null is adequate; what was hidden is named, or in a class of at most four names."""
+    if case.kind == "null":
+        return case.answer.status == "adequate"
+    return right_class(case.answer, case.hidden, LARGEST_AMBIGUOUS_CLASS)
+
+
+def condition(case: Scored) -> str:
+    """The row of the table in which a case counts: its way and, where sizes are the question, its multiple."""
+    way, asked = str(case.truth["way"]), float(case.truth["asked"])
+    return f"{way}, {asked:g}x" if case.truth["by_size"] else way
+
+
+def spoilt_figures(cases: list[Scored]) -> dict[str, Any]:
+    """Figures of every condition and of the whole set."""
+    rows: dict[str, list[Scored]] = {}
+    for case in cases:
+        rows.setdefault(condition(case), []).append(case)
+    ordered = {name: rows[name] for name in sorted(rows, key=_order)}
+    return {name: _figures(own) for name, own in ordered.items()} | {WHOLE: _figures(cases)}
+
+
+def _order(name: str) -> tuple[bool, str, float]:
+    way, _, size = name.partition(", ")
+    return way != "clean", way, float(size.removesuffix("x") or 0.0)
+
+
+def _figures(cases: list[Scored]) -> dict[str, Any]:
+    nulls, singles = ([case for case in cases if case.kind == kind] for kind in ("null", "single"))
+    return {
+        "right": share([spoilt_right(case) for case in cases]),
+        "nulls_right": share([spoilt_right(case) for case in nulls]),
+        "singles_right": share([spoilt_right(case) for case in singles]),
+        "wrong_confident_name": share([wrong_confident_name(case.answer, case.hidden) for case in cases]),
+        "wrong_confident_class": share([wrong_confident_class(case.answer, case.hidden) for case in cases]),
+        "statuses": dict(sorted(Counter(case.answer.status for case in cases).items())),
+        "seconds_median": float(np.median([case.answer.seconds for case in cases])) if cases else None,
+        "seconds_largest": float(max(case.answer.seconds for case in cases)) if cases else None,
+    }
+
+
+COUNTED = ("right", "nulls_right", "singles_right", "wrong_confident_name", "wrong_confident_class")
+
+
+def spoilt_page(scores: dict[str, Any]) -> str:
+    """The figures as a table (Markdown), and every case that is not right."""
+    run, figures = scores["run"], scores["figures"]
+    lines = [f"# Spoilt campaigns, set `{run['set']}`", "", f"Budget `{run['budget']}`, {run['date']}.", ""]
+    lines += ["| condition | right | nulls | singles | wrong name, P > .9 | wrong class, P > .9 | failed | median s |"]
+    lines += ["|---" * 8 + "|"]
+    for name, row in figures.items():
+        counts = " | ".join(f"{row[key]['successes']} of {row[key]['cases']}" for key in COUNTED)
+        lines.append(f"| {name} | {counts} | {row['statuses'].get('failed', 0)} | {row['seconds_median']:.1f} |")
+    lines += ["", "| case | robot | condition | hidden | size | said | probability |", "|---" * 7 + "|"]
+    for row in scores["rows"]:
+        if not row["right"]:
+            said = "; ".join(" or ".join(names) for names in row["said"])
+            chance = "" if row["probability"] is None else f"{row['probability']:.2f}"
+            cells = (row["case"], row["robot"], row["condition"], " + ".join(row["hidden"]) or "nothing")
+            lines.append(
+                "| " + " | ".join((*cells, f"{row['multiple']:.3g}", f"{row['status']} {said}", chance)) + " |"
+            )
+    return "\n".join(lines) + "\n"
+
+
+def spoilt_rows(cases: list[Scored], rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Rows of `scoring.case_rows` with the condition, and what counts as right here."""
+    pairs = zip(cases, rows, strict=True)
+    return [row | {"condition": condition(case), "right": spoilt_right(case)} for case, row in pairs]
