@@ -73,7 +73,7 @@ def extended(
 ) -> Judged:
     """A hypothesis with one more cause than a judged one, columns (K, n, d) of its numbers a shelf."""
     point = _with_terms(data, more, base.point)
-    model = base.model.with_columns(columns)
+    model = base.model.with_columns(columns[0])
     found = _of_model(data, where, more, point, model, noise, _copied(base.lists), base.fit.soft)
     return settled(data, where, found)
 
