@@ -3,9 +3,9 @@
 import numpy as np
 
 from cdpr_struct.association.association import Association
+from cdpr_struct.diagnosis import padding
 from cdpr_struct.diagnosis.layout import Layout, Shelf
 from cdpr_struct.diagnosis.linearised import Local, Rows
-from cdpr_struct.diagnosis import padding
 from cdpr_struct.diagnosis.padding import Stack
 from cdpr_struct.inference.linear_model import LinearModel
 from cdpr_struct.inference.soft_rows import SoftExpectation
@@ -134,14 +134,17 @@ class Lists:
         shelf = next(shelf for shelf in where.shelves if shelf.vibrating.shape[1])
         found_ = cls(found, shift, columns.robot, shelf)
         found_.blocks = sum(len(one.states) for one in where.shelves)
-        found_.first = sum(len(one.states) for one in where.shelves[: where.shelves.index(shelf)]) if False else next(sum(len(o.states) for o in where.shelves[:i]) for i, o in enumerate(where.shelves) if o is shelf)
+        found_.first = (
+            sum(len(one.states) for one in where.shelves[: where.shelves.index(shelf)])
+            if False
+            else next(sum(len(o.states) for o in where.shelves[:i]) for i, o in enumerate(where.shelves) if o is shelf)
+        )
         return found_
 
     def expect(self, mean: np.ndarray, variance: np.ndarray, predictive: bool | None = None) -> SoftExpectation:
         """As `Association.expect`, for rows (K, s) of the shelf's blocks."""
         said = self.association.expect(self._modes(mean) - self.shift, self._modes(variance), predictive)
         return SoftExpectation(self._rows(said.value + self.shift), self._rows(said.precision), said.constant)
-
 
     def at_point(self, covariance: np.ndarray) -> SoftExpectation:
         """As if the modes were those of the point, as sure as numbers z of a covariance (t, t) are."""

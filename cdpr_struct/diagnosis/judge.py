@@ -50,6 +50,19 @@ class Judged:
         return np.split(value, np.cumsum([len(term.sigma) for term in self.point.terms])[:-1], axis=-1)
 
     @property
+    def rows(self) -> int:
+        """Number of rows that are read directly, padding left out."""
+        return int((self.model.A.any(axis=2) & self.model.hard).sum())
+
+    @property
+    def misfit(self) -> float:
+        """Sum of squares of the noise and the numbers that explain the data, in stated and prior sigmas."""
+        read = np.isnan(self.model.groups.fixed_variance)[self.model.groups.index] & (self.model.groups.index >= 0)
+        causes = sum(len(part.pattern.prior) for part in self.hypothesis.parts)
+        z = self.fit.z_mean[: len(self.fit.z_mean) - causes]
+        return float((self.fit.noise_mean[read] ** 2).sum() + z @ z)
+
+    @property
     def sizes(self) -> list[np.ndarray]:
         """z of each cause, in sigmas of its prior at its scale."""
         return self.split(self.fit.z_mean)[len(self.point.terms) - len(self.hypothesis.parts) :]

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.diagnosis.recorded import CABLE_FREQUENCY, LENGTH, POSITION, ROTATION, TENSION, Recorded
-from cdpr_struct.inference.scale_mixture import NoiseGroups
 
 
 @dataclass(frozen=True, slots=True, eq=False)

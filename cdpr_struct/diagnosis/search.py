@@ -12,12 +12,13 @@ import numpy as np
 from scipy.special import logsumexp
 
 from cdpr_struct.diagnosis.alternatives import Gains, Offered, gains, offered
-from cdpr_struct.diagnosis.hypotheses.cause import Cause, Seen
 from cdpr_struct.diagnosis.hypotheses.drift import AMPLITUDES
+from cdpr_struct.diagnosis.hypotheses.library import testable
 from cdpr_struct.diagnosis.hypothesis import Hypothesis
 from cdpr_struct.diagnosis.judge import Judged, again, extended, judged
 from cdpr_struct.diagnosis.layout import Layout, layout
 from cdpr_struct.diagnosis.recorded import Recorded
+from cdpr_struct.diagnosis.seen import seen_in
 from cdpr_struct.inference.evidence import fit
 from cdpr_struct.inference.scale_mixture import NoiseState
 
@@ -61,8 +62,9 @@ class _Screened:
 class Search:
     """Hypotheses of one campaign, each with the best fit found so far."""
 
-    def __init__(self, data: Recorded, seen: Seen, causes: Sequence[Cause], budget: Budget) -> None:
-        self.data, self.seen, self.causes, self.budget = data, seen, list(causes), budget
+    def __init__(self, data: Recorded, budget: Budget) -> None:
+        self.data, self.seen, self.budget = data, seen_in(data), budget
+        self.causes, self.hidden = testable(self.seen, data.campaign.checked)
         self.where: Layout = layout(data)
         self.found: dict[tuple[object, ...], Judged] = {}
         self.spread: dict[tuple[object, ...], float] = {}
