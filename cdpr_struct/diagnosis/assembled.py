@@ -143,15 +143,23 @@ class Lists:
 
     def expect(self, mean: np.ndarray, variance: np.ndarray, predictive: bool | None = None) -> SoftExpectation:
         """As `Association.expect`, for rows (K, s) of the shelf's blocks."""
-        said = self.association.expect(self._modes(mean) - self.shift, self._modes(variance), predictive)
+        said = self.association.expect(self.of_modes(mean) - self.shift, self.of_modes(variance), predictive)
         return SoftExpectation(self._rows(said.value + self.shift), self._rows(said.precision), said.constant)
+
+    @property
+    def left(self) -> float:
+        """Expected number of peaks that belong to no mode, as they were last assigned."""
+        assignment = self.association.assignment
+        if assignment is None:
+            return 0.0
+        return float(self.association.peaks.count.sum() - assignment.number.sum())
 
     def at_point(self, covariance: np.ndarray) -> SoftExpectation:
         """As if the modes were those of the point, as sure as numbers z of a covariance (t, t) are."""
         variance = np.einsum("fmt,tu,fmu->fm", self.columns, covariance, self.columns, optimize=True)
         return self.expect(self._rows(self.shift), self._rows(variance), False)
 
-    def _modes(self, rows: np.ndarray) -> np.ndarray:
+    def of_modes(self, rows: np.ndarray) -> np.ndarray:
         """(F, M) from (K, s)."""
         k, v = np.nonzero(self.shelf.vibrating >= 0)
         found = np.zeros_like(self.shift)

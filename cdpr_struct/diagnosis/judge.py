@@ -81,6 +81,19 @@ def judged(
     return settled(data, where, _fitted(data, where, hypothesis, point, noise))
 
 
+def begun(data: Recorded, where: Layout, base: Judged, more: Hypothesis, z: np.ndarray) -> Judged:
+    """A hypothesis with one more cause than a judged one, from the numbers z of that cause on."""
+    start = base.likeliest(data, where)
+    point = replace(start.with_term(more.parts[-1].term, z), noise=start.noise)
+    local = Local.about(data, point)
+    model, lists = linear_model(local, where), Lists.of(local, where)
+    covariance = np.zeros((model.parameters, model.parameters))
+    known = len(base.fit.z_mean)
+    covariance[:known, :known] = base.fit.z_covariance
+    assigned = None if lists is None else lists.at_point(covariance)
+    return settled(data, where, _of_model(data, where, more, point, model, base.fit.noise, lists, assigned))
+
+
 def extended(
     data: Recorded, where: Layout, base: Judged, more: Hypothesis, columns: Sequence[np.ndarray], noise: NoiseState
 ) -> Judged:

@@ -15,9 +15,10 @@ from cdpr_struct.diagnosis.alternatives import Gains, Offered, gains, offered
 from cdpr_struct.diagnosis.hypotheses.drift import AMPLITUDES
 from cdpr_struct.diagnosis.hypotheses.library import testable
 from cdpr_struct.diagnosis.hypothesis import Hypothesis
-from cdpr_struct.diagnosis.judge import Judged, again, extended, judged
+from cdpr_struct.diagnosis.judge import Judged, again, begun, extended, judged
 from cdpr_struct.diagnosis.layout import Layout, layout
 from cdpr_struct.diagnosis.recorded import Recorded
+from cdpr_struct.diagnosis.scan import beginnings
 from cdpr_struct.diagnosis.seen import seen_in
 from cdpr_struct.inference.evidence import fit
 from cdpr_struct.inference.scale_mixture import NoiseState
@@ -83,6 +84,7 @@ class Search:
         menu = offered(self.data, self.where, self.seen, self.causes, base)
         rows = self._screened(menu, nulls, self._rich(menu, base))
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
+        self._begin(menu, base)
         self._transfer()
         for first in self._ranked(1)[: self.budget.beginnings]:
             self._pairs(first)
@@ -137,6 +139,12 @@ class Search:
                 self.spread[more.key] = row.gains.spread
                 own = [shelf @ part.pattern.basis * part.term.sigma for shelf in columns[part.cause.name]]
                 self.keep(extended(self.data, self.where, row.base, more, own, row.noise))
+
+    def _begin(self, menu: Sequence[Offered], base: Judged) -> None:
+        """Fits of large changes that would put peaks right."""
+        for one in beginnings(self.data, menu, base, self.budget.beginnings):
+            more = Hypothesis((*base.hypothesis.parts, one.part), base.hypothesis.drift)
+            self.keep(begun(self.data, self.where, base, more, one.z))
 
     def _ranked(self, causes: int | None = None) -> list[Judged]:
         own = [one for one in self.found.values() if causes is None or len(one.hypothesis.parts) == causes]
