@@ -76,6 +76,7 @@ def test_one_stray_peak_is_enough_to_find_a_large_change_about_one_axis(tmp_path
     assert found.selection.fit.ground.strays == pytest.approx(0.0, abs=0.1)
 
 
+@pytest.mark.slow
 def test_rivals_are_looked_for_in_the_world_that_explains_everything(tmp_path):
     """A cell 15 N too high beside half the inertia: gain or zero in three states, and nothing does what inertia does.
 
