@@ -1,4 +1,4 @@
-"""`diagnose` and `plan` as a script uses them, on the thesis's own table of tensions."""
+"""`diagnose` and `plan` as a script uses them: their second examples, level poses of the thesis's table of tensions."""
 
 import json
 import re
@@ -12,14 +12,13 @@ from cdpr_struct.cli.main import run
 from cdpr_struct.reports import diagnosis_result
 from cdpr_struct.reports.diagnosis_tables import next_table
 
-CAMPAIGN = str(Path(__file__).parents[2] / "examples" / "table-4-4" / "campaign.toml")
-LEVEL = str(Path(__file__).parents[2] / "examples" / "table-4-4" / "level.toml")
+EXAMPLES = Path(__file__).parents[2] / "examples"
+CAMPAIGN = str(EXAMPLES / "table-4-4" / "campaign.toml")
 
 
 @pytest.fixture(scope="module")
-def level(tmp_path_factory):
-    out = tmp_path_factory.mktemp("diagnose")
-    assert run(["diagnose", LEVEL, "--out", str(out)]) == 0
+def level(runs):
+    out = runs("diagnose", 1)
     return json.loads((out / "result.json").read_text()), out
 
 
@@ -55,10 +54,8 @@ def test_inclined_pose_contradicts_its_own_forces(capsys):
 
 
 @pytest.fixture(scope="module")
-def plan(tmp_path_factory):
-    out = tmp_path_factory.mktemp("plan")
-    assert run(["plan", LEVEL, "--out", str(out)]) == 0
-    return json.loads((out / "result.json").read_text())
+def plan(runs):
+    return json.loads((runs("plan", 1) / "result.json").read_text())
 
 
 def test_plan_lists_sizes_and_confusions(plan):
@@ -84,7 +81,7 @@ def test_plan_says_what_to_measure_next(plan):
 def one_state(tmp_path_factory):
     """Five robot frequencies at one pose, no tension read."""
     out = tmp_path_factory.mktemp("one-state")
-    assert run(["diagnose", str(Path(LEVEL).parents[1] / "section-4-3-3" / "simulated.toml"), "--out", str(out)]) == 0
+    assert run(["diagnose", str(EXAMPLES / "section-4-3-3" / "simulated.toml"), "--out", str(out)]) == 0
     return json.loads((out / "result.json").read_text()), out
 
 
