@@ -50,6 +50,19 @@ class Judged:
         return np.split(value, np.cumsum([len(term.sigma) for term in self.point.terms])[:-1], axis=-1)
 
     @property
+    def rows(self) -> int:
+        """Number of rows that are read directly, padding left out."""
+        return int((self.model.A.any(axis=2) & self.model.hard).sum())
+
+    @property
+    def misfit(self) -> float:
+        """Sum of squares of the noise and the numbers that explain the data, in stated and prior sigmas."""
+        read = np.isnan(self.model.groups.fixed_variance)[self.model.groups.index] & (self.model.groups.index >= 0)
+        causes = sum(len(part.pattern.prior) for part in self.hypothesis.parts)
+        z = self.fit.z_mean[: len(self.fit.z_mean) - causes]
+        return float((self.fit.noise_mean[read] ** 2).sum() + z @ z)
+
+    @property
     def sizes(self) -> list[np.ndarray]:
         """z of each cause, in sigmas of its prior at its scale."""
         return self.split(self.fit.z_mean)[len(self.point.terms) - len(self.hypothesis.parts) :]
@@ -73,7 +86,7 @@ def extended(
 ) -> Judged:
     """A hypothesis with one more cause than a judged one, columns (K, n, d) of its numbers a shelf."""
     point = _with_terms(data, more, base.point)
-    model = base.model.with_columns(columns)
+    model = base.model.with_columns(columns[0])
     found = _of_model(data, where, more, point, model, noise, _copied(base.lists), base.fit.soft)
     return settled(data, where, found)
 

@@ -12,13 +12,14 @@ import numpy as np
 from scipy.special import logsumexp
 
 from cdpr_struct.diagnosis.alternatives import Gains, Offered, gains, offered
-from cdpr_struct.diagnosis.hypotheses.cause import Cause, Seen
 from cdpr_struct.diagnosis.hypotheses.drift import AMPLITUDES
+from cdpr_struct.diagnosis.hypotheses.library import testable
 from cdpr_struct.diagnosis.hypothesis import Hypothesis
 from cdpr_struct.diagnosis.judge import Judged, again, extended, judged
 from cdpr_struct.diagnosis.layout import Layout, layout
 from cdpr_struct.diagnosis.recorded import Recorded
-from cdpr_struct.inference.evidence import bound_at, fit
+from cdpr_struct.diagnosis.seen import seen_in
+from cdpr_struct.inference.evidence import fit
 from cdpr_struct.inference.scale_mixture import NoiseState
 
 
@@ -61,8 +62,9 @@ class _Screened:
 class Search:
     """Hypotheses of one campaign, each with the best fit found so far."""
 
-    def __init__(self, data: Recorded, seen: Seen, causes: Sequence[Cause], budget: Budget) -> None:
-        self.data, self.seen, self.causes, self.budget = data, seen, list(causes), budget
+    def __init__(self, data: Recorded, budget: Budget) -> None:
+        self.data, self.seen, self.budget = data, seen_in(data), budget
+        self.causes, self.hidden = testable(self.seen, data.campaign.checked)
         self.where: Layout = layout(data)
         self.found: dict[tuple[object, ...], Judged] = {}
         self.spread: dict[tuple[object, ...], float] = {}
@@ -109,7 +111,7 @@ class Search:
         """Sizes of the noise where every cause may act at once: what none of them explains."""
         known = [cause for cause in menu if not cause.laws]
         columns = [[part * cause.patterns[-1].prior.max() for part in cause.columns] for cause in known]
-        everything = base.model.with_columns([np.concatenate(parts, axis=-1) for parts in zip(*columns, strict=True)])
+        everything = base.model.with_columns(np.concatenate([c[0] for c in columns], axis=-1))
         lists = None if base.lists is None else base.lists.copy()
         return fit(everything, base.fit.noise, lists, base.fit.soft).noise
 
@@ -118,7 +120,7 @@ class Search:
         best: dict[str, _Screened] = {}
         for base in bases:
             for noise in [base.fit.noise, *([rich] if rich is not None else [])]:
-                bound = base.log_evidence if noise is base.fit.noise else bound_at(base.model, noise, base.fit.soft)
+                bound = base.log_evidence if noise is base.fit.noise else _bound(base, noise)
                 for row in gains(menu, base, noise):
                     score = bound + base.hypothesis.log_prior + row.total
                     if row.cause.name not in best or score > best[row.cause.name].score:
@@ -155,3 +157,8 @@ class Search:
         menu = offered(self.data, self.where, self.seen, left, first)
         rows = self._screened(menu, [first], None)[: self.budget.pairs]
         self._fit_best(menu, rows, 0, self._ranked()[0].score - self.budget.pair_near)
+
+
+def _bound(base, noise):
+    lists = None if base.lists is None else base.lists.copy()
+    return fit(base.model, noise, lists, base.fit.soft).bounds[0]

@@ -1,0 +1,129 @@
+"""Does a chosen model predict blocks of data that it was not fitted to? Linear about the fit, sizes of noise kept."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.diagnosis.judge import Judged
+from cdpr_struct.diagnosis.layout import Layout, Shelf
+from cdpr_struct.diagnosis.recorded import Recorded
+from cdpr_struct.inference.block_sums import BlockSums
+from cdpr_struct.inference.scale_mixture import NoiseState
+
+_NONE = (-1, -1, -1)
+KINDS = ("EQ", "CO", "CF", "RF")
+"""Wrench balance, cable lengths, cable frequencies, robot frequencies."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LeftOut:
+    """Residuals (n,) of blocks that were not fitted, before and after, and one sigma of them if nothing were wrong.
+
+    kind (n,) of `KINDS`;  state, cable (n,) from 0, -1 for none
+    kept (causes,) : log evidence that each cause keeps without the block that it needs most [nat]
+    """
+
+    kind: np.ndarray
+    state: np.ndarray
+    cable: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+    sigma: np.ndarray
+    kept: np.ndarray
+
+    @property
+    def concerned(self) -> np.ndarray:
+        """(n,) where the causes, fitted to other data, change a prediction by more than one sigma (a tenth at least)."""
+        change = np.abs(self.before - self.after) / self.sigma
+        return change > min(1.0, float(np.quantile(change, 0.9)))
+
+    def rms(self, rows: np.ndarray) -> tuple[float, float]:
+        """Root mean squares before and after, in sigmas, of some rows."""
+        return tuple(float(np.sqrt(np.mean((r[rows] / self.sigma[rows]) ** 2))) for r in (self.before, self.after))  # type: ignore[return-value]
+
+    def ratio(self, rows: np.ndarray) -> float:
+        """How many times smaller the error became, counted in sigmas."""
+        before, after = self.rms(rows)
+        return before / max(after, 1e-12)
+
+
+def left_out(data: Recorded, where: Layout, found: Judged) -> LeftOut | None:
+    """Each block predicted from the fit to all the others; None with a single block or without causes."""
+    sizes = [len(part.pattern.prior) for part in found.hypothesis.parts]
+    first = found.model.parameters - sum(sizes)
+    sums = BlockSums.of(found.model, found.fit.noise, found.fit.soft, first)
+    if not sizes or len(sums.gram) < 2:
+        return None
+    causes = [first + own for own in np.split(np.arange(sum(sizes)), np.cumsum(sizes)[:-1])]
+    after = _predictions(sums, np.concatenate(causes))
+    kept = np.array([min(_gain(sums, own, k) for k in range(len(sums.gram))) for own in causes])
+    labels = _labels(data, where, 0 if found.lists is None else found.lists.shift.shape[1])
+    read = (labels[0] >= 0) & np.isfinite(sums.sigma)
+    kinds = np.array(KINDS, dtype=object)[labels[0][read]]
+    rows = [values[read] for values in (sums.residual, after, sums.sigma)]
+    return LeftOut(kinds, labels[1][read], labels[2][read], *rows, kept)
+
+
+def rows_of(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> LeftOut:
+    """Residuals of a fit's point as they stand, nothing left out, with their sigmas at given sizes of the noise."""
+    sums = BlockSums.of(found.model, noise, found.fit.soft, found.model.parameters)
+    labels = _labels(data, where, 0 if found.lists is None else found.lists.shift.shape[1])
+    read = (labels[0] >= 0) & np.isfinite(sums.sigma)
+    kinds = np.array(KINDS, dtype=object)[labels[0][read]]
+    rows = [values[read] for values in (sums.residual, sums.residual, sums.sigma)]
+    return LeftOut(kinds, labels[1][read], labels[2][read], *rows, np.zeros(0))
+
+
+def _predictions(sums: BlockSums, causes: np.ndarray) -> np.ndarray:
+    """(n,) residuals less what the causes make of each block's, fitted to the other blocks."""
+    gram, score = sums.gram.sum(axis=0), sums.score.sum(axis=0)
+    after = sums.residual.copy()
+    for k in range(len(sums.gram)):
+        z = np.linalg.solve(np.eye(len(gram)) + gram - sums.gram[k], score - sums.score[k])
+        rows = sums.block == k
+        after[rows] -= sums.columns[rows][:, causes] @ z[causes]
+    return after
+
+
+def _gain(sums: BlockSums, own: np.ndarray, k: int) -> float:
+    """Log evidence that a cause's columns add to all others, without a block."""
+    gram = np.eye(sums.gram.shape[1]) + sums.gram.sum(axis=0) - sums.gram[k]
+    score = sums.score.sum(axis=0) - sums.score[k]
+    others = np.setdiff1d(np.arange(len(score)), own)
+    return _log(gram, score) - _log(gram[np.ix_(others, others)], score[others])
+
+
+def _log(gram: np.ndarray, score: np.ndarray) -> float:
+    factor = np.linalg.cholesky(gram)
+    return float(0.5 * (np.linalg.solve(factor, score) ** 2).sum() - np.log(np.diagonal(factor)).sum())
+
+
+def _labels(data: Recorded, where: Layout, modes: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Number of the kind (-1: no reading), state and cable of every row, shelf by shelf, block by block."""
+    found = []
+    hard = max(shelf.states.shape[1] * (6 + data.cables) + shelf.cables.shape[1] for shelf in where.shelves)
+    soft = max(shelf.vibrating.shape[1] * modes for shelf in where.shelves)
+    for shelf in where.shelves:
+        for k in range(len(shelf.states)):
+            rows = list(_of_block(data, shelf, k, modes))
+            moving = shelf.vibrating.shape[1] * modes
+            first, last = rows[: len(rows) - moving], rows[len(rows) - moving :]
+            found += first + [_NONE] * (hard - len(first)) + last + [_NONE] * (soft - len(last))
+    kind, state, cable = np.array(found, dtype=int).reshape((-1, 3)).T
+    return kind, state, cable
+
+
+def _of_block(data: Recorded, shelf: Shelf, k: int, modes: int) -> Iterator[tuple[int, int, int]]:
+    m, measured = data.cables, data.vibrations
+    for state in shelf.states[k].tolist():
+        tensions = state >= 0 and bool(data.read[state, 6 : 6 + m].any())
+        yield from [(0 if tensions else -1, state, -1)] * 6
+        for i in range(m):
+            yield (1 if state >= 0 and data.read[state, 6 + m + i] else -1), state, i
+    if measured is None:
+        return
+    for row in shelf.cables[k].tolist():
+        yield (2, int(measured.states[measured.rows.state[row]]), int(measured.rows.cable[row])) if row >= 0 else _NONE
+    for f in shelf.vibrating[k].tolist():
+        yield from [(3, int(measured.states[f]), -1) if f >= 0 else _NONE] * modes

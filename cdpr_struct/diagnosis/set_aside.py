@@ -1,0 +1,61 @@
+"""Readings that a fit set aside: off by so much that their error is of another size than that of their kind."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from cdpr_struct.diagnosis.diagnosis import SetAside
+from cdpr_struct.diagnosis.judge import Judged
+from cdpr_struct.diagnosis.layout import Layout, Shelf
+from cdpr_struct.diagnosis.recorded import Recorded
+from cdpr_struct.inference.scale_mixture import KAPPA
+
+_OUTLIER = 5.0  # times the usual size of the noise: smaller ones are bad luck
+_SURE = 0.5  # probability from which a reading is set aside
+
+
+def set_aside(data: Recorded, where: Layout, found: Judged) -> list[SetAside]:
+    """The readings set aside, worst first."""
+    noise = found.fit.noise
+    odd = noise.responsibility[:, KAPPA >= _OUTLIER].sum(axis=1) > _SURE
+    odd &= np.isnan(where.fixed)
+    rows = []
+    for shelf, mean in _with_noise(where, found):
+        for group, kind, state, cable, value in _readings(data, shelf, mean):
+            if odd[group]:
+                factor = float(noise.responsibility[group] @ KAPPA)
+                gain = 0.5 * float(value @ value) * (1.0 - factor**-2) - len(value) * float(np.log(factor))
+                name = data.campaign.states.names[state]
+                rows.append(SetAside(kind, name, cable, float(np.linalg.norm(value)), gain))
+    return sorted(rows, key=lambda row: -row.gain)
+
+
+def _with_noise(where: Layout, found: Judged) -> Iterator[tuple[Shelf, np.ndarray]]:
+    start = 0
+    for shelf in where.shelves:
+        yield shelf, found.fit.noise_mean[start : start + len(shelf.states)]
+        start += len(shelf.states)
+
+
+def _readings(data: Recorded, shelf: Shelf, mean: np.ndarray) -> Iterator[tuple[int, str, int, int, np.ndarray]]:
+    """Group, kind, state, cable and errors in stated sigmas of every group of readings of a shelf."""
+    m, own = data.cables, 6 + data.cables
+    p = shelf.states.shape[1]
+    for k in range(len(shelf.states)):
+        for j, state in enumerate(shelf.states[k].tolist()):
+            if state < 0:
+                continue
+            first = j * own
+            yield int(shelf.index[k, first]), "position", state, -1, mean[k, first : first + 3]
+            yield int(shelf.index[k, first + 3]), "rotation", state, -1, mean[k, first + 3 : first + 6]
+            for i in range(m):
+                at = first + 6 + i
+                yield int(shelf.index[k, at]), "tension", state, i, mean[k, at : at + 1]
+        for i in range(m):
+            at = p * own + i
+            yield int(shelf.index[k, at]), "length", int(shelf.states[k, 0]), i, mean[k, at : at + 1]
+        for j, row in enumerate(shelf.cables[k].tolist()):
+            if row >= 0 and data.vibrations is not None:
+                at, rows = p * own + m + j, data.vibrations.rows
+                state = int(data.vibrations.states[rows.state[row]])
+                yield int(shelf.index[k, at]), "cable_frequency", state, int(rows.cable[row]), mean[k, at : at + 1]

@@ -1,0 +1,99 @@
+"""The whole change of a cause's parameters: the cause, and what tolerances of the same parameters add to it.
+
+A cause is fitted beside tolerances, as if each anchor were off by the cause and by its own tolerance besides. What a
+ruler would show is the sum, and data tell the sum better than its parts.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.diagnosis.hypotheses.cause import Seen
+from cdpr_struct.diagnosis.hypothesis import Part
+from cdpr_struct.diagnosis.judge import Judged
+from cdpr_struct.diagnosis.linearised import Term
+from cdpr_struct.diagnosis.recorded import Recorded
+from cdpr_struct.robot.parameters import PARAMETERS
+from cdpr_struct.robot.robot_arrays import RobotArrays
+
+_STEP = 1e-4  # of a sigma: changes are linear in it
+_SAME = 1e-3  # of a tolerance's change: what of it a cause cannot make, where it is the same change
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WholeSize:
+    """Numbers of a cause's pattern, (d,) in their own units, and their covariance (d, d)."""
+
+    part: Part
+    mean: np.ndarray
+    covariance: np.ndarray
+
+    @property
+    def sigma(self) -> np.ndarray:
+        """(d,)."""
+        return np.sqrt(np.diagonal(self.covariance))
+
+    @property
+    def parameters(self) -> dict[str, dict[str, float | str]]:
+        """Value, sigma and unit of each, as they are reported."""
+        named = zip(self.part.pattern.parameters, self.mean, self.sigma, strict=True)
+        return {p.name: p.shown(float(t), float(s)) for p, t, s in named}
+
+    @property
+    def is_change(self) -> bool:
+        """Whether all sizes together are a sigma or more from what was entered."""
+        return float(self.mean @ np.linalg.solve(self.covariance, self.mean)) > 1.0
+
+
+def whole_sizes(data: Recorded, seen: Seen, found: Judged) -> list[WholeSize]:
+    """Of each cause of a hypothesis; laws outside the model have no parameters and are left out."""
+    arrays, mean, covariance = found.point.robot(data), found.fit.z_mean, found.fit.z_covariance
+    tolerance, start = found.point.terms[0], len(mean) - sum(len(p.pattern.prior) for p in found.hypothesis.parts)
+    rows = []
+    for part in found.hypothesis.parts:
+        d = len(part.pattern.prior)
+        own = np.zeros((d, len(mean)))
+        own[:, start : start + d] = np.diag(part.scale * part.pattern.prior)
+        start += d
+        if part.law is None:
+            own[:, : len(tolerance.sigma)] += _shares(seen, arrays, tolerance, part)
+            rows.append(WholeSize(part, own @ mean, own @ covariance @ own.T))
+    return rows
+
+
+def _shares(seen: Seen, arrays: RobotArrays, tolerance: Term, part: Part) -> np.ndarray:
+    """(d, t) change of a pattern's numbers by one sigma of each tolerance; zero of other parameters."""
+    prior = np.array([parameter.prior for parameter in part.cause.basic(seen)])
+    steps = _STEP * np.eye(len(prior))[:, None, :]
+    by_cause = part.cause.apply(arrays, steps * prior)
+    by_tolerance = tolerance.applied(arrays, _STEP * np.eye(len(tolerance.sigma))[:, None, :])
+    own, other = _changes(arrays, by_cause, len(prior)), _changes(arrays, by_tolerance, len(tolerance.sigma))
+    names = [name for name in PARAMETERS if name in own or name in other]
+    zero = {name: np.zeros((_size(arrays, name), 1)) for name in names}
+    columns = np.concatenate([own.get(n, np.repeat(zero[n], len(prior), axis=1)) for n in names])
+    others = np.concatenate([other.get(n, np.repeat(zero[n], len(tolerance.sigma), axis=1)) for n in names])
+    size = np.maximum(np.abs(columns).max(axis=1), np.abs(others).max(axis=1))
+    columns, others = (change[size > 0.0] / size[size > 0.0, None] for change in (columns, others))
+    made = np.linalg.lstsq(columns, others, rcond=None)[0]
+    made[:, np.linalg.norm(others - columns @ made, axis=0) > _SAME * np.linalg.norm(others, axis=0)] = 0.0
+    return np.asarray(np.linalg.pinv(part.pattern.basis) @ (prior[:, None] * made))
+
+
+def _size(arrays: RobotArrays, name: str) -> int:
+    value: np.ndarray = getattr(arrays, name)
+    return int(np.prod(value.shape[value.ndim - PARAMETERS[name].axes :], dtype=int))
+
+
+def _changes(arrays: RobotArrays, moved: RobotArrays, steps: int) -> dict[str, np.ndarray]:
+    """Of each changed field, (numbers, steps) changes by each step; those of states are of the first one."""
+    found = {}
+    for name, rule in PARAMETERS.items():
+        before, after = getattr(arrays, name), getattr(moved, name)
+        if after is before:
+            continue
+        change = np.broadcast_to(after - before, np.broadcast_shapes(after.shape, before.shape))
+        core = change.shape[change.ndim - rule.axes :]
+        lead = change.shape[: change.ndim - rule.axes]
+        flat = change.reshape((lead[0] if lead else 1, -1, *core))[:, 0]
+        found[name] = np.broadcast_to(flat.reshape((len(flat), -1)), (steps, int(np.prod(core, dtype=int)))).T
+    return found
