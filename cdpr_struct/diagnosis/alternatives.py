@@ -96,7 +96,7 @@ def gains(causes: Sequence[Offered], about: Judged, noise: NoiseState | None = N
     """What each cause adds to a hypothesis, best first; at other sizes of the noise than its own if given."""
     screen = Screen.of(about.model, about.fit.noise if noise is None else noise, about.fit.soft)
     shelves = zip(*(cause.columns for cause in causes), strict=True)
-    said = screen.screened([np.concatenate(parts, axis=-1) for parts in shelves][0])
+    said = screen.screened([np.concatenate(parts, axis=-1) for parts in shelves])
     rows, start = [], 0
     for cause in causes:
         own = slice(start, start + cause.columns[0].shape[-1])

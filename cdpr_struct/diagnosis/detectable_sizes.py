@@ -17,7 +17,7 @@ def minimum_detectable(search: Search, null: Judged) -> dict[str, dict[str, floa
     table = {}
     for cause in menu:
         pattern = plainest(cause)
-        gram = screen.screened(cause.columns[0] @ pattern.basis * pattern.prior).gram
+        gram = screen.screened([part @ pattern.basis * pattern.prior for part in cause.columns]).gram
         strength, first = float(np.trace(gram)), pattern.parameters[0]
         size = np.sqrt(noncentrality(len(gram)) / max(strength, 1e-300)) * first.prior
         table[cause.cause.name] = {

@@ -52,15 +52,17 @@ class Judged:
     @property
     def rows(self) -> int:
         """Number of rows that are read directly, padding left out."""
-        return int((self.model.A.any(axis=2) & self.model.hard).sum())
+        return sum(int((stack.A.any(axis=2) & stack.hard).sum()) for stack in self.model.stacks)
 
     @property
     def misfit(self) -> float:
         """Sum of squares of the noise and the numbers that explain the data, in stated and prior sigmas."""
-        read = np.isnan(self.model.groups.fixed_variance)[self.model.groups.index] & (self.model.groups.index >= 0)
+        inferred = np.isnan(self.model.groups.fixed_variance)
         causes = sum(len(part.pattern.prior) for part in self.hypothesis.parts)
         z = self.fit.z_mean[: len(self.fit.z_mean) - causes]
-        return float((self.fit.noise_mean[read] ** 2).sum() + z @ z)
+        pairs = zip(self.model.stacks, self.fit.noise_mean, strict=True)
+        noise = sum(float((u[(s.index >= 0) & inferred[s.index]] ** 2).sum()) for s, u in pairs)
+        return noise + float(z @ z)
 
     @property
     def sizes(self) -> list[np.ndarray]:
@@ -99,7 +101,7 @@ def extended(
 ) -> Judged:
     """A hypothesis with one more cause than a judged one, columns (K, n, d) of its numbers a shelf."""
     point = _with_terms(data, more, base.point)
-    model = base.model.with_columns(columns[0])
+    model = base.model.with_columns(columns)
     found = _of_model(data, where, more, point, model, noise, _copied(base.lists), base.fit.soft)
     return settled(data, where, found)
 

@@ -101,16 +101,10 @@ def _log(gram: np.ndarray, score: np.ndarray) -> float:
 
 def _labels(data: Recorded, where: Layout, modes: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Number of the kind (-1: no reading), state and cable of every row, shelf by shelf, block by block."""
-    found = []
-    hard = max(shelf.states.shape[1] * (6 + data.cables) + shelf.cables.shape[1] for shelf in where.shelves)
-    soft = max(shelf.vibrating.shape[1] * modes for shelf in where.shelves)
-    for shelf in where.shelves:
-        for k in range(len(shelf.states)):
-            rows = list(_of_block(data, shelf, k, modes))
-            moving = shelf.vibrating.shape[1] * modes
-            first, last = rows[: len(rows) - moving], rows[len(rows) - moving :]
-            found += first + [_NONE] * (hard - len(first)) + last + [_NONE] * (soft - len(last))
-    kind, state, cable = np.array(found, dtype=int).reshape((-1, 3)).T
+    rows = [
+        row for shelf in where.shelves for k in range(len(shelf.states)) for row in _of_block(data, shelf, k, modes)
+    ]
+    kind, state, cable = np.array(rows, dtype=int).reshape((-1, 3)).T
     return kind, state, cable
 
 

@@ -59,8 +59,7 @@ class _Scan:
     def of(self, cause: Offered, i: int) -> list[Beginning]:
         """One pattern at all amplitudes."""
         pattern = cause.patterns[i]
-        column = (cause.columns[0] @ pattern.basis) * pattern.prior
-        said = self.screen.screened(column)
+        said = self.screen.screened([(part @ pattern.basis) * pattern.prior for part in cause.columns])
         sizes = np.array(AMPLITUDES if pattern.positive[0] else [*AMPLITUDES, *(-a for a in AMPLITUDES)])
         theta = (sizes[:, None, None] * pattern.prior) @ pattern.basis.T
         gains = self._of_peaks(cause.cause.apply(self.arrays, theta)) - self.level

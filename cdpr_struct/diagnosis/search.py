@@ -20,7 +20,7 @@ from cdpr_struct.diagnosis.layout import Layout, layout
 from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.diagnosis.scan import beginnings
 from cdpr_struct.diagnosis.seen import seen_in
-from cdpr_struct.inference.evidence import fit
+from cdpr_struct.inference.evidence import bound_at, fit
 from cdpr_struct.inference.scale_mixture import NoiseState
 
 
@@ -113,7 +113,7 @@ class Search:
         """Sizes of the noise where every cause may act at once: what none of them explains."""
         known = [cause for cause in menu if not cause.laws]
         columns = [[part * cause.patterns[-1].prior.max() for part in cause.columns] for cause in known]
-        everything = base.model.with_columns(np.concatenate([c[0] for c in columns], axis=-1))
+        everything = base.model.with_columns([np.concatenate(parts, axis=-1) for parts in zip(*columns, strict=True)])
         lists = None if base.lists is None else base.lists.copy()
         return fit(everything, base.fit.noise, lists, base.fit.soft).noise
 
@@ -122,7 +122,7 @@ class Search:
         best: dict[str, _Screened] = {}
         for base in bases:
             for noise in [base.fit.noise, *([rich] if rich is not None else [])]:
-                bound = base.log_evidence if noise is base.fit.noise else _bound(base, noise)
+                bound = base.log_evidence if noise is base.fit.noise else bound_at(base.model, noise, base.fit.soft)
                 for row in gains(menu, base, noise):
                     score = bound + base.hypothesis.log_prior + row.total
                     if row.cause.name not in best or score > best[row.cause.name].score:
@@ -165,8 +165,3 @@ class Search:
         menu = offered(self.data, self.where, self.seen, left, first)
         rows = self._screened(menu, [first], None)[: self.budget.pairs]
         self._fit_best(menu, rows, 0, self._ranked()[0].score - self.budget.pair_near)
-
-
-def _bound(base, noise):
-    lists = None if base.lists is None else base.lists.copy()
-    return fit(base.model, noise, lists, base.fit.soft).bounds[0]
