@@ -97,13 +97,17 @@ def begun(data: Recorded, where: Layout, base: Judged, more: Hypothesis, z: np.n
 
 
 def extended(
-    data: Recorded, where: Layout, base: Judged, more: Hypothesis, columns: Sequence[np.ndarray], noise: NoiseState
-) -> Judged:
-    """A hypothesis with one more cause than a judged one, columns (K, n, d) of its numbers a shelf."""
+    data: Recorded, where: Layout, base: Judged, more: Hypothesis, columns: Sequence[np.ndarray], noise: NoiseState,
+    worth: float,
+) -> Judged:  # fmt: skip
+    """A hypothesis with one more cause than a judged one, columns (K, n, d) of its numbers a shelf.
+
+    worth : score from which it is linearised again; what stays far below is as good as impossible either way
+    """
     point = _with_terms(data, more, base.point)
     model = base.model.with_columns(columns)
     found = _of_model(data, where, more, point, model, noise, _copied(base.lists), base.fit.soft)
-    return settled(data, where, found)
+    return settled(data, where, found) if found.score > worth else found
 
 
 def again(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> Judged:

@@ -17,9 +17,10 @@ from cdpr_struct.diagnosis.vibrations import log_likelihoods
 from cdpr_struct.inference.screening import Screen
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
-AMPLITUDES = (1.0, 2.0, 3.5, 6.0)  # of a cause's prior sigma, both ways where it may be negative
+AMPLITUDES = (1.0, 2.0, 3.5, 5.5)  # of a cause's prior sigma, both ways where it may be negative
 _COARSE = 10.0  # nats by which the grid of amplitudes may miss the best one
 _STATES = 3  # those with most peaks: enough to see what stands out
+_OF_A_CAUSE = 2  # amplitudes: the grid may put the best one on either side
 _LEFT = 1.0  # peaks that belong to no mode, expected: with fewer there is nothing to put right
 _ALONE = "cable"  # first word of patterns that are not tried: statics see a single cable
 
@@ -34,7 +35,7 @@ class Beginning:
 
 
 def beginnings(data: Recorded, menu: Sequence[Offered], about: Judged, most: int) -> list[Beginning]:
-    """The best large changes beside a judged hypothesis, one a cause; none where its modes explain the peaks."""
+    """The best large changes beside a judged hypothesis; none where its modes explain the peaks."""
     if about.lists is None or about.lists.left < _LEFT or data.campaign.model == "static":
         return []
     scan = _Scan(data, about)
@@ -42,8 +43,9 @@ def beginnings(data: Recorded, menu: Sequence[Offered], about: Judged, most: int
     for cause in menu:
         singles = [i for i, p in enumerate(cause.patterns) if p.basis.shape[1] == 1 and not p.label.startswith(_ALONE)]
         if not cause.laws and "RF" in cause.cause.seen_in and singles:
-            best.append(max((b for i in singles for b in scan.of(cause, i)), key=lambda one: one.gain))
-    return sorted((one for one in best if one.gain > -_COARSE), key=lambda one: -one.gain)[:most]
+            found = sorted((b for i in singles for b in scan.of(cause, i)), key=lambda one: -one.gain)
+            best += [one for one in found[:_OF_A_CAUSE] if one.gain > -_COARSE]
+    return sorted(best, key=lambda one: -one.gain)[:most]
 
 
 class _Scan:
@@ -53,7 +55,6 @@ class _Scan:
         self.data, self.about = data, about
         self.screen = Screen.of(about.model, about.fit.noise)
         self.arrays, self.readings = about.point.robot(data), about.point.readings(data)
-        self.variance = float(np.median(about.fit.soft_variance[about.fit.soft_variance > 0.0]))
         self.level = self._of_peaks(replace(self.arrays, mass=np.asarray(self.arrays.mass)[None]))[0]
 
     def of(self, cause: Offered, i: int) -> list[Beginning]:
@@ -77,4 +78,4 @@ class _Scan:
         if data.vibrations is None or lists is None:
             return np.zeros(1)
         noise, measured = lists.association.noise, data.vibrations.richest(_STATES)
-        return log_likelihoods(data.campaign, data.known, measured, arrays, self.readings, self.variance, noise)
+        return log_likelihoods(data.campaign, data.known, measured, arrays, self.readings, _SPREAD**2, noise)

@@ -24,6 +24,10 @@ from cdpr_struct.inference.evidence import bound_at, fit
 from cdpr_struct.inference.scale_mixture import NoiseState
 
 
+_NOTHING = 2.0  # nats by which the best single cause may be behind none: else a second one beside it is not looked for
+_AGAIN = 6  # hypotheses that are fitted from another one's noise
+
+
 @dataclass(frozen=True, slots=True)
 class Budget:
     """Causes fitted at least, nats from the best within which all are, beginnings of pairs, pairs of each fitted.
@@ -34,11 +38,12 @@ class Budget:
     causes: int = 3
     near: float = 14.0
     pair_near: float = 5.0
+    hopeless: float = 30.0
     beginnings: int = 3
     pairs: int = 3
 
 
-BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 5, 6)}
+BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 60.0, 5, 6)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,9 +91,11 @@ class Search:
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
         self._begin(menu, base)
         self._transfer()
-        for first in self._ranked(1)[: self.budget.beginnings]:
+        singles = self._ranked(1)
+        least = max(singles[0].score - self.budget.near, self._ranked(0)[0].score - _NOTHING)
+        for first in [one for one in singles[: self.budget.beginnings] if one.score > least]:
             self._pairs(first)
-        self._transfer()
+            self._transfer(2)
         return self.answers()
 
     def answers(self) -> list[Answer]:
@@ -138,11 +145,12 @@ class Search:
                 more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
                 self.spread[more.key] = row.gains.spread
                 own = [shelf @ part.pattern.basis * part.term.sigma for shelf in columns[part.cause.name]]
-                self.keep(extended(self.data, self.where, row.base, more, own, row.noise))
+                worth = self._ranked()[0].score - self.budget.hopeless
+                self.keep(extended(self.data, self.where, row.base, more, own, row.noise, worth))
 
     def _begin(self, menu: Sequence[Offered], base: Judged) -> None:
         """Fits of large changes that would put peaks right."""
-        for one in beginnings(self.data, menu, base, self.budget.beginnings):
+        for one in beginnings(self.data, menu, base, self.budget.beginnings + 1):
             more = Hypothesis((*base.hypothesis.parts, one.part), base.hypothesis.drift)
             self.keep(begun(self.data, self.where, base, more, one.z))
 
@@ -150,13 +158,13 @@ class Search:
         own = [one for one in self.found.values() if causes is None or len(one.hypothesis.parts) == causes]
         return sorted(own, key=lambda one: -one.score)
 
-    def _transfer(self) -> None:
-        """Every hypothesis that may matter again from the noise of the best two."""
+    def _transfer(self, causes: int | None = None) -> None:
+        """The likeliest hypotheses, and nothing wrong, again from the noise of the best two."""
         ranked = self._ranked()
-        near = [one for one in ranked if one.score > ranked[0].score - self.budget.near or not one.hypothesis.parts]
+        near = [one for one in self._ranked(causes) if one.score > ranked[0].score - self.budget.near]
         for other in ranked[:2]:
-            for one in near:
-                if one is not other:
+            for one in [*near[:_AGAIN], *self._ranked(0)]:
+                if one.hypothesis.key != other.hypothesis.key:
                     self.keep(again(self.data, self.where, self.found[one.hypothesis.key], other.fit.noise))
 
     def _pairs(self, first: Judged) -> None:
