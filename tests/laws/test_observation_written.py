@@ -22,7 +22,7 @@ HELD = 1e-9  # relative: what the solvers of statics leave
 
 def fields_of(robot) -> dict[str, dict]:
     """Every extension at a size that one would notice, different for every cable."""
-    center = robot.home.position + [0.2, -0.1, 0.3]
+    center = robot.home.position + np.array([0.2, -0.1, 0.3])
     return {
         "series_compliance": {"series_compliance": 4e-6 * VARIED},
         "frame_compliance": {"frame_compliance": mast_values(robot, 2e-6 * VARIED)},
