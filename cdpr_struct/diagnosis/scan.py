@@ -19,9 +19,10 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 
 AMPLITUDES = (1.0, 2.0, 3.5, 5.5)  # of a cause's prior sigma, both ways where it may be negative
 _COARSE = 10.0  # nats by which the grid of amplitudes may miss the best one
-_STATES = 3  # those with most peaks: enough to see what stands out
+_STATES = 6  # those with most peaks: enough to see what stands out
+_SPREAD = 0.01  # of ln f: what half a step between amplitudes does to a mode
 _OF_A_CAUSE = 2  # amplitudes: the grid may put the best one on either side
-_LEFT = 1.0  # peaks that belong to no mode, expected: with fewer there is nothing to put right
+_LEFT = 2.0  # peaks that belong to no mode, expected: with fewer there is nothing to put right
 _ALONE = "cable"  # first word of patterns that are not tried: statics see a single cable
 
 
