@@ -17,7 +17,7 @@ from cdpr_struct.inference.soft_rows import SoftExpectation
 
 PASSES = 3  # linearisations at most; the steps shrink by ten and more each
 WORTH = 0.1  # nats: by so much must another start be better to be followed
-_SETTLED = 0.2  # sigmas: a point that moves less is where it was
+_SETTLED = 0.5  # sigmas: a point that moves less is where it was; what bends on so short a way is no tenth of a nat
 
 
 @dataclass(frozen=True, slots=True, eq=False)
