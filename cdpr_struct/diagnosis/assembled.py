@@ -3,6 +3,7 @@
 import numpy as np
 
 from cdpr_struct.association.association import Association
+from cdpr_struct.diagnosis.commanded_lengths import MISSED
 from cdpr_struct.diagnosis.layout import Layout, Shelf
 from cdpr_struct.diagnosis.linearised import Local, Rows
 from cdpr_struct.inference.linear_model import LinearModel, Stack
@@ -19,8 +20,9 @@ def linear_model(local: Local, where: Layout) -> LinearModel:
     stacks = []
     for shelf in where.shelves:
         r, x = of_shelf(where, shelf, residual), of_shelf(where, shelf, columns)
-        stacks.append(Stack(r, _noise(local, where, shelf, by_noise), x, _floor(where, shelf, r.shape), shelf.index,
-                            soft_rows(where, shelf, local)))  # fmt: skip
+        noise, soft = _noise(local, where, shelf, by_noise), soft_rows(where, shelf, local)
+        stack = Stack(r, noise, x, _floor(where, shelf, r.shape), shelf.index, soft)
+        stacks.append(stack.with_noise(_meant(local, where, shelf)) if local.data.sent.known.any() else stack)
     return LinearModel(tuple(stacks), where.groups)
 
 
@@ -70,6 +72,18 @@ def _noise(local: Local, where: Layout, shelf: Shelf, by_noise: Rows) -> np.ndar
             found[:, p * own + j, p * own + m + j] = sigma[:, j]
     found[np.broadcast_to((shelf.index < 0)[:, None, :], found.shape)] = 0.0
     return found
+
+
+def _meant(local: Local, where: Layout, shelf: Shelf) -> np.ndarray:
+    """(K, n, 6 p) by how much commanded lengths would differ if another pose was meant, one sigma of it."""
+    own, (k, p) = 6 + where.m, shelf.states.shape
+    found = np.zeros((k, p * own, 6 * p))
+    for j in range(p):
+        slope = local.data.sent.slope[shelf.states[:, j]] * MISSED
+        rows = slice(j * own + 6, (j + 1) * own)
+        found[:, rows, 6 * j : 6 * (j + 1)] = np.where((shelf.states[:, j] >= 0)[:, None, None], slope, 0.0)
+    rest = len(shelf.cables[0]) + shelf.vibrating.shape[1] * local.r.robot.shape[1]
+    return np.concatenate([found, np.zeros((k, rest, 6 * p))], axis=1)
 
 
 def _places(local: Local, shelf: Shelf, rows: int, own: int) -> np.ndarray:

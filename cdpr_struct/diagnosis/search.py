@@ -12,6 +12,8 @@ import numpy as np
 from scipy.special import logsumexp
 
 from cdpr_struct.diagnosis.alternatives import Gains, Offered, gains, offered
+from cdpr_struct.diagnosis.decision import UNKNOWN
+from cdpr_struct.diagnosis.hypotheses import internal_force
 from cdpr_struct.diagnosis.hypotheses.drift import AMPLITUDES
 from cdpr_struct.diagnosis.hypotheses.library import testable
 from cdpr_struct.diagnosis.hypothesis import Hypothesis
@@ -22,7 +24,6 @@ from cdpr_struct.diagnosis.scan import beginnings
 from cdpr_struct.diagnosis.seen import seen_in
 from cdpr_struct.inference.evidence import bound_at, fit
 from cdpr_struct.inference.scale_mixture import NoiseState
-
 
 _NOTHING = 2.0  # nats by which the best single cause may be behind none: else a second one beside it is not looked for
 _AGAIN = 6  # hypotheses that are fitted from another one's noise
@@ -71,6 +72,8 @@ class Search:
     def __init__(self, data: Recorded, budget: Budget) -> None:
         self.data, self.seen, self.budget = data, seen_in(data), budget
         self.causes, self.hidden = testable(self.seen, data.campaign.checked)
+        if not data.sent.internal.any():
+            self.hidden[internal_force.CAUSE.name] = internal_force.REASON
         self.where: Layout = layout(data)
         self.found: dict[tuple[object, ...], Judged] = {}
         self.spread: dict[tuple[object, ...], float] = {}
@@ -118,8 +121,8 @@ class Search:
 
     def _rich(self, menu: Sequence[Offered], base: Judged) -> NoiseState:
         """Sizes of the noise where every cause may act at once: what none of them explains."""
-        known = [cause for cause in menu if not cause.laws]
-        columns = [[part * cause.patterns[-1].prior.max() for part in cause.columns] for cause in known]
+        known = [cause for cause in menu if cause.cause.name != UNKNOWN]
+        columns = [[part * cause.patterns[0].prior.max() for part in cause.columns] for cause in known]
         everything = base.model.with_columns([np.concatenate(parts, axis=-1) for parts in zip(*columns, strict=True)])
         lists = None if base.lists is None else base.lists.copy()
         return fit(everything, base.fit.noise, lists, base.fit.soft).noise
