@@ -47,7 +47,7 @@ def _errors(data: Recorded, null: Judged) -> dict[str, np.ndarray]:
     states, found = data.campaign.states, {}
     if (states.static[:, None] & np.isfinite(states.tension)).any():
         found["static_state"] = _tensions(data)
-    if states.loaded.any():
+    if (states.loaded & states.has_length).any():
         found["loaded_pose"] = _poses(data)
     if data.vibrations is not None and len(data.vibrations.log_hertz):
         found["cable_frequency"] = _cable_frequencies(data, null)
