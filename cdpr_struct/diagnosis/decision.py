@@ -39,7 +39,10 @@ def decided(beliefs: Sequence[Belief], loss: Loss, without_size: AbstractSet[str
 
     without_size : causes that are not spoken of: what was fitted of them is no change of the robot
     """
-    options = [(_of_unknown(beliefs, loss), UNKNOWN, ()), (_of_classes((), beliefs, loss), "adequate", ())]
+    options: list[tuple[float, str, Classes]] = [
+        (_of_unknown(beliefs, loss), UNKNOWN, ()),
+        (_of_classes((), beliefs, loss), "adequate", ()),
+    ]
     for start in _beginnings(beliefs, without_size):
         classes = _widened(start, beliefs, loss, without_size)
         options.append((_of_classes(classes, beliefs, loss), _status(classes), classes))

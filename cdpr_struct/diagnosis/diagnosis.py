@@ -68,6 +68,7 @@ class Candidate:
 
     sizes : of each, with the tolerances of the same parameters;  gain : log evidence (prior included) against none
     explained : share of the significant error that it takes away, 0 to 1
+    ahead : log evidence against the best of its subsets, none among them
     """
 
     names: tuple[str, ...]
@@ -75,6 +76,7 @@ class Candidate:
     sizes: tuple[WholeSize, ...]
     gain: float
     explained: float
+    ahead: float
 
     @property
     def laws(self) -> tuple[Part, ...]:
@@ -83,8 +85,8 @@ class Candidate:
 
     @property
     def has_size(self) -> bool:
-        """Whether it is likelier than none, and each of its causes a change of the robot."""
-        return self.gain > 0.0 and not self.laws and all(size.is_change for size in self.sizes)
+        """Whether it is likelier than with any of its causes left out, and each of them is a change of the robot."""
+        return self.ahead > 0.0 and not self.laws and all(size.is_change for size in self.sizes)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

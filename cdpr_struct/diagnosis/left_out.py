@@ -61,8 +61,8 @@ def left_out(data: Recorded, where: Layout, found: Judged) -> LeftOut | None:
     labels = _labels(data, where, 0 if found.lists is None else found.lists.shift.shape[1])
     read = (labels[0] >= 0) & np.isfinite(sums.sigma)
     kinds = np.array(KINDS, dtype=object)[labels[0][read]]
-    rows = [values[read] for values in (sums.residual, after, sums.sigma)]
-    return LeftOut(kinds, labels[1][read], labels[2][read], *rows, kept)
+    before, after, sigma = (values[read] for values in (sums.residual, after, sums.sigma))
+    return LeftOut(kinds, labels[1][read], labels[2][read], before, after, sigma, kept)
 
 
 def rows_of(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> LeftOut:
@@ -73,8 +73,8 @@ def rows_of(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> 
     read = (labels[0] >= 0) & np.isfinite(sums.sigma)
     kinds = np.array(KINDS, dtype=object)[labels[0][read]]
     after = sums.residual - sums.columns[:, first:] @ found.fit.z_mean[first:]
-    rows = [values[read] for values in (sums.residual, after, sums.sigma)]
-    return LeftOut(kinds, labels[1][read], labels[2][read], *rows, np.zeros(0))
+    before, after, sigma = (values[read] for values in (sums.residual, after, sums.sigma))
+    return LeftOut(kinds, labels[1][read], labels[2][read], before, after, sigma, np.zeros(0))
 
 
 def _predictions(sums: BlockSums, causes: np.ndarray) -> np.ndarray:

@@ -1,5 +1,6 @@
 """The answers of a search as a diagnosis tells them: candidates with sizes, corrections, what was chosen."""
 
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
@@ -50,13 +51,13 @@ def chosen_of(story: Explained, decision: Decision) -> Judged:
 
 def candidates(story: Explained) -> list[Candidate]:
     """Every set of causes that was fitted, best first."""
-    null = null_of(story)
-    rows = []
+    null, rows = null_of(story), []
     for answer in story.answers:
         if answer.names:
             sizes = whole_sizes(story.search.data, story.search.seen, answer.best)
             share = _share(answer.best, null.best)
-            rows.append(Candidate(answer.names, answer.best, tuple(sizes), answer.score - null.score, share))
+            ahead = answer.score - max(one.score for one in story.answers if Counter(one.names) < Counter(answer.names))
+            rows.append(Candidate(answer.names, answer.best, tuple(sizes), answer.score - null.score, share, ahead))
     return rows
 
 

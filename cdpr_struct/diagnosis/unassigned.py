@@ -22,9 +22,10 @@ class UncertainPeak:
 
 def uncertain_peaks(data: Recorded, found: Judged) -> list[UncertainPeak]:
     """Peaks none of whose modes has more than half of the probability."""
-    if found.lists is None or data.vibrations is None or data.vibrations.peaks is None:
+    last = None if found.lists is None else found.lists.association.assignment
+    if last is None or data.vibrations is None or data.vibrations.peaks is None:
         return []
-    peaks, pair = data.vibrations.peaks, found.lists.association.assignment.matching.pair
+    peaks, pair = data.vibrations.peaks, last.matching.pair
     rows = []
     for k, j in zip(*np.nonzero(peaks.present), strict=True):
         if pair[k, j].max(initial=0.0) <= _MORE_LIKELY_THAN_NOT:
