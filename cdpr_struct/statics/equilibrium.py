@@ -81,8 +81,9 @@ def tangent_stiffness(arrays: RobotArrays, states: CableStates, arms: PlatformAr
     if arrays.has_masts:
         tangent = behind_masts(stiff, map_, arrays.masts, arrays.frame_compliance)
     else:
-        m, lead = arrays.cable_count, stiff.shape[:-3]
-        stacked, carried = map_.reshape((*map_.shape[:-3], 3 * m, 6)), (stiff @ map_).reshape((*lead, 3 * m, 6))
+        moved = stiff @ map_
+        rows = 3 * arrays.cable_count
+        stacked, carried = map_.reshape((*map_.shape[:-3], rows, 6)), moved.reshape((*moved.shape[:-3], rows, 6))
         tangent = np.swapaxes(stacked, -1, -2) @ carried
     weight, center = np.moveaxis(weight_force(arrays), -1, 0), np.moveaxis(arms.center, -1, 0)
     turned = cable_geometric_stiffness(states, arms) + geometric_stiffness(*weight, *center)
