@@ -17,7 +17,7 @@ from cdpr_struct.planning.separations import WIDE, Gain, Separator, Sized
 
 SAME = 3.0  # nats: expected evidence below which two causes are one class, a factor of 20
 _WORTH = 0.1  # nats below which a measurement is not listed
-_INVISIBLE = 1e-6  # squared sigmas by one prior sigma of a cause: rounding of zero
+_VISIBLE = 2.0  # sigmas by which the typical size of some pattern of a cause changes the data, or it hides in noise
 _FRICTION = "pulley_friction"
 
 
@@ -67,12 +67,12 @@ def planned(campaign: Campaign, progress: Callable[[str], None] = lambda name: N
     numbers = Numbers.of(data.cables, causes, seen)
     information = PlannedRows.of(data, numbers, {}).information()
     gram = of_causes(information, numbers.tolerances)
-    for name in numbers.causes:
-        columns = numbers.pattern(name, plainest(numbers.patterns[name]))
-        if float((columns * (gram @ columns)).sum()) < _INVISIBLE:
-            hidden[name] = "changes none of these readings"
+    for name, patterns in numbers.patterns.items():
+        every = np.hstack([numbers.pattern(name, pattern) for pattern in patterns])
+        if (every * (gram @ every)).sum(axis=0).max() < _VISIBLE**2:
+            hidden[name] = "at its typical size it hides in noise and tolerances"
     if one_sided is not campaign and _FRICTION in numbers.causes:
-        hidden.setdefault(_FRICTION, "needs a column approach (+1 or -1)")
+        hidden[_FRICTION] = "needs a column approach (+1 or -1)"
     sizes = {
         name: smallest(pattern, _of(gram, numbers.pattern(name, pattern)))
         for name in numbers.causes

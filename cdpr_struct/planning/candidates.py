@@ -7,11 +7,11 @@ import numpy as np
 
 from cdpr_struct.diagnosis.linearised import Term
 from cdpr_struct.diagnosis.recorded import Recorded, recorded
-from cdpr_struct.errors import CdprError
+from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.planning.checks import CHECKS, check_rows
 from cdpr_struct.planning.information import Numbers
-from cdpr_struct.planning.measurements import Measurement, Proposed, proposed
+from cdpr_struct.planning.measurements import FREQUENCIES, Measurement, Proposed, proposed
 from cdpr_struct.planning.planned_rows import PlannedRows
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
@@ -25,21 +25,17 @@ def checks(data: Recorded, numbers: Numbers, known: Callable[[str], bool] = lamb
         rows = check_rows(data.arrays, data.campaign.tolerances, numbers, check)
         read = [n for n, own in numbers.place.items() if np.any(rows[:, numbers.tolerances :][:, own])]
         if not any(known(name) for name in read):
-            yield Measurement("check", check.name, (), check.sigma), rows.T @ rows
+            yield Measurement("check", (), check.name, check.sigma), rows.T @ rows
 
 
 def at_the_robot(data: Recorded, numbers: Numbers) -> Iterator[Informed]:
-    """Measurements at the robot; what refers to the campaign as a whole (mean pose and tension) stays as it is there.
-
-    Without frequencies where these cannot be computed in a state, and none at all where that cannot be done for rest.
-    """
-    try:
-        found = proposed(data.campaign)
-        rows = _rows(data, numbers, found)
-    except CdprError:
+    """Measurements at the robot, without frequencies where the robot as entered has none: it is unstable there."""
+    found = proposed(data.campaign)
+    if not found.measurements:
         return
+    rows = _rows(data, numbers, found)
     for measurement, states in found.measurements:
-        if rows.local.vibrating is not None or not measurement.kind.endswith("_frequencies"):
+        if rows.local.vibrating is not None or measurement.kind not in FREQUENCIES:
             yield measurement, rows.information(states)
 
 
@@ -51,12 +47,12 @@ def _rows(data: Recorded, numbers: Numbers, found: Proposed) -> PlannedRows:
         instead[_BEHIND_A_CLAMP] = (_kept_stretch(numbers.term(_BEHIND_A_CLAMP), found.clamped), index[0])
     try:
         return PlannedRows.of(new, numbers, instead)
-    except CdprError:
+    except UnstableEquilibriumError:
         return PlannedRows.of(replace(new, vibrations=None), numbers, instead)
 
 
 def at_the_center_of(data: Recorded, campaign: Campaign) -> Recorded:
-    """Another campaign's readings, laws of the robot referring to what they refer to in the first."""
+    """Another campaign's readings; laws of the robot refer to the first one's mean pose and tension there, too."""
     new = recorded(campaign)
     return replace(new, known=replace(new.known, center=data.known.center, mean_tension=data.known.mean_tension))
 

@@ -13,7 +13,9 @@ from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 ASIDE, RAISED = 0.15, 0.25  # of the frame's width, of the height below the frame anchors: steps to another pose
 TILT = np.radians(10.0)
 STEP_LOAD = 0.25  # of the platform's mass
-PAYLOADS = (0.15, 0.3, 0.45)  # likewise, of a series
+PAYLOADS, LOCKED = (0.15, 0.3, 0.45), (0.0, 0.15, 0.3)  # likewise, of a series, and of one at locked lengths
+AXES = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
+CORNERS = ((1, 1, 1), (-1, -1, 1), (1, -1, -1), (-1, 1, -1), (0, 0, 1), (0, 0, -1))
 _LEAST = 0.02  # of the platform's weight: tension that every cable must have
 
 
@@ -66,3 +68,11 @@ def held(campaign: Campaign, places: Sequence[Place]) -> tuple[np.ndarray, Inver
     )  # fmt: skip
     weight = campaign.robot.platform.mass * campaign.robot.gravity
     return found.held & (found.tensions.min(axis=-1) > _LEAST * weight), found
+
+
+def angles_of(turn: np.ndarray) -> np.ndarray:
+    """rx, ry, rz [rad] of R = Rz Ry Rx."""
+    return np.array(
+        [np.arctan2(turn[2, 1], turn[2, 2]), -np.arcsin(np.clip(turn[2, 0], -1.0, 1.0)),
+         np.arctan2(turn[1, 0], turn[0, 0])]
+    )  # fmt: skip
