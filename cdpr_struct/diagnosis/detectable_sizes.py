@@ -28,8 +28,9 @@ def smallest(pattern: Pattern, gram: np.ndarray) -> dict[str, float | str]:
     """Size of a random pattern of this kind that is found, from gram (d, d) by one prior sigma of its parameters."""
     strength, first = float(np.trace(gram)), pattern.parameters[0]
     size = np.sqrt(noncentrality(len(gram)) / max(strength, 1e-300)) * first.prior
+    shown = np.expm1(size) if first.ratio else size**2 if first.squared else size
     return {
-        "value": float(np.expm1(size)) if first.ratio else float(size),
+        "value": float(shown),
         "unit": "relative" if first.ratio else first.unit,
         "pattern": pattern.label or "as a whole",
     }

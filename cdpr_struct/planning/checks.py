@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.diagnosis.linearised import Term
-from cdpr_struct.measurement.campaign import Tolerances
 from cdpr_struct.diagnosis.tolerances import tolerated
+from cdpr_struct.measurement.campaign import Tolerances
 from cdpr_struct.planning.information import Numbers
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.masts import of_each_mast
@@ -100,9 +100,7 @@ def check_rows(robot: RobotArrays, tolerances: Tolerances, numbers: Numbers, che
         return np.broadcast_to((moved - plain) / (_STEP * check.sigma), (len(term.sigma), len(plain))).T
 
     found = np.zeros((len(plain), whole))
-    found[:, :start] = slope(
-        Term(lambda arrays, u: tolerated(arrays, tolerances, u), np.eye(start), np.ones(start))
-    )
+    found[:, :start] = slope(Term(lambda arrays, u: tolerated(arrays, tolerances, u), np.eye(start), np.ones(start)))
     for name, cause in numbers.causes.items():
         if name not in check.apart and cause.carrier != "state":
             own = numbers.place[name]

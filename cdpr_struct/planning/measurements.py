@@ -5,7 +5,7 @@ robot as entered, sensors as good as the campaign's own, or as good ones usually
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -14,7 +14,18 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.generated.platform import rotation
 from cdpr_struct.measurement.campaign import CableFrequencies, Campaign, RobotFrequencies, Sigmas, States
 from cdpr_struct.planning.places import (
-    AXES, CORNERS, LOCKED, PAYLOADS, STEP_LOAD, Place, angles_of, held, home_of, loaded, moved, tilted,
+    AXES,
+    CORNERS,
+    LOCKED,
+    PAYLOADS,
+    STEP_LOAD,
+    Place,
+    angles_of,
+    held,
+    home_of,
+    loaded,
+    moved,
+    tilted,
 )  # fmt: skip
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates
@@ -23,6 +34,7 @@ from cdpr_struct.statics.forward_kinematics import forward
 MOST = 4  # states of a series
 CABLE_MODES = 4  # in-plane modes of every cable
 FREQUENCIES = ("cable_frequencies", "robot_frequencies")
+SERIES = ("tilts", "poses", "payloads", "sides", "clamped")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,7 +89,7 @@ def proposed(campaign: Campaign) -> Proposed:
     for wish in wishes:
         index = [i for i in range(start, start + len(wish.places)) if good[i]]
         start += len(wish.places)
-        for own in ([index[:MOST]] if wish.together and len(index) > 1 else [[i] for i in index]):
+        for own in [index[:MOST]] if wish.together and len(index) > 1 else [[i] for i in index]:
             if not wish.together or len(own) > 1:
                 found.append((Measurement(wish.kind, tuple(places[i] for i in own)), tuple(number[own].tolist())))
     kept = [place for place, there in zip(places, good, strict=True) if there]
@@ -149,10 +161,11 @@ def _with_locked(
     usual, places = Sigmas(), loaded(campaign, home, LOCKED)
     payload = np.array([p.payload for p in places])
     robot = RobotArrays.of(campaign.robot).with_point_masses(payload[:, None], np.zeros(3))
-    hangs = forward(robot, np.tile(length, (len(places), 1)), home.position, rotation(*home.angles), campaign.cable_model)
+    length = np.tile(length, (len(places), 1))
+    hangs = forward(robot, length, home.position, rotation(*home.angles), campaign.cable_model)
     if not hangs.converged.all():
         return campaign
-    count, blank = len(places), np.full((len(places), len(length)), np.nan)
+    count, blank = len(places), np.full_like(length, np.nan)
     for kind in ("locked", "clamped"):
         first, lock = len(campaign.states.names), int(campaign.states.lock.max()) + 1
         new = States(
@@ -160,7 +173,7 @@ def _with_locked(
             angles=np.array([angles_of(turn) for turn in hangs.rotation]),
             sigma_position=np.full(count, usual.position_m),
             sigma_rotation=np.full(count, np.radians(usual.rotation_deg)), payload=payload,
-            tension=blank, tension_sigma=blank, length=np.tile(length, (count, 1)),
+            tension=blank, tension_sigma=blank, length=length,
             length_sigma=np.full_like(blank, usual.length_m), lock=np.full(count, lock),
             loaded=np.ones(count, dtype=bool), static=np.zeros(count, dtype=bool),
             temperature=np.full(count, np.nan), approach=blank, time=np.full(count, np.nan),
@@ -172,8 +185,9 @@ def _with_locked(
 
 def joined(first: States, second: States) -> States:
     """States of both, in this order."""
-    columns = {name: (getattr(first, name), getattr(second, name)) for name in States.__slots__}
-    return States(**{n: a + b if n == "names" else np.concatenate([a, b]) for n, (a, b) in columns.items()})
+    arrays = [f.name for f in fields(States) if f.name != "names"]
+    columns = {name: np.concatenate([getattr(first, name), getattr(second, name)]) for name in arrays}
+    return States(first.names + second.names, **columns)
 
 
 def _with_frequencies(

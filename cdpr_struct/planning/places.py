@@ -53,9 +53,7 @@ def tilted(home: Place) -> list[Place]:
 
 def loaded(campaign: Campaign, home: Place, shares: Sequence[float]) -> list[Place]:
     """Home with payloads, two digits of these shares of the platform's mass."""
-    return [
-        Place(home.position, home.angles, float(f"{share * campaign.robot.platform.mass:.2g}")) for share in shares
-    ]
+    return [Place(home.position, home.angles, float(f"{share * campaign.robot.platform.mass:.2g}")) for share in shares]
 
 
 def held(campaign: Campaign, places: Sequence[Place]) -> tuple[np.ndarray, InverseSolution]:

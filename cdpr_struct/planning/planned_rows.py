@@ -1,13 +1,13 @@
 """A campaign about the robot as entered, linearised once: the information in all of its states, or in some."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cdpr_struct.association.detection import robot_detection
 from cdpr_struct.diagnosis.assembled import Lists, linear_model, stacked
-from cdpr_struct.diagnosis.layout import Layout, layout
+from cdpr_struct.diagnosis.layout import layout
 from cdpr_struct.diagnosis.linearised import Local, Point, Rows, Term
 from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.inference.linear_model import LinearModel
@@ -52,7 +52,10 @@ class PlannedRows:
         A cause with parameters of its own in each state does nothing in new ones.
         """
         local = Local.about(data, Point.entered(data))
-        once = _Once(*(getattr(local, f.name) for f in fields(Local)), local.by_noise(), local.own_columns())
+        once = _Once(
+            local.data, local.point, local.arrays, local.nearby, local.vibrating, local.r, local.by_noise(),
+            local.own_columns(),
+        )  # fmt: skip
         parts = []
         for name, cause in numbers.causes.items():
             own = len(numbers.sigma[name])

@@ -20,7 +20,7 @@ from cdpr_struct.planning.candidates import at_the_robot, checks
 from cdpr_struct.planning.information import Numbers
 from cdpr_struct.planning.measurements import SERIES, Measurement
 from cdpr_struct.planning.planned_rows import information_of
-from cdpr_struct.planning.separations import ENOUGH, WIDE, Pair, Separation, Separator, Sized
+from cdpr_struct.planning.separations import ENOUGH, WIDE, Pair, Separation, Separator, Sized, separations
 
 NEAR = 10.0  # nats from a named cause within which its next rival is worth telling apart
 LIKELY = 5.0  # nats from the best candidate of an unknown
@@ -155,18 +155,16 @@ def _answer(
     added = (after - before).reshape((len(possible), 2, -1)).min(axis=1)
     worth = np.where(added >= APART, np.minimum(added, ENOUGH), 0.0)
     aside = np.array([what.kind == "check" for what, _ in possible])
-    said, left = [], np.ones(len(question.pairs), dtype=bool)
+    said: list[Recommendation] = []
+    left = np.ones(len(question.pairs), dtype=bool)
     while len(said) < most and worth[:, left].any():
         total = worth[:, left].sum(axis=1).round(1)
         best = max(range(len(possible)), key=lambda i: (total[i], aside[i], added[i, left].sum()))
         first = int(np.where(left, added[best], -np.inf).argmax())
         both = np.stack([before, after[best]]).reshape((2, 2, -1)).min(axis=1)
-        pairs = [
-            Separation(*question.pairs[i], float(both[0, i]), float(both[1, i]))
-            for i in np.argsort(-added[best], kind="stable")
-            if worth[best, i]
-        ]
+        told = [i for i in np.argsort(-added[best], kind="stable") if worth[best, i]]
+        pairs = separations([question.pairs[i] for i in told], both[0, told], both[1, told])
         what = possible[best][0]
-        said.append(Recommendation(what.kind, what, question.pairs[first], float(added[best, first]), tuple(pairs)))
+        said.append(Recommendation(what.kind, what, question.pairs[first], float(added[best, first]), pairs))
         left = left & (worth[best] == 0.0)
     return said

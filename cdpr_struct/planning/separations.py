@@ -88,5 +88,11 @@ class Separator:
         after = self.nats(more)
         useful = np.minimum(after, ENOUGH) - np.minimum(before, ENOUGH)
         order = np.argsort(before - after, kind="stable")
-        rows = [Separation(*self.pairs[i], float(before[i]), float(after[i])) for i in order]
-        return Gain(measurement, float(np.maximum(useful, 0.0).sum()), tuple(rows))
+        rows = separations([self.pairs[i] for i in order], before[order], after[order])
+        return Gain(measurement, float(np.maximum(useful, 0.0).sum()), rows)
+
+
+def separations(pairs: Sequence[Pair], before: np.ndarray, after: np.ndarray) -> tuple[Separation, ...]:
+    """Of pairs, with (pairs,) nats."""
+    rows = zip(pairs, before.tolist(), after.tolist(), strict=True)
+    return tuple(Separation(cause, rival, old, new) for (cause, rival), old, new in rows)
