@@ -24,9 +24,10 @@ def run(
 ) -> int:
     """Smallest detectable size of each cause, which causes look alike, and which measurement would separate them."""
     require_file(campaign)
-    from cdpr_struct.diagnosis.planned_campaign import STEPS, planned
     from cdpr_struct.measurement.campaign_file import load_campaign
-    from cdpr_struct.reports.diagnosis_plan import plan_json, plan_text
+    from cdpr_struct.planning.campaign_plan import STEPS, planned
+    from cdpr_struct.reports.plan.result import plan_json
+    from cdpr_struct.reports.plan.text import plan_text
 
     entered = load_campaign(campaign, *read_bounds(lower_bound, upper_bound))
     with output.steps(STEPS) as progress:
@@ -34,7 +35,7 @@ def run(
     result = with_extensions(plan_json(found) | {"warnings": list(entered.notes)}, entered.robot, NAME)
 
     def files() -> Files:
-        from cdpr_struct.reports.plan_page import plan_files
+        from cdpr_struct.reports.plan.page import plan_files
 
         return plan_files(result)
 

@@ -1,8 +1,10 @@
-"""The smallest size of each cause that a campaign would show, and which causes it would not tell apart."""
+"""The smallest size of each cause that a campaign would show."""
+
+from collections.abc import Sequence
 
 import numpy as np
 
-from cdpr_struct.diagnosis.alternatives import Offered, offered
+from cdpr_struct.diagnosis.alternatives import offered
 from cdpr_struct.diagnosis.detectable import noncentrality
 from cdpr_struct.diagnosis.hypotheses.cause import Pattern
 from cdpr_struct.diagnosis.judge import Judged
@@ -16,19 +18,25 @@ def minimum_detectable(search: Search, null: Judged) -> dict[str, dict[str, floa
     screen = Screen.of(null.model, null.fit.noise, null.fit.soft)
     table: dict[str, dict[str, float | str]] = {}
     for cause in menu:
-        pattern = plainest(cause)
+        pattern = plainest(cause.patterns)
         gram = screen.screened([part @ pattern.basis * pattern.prior for part in cause.columns]).gram
-        strength, first = float(np.trace(gram)), pattern.parameters[0]
-        size = np.sqrt(noncentrality(len(gram)) / max(strength, 1e-300)) * first.prior
-        table[cause.cause.name] = {
-            "value": float(np.expm1(size)) if first.ratio else float(size),
-            "unit": "relative" if first.ratio else first.unit,
-            "pattern": pattern.label or "as a whole",
-        }
+        table[cause.cause.name] = smallest(pattern, gram)
     return table
 
 
-def plainest(cause: Offered) -> Pattern:
+def smallest(pattern: Pattern, gram: np.ndarray) -> dict[str, float | str]:
+    """Size of a random pattern of this kind that is found, from gram (d, d) by one prior sigma of its parameters."""
+    strength, first = float(np.trace(gram)), pattern.parameters[0]
+    size = np.sqrt(noncentrality(len(gram)) / max(strength, 1e-300)) * first.prior
+    shown = np.expm1(size) if first.ratio else size**2 if first.squared else size
+    return {
+        "value": float(shown),
+        "unit": "relative" if first.ratio else first.unit,
+        "pattern": pattern.label or "as a whole",
+    }
+
+
+def plainest(patterns: Sequence[Pattern]) -> Pattern:
     """All alike if there is such a pattern, else that of the most numbers."""
-    alike = [pattern for pattern in cause.patterns if pattern.label == "all alike"]
-    return (alike or [max(cause.patterns, key=lambda pattern: len(pattern.parameters))])[0]
+    alike = [pattern for pattern in patterns if pattern.label == "all alike"]
+    return (alike or [max(patterns, key=lambda pattern: len(pattern.parameters))])[0]

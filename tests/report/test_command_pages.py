@@ -10,13 +10,14 @@ import pandas as pd
 import pytest
 
 from cdpr_struct.crosscheck.robot_modes import robot_modes
-from cdpr_struct.diagnosis.planned_campaign import Plan
-from cdpr_struct.diagnosis.planned_gain import Gain, Separation
+from cdpr_struct.planning.campaign_plan import Confusion, Plan
+from cdpr_struct.planning.measurements import Measurement
+from cdpr_struct.planning.separations import Gain, Separation
 from cdpr_struct.reports.derive_page import derive_files
-from cdpr_struct.reports.diagnosis_plan import plan_json
 from cdpr_struct.reports.figures.plan import confused_causes
 from cdpr_struct.reports.modes_page import modes_files
-from cdpr_struct.reports.plan_page import plan_files
+from cdpr_struct.reports.plan.page import plan_files
+from cdpr_struct.reports.plan.result import plan_json
 from cdpr_struct.reports.robots_page import robots_files
 from cdpr_struct.reports.transient_measured import measured_files, measured_json
 from cdpr_struct.robot.pose import Pose
@@ -54,15 +55,16 @@ def plan_result() -> dict:
         "hose_stiffness": {"value": 9.1, "unit": "N/m", "pattern": "as a whole"},
     }
     pairs = [
-        {"cause": "gravity_tilt", "taken_for": "hose_stiffness", "nats": 0.3},
-        {"cause": "joint_mass", "taken_for": "platform_mass", "nats": 1.4},
-        {"cause": "external_force", "taken_for": "gravity_tilt", "nats": 2.9},
+        Confusion("gravity_tilt", "hose_stiffness", 0.3),
+        Confusion("joint_mass", "platform_mass", 1.4),
+        Confusion("external_force", "gravity_tilt", 2.9),
     ]
     separations = (
         Separation("gravity_tilt", "hose_stiffness", 0.3, 900.5),
         Separation("joint_mass", "platform_mass", 1.4, 1.4),
     )
-    gains = [Gain("spirit level (+-0.5 mrad)", "level", 4.7, separations), Gain("weigh it", "scale", 0.2, separations)]
+    checks = [Measurement("check", (), name) for name in ("tilt", "platform_mass")]
+    gains = [Gain(checks[0], 4.7, separations), Gain(checks[1], 0.2, separations)]
     return plan_json(Plan(sizes, pairs, gains, {"creep": "needs time_s, over minutes", "cable_sag": "has sag"}))
 
 

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.diagnosis_plan import MANY
 from cdpr_struct.reports.figures import plan as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.plan.measurements import MANY
 
 
 def plan_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:

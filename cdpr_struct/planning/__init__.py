@@ -1,0 +1,1 @@
+"""What should be measured next? See README.md for the files of this room."""

@@ -1,0 +1,130 @@
+"""Before measuring: what a campaign can find, what it would confuse, and what to measure next."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cdpr_struct.diagnosis.detectable_sizes import plainest, smallest
+from cdpr_struct.diagnosis.hypotheses.library import testable
+from cdpr_struct.diagnosis.recorded import Recorded, recorded
+from cdpr_struct.diagnosis.seen import seen_in
+from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.planning.candidates import at_the_robot, checks
+from cdpr_struct.planning.information import Numbers, expected_evidence, of_causes
+from cdpr_struct.planning.planned_rows import PlannedRows
+from cdpr_struct.planning.separations import WIDE, Gain, Separator, Sized
+
+SAME = 3.0  # nats: expected evidence below which two causes are one class, a factor of 20
+_WORTH = 0.1  # nats below which a measurement is not listed
+_VISIBLE = 2.0  # sigmas by which the typical size of some pattern of a cause changes the data, or it hides in noise
+_FRICTION = "pulley_friction"
+
+
+@dataclass(frozen=True, slots=True)
+class Confusion:
+    """A cause, another that it would be taken for, and the expected log evidence between them [nat]."""
+
+    cause: str
+    taken_for: str
+    nats: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plan:
+    """A campaign's promise.
+
+    detectable   : per testable cause its smallest detectable size
+    confusable   : pairs of causes that it does not tell apart
+    gains        : measurements that would, best first, of each family the best
+    not_testable : why not, per cause
+    """
+
+    detectable: dict[str, dict[str, float | str]]
+    confusable: list[Confusion]
+    gains: list[Gain]
+    not_testable: dict[str, str]
+
+
+STEPS = 3
+"""Calls of `progress` in `planned`."""
+
+
+def planned(campaign: Campaign, progress: Callable[[str], None] = lambda name: None) -> Plan:
+    """What a campaign promises; its readings may be those of a simulation.
+
+    progress : called with the name of each step as it begins
+
+    Raises
+    ------
+    InputError : the campaign holds nothing that can be diagnosed.
+    """
+    progress("simulating the campaign")
+    one_sided = _one_sided(campaign)
+    data = recorded(one_sided)
+    seen = seen_in(data)
+    causes, hidden = testable(seen, campaign.checked)
+    numbers = Numbers.of(data.cables, causes, seen)
+    information = PlannedRows.of(data, numbers, {}).information()
+    gram = of_causes(information, numbers.tolerances)
+    for name, patterns in numbers.patterns.items():
+        every = np.hstack([numbers.pattern(name, pattern) for pattern in patterns])
+        if (every * (gram @ every)).sum(axis=0).max() < _VISIBLE**2:
+            hidden[name] = "at its typical size it hides in noise and tolerances"
+    if one_sided is not campaign and _FRICTION in numbers.causes:
+        hidden[_FRICTION] = "needs a column approach (+1 or -1)"
+    sizes = {
+        name: smallest(pattern, _of(gram, numbers.pattern(name, pattern)))
+        for name in numbers.causes
+        if name not in hidden
+        for pattern in [plainest(numbers.patterns[name])]
+    }
+    progress("comparing causes")
+    pairs = confusions(numbers, gram)
+    progress("trying further measurements")
+    return Plan(sizes, pairs, _gains(data, numbers, information, pairs), hidden)
+
+
+def _of(gram: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    return np.asarray(columns.T @ gram @ columns)
+
+
+def _one_sided(campaign: Campaign) -> Campaign:
+    """The campaign with every state approached from the same side where nobody said from which."""
+    approach = campaign.states.approach
+    if np.isfinite(approach).any():
+        return campaign
+    return replace(campaign, states=replace(campaign.states, approach=np.ones_like(approach)))
+
+
+def confusions(numbers: Numbers, gram: np.ndarray) -> list[Confusion]:
+    """Pairs with less than `SAME` nats against each other at twice the detectable size of the first, worst first."""
+    sized = {name: Sized.detectable(numbers, name, gram) for name in numbers.causes}
+    sized = {name: own for name, own in sized.items() if float((own.effect * (gram @ own.effect)).sum()) > 1.0}
+    found = [
+        Confusion(cause, rival, expected_evidence(gram, sized[cause].effect, sized[rival].rival))
+        for cause in sized
+        for rival in sized
+        if cause != rival
+    ]
+    return sorted((c for c in found if c.nats < SAME), key=lambda c: (c.nats, c.cause, c.taken_for))
+
+
+def _gains(data: Recorded, numbers: Numbers, information: np.ndarray, pairs: list[Confusion]) -> list[Gain]:
+    """Measurements that would tell confused pairs of causes apart, best first; of each family the best one."""
+    if not pairs:
+        return []
+    gram = of_causes(information, numbers.tolerances)
+    names = sorted({name for pair in pairs for name in (pair.cause, pair.taken_for)})
+    sized = {name: Sized.detectable(numbers, name, gram, WIDE) for name in names}
+    none = np.zeros((numbers.count, 0))
+    separator = Separator(numbers, information, sized, [(p.cause, p.taken_for) for p in pairs], none)
+    before = separator.nats()
+    found = [
+        separator.gain(measurement, more, before)
+        for measurement, more in [*checks(data, numbers), *at_the_robot(data, numbers)]
+    ]
+    best: dict[tuple[str, str], Gain] = {}
+    for gain in sorted(found, key=lambda g: -g.nats):
+        best.setdefault(gain.measurement.family, gain)
+    return [gain for gain in best.values() if gain.nats > _WORTH]

@@ -1,0 +1,66 @@
+"""Measurements with the information that each would give, computed together."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from cdpr_struct.diagnosis.linearised import Term
+from cdpr_struct.diagnosis.recorded import Recorded, recorded
+from cdpr_struct.errors import UnstableEquilibriumError
+from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.planning.checks import CHECKS, check_rows
+from cdpr_struct.planning.information import Numbers
+from cdpr_struct.planning.measurements import FREQUENCIES, Measurement, Proposed, proposed
+from cdpr_struct.planning.planned_rows import PlannedRows
+from cdpr_struct.robot.robot_arrays import RobotArrays
+
+_BEHIND_A_CLAMP = "dead_length"
+Informed = tuple[Measurement, np.ndarray]
+
+
+def checks(data: Recorded, numbers: Numbers, known: Callable[[str], bool] = lambda _: False) -> Iterator[Informed]:
+    """Checks beside the robot, without those that read a cause of which `known` says so."""
+    for check in CHECKS:
+        rows = check_rows(data.arrays, data.campaign.tolerances, numbers, check)
+        read = [n for n, own in numbers.place.items() if np.any(rows[:, numbers.tolerances :][:, own])]
+        if not any(known(name) for name in read):
+            yield Measurement("check", (), check.name, check.sigma), rows.T @ rows
+
+
+def at_the_robot(data: Recorded, numbers: Numbers) -> Iterator[Informed]:
+    """Measurements at the robot, without frequencies where the robot as entered has none: it is unstable there."""
+    found = proposed(data.campaign)
+    if not found.measurements:
+        return
+    rows = _rows(data, numbers, found)
+    for measurement, states in found.measurements:
+        if rows.local.vibrating is not None or measurement.kind not in FREQUENCIES:
+            yield measurement, rows.information(states)
+
+
+def _rows(data: Recorded, numbers: Numbers, found: Proposed) -> PlannedRows:
+    new = at_the_center_of(data, found.campaign)
+    instead = {}
+    index = [np.array(states) for measurement, states in found.measurements if measurement.kind == "clamped"]
+    if index and _BEHIND_A_CLAMP in numbers.causes:
+        instead[_BEHIND_A_CLAMP] = (_kept_stretch(numbers.term(_BEHIND_A_CLAMP), found.clamped), index[0])
+    try:
+        return PlannedRows.of(new, numbers, instead)
+    except UnstableEquilibriumError:
+        return PlannedRows.of(replace(new, vibrations=None), numbers, instead)
+
+
+def at_the_center_of(data: Recorded, campaign: Campaign) -> Recorded:
+    """Another campaign's readings; laws of the robot refer to the first one's mean pose and tension there, too."""
+    new = recorded(campaign)
+    return replace(new, known=replace(new.known, center=data.known.center, mean_tension=data.known.mean_tension))
+
+
+def _kept_stretch(term: Term, tension: np.ndarray) -> Term:
+    """Dead lengths behind clamps: they have let out what they do at the tensions (m,) [N] of clamping, and no more."""
+
+    def change(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+        return replace(arrays, length_offset=arrays.length_offset + theta * tension / arrays.axial_stiffness)
+
+    return replace(term, change=change)

@@ -1,0 +1,1 @@
+"""The report of a test plan, and the words for further measurements."""

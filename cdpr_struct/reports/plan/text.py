@@ -1,0 +1,29 @@
+"""A test plan for a terminal."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from cdpr_struct.reports.text import paragraphs, plain_table
+
+SHOWN = 8  # measurements
+
+
+def plan_text(result: Mapping[str, Any]) -> str:
+    """The plan for a terminal."""
+    sizes = [
+        [row["cause"], f"{row['minimum_detectable']['value']:.3g}", row["minimum_detectable"]["unit"],
+         row["minimum_detectable"]["pattern"]]
+        for row in result["detectable"]
+    ]  # fmt: skip
+    pairs = [[a, b] for a, b in result["confusable"]]
+    blocks = [plain_table("Smallest size found 4 times out of 5", ["cause", "size", "unit", "pattern"], sizes)]
+    if pairs:
+        blocks.append(plain_table("Would be taken for each other", ["cause", "for"], pairs))
+    hidden = [[cause, why] for cause, why in sorted(result["not_testable"].items())]
+    if hidden:
+        blocks.append(plain_table("Would not be found with this campaign", ["cause", "why"], hidden))
+    if result["next"]:
+        head = "Would help (nats over all pairs, each counted up to 5; then those of the pair that it helps most)"
+        helps = [f"{row['gain_nats']:.1f} nats: {row['sentence']}" for row in result["next"][:SHOWN]]
+        blocks.append("\n".join([head, *helps]))
+    return paragraphs(*blocks)
