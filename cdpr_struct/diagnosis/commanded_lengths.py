@@ -42,13 +42,13 @@ class Commanded:
 
 
 def commanded(campaign: Campaign, position: np.ndarray, rotation: np.ndarray) -> Commanded:
-    """Commands at the measured poses (S, 3), (S, 3, 3), of a controller that knows nothing of the robot's extensions."""
+    """At the measured poses (S, 3), (S, 3, 3), by a controller that knows nothing of the robot's extensions."""
     states, robot = campaign.states, campaign.robot.without_extensions()
     s, m = states.tension.shape
     q = max(m - 6, 0)
     found = Commanded(np.full((s, m), np.nan), np.zeros((s, m, 6)), np.zeros((s, m, q)))
     read = np.isfinite(states.tension).any(axis=1) & np.isfinite(states.position).all(axis=1)
-    free = np.flatnonzero(states.static & read & ~np.isfinite(states.length).any(axis=1)) if q else []
+    free = np.flatnonzero(states.static & read & ~np.isfinite(states.length).any(axis=1) & (q > 0))
     if not len(free):
         return found
     plain = replace(campaign, robot=robot)
@@ -67,7 +67,7 @@ def commanded(campaign: Campaign, position: np.ndarray, rotation: np.ndarray) ->
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Near:
-    """Commands at a pose: lengths, tensions and change of length a newton (m,), and how the lengths change with the pose.
+    """At a pose: lengths, tensions and change of length a newton (m,), and how the lengths change with the pose.
 
     slope (m, 6) : per metre and radian;  bend (m, 6) : by how much they bend within `_REACH`
     """

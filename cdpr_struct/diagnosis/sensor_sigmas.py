@@ -82,7 +82,7 @@ class NoiseOfKind:
 
 def noise_of_kinds(found: Judged) -> list[NoiseOfKind]:
     """Of each kind of sensor that was read."""
-    groups, noise, rows = found.model.groups, found.fit.noise, []
+    groups, noise, rows = found.model.readings, found.fit.noise, []
     odd = noise.responsibility[:, KAPPA >= _OUTLIER].sum(axis=1) > 0.5  # more likely than not
     for kind, members in enumerate(groups.members > 0.0):
         count = int(groups.size[members].sum())

@@ -11,6 +11,7 @@ from cdpr_struct.association.modes import robot_modes
 from cdpr_struct.association.peak_noise import PeakNoise
 from cdpr_struct.association.peaks import PeakList, PeakLists, padded
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.cable_modes import CableModes, CableRows, cable_modes_at, cable_rates
@@ -93,7 +94,7 @@ class Vibrating:
         robot = None
         if measured.peaks is not None:
             massless = campaign.model == "static"
-            robot = modes_at(point, measured.highest, campaign.assembly, "static" if massless else "exact")
+            robot = modes_at(point, measured.highest, _assembly(campaign), "static" if massless else "exact")
         return cls(states, measured, known, cable_modes_at(point, measured.rows), robot)
 
     @property
@@ -142,7 +143,7 @@ def log_likelihoods(
         return np.zeros(arrays.batch_shape[:1])
     point = _whole(_point(states, measured, known.at(measured.states), arrays, readings))
     try:
-        log_hertz, share = frequencies_at(point, float(measured.highest.max()) * BEYOND, campaign.assembly)
+        log_hertz, share = frequencies_at(point, float(measured.highest.max()) * BEYOND, _assembly(campaign))
     except UnstableEquilibriumError:
         return np.full(len(point.position), -np.inf)
     found = []
@@ -175,3 +176,7 @@ def _association(peaks: PeakLists, log_hertz: np.ndarray, share: np.ndarray) -> 
     visible = (share >= 0.0) & (log_hertz > low) & (log_hertz < high)
     detection = detection_of_doubles(log_hertz, np.where(visible, robot_detection(share), 0.0))
     return Association(peaks, robot_modes(log_hertz, detection), clutter(peaks))
+
+
+def _assembly(campaign: Campaign) -> Assembly:
+    return "thesis" if campaign.assembly == "thesis" else "consistent"

@@ -1,4 +1,4 @@
-"""Internal force other than commanded: the measured tensions sit elsewhere in the null space of the structure matrix."""
+"""Internal force other than commanded: tensions sit elsewhere in the null space of the structure matrix."""
 
 import numpy as np
 
