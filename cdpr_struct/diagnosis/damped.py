@@ -13,6 +13,14 @@ from cdpr_struct.measurement.signal_states import held_against
 from cdpr_struct.robot.robot import Robot
 
 
+NEEDS_SIGNALS = {
+    "viscous_damping": "needs free decays or FRFs",
+    "hysteretic_damping": "needs decays at several amplitudes",
+    "coulomb_damping": "needs decays at several amplitudes",
+}
+"""Laws of damping, and what shows them."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Damped:
     """Identified modes beside those of a robot, the law that damps them, and modes that say nothing of it.

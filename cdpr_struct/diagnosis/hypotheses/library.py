@@ -6,9 +6,18 @@ from dataclasses import replace
 
 from cdpr_struct.diagnosis.hypotheses import accelerometers, cables, geometry, platform, sensors, stiffness
 from cdpr_struct.diagnosis.hypotheses.cause import Cause, Seen
+from cdpr_struct.errors import InputError, known_names
 
 FAMILIES = (stiffness, geometry, platform, cables, sensors, accelerometers)
 LIBRARY: dict[str, Cause] = {cause.name: cause for family in FAMILIES for cause in family.CAUSES}
+
+
+def require_known(source: str, checked: Mapping[str, float]) -> None:
+    """Raises `InputError` if the table [checked] of a campaign file names what is no cause."""
+    for name, sigma in checked.items():
+        if name not in LIBRARY:
+            expected = f"no such cause; {known_names(name.lower(), sorted(LIBRARY))}"
+            raise InputError(source, f"checked.{name}", sigma, expected)
 
 
 def testable(seen: Seen, checked: Mapping[str, float]) -> tuple[list[Cause], dict[str, str]]:
