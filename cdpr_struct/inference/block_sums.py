@@ -1,6 +1,7 @@
 """What each block says of the parameters, noise integrated out: for predictions of blocks that were not fitted."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -35,8 +36,8 @@ class BlockSums:
         sizes = [stack.r.shape[1] for stack in model.stacks for _ in stack.r]
         block = np.repeat(np.arange(len(sizes)), sizes)
         first = np.concatenate([[0], np.cumsum(sizes)])
-        columns = [marginal.X[a:b] for a, b in zip(first[:-1], first[1:], strict=True)]
-        rows = [marginal.r[a:b] for a, b in zip(first[:-1], first[1:], strict=True)]
+        columns = [marginal.X[a:b] for a, b in pairwise(first)]
+        rows = [marginal.r[a:b] for a, b in pairwise(first)]
         return cls(
             np.stack([own.T @ own for own in columns]),
             np.stack([own.T @ r for own, r in zip(columns, rows, strict=True)]),
