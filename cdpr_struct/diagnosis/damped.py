@@ -12,6 +12,13 @@ from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.signal_states import held_against
 from cdpr_struct.robot.robot import Robot
 
+NEEDS_SIGNALS = {
+    "viscous_damping": "needs free decays or FRFs",
+    "hysteretic_damping": "needs decays at several amplitudes",
+    "coulomb_damping": "needs decays at several amplitudes",
+}
+"""Laws of damping, and what shows them."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Damped:

@@ -1,16 +1,18 @@
 """The whole diagnosis of a campaign."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from cdpr_struct.diagnosis import stories
-from cdpr_struct.diagnosis.damped import Damped, damped
-from cdpr_struct.diagnosis.decision import Decision, decided
+from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
+from cdpr_struct.diagnosis.decision import Belief, Decision, decided
 from cdpr_struct.diagnosis.detectable_sizes import minimum_detectable
 from cdpr_struct.diagnosis.diagnosis import DAMPING, Candidate, Diagnosis, Location, Peaks, SetAside
 from cdpr_struct.diagnosis.errors_of_kinds import errors_of_kinds, located
 from cdpr_struct.diagnosis.explain import Explained, believed, explained
 from cdpr_struct.diagnosis.extended import extended_robot
 from cdpr_struct.diagnosis.generic_fit import generic_ratio
+from cdpr_struct.diagnosis.hypotheses.library import require_known
 from cdpr_struct.diagnosis.judge import Judged
 from cdpr_struct.diagnosis.left_out import LeftOut, left_out, rows_of
 from cdpr_struct.diagnosis.recommended import Recommendation, recommended
@@ -41,56 +43,84 @@ def diagnosed(
     ------
     InputError : the campaign holds nothing that can be diagnosed.
     """
+    require_known(campaign.source, campaign.checked)
     found = explained(campaign, BUDGETS[budget], progress)
     told = {id(one): stories.candidates(one) for one in found}
     beliefs = believed(found)
     hidden = stories.without_size(found, list(told.values()))
-    first = decided(beliefs, campaign.loss if loss is None else loss, hidden)
-    story = stories.believed_data(found, first)
-    null, chosen = stories.null_of(story).best, stories.chosen_of(story, first)
+    decision = decided(beliefs, campaign.loss if loss is None else loss, hidden)
+    story = stories.believed_data(found, decision)
     progress("predicting what was left out")
-    left = left_out(story.search.data, story.search.where, chosen) if first.classes else None
-    confirmed = left is None or bool((left.kept >= KEEPS).all())
-    decision = first if confirmed else Decision("class", first.classes, min(first.probability, HANGS))
-    sizes = whole_sizes(story.search.data, story.search.seen, chosen)
-    robot = _extended(story, first, sizes)
-    by_damping = damped(campaign, robot)
-    rows, recorded = told[id(story)], stories.as_recorded(found)
-    noise = noise_of_kinds(chosen)
-    data, where = story.search.data, story.search.where
-    aside = tuple(set_aside(data, where, chosen))
+    answer = _Said.of(campaign, story, decision)
+    return _assembled(found, beliefs, answer, told[id(story)])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Said:
+    """What a decision says of the data that it believes, and what other data say of that."""
+
+    campaign: Campaign
+    story: Explained
+    decision: Decision
+    null: Judged
+    chosen: Judged
+    sizes: tuple[WholeSize, ...]
+    left: LeftOut | None
+    confirmed: bool
+    robot: Robot | None
+    damped: Damped | None
+
+    @classmethod
+    def of(cls, campaign: Campaign, story: Explained, decision: Decision) -> "_Said":
+        data, where = story.search.data, story.search.where
+        null, chosen = stories.null_of(story).best, stories.chosen_of(story, decision)
+        left = left_out(data, where, chosen) if decision.classes else None
+        confirmed = left is None or bool((left.kept >= KEEPS).all())
+        sizes = tuple(whole_sizes(data, story.search.seen, chosen))
+        robot = _extended(story, decision, sizes)
+        said = decision if confirmed else Decision("class", decision.classes, min(decision.probability, HANGS))
+        by_signals = damped(campaign, robot)
+        return cls(campaign, story, said, null, chosen, sizes, left, confirmed, robot, by_signals)
+
+    @property
+    def whole(self) -> Decision:
+        """The decision; where nothing else is wrong, that on the damping."""
+        return self.damped.decision if self.damped is not None and self._by_damping else self.decision
+
+    @property
+    def location(self) -> Location | None:
+        """Where the error sits."""
+        if self.decision.status != "adequate":
+            return located(self.story, self.null, self.chosen)
+        return Location(DAMPING, "", -1) if self._by_damping else None
+
+    @property
+    def _by_damping(self) -> bool:
+        return self.decision.status == "adequate" and self.damped is not None and self.damped.stands_out
+
+
+def _assembled(
+    found: Sequence[Explained], beliefs: Sequence[Belief], said: _Said, rows: Sequence[Candidate]
+) -> Diagnosis:
+    """Everything of a diagnosis."""
+    story, null, chosen, campaign = said.story, said.null, said.chosen, said.campaign
+    data, search, recorded = story.search.data, story.search, stories.as_recorded(found)
+    noise, aside = noise_of_kinds(chosen), tuple(set_aside(data, search.where, chosen))
+    advice = recommended(said.decision, said.confirmed, _likeliest(rows))
     return Diagnosis(
-        campaign=campaign,
-        decision=_with_damping(decision, by_damping),
-        beliefs=tuple(sorted(beliefs, key=lambda one: -one.probability)),
-        p_value=stories.p_value(found),
-        p_adequate=_p_adequate(noise),
-        explained=story,
-        correction=story.correction,
-        chosen=chosen,
-        null=null,
-        sizes=tuple(sizes),
-        drift=stories.drift_of(story, chosen),
-        candidates=tuple(rows),
-        tried=tuple(stories.tried(found, story)),
-        set_aside=aside,
-        peaks=Peaks(peak_count(data), tuple(uncertain_peaks(data, chosen))),
-        noise=tuple(noise),
-        errors=tuple(errors_of_kinds(recorded)),
-        location=_location(story, decision, by_damping, null, chosen),
-        recorded=_rows(recorded, stories.null_of(recorded).best),
-        residuals=_rows(story, chosen),
-        left_out=left,
-        generic=generic_ratio(story.search, null, chosen) if left is not None else None,
-        confirmed=confirmed,
-        extended=robot,
-        damped=by_damping,
-        recommendations=tuple([*recommended(decision, confirmed, _likeliest(rows)), *_again(aside)]),
-        sigmas=tuple(sigmas_used(campaign)),
-        doubts=tuple(doubts(campaign, noise)),
-        not_testable=story.search.hidden,
-        minimum_detectable=minimum_detectable(story.search, null),
-    )
+        campaign=campaign, decision=said.whole, beliefs=tuple(sorted(beliefs, key=lambda one: -one.probability)),
+        p_value=stories.p_value(found), p_adequate=_p_adequate(noise), explained=story, correction=story.correction,
+        chosen=chosen, null=null, sizes=said.sizes, drift=stories.drift_of(story, chosen), candidates=tuple(rows),
+        tried=tuple(stories.tried(found, story)), set_aside=aside,
+        peaks=Peaks(peak_count(data), tuple(uncertain_peaks(data, chosen))), noise=tuple(noise),
+        errors=tuple(errors_of_kinds(recorded)), location=said.location,
+        recorded=_rows(recorded, stories.null_of(recorded).best), residuals=_rows(story, chosen), left_out=said.left,
+        generic=None if said.left is None else generic_ratio(search, null, chosen), confirmed=said.confirmed,
+        extended=said.robot, damped=said.damped, recommendations=(*advice, *_again(aside)),
+        sigmas=tuple(sigmas_used(campaign)), doubts=tuple(doubts(campaign, noise)),
+        not_testable=search.hidden | ({} if campaign.identified else NEEDS_SIGNALS),
+        minimum_detectable=minimum_detectable(search, null),
+    )  # fmt: skip
 
 
 def _rows(story: Explained, found: Judged) -> LeftOut:
@@ -104,21 +134,6 @@ def _extended(story: Explained, decision: Decision, sizes: Sequence[WholeSize]) 
         return None
     own = [] if story.correction is None else [story.correction.cause]
     return extended_robot(story.search.data, sizes, [*own, *(size.part.cause.name for size in sizes)])
-
-
-def _with_damping(decision: Decision, found: Damped | None) -> Decision:
-    """The decision; where nothing else is wrong, that on the damping."""
-    if decision.status == "adequate" and found is not None and found.stands_out:
-        return found.decision
-    return decision
-
-
-def _location(
-    story: Explained, decision: Decision, found: Damped | None, null: Judged, chosen: Judged
-) -> Location | None:
-    if decision.status != "adequate":
-        return located(story, null, chosen)
-    return Location(DAMPING, "", -1) if found is not None and found.stands_out else None
 
 
 def _p_adequate(noise: Sequence[NoiseOfKind]) -> float:

@@ -63,21 +63,18 @@ class WhiteStack:
 class WhiteRows:
     """White rows of all stacks.
 
-    parts      : where the rows of each stack stand among those of all blocks
-    soft_stack : which stack has soft rows, None for none
+    parts : where the rows of each stack stand among those of all blocks
     """
 
     stacks: tuple[WhiteStack, ...]
     parts: tuple[slice, ...]
-    soft_stack: int | None
 
     @classmethod
     def of(cls, stacks: Sequence[Stack]) -> "WhiteRows":
         """Raises ValueError if hard rows of a block have no independent noise."""
         ends = np.cumsum([0, *(stack.r.size for stack in stacks)]).tolist()
-        soft = [i for i, stack in enumerate(stacks) if len(stack.soft)]
         white = tuple(WhiteStack.of(stack) for stack in stacks)
-        return cls(white, tuple(map(slice, ends[:-1], ends[1:])), soft[0] if soft else None)
+        return cls(white, tuple(map(slice, ends[:-1], ends[1:])))
 
     @property
     def count(self) -> int:

@@ -7,6 +7,7 @@ from importlib.metadata import entry_points
 
 from cdpr_struct.diagnosis.hypotheses import accelerometers, cables, geometry, platform, sensors, stiffness
 from cdpr_struct.diagnosis.hypotheses.cause import Cause, Seen
+from cdpr_struct.errors import InputError, known_names
 
 FAMILIES = (stiffness, geometry, platform, cables, sensors, accelerometers)
 LIBRARY: dict[str, Cause] = {cause.name: cause for family in FAMILIES for cause in family.CAUSES}
@@ -32,6 +33,14 @@ def installed() -> None:
     for entry in entry_points(group=ENTRY_POINTS):
         found = entry.load()
         register(*([found] if isinstance(found, Cause) else found))
+
+
+def require_known(source: str, checked: Mapping[str, float]) -> None:
+    """Raises `InputError` if the table [checked] of a campaign file names what is no cause."""
+    for name, sigma in checked.items():
+        if name not in LIBRARY:
+            expected = f"no such cause; {known_names(name.lower(), sorted(LIBRARY))}"
+            raise InputError(source, f"checked.{name}", sigma, expected)
 
 
 def testable(seen: Seen, checked: Mapping[str, float]) -> tuple[list[Cause], dict[str, str]]:

@@ -21,6 +21,9 @@ KINDS = {
 """Of each kind of rows: name, factor from what is computed with, unit that is shown."""
 
 
+MOST_REPEATED = 4  # readings that are proposed to be read again
+
+
 def result_json(found: Diagnosis) -> dict[str, Any]:
     """result.json of `diagnose`."""
     hidden, law = _hidden(found), found.outside
@@ -72,8 +75,16 @@ def _verdict(found: Diagnosis) -> dict[str, Any]:
     return {
         "status": decision.status, "causes": likeliest(found), "class": [list(names) for names in decision.classes],
         "probability": float(decision.probability), "location": place(found.location),
-        "next_measurement": "; ".join(map(recommendation, found.recommendations)), "sentence": sentence(found),
+        "next_measurement": "; ".join(_next(found)), "sentence": sentence(found),
     }  # fmt: skip
+
+
+def _next(found: Diagnosis) -> list[str]:
+    """What to measure next; of readings to repeat the worst, all of which are in `set_aside`."""
+    again = [one for one in found.recommendations if one.purpose == "repeat"]
+    shown = [one for one in found.recommendations if one not in again[MOST_REPEATED:]]
+    more = len(again) - MOST_REPEATED
+    return [*map(recommendation, shown), *([f"read again {more} more readings"] if more > 0 else [])]
 
 
 def likeliest(found: Diagnosis) -> list[str]:

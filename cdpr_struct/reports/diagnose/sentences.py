@@ -34,9 +34,16 @@ def sentence(found: Diagnosis) -> str:
 def agreement(found: Diagnosis) -> str:
     """Where nothing is significant: of peaks without a mode for certain it says nothing."""
     p = f"(p = {found.p_value:.2g})."
+    wrong = [one.kind for one in found.noise if 2 * one.outliers > one.readings]
+    if wrong:
+        return (
+            f"No cause stands out {p} But most of the {listed(wrong)} readings contradict the simulation by far more "
+            "than their sigmas: they neither agree nor disagree with any cause."
+        )
     uncertain, count = found.peaks.uncertain, found.peaks.count
     if not uncertain:
-        return f"Nothing significant: simulation and measurements agree within their uncertainty {p}"
+        rest = "the other measurements" if found.set_aside else "measurements"
+        return f"Nothing significant: simulation and {rest} agree within their uncertainty {p}"
     some = ", ".join(f"{peak.hertz:g}" for peak in uncertain[:6]) + (", ..." if len(uncertain) > 6 else "")
     text = f"Nothing significant {p} But {len(uncertain)} of {count} robot frequencies ({some} Hz)"
     text += " cannot be given to a mode for certain, so that they neither agree nor disagree."
