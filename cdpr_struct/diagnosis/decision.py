@@ -105,7 +105,7 @@ def _of_classes(classes: Classes, beliefs: Sequence[Belief], loss: Loss) -> floa
         elif not fits(classes, one.names):
             total += loss.wrong_name * one.probability
         else:
-            total += loss.too_wide * (len(one.names) - len(classes)) * one.probability
+            total += loss.unknown * (len(one.names) - len(classes)) * one.probability
     return total
 
 

@@ -19,6 +19,7 @@ from cdpr_struct.diagnosis.recommended import Recommendation, recommended
 from cdpr_struct.diagnosis.search import BUDGETS
 from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind, doubts, noise_of_kinds, sigmas_used
 from cdpr_struct.diagnosis.set_aside import set_aside
+from cdpr_struct.diagnosis.significant import SIGNIFICANT
 from cdpr_struct.diagnosis.unassigned import peak_count, uncertain_peaks
 from cdpr_struct.diagnosis.whole_sizes import WholeSize, whole_sizes
 from cdpr_struct.inference.scale_mixture import NoiseState
@@ -48,11 +49,24 @@ def diagnosed(
     told = {id(one): stories.candidates(one) for one in found}
     beliefs = believed(found)
     hidden = stories.without_size(found, list(told.values()))
-    decision = decided(beliefs, campaign.loss if loss is None else loss, hidden)
+    decision = _decided(beliefs, campaign.loss if loss is None else loss, hidden, stories.p_value(found))
     story = stories.believed_data(found, decision)
     progress("predicting what was left out")
     answer = _Said.of(campaign, story, decision)
     return _assembled(found, beliefs, answer, told[id(story)])
+
+
+def _decided(beliefs: Sequence[Belief], loss: Loss, hidden: set[str], p_value: float) -> Decision:
+    """The decision; where something is significant, not that all is well: what is least wrong of the rest, less sure."""
+    decision = decided(beliefs, loss, hidden)
+    wrong = [one for one in beliefs if one.names]
+    share = sum(one.probability for one in wrong)
+    if decision.status != "adequate" or p_value >= SIGNIFICANT or not share:
+        return decision
+    rest = decided([Belief(one.names, one.probability / share) for one in wrong], loss, hidden)
+    if rest.status == "adequate":
+        return decision
+    return Decision(rest.status, rest.classes, rest.probability * share)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.diagnosis.damped import Damped
-from cdpr_struct.diagnosis.decision import Belief, Decision
+from cdpr_struct.diagnosis.decision import UNKNOWN, Belief, Decision
 from cdpr_struct.diagnosis.explain import Explained
 from cdpr_struct.diagnosis.hypotheses.handling import Correction
 from cdpr_struct.diagnosis.hypothesis import Part
@@ -81,7 +81,7 @@ class Candidate:
     @property
     def laws(self) -> tuple[Part, ...]:
         """Those of its parts that the library does not know."""
-        return tuple(part for part in self.best.hypothesis.parts if part.law is not None)
+        return tuple(part for part in self.best.hypothesis.parts if part.cause.name == UNKNOWN)
 
     @property
     def has_size(self) -> bool:

@@ -22,6 +22,7 @@ from cdpr_struct.diagnosis.layout import Layout, layout
 from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.diagnosis.scan import beginnings
 from cdpr_struct.diagnosis.seen import seen_in
+from cdpr_struct.diagnosis.significant import p_of_null
 from cdpr_struct.inference.evidence import bound_at, fit
 from cdpr_struct.inference.scale_mixture import NoiseState
 
@@ -75,6 +76,7 @@ class Search:
         if not data.sent.internal.any():
             self.hidden[internal_force.CAUSE.name] = internal_force.REASON
         self.where: Layout = layout(data)
+        self.p_value = 1.0
         self.found: dict[tuple[object, ...], Judged] = {}
         self.spread: dict[tuple[object, ...], float] = {}
 
@@ -90,6 +92,7 @@ class Search:
         nulls = self._nulls()
         base = max(nulls, key=lambda one: one.score)
         menu = offered(self.data, self.where, self.seen, self.causes, base)
+        self.p_value = p_of_null(menu, base)
         rows = self._screened(menu, nulls, self._rich(menu, base))
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
         self._begin(menu, base)

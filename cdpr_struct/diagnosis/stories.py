@@ -84,10 +84,12 @@ def tried(found: Sequence[Explained], story: Explained) -> list[Tried]:
 
 
 def p_value(found: Sequence[Explained]) -> float:
-    """Of nothing being wrong: the likelihood ratio of the rest against it is above 1 / p no more often than p."""
+    """Of nothing being wrong: of any law at its smallest detectable size, or by the evidence, which is above 1 / p
+    against the null no more often than p."""
     null = max(answer.score for answer in as_recorded(found).answers if not answer.names)
     others = [score for one in found for names, score in one.beliefs() if names]
-    return float(min(1.0, np.exp(min(null - logsumexp(others), 0.0)))) if others else 1.0
+    bound = float(np.exp(min(null - logsumexp(others), 0.0))) if others else 1.0
+    return min(bound, as_recorded(found).search.p_value)
 
 
 def drift_of(story: Explained, chosen: Judged) -> float:
