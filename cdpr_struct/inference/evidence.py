@@ -2,13 +2,15 @@
 
 Variational Bayes: u and z are jointly Gaussian, the scales independent of them. Gaussian and scales are improved in
 turn; each step raises a lower bound of the log evidence, and the bound is the evidence reported. Derivation: Bishop,
-Pattern Recognition and Machine Learning, section 10.1.
+Pattern Recognition and Machine Learning, section 10.1. Where steps shrink slowly, one leaps to where they lead, and is
+taken back if the bound falls.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.inference.extrapolation import extrapolated
 from cdpr_struct.inference.joint_posterior import JointPosterior, Marginal, ParameterPosterior
 from cdpr_struct.inference.linear_model import LinearModel
 from cdpr_struct.inference.marginal_scales import first_noise
@@ -73,24 +75,48 @@ def fit(
     soft_start : responsibilities to begin with; without it, those at the prediction from the hard rows.
     one_sided : (t,) mask of parameters that cannot be negative; their prior is the positive half of N(0, 1). The
         posterior is truncated accordingly (several such parameters: by expectation propagation).
+    most_steps : number of bounds at most; leaps that are taken back do not count.
     """
-    rows, readings, sided = model.white, model.readings, _sided(model, one_sided)
-    noise = first_noise(rows, readings, soft_start, sided) if start is None else start
+    readings, sided = model.readings, _sided(model, one_sided)
+    noise = first_noise(model.white, readings, soft_start, sided) if start is None else start
     mixture = soft_start
     if soft is not None and mixture is None:
-        joint = JointPosterior.of(rows, readings.spread(noise.variance), None, sided)
+        joint = JointPosterior.of(model.white, readings.spread(noise.variance), None, sided)
         mixture = soft.expect(joint.soft_mean, joint.soft_variance)
-    bounds: list[float] = []
-    while True:
-        joint = JointPosterior.of(rows, readings.spread(noise.variance), mixture, sided)
-        bounds.append(_bound(readings, joint.parameters, noise, mixture))
-        converged = len(bounds) > 1 and abs(bounds[-1] - bounds[-2]) < SETTLED
-        if converged or len(bounds) >= most_steps:
-            return _answer(joint, noise, mixture, tuple(bounds), converged)
-        square = [mean**2 + variance for mean, variance in zip(joint.noise_mean, joint.noise_variance, strict=True)]
-        noise = updated_noise(readings, noise, readings.sums(square))
+    point = _Point.at(model, noise, mixture, sided)
+    bounds, squares, converged = [point.bound], [point.square], False
+    while not converged and len(bounds) < most_steps:
         if soft is not None:
-            mixture = soft.expect(joint.soft_mean, joint.soft_variance)
+            mixture = soft.expect(point.joint.soft_mean, point.joint.soft_variance)
+        far = extrapolated(squares, readings.inferred)
+        ahead = None if far is None else _Point.at(model, updated_noise(readings, point.noise, far), mixture, sided)
+        if far is not None:
+            squares.clear()
+        if ahead is None or not ahead.bound >= point.bound:
+            ahead = _Point.at(model, updated_noise(readings, point.noise, point.square), mixture, sided)
+        converged = abs(ahead.bound - point.bound) < SETTLED
+        point = ahead
+        bounds.append(point.bound)
+        squares.append(point.square)
+    return _answer(point, tuple(bounds), converged)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Point:
+    """The Gaussian posterior and the bound [nat] at scales and responsibilities, and E |u_g|^2 (G,) of each group."""
+
+    noise: NoiseState
+    mixture: SoftExpectation | None
+    joint: JointPosterior
+    bound: float
+    square: np.ndarray
+
+    @classmethod
+    def at(cls, model: LinearModel, noise: NoiseState, mixture: SoftExpectation | None, sided: np.ndarray) -> "_Point":
+        joint = JointPosterior.of(model.white, model.readings.spread(noise.variance), mixture, sided)
+        square = [mean**2 + variance for mean, variance in zip(joint.noise_mean, joint.noise_variance, strict=True)]
+        bound = _bound(model.readings, joint.parameters, noise, mixture)
+        return cls(noise, mixture, joint, bound, model.readings.sums(square))
 
 
 def bound_at(
@@ -119,21 +145,16 @@ def _bound(
     return parameters.log_evidence + mixture_bound(readings, noise) + constant
 
 
-def _answer(
-    joint: JointPosterior,
-    noise: NoiseState,
-    mixture: SoftExpectation | None,
-    bounds: tuple[float, ...],
-    converged: bool,
-) -> Fit:
+def _answer(point: _Point, bounds: tuple[float, ...], converged: bool) -> Fit:
+    joint = point.joint
     return Fit(
         bounds[-1],
         joint.parameters.mean,
         joint.parameters.covariance,
         joint.noise_mean,
         joint.noise_variance,
-        noise,
-        mixture,
+        point.noise,
+        point.mixture,
         joint.soft_mean,
         joint.soft_variance,
         bounds,
