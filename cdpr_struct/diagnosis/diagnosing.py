@@ -57,7 +57,7 @@ def diagnosed(
 
 
 def _decided(beliefs: Sequence[Belief], loss: Loss, hidden: set[str], p_value: float) -> Decision:
-    """The decision; where something is significant, not that all is well: what is least wrong of the rest, less sure."""
+    """Where something is significant, not that all is well: what is least wrong of the rest, less sure."""
     decision = decided(beliefs, loss, hidden)
     wrong = [one for one in beliefs if one.names]
     share = sum(one.probability for one in wrong)

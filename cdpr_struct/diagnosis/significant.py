@@ -1,9 +1,9 @@
 """Is anything wrong at all? Every law at once, each at its smallest detectable size.
 
-How large a cause is when it occurs, its prior says; whether something is there should not depend on it. Here each pattern
-of a cause is given the size at which it would be found if it alone were in question, in any direction that it can show.
-The mean over directions, patterns, causes and laws outside is one likelihood ratio against the null, the most powerful
-test for a law drawn so. Draws from the null, the noise as it was found, say how large it gets by chance.
+How large a cause is when it occurs, its prior says; whether something is there should not depend on it. Here each
+pattern of a cause is given the size at which it would be found if it alone were in question, in any direction that it
+can show. The mean over directions, patterns, causes and laws outside is one likelihood ratio against the null, the most
+powerful test for a law drawn so. Draws from the null, the noise as it was found, say how large it gets by chance.
 """
 
 from collections.abc import Iterator, Sequence
