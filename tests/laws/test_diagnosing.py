@@ -28,6 +28,8 @@ OFFSETS = 8e-3 * np.array([1.0, -1.0, 0.5, -0.5, 1.0, 0.3, -0.7, 0.2])
 MASS = 0.0092  # relative: the platform's smallest detectable error in these campaigns, as the diagnosis itself says
 SETTLED = 0.01  # nats: a point of linearisation within a fifth of a sigma is where it was
 
+SLOW = pytest.mark.slow
+
 
 @cache
 def cogiro() -> Robot:
@@ -72,7 +74,10 @@ def exchanged(campaign: Campaign, i: int, j: int) -> Campaign:
     return with_states(campaign, tension=campaign.states.tension[:, order])
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+NAMED_IN_DOUBT = pytest.mark.xfail(strict=True, reason="a cause is named that is there with probability 0.66")
+
+
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=SLOW), pytest.param(3, marks=NAMED_IN_DOUBT)])
 def test_clean_readings_give_no_cause(seed):
     said = diagnosed(measured(cogiro(), seed))
     assert said.decision.status == "adequate"
@@ -82,16 +87,26 @@ def test_clean_readings_give_no_cause(seed):
     assert all(one.gain < 0.0 for one in said.candidates)
 
 
-def test_clean_readings_with_frequencies_give_no_cause():
+BETWEEN_NULLS = pytest.mark.xfail(
+    strict=True,
+    raises=ValueError,
+    reason="columns about one null are put beside the modes of another, which has one more",
+)
+
+
+@pytest.mark.parametrize(
+    ("poses", "modes"), [(3, 8), pytest.param(2, 7, marks=BETWEEN_NULLS)], ids=["as many modes", "one mode more"]
+)
+def test_clean_readings_with_frequencies_give_no_cause(poses, modes):
     robot = load_robot("thesis-3-1")
-    plan = plan_of(robot, 3, cables_in=(0,), robot_in=(1,), modes=8)
+    plan = plan_of(robot, poses, cables_in=(0,), robot_in=(1,), modes=modes)
     said = diagnosed(noisy(written(robot, plan), 4))
     assert said.decision.status == "adequate"
     assert not said.set_aside
 
 
 @pytest.mark.xfail(strict=True, reason="tensions set aside as outliers hide the exchange: handling is not even tried")
-@pytest.mark.parametrize("pair", [(0, 1), (3, 7)])
+@pytest.mark.parametrize("pair", [(0, 1), pytest.param((3, 7), marks=SLOW)])
 def test_exchanged_load_cells_are_found(pair):
     said = diagnosed(exchanged(measured(cogiro(), 4), *pair))
     assert said.decision.classes == (("swapped_channels",),)
@@ -140,7 +155,7 @@ def test_a_second_cause_that_is_sure_is_in_the_fit_that_is_chosen():
     assert said.chosen.score > said.candidates[0].best.score - 3.0
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=SLOW)])
 def test_a_drift_of_load_cells_is_no_cause(seed):
     """A random walk, six newtons wide at the end."""
     campaign = measured(cogiro(), seed + 8)
@@ -149,11 +164,15 @@ def test_a_drift_of_load_cells_is_no_cause(seed):
     walk = 3.0 * SIGMA_TENSION * np.cumsum(steps, axis=0) / np.sqrt(len(steps))
     said = diagnosed(with_states(campaign, tension=tension + walk - walk[0]))
     assert said.decision.status == "adequate"
+    assert said.null.hypothesis.drift > 0.0
 
 
 @pytest.mark.parametrize(
     ("kind", "row", "cable", "error"),
-    [("tension", 3, 4, 20.0 * SIGMA_TENSION), ("length", 2, 5, -20.0 * SIGMA_LENGTH)],
+    [
+        ("tension", 3, 4, 20.0 * SIGMA_TENSION),
+        pytest.param("length", 2, 5, -20.0 * SIGMA_LENGTH, marks=SLOW),
+    ],
 )
 def test_an_outlier_is_set_aside_and_said_to_be_one(kind, row, cable, error):
     campaign = measured(cogiro(), 9)
@@ -203,8 +222,8 @@ def without(**gaps: tuple) -> Campaign:
     [
         {"tension": ([0, 2, 4], [1, 5, 3])},
         {"tension": (slice(None), 4)},
-        {"angles": (3,)},
-        {"length": (slice(None), 2)},
+        pytest.param({"angles": (3,)}, marks=SLOW),
+        pytest.param({"length": (slice(None), 2)}, marks=SLOW),
         {"tension": (2, 1), "angles": (4,), "length": (5, slice(0, 3))},
     ],
     ids=["single cells", "a cable without cell", "a pose without rotation", "lengths of a cable", "some of each"],
