@@ -53,8 +53,10 @@ def _rows(data: Recorded, numbers: Numbers, found: Proposed) -> PlannedRows:
 
 def at_the_center_of(data: Recorded, campaign: Campaign) -> Recorded:
     """Another campaign's readings; laws of the robot refer to the first one's mean pose and tension there, too."""
-    new = recorded(campaign)
-    return replace(new, known=replace(new.known, center=data.known.center, mean_tension=data.known.mean_tension))
+    new, mean = recorded(campaign), data.known.mean_tension
+    unread = new.unread.copy()
+    unread[:, 6 : 6 + data.cables] = mean
+    return replace(new, known=replace(new.known, center=data.known.center, mean_tension=mean), unread=unread)
 
 
 def _kept_stretch(term: Term, tension: np.ndarray) -> Term:

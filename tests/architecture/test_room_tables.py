@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parents[2] / "cdpr_struct"
-ROOMS = ("statics", "dynamics", "crosscheck", "workspace", "inference", "association")
+ROOMS = ("statics", "dynamics", "crosscheck", "workspace", "inference", "association", "planning")
 
 
 def table(room: str) -> dict[str, set[str]]:
