@@ -133,7 +133,10 @@ class Search:
     def _screened(self, menu: Sequence[Offered], bases: Sequence[Judged], rich: NoiseState | None) -> list[_Screened]:
         """The best of each cause beside every base, at its own noise and at the rich one; best first."""
         best: dict[str, _Screened] = {}
+        shapes = [part.shape[:2] for part in menu[0].columns] if menu else []
         for base in bases:
+            if [stack.r.shape for stack in base.model.stacks] != shapes:
+                continue  # about its point the robot has other modes than about that of the menu
             for noise in [base.fit.noise, *([rich] if rich is not None else [])]:
                 bound = base.log_evidence if noise is base.fit.noise else bound_at(base.model, noise, base.fit.soft)
                 for row in gains(menu, base, noise):

@@ -12,6 +12,7 @@ from cdpr_struct.reports.diagnose import tables
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CAMPAIGN = str(EXAMPLES / "table-4-4" / "campaign.toml")
+SHAKEN = EXAMPLES / "tables-4-5-4-6" / "campaign.toml"
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +25,7 @@ def level(runs):
 def shaken(tmp_path_factory):
     """Cables vibrate slower than their tensions let expect: a shaker on the platform, or heavier cables."""
     out = tmp_path_factory.mktemp("shaken")
-    assert run(["diagnose", str(Path(LEVEL).parents[1] / "tables-4-5-4-6" / "campaign.toml"), "--out", str(out)]) == 0
+    assert run(["diagnose", str(SHAKEN), "--out", str(out)]) == 0
     return json.loads((out / "result.json").read_text()), out
 
 
