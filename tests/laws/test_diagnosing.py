@@ -14,7 +14,17 @@ from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
 from tests.laws.written_campaigns import (
-    MASS, SIGMA_LENGTH, SIGMA_TENSION, cogiro, extended, lighter, measured, noisy, plan_of, with_states, written,
+    MASS,
+    SIGMA_LENGTH,
+    SIGMA_TENSION,
+    cogiro,
+    extended,
+    lighter,
+    measured,
+    noisy,
+    plan_of,
+    with_states,
+    written,
 )  # fmt: skip
 
 OFFSETS = 8e-3 * np.array([1.0, -1.0, 0.5, -0.5, 1.0, 0.3, -0.7, 0.2])

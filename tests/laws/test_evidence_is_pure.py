@@ -56,7 +56,7 @@ def without(**gaps: tuple) -> Campaign:
 @pytest.mark.parametrize(
     "gaps",
     [
-        {"tension": ([0, 2, 4], [1, 5, 3])},
+        pytest.param({"tension": ([0, 2, 4], [1, 5, 3])}, marks=SLOW),
         {"tension": (slice(None), 4)},
         pytest.param({"angles": (3,)}, marks=SLOW),
         pytest.param({"length": (slice(None), 2)}, marks=SLOW),
