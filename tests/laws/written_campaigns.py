@@ -5,6 +5,7 @@ this proves laws of the arithmetic, never that a diagnosis is right about a real
 """
 
 from dataclasses import dataclass, field, replace
+from functools import cache
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -26,6 +27,7 @@ CRIME = True
 NO_CABLES = CableFrequencies(*(np.zeros(0, dtype=t) for t in (int, int, int, bool, float, float)))
 NO_PEAKS = RobotFrequencies(*(np.zeros(0, dtype=t) for t in (int, float, float)))
 SIGMA_TENSION, SIGMA_LENGTH, SIGMA_POSITION, SIGMA_ROTATION, SIGMA_HERTZ = 2.0, 5e-4, 5e-4, 3.5e-4, 3e-3
+MASS = 0.0092  # relative: the platform's smallest detectable error in `measured`, as the diagnosis itself says
 TO_SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "slip", "creep", "sensor_mass", "accelerometer_gain")
 
 
@@ -219,3 +221,21 @@ def mast_values(robot: Robot, sizes: np.ndarray) -> np.ndarray:
     """(m,) one value of `sizes` for all cables of a mast."""
     _, mast = np.unique(masts_of(robot.frame_anchors), axis=0, return_inverse=True)
     return np.resize(sizes, mast.max() + 1)[mast.ravel()]
+
+
+@cache
+def cogiro() -> Robot:
+    return load_robot("cogiro")
+
+
+def measured(robot: Robot, seed: int) -> Campaign:
+    """Six poses and one more load at the first one's lengths; CoGiRo is entered."""
+    return noisy(written(robot, plan_of(cogiro(), 6, loads=(40.0,)), cogiro()), seed)
+
+
+def lighter(times_detectable: float) -> Robot:
+    return cogiro().with_load(mass=cogiro().platform.mass * (1.0 - MASS * times_detectable))
+
+
+def with_states(campaign: Campaign, **changed: np.ndarray) -> Campaign:
+    return replace(campaign, states=replace(campaign.states, **changed))
