@@ -21,7 +21,9 @@ def as_recorded(found: Sequence[Explained]) -> Explained:
 
 
 def believed_data(found: Sequence[Explained], decision: Decision) -> Explained:
-    """The data that the decision believes: corrected if it speaks of a correction."""
+    """The data that the decision believes: corrected if it speaks of a correction; the likeliest of what is unknown."""
+    if decision.status == UNKNOWN:
+        return found[0]
     said = {name for names in decision.classes for name in names}
     for one in found:
         if one.correction is not None and one.correction.cause in said:

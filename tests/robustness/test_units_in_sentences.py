@@ -6,9 +6,9 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from cdpr_struct.diagnosis.diagnose import diagnose
-from cdpr_struct.diagnosis.verdict import verdict
+from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.measurement.campaign_file import load_campaign
+from cdpr_struct.reports.diagnose.sentences import sentence
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "table-4-4"
 
@@ -16,7 +16,7 @@ EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "table-4-4"
 @pytest.mark.parametrize(
     ("campaign", "data", "newton", "status", "words"),
     [
-        ("level.toml", "level.csv", 9.80665, "class", "The tensions are not in N but in kgf (mend column tension_N of"),
+        ("level.toml", "level.csv", 9.80665, "named", "The tensions are not in N but in kgf (mend column tension_N of"),
         pytest.param(
             "campaign.toml",
             "states.csv",
@@ -32,7 +32,7 @@ def test_units_are_said(campaign, data, newton, status, words, tmp_path):
     table = pd.read_csv(tmp_path / "copy" / data, comment="#")
     table["tension_N"] /= newton
     table.to_csv(tmp_path / "copy" / data, index=False)
-    said = verdict(diagnose(load_campaign(tmp_path / "copy" / campaign)))
-    assert said.status == status
-    assert words in said.sentence
-    assert "1 causes" not in said.sentence
+    found = diagnosed(load_campaign(tmp_path / "copy" / campaign))
+    assert found.decision.status == status
+    assert words in sentence(found)
+    assert "1 causes" not in sentence(found)

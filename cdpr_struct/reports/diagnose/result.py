@@ -120,9 +120,10 @@ def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
     shown = [one for one in found.candidates if UNKNOWN not in one.names and (one.has_size or _left_open(found, one))]
     shown.sort(key=lambda one: one.best is not found.chosen)
     laws = [] if found.damped is None or not found.damped.finding.causes else list(found.damped.finding.fits)
+    fitted = [row for one in shown for row in _of_candidate(found, one)]
+    known = [*fitted, *mended] if found.decision.status == UNKNOWN else [*mended, *fitted]
     return [
-        *mended, *(row for one in shown for row in _of_candidate(found, one)), *others,
-        *map(signals.law_row, laws[: signals.MOST_ROWS]),
+        *known, *others, *map(signals.law_row, laws[: signals.MOST_ROWS]),
     ]  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from cdpr_struct.reports.diagnose.words import described, listed, place, plain, 
 
 LARGEST_CLASS = 4  # causes beyond which a sentence leads with none of them
 _MOST = 4  # readings that one sentence lists
+_NEAR = 3.0  # nats, a factor of twenty in probability
 _BETTER = 1.05  # times smaller error from which a prediction is better
 _FAR = 30.0  # times its stated sigma from which the scatter of a sensor means another robot or unit
 
@@ -65,7 +66,20 @@ def _named(found: Diagnosis) -> list[str]:
     text = "; ".join(parts)
     said = [f"{text[:1].upper()}{text[1:]}."]
     said += [f"These data do not tell {listed(names)} apart." for names in found.decision.classes if len(names) > 1]
-    return [*said, _standing(found) if found.sizes else ""]
+    return [*said, _other_corrections(found), _standing(found)]
+
+
+def _other_corrections(found: Diagnosis) -> str:
+    """Corrections of the same kind that are nearly as likely."""
+    if found.correction is None:
+        return ""
+    own, *others = found.tried
+    near = [
+        one.correction.sentence
+        for one in others
+        if one.correction.cause == found.correction.cause and one.gain > own.gain - _NEAR
+    ]
+    return f"Nearly as likely is that {' or that '.join(near[:_MOST])}." if near else ""
 
 
 def _of_correction(found: Diagnosis, names: tuple[str, ...]) -> bool:
@@ -79,6 +93,8 @@ def _many(names: tuple[str, ...]) -> str:
 
 def _standing(found: Diagnosis) -> str:
     """What the chosen causes account for, and whether what was left out agrees."""
+    if not found.sizes:
+        return "The rest then agrees within its uncertainty."
     chosen = next((one for one in found.candidates if one.best is found.chosen), None)
     share = 0.0 if chosen is None else 100.0 * chosen.explained
     said = [f"This accounts for {share:.0f} % of the error beyond noise."] if share >= 0.5 else []
@@ -97,6 +113,8 @@ def _standing(found: Diagnosis) -> str:
 def _unknown(found: Diagnosis) -> list[str]:
     """What no cause explains: where it is, what comes nearest, through what it acts."""
     parts = [f"Something is wrong in {place(found.location)}, and no cause in the library explains it."]
+    if found.correction is not None:
+        parts.append(f"That {found.correction.sentence} would explain a part, and does not suffice.")
     best = next((one for one in found.candidates if one.has_size), None)
     if best is not None:
         parts.append(f"The best candidate, {listed(best.names, 'with')}, leaves a structured remainder.")
