@@ -29,20 +29,20 @@ def run(
     if budget not in ("small", "full"):
         raise InputError("--budget", "", budget, "small or full")
     require_file(campaign)
-    from cdpr_struct.diagnosis.diagnose import diagnose
+    from cdpr_struct.diagnosis.diagnosing import diagnosed
     from cdpr_struct.measurement.campaign_file import load_campaign
-    from cdpr_struct.reports.diagnosis_result import diagnosis_json
-    from cdpr_struct.reports.diagnosis_text import diagnosis_text
+    from cdpr_struct.reports.diagnose.result import result_json
+    from cdpr_struct.reports.diagnose.text import result_text
 
     measured = load_campaign(campaign, *read_bounds(lower_bound, upper_bound))
     with output.steps(4) as progress:
-        found = diagnose(measured, budget, progress)
-    result = with_extensions(diagnosis_json(found), measured.robot, NAME)
+        found = diagnosed(measured, budget, progress)
+    result = with_extensions(result_json(found), measured.robot, NAME)
 
     def files() -> Files:
-        from cdpr_struct.reports.diagnosis_page import diagnosis_files
+        from cdpr_struct.reports.diagnose.page import result_files
 
-        return diagnosis_files(found, result)
+        return result_files(found, result)
 
-    output.deliver(result, lambda: diagnosis_text(result), files)
+    output.deliver(result, lambda: result_text(result), files)
     return 0

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.special import logsumexp
 
 from cdpr_struct.diagnosis.assembled import stacked
+from cdpr_struct.diagnosis.hypotheses import internal_force
 from cdpr_struct.diagnosis.hypotheses.cause import Cause, Pattern, Seen
 from cdpr_struct.diagnosis.hypotheses.laws import OUTSIDE, laws, patterns
 from cdpr_struct.diagnosis.hypothesis import PRICE, SCALES, Part
@@ -76,7 +77,18 @@ def offered(data: Recorded, where: Layout, seen: Seen, causes: Sequence[Cause], 
         own = local.columns(Term(cause.apply, np.eye(len(sigma)), sigma))
         columns = [part / sigma for part in stacked(where, own)]
         found.append(Offered(cause, tuple(cause.patterns(seen)), columns))
-    return [*found, *_laws(local, where)]
+    return [*found, *_internal(local, where), *_laws(local, where)]
+
+
+def _internal(local: Local, where: Layout) -> list[Offered]:
+    """Internal force, where commands stand in for encoders."""
+    internal = local.data.sent.internal
+    if not internal.any():
+        return []
+    found = internal_force.columns(internal)
+    states = found[1].shape[-1] // internal.shape[-1]
+    columns = stacked(where, local.r.only_static(np.concatenate(found, axis=-1)))
+    return [Offered(internal_force.CAUSE, internal_force.patterns(internal.shape[-1], states), columns, found)]
 
 
 def _laws(local: Local, where: Layout) -> list[Offered]:
@@ -96,7 +108,7 @@ def gains(causes: Sequence[Offered], about: Judged, noise: NoiseState | None = N
     """What each cause adds to a hypothesis, best first; at other sizes of the noise than its own if given."""
     screen = Screen.of(about.model, about.fit.noise if noise is None else noise, about.fit.soft)
     shelves = zip(*(cause.columns for cause in causes), strict=True)
-    said = screen.screened([np.concatenate(parts, axis=-1) for parts in shelves][0])
+    said = screen.screened([np.concatenate(parts, axis=-1) for parts in shelves])
     rows, start = [], 0
     for cause in causes:
         own = slice(start, start + cause.columns[0].shape[-1])

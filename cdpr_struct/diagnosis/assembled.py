@@ -3,11 +3,10 @@
 import numpy as np
 
 from cdpr_struct.association.association import Association
-from cdpr_struct.diagnosis import padding
+from cdpr_struct.diagnosis.commanded_lengths import MISSED
 from cdpr_struct.diagnosis.layout import Layout, Shelf
 from cdpr_struct.diagnosis.linearised import Local, Rows
-from cdpr_struct.diagnosis.padding import Stack
-from cdpr_struct.inference.linear_model import LinearModel
+from cdpr_struct.inference.linear_model import LinearModel, Stack
 from cdpr_struct.inference.soft_rows import SoftExpectation
 
 FLOOR = (0.05, 2e-5, 3e-4)  # N, m, of ln f: what the model misses of the FEM's balance, lengths, frequencies
@@ -21,9 +20,10 @@ def linear_model(local: Local, where: Layout) -> LinearModel:
     stacks = []
     for shelf in where.shelves:
         r, x = of_shelf(where, shelf, residual), of_shelf(where, shelf, columns)
-        stacks.append(Stack(r, _noise(local, where, shelf, by_noise), x, _floor(where, shelf, r.shape), shelf.index,
-                            soft_rows(where, shelf, local)))  # fmt: skip
-    return padding.model(stacks, where.kind, where.fixed)
+        noise, soft = _noise(local, where, shelf, by_noise), soft_rows(where, shelf, local)
+        stack = Stack(r, noise, x, _floor(where, shelf, r.shape), shelf.index, soft)
+        stacks.append(stack.with_noise(_meant(local, where, shelf)) if local.data.sent.known.any() else stack)
+    return LinearModel(tuple(stacks), where.groups)
 
 
 def shifts(local: Local, by_noise: Rows, columns: Rows) -> Rows:
@@ -52,10 +52,7 @@ def of_shelf(where: Layout, shelf: Shelf, rows: Rows) -> np.ndarray:
 
 def stacked(where: Layout, rows: Rows) -> list[np.ndarray]:
     """Columns as they stand in the blocks of every shelf."""
-    parts = [of_shelf(where, shelf, rows) for shelf in where.shelves]
-    softs = [shelf.vibrating.shape[1] * rows.robot.shape[1] for shelf in where.shelves]
-    hard = max(p.shape[1] - s for p, s in zip(parts, softs))
-    return [padding.rows(parts, softs, hard, max(softs))]
+    return [of_shelf(where, shelf, rows) for shelf in where.shelves]
 
 
 def _noise(local: Local, where: Layout, shelf: Shelf, by_noise: Rows) -> np.ndarray:
@@ -75,6 +72,18 @@ def _noise(local: Local, where: Layout, shelf: Shelf, by_noise: Rows) -> np.ndar
             found[:, p * own + j, p * own + m + j] = sigma[:, j]
     found[np.broadcast_to((shelf.index < 0)[:, None, :], found.shape)] = 0.0
     return found
+
+
+def _meant(local: Local, where: Layout, shelf: Shelf) -> np.ndarray:
+    """(K, n, 6 p) by how much commanded lengths would differ if another pose was meant, one sigma of it."""
+    own, (k, p) = 6 + where.m, shelf.states.shape
+    found = np.zeros((k, p * own, 6 * p))
+    for j in range(p):
+        slope = local.data.sent.slope[shelf.states[:, j]] * MISSED
+        rows = slice(j * own + 6, (j + 1) * own)
+        found[:, rows, 6 * j : 6 * (j + 1)] = np.where((shelf.states[:, j] >= 0)[:, None, None], slope, 0.0)
+    rest = len(shelf.cables[0]) + shelf.vibrating.shape[1] * local.r.robot.shape[1]
+    return np.concatenate([found, np.zeros((k, rest, 6 * p))], axis=1)
 
 
 def _places(local: Local, shelf: Shelf, rows: int, own: int) -> np.ndarray:
@@ -119,9 +128,7 @@ class Lists:
 
     def copy(self) -> "Lists":
         """The same lists, to be assigned anew."""
-        found_ = Lists(self.association.at(), self.shift, self.columns, self.shelf)
-        found_.blocks, found_.first = self.blocks, self.first
-        return found_
+        return Lists(self.association.at(), self.shift, self.columns, self.shelf)
 
     @classmethod
     def of(cls, local: Local, where: Layout) -> "Lists | None":
@@ -132,37 +139,34 @@ class Lists:
         columns = local.own_columns()
         shift = shifts(local, local.by_noise(), columns).robot
         shelf = next(shelf for shelf in where.shelves if shelf.vibrating.shape[1])
-        found_ = cls(found, shift, columns.robot, shelf)
-        found_.blocks = sum(len(one.states) for one in where.shelves)
-        found_.first = (
-            sum(len(one.states) for one in where.shelves[: where.shelves.index(shelf)])
-            if False
-            else next(sum(len(o.states) for o in where.shelves[:i]) for i, o in enumerate(where.shelves) if o is shelf)
-        )
-        return found_
+        return cls(found, shift, columns.robot, shelf)
 
     def expect(self, mean: np.ndarray, variance: np.ndarray, predictive: bool | None = None) -> SoftExpectation:
         """As `Association.expect`, for rows (K, s) of the shelf's blocks."""
-        said = self.association.expect(self._modes(mean) - self.shift, self._modes(variance), predictive)
+        said = self.association.expect(self.of_modes(mean) - self.shift, self.of_modes(variance), predictive)
         return SoftExpectation(self._rows(said.value + self.shift), self._rows(said.precision), said.constant)
+
+    @property
+    def left(self) -> float:
+        """Expected number of peaks that belong to no mode, as they were last assigned."""
+        assignment = self.association.assignment
+        if assignment is None:
+            return 0.0
+        return float(self.association.peaks.count.sum() - assignment.number.sum())
 
     def at_point(self, covariance: np.ndarray) -> SoftExpectation:
         """As if the modes were those of the point, as sure as numbers z of a covariance (t, t) are."""
         variance = np.einsum("fmt,tu,fmu->fm", self.columns, covariance, self.columns, optimize=True)
         return self.expect(self._rows(self.shift), self._rows(variance), False)
 
-    def _modes(self, rows: np.ndarray) -> np.ndarray:
+    def of_modes(self, rows: np.ndarray) -> np.ndarray:
         """(F, M) from (K, s)."""
         k, v = np.nonzero(self.shelf.vibrating >= 0)
         found = np.zeros_like(self.shift)
-        rows = rows[self.first : self.first + len(self.shelf.states)]
         found[self.shelf.vibrating[k, v]] = rows.reshape((*self.shelf.vibrating.shape, -1))[k, v]
         return found
 
     def _rows(self, modes: np.ndarray) -> np.ndarray:
         """(K, s) from (F, M)."""
         index = self.shelf.vibrating
-        own = np.where((index >= 0)[..., None], modes[index], 0.0).reshape((len(index), -1))
-        whole = np.zeros((self.blocks, own.shape[1]))
-        whole[self.first : self.first + len(own)] = own
-        return whole
+        return np.where((index >= 0)[..., None], modes[index], 0.0).reshape((len(index), -1))

@@ -6,31 +6,15 @@ too many in a class, and for every true cause that is not spoken of.
 """
 
 from collections.abc import Iterable, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from itertools import permutations
+
+from cdpr_struct.measurement.loss import Loss
 
 Classes = tuple[tuple[str, ...], ...]
 UNKNOWN = "unknown"
 """Name of every hypothesis that no cause of the library explains."""
-
-
-@dataclass(frozen=True, slots=True)
-class Loss:
-    """What mistakes cost, in the unit of one name too many.
-
-    wrong_name : a class in which no cause is there
-    too_wide   : one more name in a class, or a cause that is not spoken of
-    unknown    : to say that nothing is wrong, or nothing that the library knows, where it does know the cause
-    """
-
-    wrong_name: float = 20.0
-    too_wide: float = 1.0
-    unknown: float = 10.0
-
-    def __post_init__(self) -> None:
-        if not self.wrong_name > self.unknown > self.too_wide > 0.0:
-            given = f"{self.wrong_name:g}, {self.unknown:g}, {self.too_wide:g}"
-            raise ValueError(f"a loss needs wrong_name > unknown > too_wide > 0, got {given}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,11 +34,17 @@ class Decision:
     probability: float
 
 
-def decided(beliefs: Sequence[Belief], loss: Loss) -> Decision:
-    """The decision for beliefs whose probabilities sum up to one."""
-    options = [(_of_unknown(beliefs, loss), UNKNOWN, ()), (_of_classes((), beliefs, loss), "adequate", ())]
-    for start in _beginnings(beliefs):
-        classes = _widened(start, beliefs, loss)
+def decided(beliefs: Sequence[Belief], loss: Loss, without_size: AbstractSet[str] = frozenset()) -> Decision:
+    """The decision for beliefs whose probabilities sum up to one.
+
+    without_size : causes that are not spoken of: what was fitted of them is no change of the robot
+    """
+    options: list[tuple[float, str, Classes]] = [
+        (_of_unknown(beliefs, loss), UNKNOWN, ()),
+        (_of_classes((), beliefs, loss), "adequate", ()),
+    ]
+    for start in _beginnings(beliefs, without_size):
+        classes = _widened(start, beliefs, loss, without_size)
         options.append((_of_classes(classes, beliefs, loss), _status(classes), classes))
     _, status, classes = min(options, key=lambda option: option[0])
     return Decision(status, classes, _right(status, classes, beliefs))
@@ -73,17 +63,18 @@ def _right(status: str, classes: Classes, beliefs: Sequence[Belief]) -> float:
     return sum(one.probability for one in beliefs if fits(classes, one.names))
 
 
-def _beginnings(beliefs: Sequence[Belief]) -> Iterable[Classes]:
+def _beginnings(beliefs: Sequence[Belief], without_size: AbstractSet[str]) -> Iterable[Classes]:
     """Every likely set of causes named, and every likely cause alone."""
     ranked = sorted(beliefs, key=lambda one: -one.probability)[:8]
-    known = [one.names for one in ranked if one.names and UNKNOWN not in one.names]
+    hidden = {UNKNOWN, *without_size}
+    known = [one.names for one in ranked if one.names and not hidden & set(one.names)]
     alone = {(name,) for names in known for name in names}
     return [tuple((name,) for name in names) for names in [*known, *sorted(alone)]]
 
 
-def _widened(classes: Classes, beliefs: Sequence[Belief], loss: Loss) -> Classes:
+def _widened(classes: Classes, beliefs: Sequence[Belief], loss: Loss, without_size: AbstractSet[str]) -> Classes:
     """Classes with names added as long as that lowers the loss."""
-    names = sorted({name for one in beliefs for name in one.names} - {UNKNOWN})
+    names = sorted({name for one in beliefs for name in one.names} - {UNKNOWN, *without_size})
     best = _of_classes(classes, beliefs, loss)
     while True:
         taken = {name for own in classes for name in own}
@@ -114,7 +105,7 @@ def _of_classes(classes: Classes, beliefs: Sequence[Belief], loss: Loss) -> floa
         elif not fits(classes, one.names):
             total += loss.wrong_name * one.probability
         else:
-            total += loss.too_wide * (len(one.names) - len(classes)) * one.probability
+            total += loss.unknown * (len(one.names) - len(classes)) * one.probability
     return total
 
 

@@ -16,10 +16,10 @@ def minimum_detectable(search: Search, null: Judged) -> dict[str, dict[str, floa
     """Per cause the size found with probability 0.8 at a false alarm rate of 0.001; of several numbers their rms."""
     menu = [one for one in offered(search.data, search.where, search.seen, search.causes, null) if not one.laws]
     screen = Screen.of(null.model, null.fit.noise, null.fit.soft)
-    table = {}
+    table: dict[str, dict[str, float | str]] = {}
     for cause in menu:
         pattern = plainest(cause.patterns)
-        gram = screen.screened(cause.columns[0] @ pattern.basis * pattern.prior).gram
+        gram = screen.screened([part @ pattern.basis * pattern.prior for part in cause.columns]).gram
         table[cause.cause.name] = smallest(pattern, gram)
     return table
 

@@ -1,121 +1,165 @@
 """The whole diagnosis of a campaign."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
-import numpy as np
-from scipy.special import logsumexp
-
-from cdpr_struct.diagnosis.decision import UNKNOWN, Decision, Loss, decided, fits
+from cdpr_struct.diagnosis import stories
+from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
+from cdpr_struct.diagnosis.decision import Belief, Decision, decided
 from cdpr_struct.diagnosis.detectable_sizes import minimum_detectable
-from cdpr_struct.diagnosis.diagnosis import Candidate, Diagnosis
+from cdpr_struct.diagnosis.diagnosis import DAMPING, Candidate, Diagnosis, Location, Peaks, SetAside
 from cdpr_struct.diagnosis.errors_of_kinds import errors_of_kinds, located
 from cdpr_struct.diagnosis.explain import Explained, believed, explained
+from cdpr_struct.diagnosis.extended import extended_robot
+from cdpr_struct.diagnosis.generic_fit import generic_ratio
+from cdpr_struct.diagnosis.hypotheses.library import require_known
 from cdpr_struct.diagnosis.judge import Judged
-from cdpr_struct.diagnosis.left_out import left_out
-from cdpr_struct.diagnosis.search import BUDGETS, Answer
+from cdpr_struct.diagnosis.left_out import LeftOut, left_out, rows_of
+from cdpr_struct.diagnosis.recommended import Recommendation, recommended
+from cdpr_struct.diagnosis.search import BUDGETS
+from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind, doubts, noise_of_kinds, sigmas_used
 from cdpr_struct.diagnosis.set_aside import set_aside
-from cdpr_struct.diagnosis.whole_sizes import whole_sizes
+from cdpr_struct.diagnosis.significant import SIGNIFICANT
+from cdpr_struct.diagnosis.unassigned import peak_count, uncertain_peaks
+from cdpr_struct.diagnosis.whole_sizes import WholeSize, whole_sizes
+from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.measurement.loss import Loss
+from cdpr_struct.robot.robot import Robot
 
 KEEPS = 1.0  # nats that a cause must keep without the block of data that it needs most: else it explains that block
 HANGS = 0.6  # largest probability that is said of a cause that does not
+_LIKELIEST = 3  # candidates that a recommendation speaks of where no cause explains the data
 
 
 def diagnosed(
-    campaign: Campaign, budget: str = "small", progress: Callable[[str], None] = lambda _: None, loss: Loss = Loss()
+    campaign: Campaign,
+    budget: str = "small",
+    progress: Callable[[str], None] = lambda _: None,
+    loss: Loss | None = None,
 ) -> Diagnosis:
-    """Diagnose a campaign.
+    """Diagnose a campaign; `loss` in place of the campaign's own.
 
     Raises
     ------
     InputError : the campaign holds nothing that can be diagnosed.
     """
+    require_known(campaign.source, campaign.checked)
     found = explained(campaign, BUDGETS[budget], progress)
+    told = {id(one): stories.candidates(one) for one in found}
     beliefs = believed(found)
-    decision = decided(beliefs, loss)
-    story = _story(found, decision)
-    null, chosen = _null(story.answers), _chosen(story, decision)
+    hidden = stories.without_size(found, list(told.values()))
+    decision = _decided(beliefs, campaign.loss if loss is None else loss, hidden, stories.p_value(found))
+    story = stories.believed_data(found, decision)
     progress("predicting what was left out")
-    data, where = story.search.data, story.search.where
-    left = left_out(data, where, chosen) if decision.status in ("named", "class") else None
-    confirmed = left is None or bool((left.kept >= KEEPS).all())
+    answer = _Said.of(campaign, story, decision)
+    return _assembled(found, beliefs, answer, told[id(story)])
+
+
+def _decided(beliefs: Sequence[Belief], loss: Loss, hidden: set[str], p_value: float) -> Decision:
+    """Where something is significant, not that all is well: what is least wrong of the rest, less sure."""
+    decision = decided(beliefs, loss, hidden)
+    wrong = [one for one in beliefs if one.names]
+    share = sum(one.probability for one in wrong)
+    if decision.status != "adequate" or p_value >= SIGNIFICANT or not share:
+        return decision
+    rest = decided([Belief(one.names, one.probability / share) for one in wrong], loss, hidden)
+    if rest.status == "adequate":
+        return decision
+    return Decision(rest.status, rest.classes, rest.probability * share)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Said:
+    """What a decision says of the data that it believes, and what other data say of that."""
+
+    campaign: Campaign
+    story: Explained
+    decision: Decision
+    null: Judged
+    chosen: Judged
+    sizes: tuple[WholeSize, ...]
+    left: LeftOut | None
+    confirmed: bool
+    robot: Robot | None
+    damped: Damped | None
+
+    @classmethod
+    def of(cls, campaign: Campaign, story: Explained, decision: Decision) -> "_Said":
+        data, where = story.search.data, story.search.where
+        null, chosen = stories.null_of(story).best, stories.chosen_of(story, decision)
+        left = left_out(data, where, chosen) if decision.classes else None
+        confirmed = left is None or bool((left.kept >= KEEPS).all())
+        sizes = tuple(whole_sizes(data, story.search.seen, chosen))
+        robot = _extended(story, decision, sizes)
+        said = decision if confirmed else Decision("class", decision.classes, min(decision.probability, HANGS))
+        by_signals = damped(campaign, robot)
+        return cls(campaign, story, said, null, chosen, sizes, left, confirmed, robot, by_signals)
+
+    @property
+    def whole(self) -> Decision:
+        """The decision; where nothing else is wrong, that on the damping."""
+        return self.damped.decision if self.damped is not None and self._by_damping else self.decision
+
+    @property
+    def location(self) -> Location | None:
+        """Where the error sits."""
+        if self.decision.status != "adequate":
+            return located(self.story, self.null, self.chosen)
+        return Location(DAMPING, "", -1) if self._by_damping else None
+
+    @property
+    def _by_damping(self) -> bool:
+        return self.decision.status == "adequate" and self.damped is not None and self.damped.stands_out
+
+
+def _assembled(
+    found: Sequence[Explained], beliefs: Sequence[Belief], said: _Said, rows: Sequence[Candidate]
+) -> Diagnosis:
+    """Everything of a diagnosis."""
+    story, null, chosen, campaign = said.story, said.null, said.chosen, said.campaign
+    data, search, recorded = story.search.data, story.search, stories.as_recorded(found)
+    noise, aside = noise_of_kinds(chosen), tuple(set_aside(data, search.where, chosen))
+    advice = recommended(said.decision, said.confirmed, _likeliest(rows))
     return Diagnosis(
-        campaign=campaign,
-        decision=decision if confirmed else _unconfirmed(decision),
-        beliefs=tuple(sorted(beliefs, key=lambda one: -one.probability)),
-        p_value=_p_value(found),
-        explained=story,
-        correction=story.correction,
-        chosen=chosen,
-        null=null,
-        candidates=tuple(_candidate(story, answer, null) for answer in story.answers if answer.names),
-        set_aside=tuple(set_aside(data, where, chosen)),
-        errors=tuple(errors_of_kinds(found[0] if found[0].correction is None else _recorded(found))),
-        location=located(story, null, chosen) if decision.status != "adequate" else None,
-        left_out=left,
-        confirmed=confirmed,
-        not_testable=story.search.hidden,
-        minimum_detectable=minimum_detectable(story.search, null),
-    )
+        campaign=campaign, decision=said.whole, beliefs=tuple(sorted(beliefs, key=lambda one: -one.probability)),
+        p_value=stories.p_value(found), p_adequate=_p_adequate(noise), explained=story, correction=story.correction,
+        chosen=chosen, null=null, sizes=said.sizes, drift=stories.drift_of(story, chosen), candidates=tuple(rows),
+        tried=tuple(stories.tried(found, story)), set_aside=aside,
+        peaks=Peaks(peak_count(data), tuple(uncertain_peaks(data, chosen))), noise=tuple(noise),
+        errors=tuple(errors_of_kinds(recorded)), location=said.location,
+        recorded=_rows(recorded, stories.null_of(recorded).best), residuals=_rows(story, chosen), left_out=said.left,
+        generic=None if said.left is None else generic_ratio(search, null, chosen), confirmed=said.confirmed,
+        extended=said.robot, damped=said.damped, recommendations=(*advice, *_again(aside)),
+        sigmas=tuple(sigmas_used(campaign)), doubts=tuple(doubts(campaign, noise)),
+        not_testable=search.hidden | ({} if campaign.identified else NEEDS_SIGNALS),
+        minimum_detectable=minimum_detectable(search, null),
+    )  # fmt: skip
 
 
-def _recorded(found: Sequence[Explained]) -> Explained:
-    return next(one for one in found if one.correction is None)
+def _rows(story: Explained, found: Judged) -> LeftOut:
+    """Residuals with their sigmas as stated."""
+    return rows_of(story.search.data, story.search.where, found, NoiseState.stated(found.model.groups))
 
 
-def _story(found: Sequence[Explained], decision: Decision) -> Explained:
-    """The data that the decision believes: corrected if it speaks of a correction."""
-    said = {name for names in decision.classes for name in names}
-    for one in found:
-        if (one.correction is None) == (not any(f.correction and f.correction.cause in said for f in found)):
-            if one.correction is None or one.correction.cause in said:
-                return one
-    return found[0]
+def _extended(story: Explained, decision: Decision, sizes: Sequence[WholeSize]) -> Robot | None:
+    """The robot with what the decision names."""
+    if not decision.classes:
+        return None
+    own = [] if story.correction is None else [story.correction.cause]
+    return extended_robot(story.search.data, sizes, [*own, *(size.part.cause.name for size in sizes)])
 
 
-def _null(answers: Sequence[Answer]) -> Judged:
-    return next(answer.best for answer in answers if not answer.names)
+def _p_adequate(noise: Sequence[NoiseOfKind]) -> float:
+    """The least probable of the kinds' noise, times how many kinds were looked at."""
+    return min(1.0, len(noise) * min((one.p_large for one in noise), default=1.0))
 
 
-def _chosen(story: Explained, decision: Decision) -> Judged:
-    """The fit that the decision speaks of: the likeliest of its sets of causes; of `unknown` the likeliest law."""
-    if decision.status == "adequate":
-        return _null(story.answers)
-    if decision.status == UNKNOWN:
-        return next((a.best for a in story.answers if UNKNOWN in a.names), _null(story.answers))
-    mended = set() if story.correction is None else {story.correction.cause}
-    wanted = [names for names in decision.classes if not mended & set(names)]
-    for answer in story.answers:
-        if len(answer.names) == len(wanted) and fits(tuple(wanted), answer.names):
-            return answer.best
-    return _null(story.answers)
+def _likeliest(rows: Sequence[Candidate]) -> list[str]:
+    """The best causes that were fitted alone."""
+    return [row.names[0] for row in rows if len(row.names) == 1 and row.has_size][:_LIKELIEST]
 
 
-def _unconfirmed(decision: Decision) -> Decision:
-    """A cause that hangs on one block of data is a candidate, no more."""
-    return Decision("class", decision.classes, min(decision.probability, HANGS))
-
-
-def _p_value(found: Sequence[Explained]) -> float:
-    """Of nothing being wrong: the likelihood ratio of everything else against it is above 1 / p no more often than p."""
-    recorded = _recorded(found)
-    null = max(answer.score for answer in recorded.answers if not answer.names)
-    others = [score for one in found for names, score in one.beliefs() if names]
-    return float(min(1.0, np.exp(null - logsumexp(others)))) if others else 1.0
-
-
-def _candidate(story: Explained, answer: Answer, null: Judged) -> Candidate:
-    sizes = whole_sizes(story.search.data, story.search.seen, answer.best)
-    gain = answer.score - _null_score(story)
-    return Candidate(answer.names, answer.best, tuple(sizes), gain, _share(answer.best, null))
-
-
-def _null_score(story: Explained) -> float:
-    return next(answer.score for answer in story.answers if not answer.names)
-
-
-def _share(found: Judged, null: Judged) -> float:
-    """Share of the whitened sum of squares beyond noise that a hypothesis takes away, 0 to 1."""
-    before, after = null.misfit, found.misfit
-    excess = before - null.rows
-    return float(np.clip(1.0 - (after - found.rows) / excess, 0.0, 1.0)) if excess > 0.0 else 0.0
+def _again(aside: Sequence[SetAside]) -> list[Recommendation]:
+    """Readings that contradict all others are to be read again."""
+    return [Recommendation("repeat", "", kind=one.kind, case=one.case, cable=one.cable) for one in aside]

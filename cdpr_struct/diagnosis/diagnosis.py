@@ -4,13 +4,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.diagnosis.decision import Belief, Decision
+from cdpr_struct.diagnosis.damped import Damped
+from cdpr_struct.diagnosis.decision import UNKNOWN, Belief, Decision
 from cdpr_struct.diagnosis.explain import Explained
 from cdpr_struct.diagnosis.hypotheses.handling import Correction
+from cdpr_struct.diagnosis.hypothesis import Part
 from cdpr_struct.diagnosis.judge import Judged
 from cdpr_struct.diagnosis.left_out import LeftOut
+from cdpr_struct.diagnosis.recommended import Recommendation
+from cdpr_struct.diagnosis.sensor_sigmas import Doubt, NoiseOfKind, Used
+from cdpr_struct.diagnosis.unassigned import UncertainPeak
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
 from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.robot.robot import Robot
+
+DAMPING = "DA"
+"""Rows of damping ratios."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +55,7 @@ class ErrorOfKind:
 
 @dataclass(frozen=True, slots=True)
 class Location:
-    """Where the error sits: kind of rows ("EQ", "CO", "CF", "RF"), case, cable from 0 (-1: none)."""
+    """Where the error sits: kind of rows ("EQ", "CO", "CF", "RF", or `DAMPING`), case, cable from 0 (-1: none)."""
 
     rows: str
     case: str
@@ -59,6 +68,7 @@ class Candidate:
 
     sizes : of each, with the tolerances of the same parameters;  gain : log evidence (prior included) against none
     explained : share of the significant error that it takes away, 0 to 1
+    ahead : log evidence against the best of its subsets, none among them
     """
 
     names: tuple[str, ...]
@@ -66,6 +76,37 @@ class Candidate:
     sizes: tuple[WholeSize, ...]
     gain: float
     explained: float
+    ahead: float
+
+    @property
+    def laws(self) -> tuple[Part, ...]:
+        """Those of its parts that the library does not know."""
+        return tuple(part for part in self.best.hypothesis.parts if part.cause.name == UNKNOWN)
+
+    @property
+    def has_size(self) -> bool:
+        """Whether it is likelier than with any of its causes left out, and each of them is a change of the robot."""
+        return self.ahead > 0.0 and not self.laws and all(size.is_change for size in self.sizes)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tried:
+    """A correction of the data that was looked into, with its log evidence, prior included, against the data as filed.
+
+    explained : share of the significant error that goes with it
+    """
+
+    correction: Correction
+    gain: float
+    explained: float
+
+
+@dataclass(frozen=True, slots=True)
+class Peaks:
+    """How many peaks of the robot were measured, and those that are given to no mode for certain."""
+
+    count: int
+    uncertain: tuple[UncertainPeak, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,8 +116,16 @@ class Diagnosis:
     campaign : as recorded;  correction : of the data that is believed, None where they stand
     chosen, null : what the decision speaks of, and nothing wrong, both on the data that are believed
     p_value : of nothing being wrong with the data as recorded: no likelihood ratio exceeds 1 / p more often than p
+    p_adequate : of noise as large as what the choice leaves, sigmas being known as well as they usually are
+    sizes : of the chosen causes;  drift : of the load cells' zeros, rms over the cells of their largest change [N]
+    candidates : sets of causes that were fitted, best first, those without a size or below the null among them
+    tried : corrections of the data, the believed one first
+    recorded, residuals : rows with their sigmas under the null, of the data as recorded, and as believed with causes
     left_out : predictions of states that were not fitted, None where nothing is chosen or can be left out
+    generic : how many times smaller a common EA and load cell gain make the error of all rows left out, None likewise
     confirmed : whether no chosen cause hangs on one state
+    extended : the robot with the chosen causes, None where none is chosen
+    damped : what signals say of the damping, None without signals
     minimum_detectable : by cause, parameter's name to the size found in four of five campaigns
     """
 
@@ -84,28 +133,40 @@ class Diagnosis:
     decision: Decision
     beliefs: tuple[Belief, ...]
     p_value: float
+    p_adequate: float
     explained: Explained
     correction: Correction | None
     chosen: Judged
     null: Judged
+    sizes: tuple[WholeSize, ...]
+    drift: float
     candidates: tuple[Candidate, ...]
+    tried: tuple[Tried, ...]
     set_aside: tuple[SetAside, ...]
+    peaks: Peaks
+    noise: tuple[NoiseOfKind, ...]
     errors: tuple[ErrorOfKind, ...]
     location: Location | None
+    recorded: LeftOut
+    residuals: LeftOut
     left_out: LeftOut | None
+    generic: float | None
     confirmed: bool
+    extended: Robot | None
+    damped: Damped | None
+    recommendations: tuple[Recommendation, ...]
+    sigmas: tuple[Used, ...]
+    doubts: tuple[Doubt, ...]
     not_testable: dict[str, str]
-    minimum_detectable: dict[str, dict[str, float]]
+    minimum_detectable: dict[str, dict[str, float | str]]
+
+    @property
+    def by_damping(self) -> bool:
+        """Whether the decision is that of the damping alone."""
+        return self.location is not None and self.location.rows == DAMPING
 
     @property
     def outside(self) -> tuple[str, float]:
         """The best law outside the library in words, and its log evidence against none."""
-        laws = [
-            one
-            for one in self.candidates
-            if one.best.hypothesis.parts and one.best.hypothesis.parts[-1].law is not None
-        ]
-        if not laws:
-            return "", -np.inf
-        best = max(laws, key=lambda one: one.gain)
-        return best.best.hypothesis.parts[-1].pattern.label, best.gain
+        laws = [(part.pattern.label, one.gain) for one in self.candidates for part in one.laws]
+        return max(laws, key=lambda law: law[1], default=("", -np.inf))

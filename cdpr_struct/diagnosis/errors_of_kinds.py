@@ -26,13 +26,21 @@ def errors_of_kinds(story: Explained) -> list[ErrorOfKind]:
     for kind, values in _errors(data, null).items():
         finite = np.where(np.isfinite(values), np.abs(values), -1.0)
         state, cable = np.unravel_index(int(finite.argmax()), values.shape)
-        rows = np.isin(table.kind.astype(str), _OF_ROWS.get(kind, ("EQ", "CO")))
+        rows = np.isin(table.kind.astype(str), _OF_ROWS.get(kind, ("EQ", "CO"))) & _of_states(data, kind)[table.state]
         chi2 = float(np.mean((table.before[rows] / table.sigma[rows]) ** 2)) if rows.any() else np.nan
         unit = {"static_state": "N", "loaded_pose": "mm"}.get(kind, "Hz")
         rms = float(np.sqrt(np.nanmean(values**2)))
         case = data.campaign.states.names[int(state)]
         found.append(ErrorOfKind(kind, rms, None, unit, chi2, case, int(cable) if kind in _BY_CABLE else -1))
     return found
+
+
+def _of_states(data: Recorded, kind: str) -> np.ndarray:
+    """(S,) bool: states of a kind of data whose rows mean something alone: a tension was read there."""
+    states, m = data.campaign.states, data.cables
+    return data.read[:, 6 : 6 + m].any(axis=1) & {"loaded_pose": states.loaded, "static_state": states.static}.get(
+        kind, np.ones(data.states, dtype=bool)
+    )
 
 
 _BY_CABLE = ("static_state", "cable_frequency")
@@ -47,7 +55,7 @@ def _errors(data: Recorded, null: Judged) -> dict[str, np.ndarray]:
     states, found = data.campaign.states, {}
     if (states.static[:, None] & np.isfinite(states.tension)).any():
         found["static_state"] = _tensions(data)
-    if states.loaded.any():
+    if (states.loaded & states.has_length).any():
         found["loaded_pose"] = _poses(data)
     if data.vibrations is not None and len(data.vibrations.log_hertz):
         found["cable_frequency"] = _cable_frequencies(data, null)

@@ -1,6 +1,5 @@
 """The robot with its causes as a robot file: plain values where these can say it, the rest in [extensions]."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -12,8 +11,9 @@ from cdpr_struct.diagnosis.extended_robot import extensions_of, robot_of
 from cdpr_struct.diagnosis.refit import world_with
 from cdpr_struct.diagnosis.whole_change import whole_change
 from cdpr_struct.diagnosis.world import World
-from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_writing import printable as printable
+from cdpr_struct.robot.robot_writing import robot_toml as robot_toml
 
 
 def extended_world(found: Diagnosis) -> World:
@@ -47,59 +47,3 @@ def extended_robot_toml(found: Diagnosis, comments: Sequence[str] = ()) -> str:
     """Text of extended_robot.toml, comments at its head."""
     head = "".join(f"# {printable(line)}\n" for line in comments)
     return head + robot_toml(extended_robot(found), f"{found.campaign.robot.name}-extended")
-
-
-def printable(line: str) -> str:
-    """A comment of one line: names of cases may hold anything."""
-    return "".join(c if c.isprintable() else " " for c in line)
-
-
-def robot_toml(robot: Robot, name: str) -> str:
-    """A robot file."""
-    body = robot.platform
-    lines = [
-        f'name = "{name}"',
-        f"gravity = {robot.gravity!r}",
-        *_home(robot),
-        "",
-        "[platform]",
-        f"mass = {float(body.mass)!r}",
-        f"center_of_mass = {body.center_of_mass.tolist()}",
-        f"inertia = {body.inertia.tolist()}",
-        "",
-        "[extensions]",
-        f"causes = {_words(robot.extensions.causes)}",
-    ]
-    lines += [f"{key} = {value}" for key, value in robot.extensions.entered.items()]
-    for i, cable in enumerate(robot.cables):
-        lines += [
-            "",
-            f"[[cables]]  # {i + 1}",
-            f"axial_stiffness = {cable.axial_stiffness!r}",
-            f"linear_density = {cable.linear_density!r}",
-            f"damping_ratio = {cable.damping_ratio!r}",
-            *_force_limits(cable),
-            f"platform_anchor = {robot.platform_anchors[i].tolist()}",
-            f"frame_anchor = {robot.frame_anchors[i].tolist()}",
-        ]
-        pulley = robot.pulleys[i]
-        if pulley is not None:
-            lines.append(f"pulley = {{ radius = {pulley.radius!r}, axis = {pulley.axis.tolist()} }}")
-    return "\n".join(lines) + "\n"
-
-
-def _home(robot: Robot) -> list[str]:
-    if robot.home is None:
-        return []
-    pose = [*robot.home.position.tolist(), *np.degrees(robot.home.angles).tolist()]
-    return [f"home_pose = {pose}"]
-
-
-def _force_limits(cable: Cable) -> list[str]:
-    """Lines of the limits that a cable has."""
-    lower = [f"force_min = {float(cable.force_min)!r}"] if cable.force_min > 0.0 else []
-    return lower + ([f"force_max = {float(cable.force_max)!r}"] if cable.force_max < math.inf else [])
-
-
-def _words(causes: Sequence[str]) -> str:
-    return "[" + ", ".join(f'"{c}"' for c in causes) + "]"

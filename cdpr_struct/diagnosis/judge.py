@@ -17,7 +17,7 @@ from cdpr_struct.inference.soft_rows import SoftExpectation
 
 PASSES = 3  # linearisations at most; the steps shrink by ten and more each
 WORTH = 0.1  # nats: by so much must another start be better to be followed
-_SETTLED = 0.2  # sigmas: a point that moves less is where it was
+_SETTLED = 0.5  # sigmas: a point that moves less is where it was; what bends on so short a way is no tenth of a nat
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,15 +52,17 @@ class Judged:
     @property
     def rows(self) -> int:
         """Number of rows that are read directly, padding left out."""
-        return int((self.model.A.any(axis=2) & self.model.hard).sum())
+        return sum(int((stack.A.any(axis=2) & stack.hard).sum()) for stack in self.model.stacks)
 
     @property
     def misfit(self) -> float:
         """Sum of squares of the noise and the numbers that explain the data, in stated and prior sigmas."""
-        read = np.isnan(self.model.groups.fixed_variance)[self.model.groups.index] & (self.model.groups.index >= 0)
+        inferred = np.isnan(self.model.groups.fixed_variance)
         causes = sum(len(part.pattern.prior) for part in self.hypothesis.parts)
         z = self.fit.z_mean[: len(self.fit.z_mean) - causes]
-        return float((self.fit.noise_mean[read] ** 2).sum() + z @ z)
+        pairs = zip(self.model.stacks, self.fit.noise_mean, strict=True)
+        noise = sum(float((u[(s.index >= 0) & inferred[s.index]] ** 2).sum()) for s, u in pairs)
+        return noise + float(z @ z)
 
     @property
     def sizes(self) -> list[np.ndarray]:
@@ -81,14 +83,31 @@ def judged(
     return settled(data, where, _fitted(data, where, hypothesis, point, noise))
 
 
+def begun(data: Recorded, where: Layout, base: Judged, more: Hypothesis, z: np.ndarray) -> Judged:
+    """A hypothesis with one more cause than a judged one, from the numbers z of that cause on."""
+    start = base.likeliest(data, where)
+    point = replace(start.with_term(more.parts[-1].term, z), noise=start.noise)
+    local = Local.about(data, point)
+    model, lists = linear_model(local, where), Lists.of(local, where)
+    covariance = np.zeros((model.parameters, model.parameters))
+    known = len(base.fit.z_mean)
+    covariance[:known, :known] = base.fit.z_covariance
+    assigned = None if lists is None else lists.at_point(covariance)
+    return settled(data, where, _of_model(data, where, more, point, model, base.fit.noise, lists, assigned))
+
+
 def extended(
-    data: Recorded, where: Layout, base: Judged, more: Hypothesis, columns: Sequence[np.ndarray], noise: NoiseState
-) -> Judged:
-    """A hypothesis with one more cause than a judged one, columns (K, n, d) of its numbers a shelf."""
+    data: Recorded, where: Layout, base: Judged, more: Hypothesis, columns: Sequence[np.ndarray], noise: NoiseState,
+    worth: float,
+) -> Judged:  # fmt: skip
+    """A hypothesis with one more cause than a judged one, columns (K, n, d) of its numbers a shelf.
+
+    worth : score from which it is linearised again; what stays far below is as good as impossible either way
+    """
     point = _with_terms(data, more, base.point)
-    model = base.model.with_columns(columns[0])
+    model = base.model.with_columns(columns)
     found = _of_model(data, where, more, point, model, noise, _copied(base.lists), base.fit.soft)
-    return settled(data, where, found)
+    return settled(data, where, found) if found.score > worth else found
 
 
 def again(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> Judged:

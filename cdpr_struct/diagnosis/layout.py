@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.diagnosis.recorded import CABLE_FREQUENCY, LENGTH, POSITION, ROTATION, TENSION, Recorded
+from cdpr_struct.inference.scale_mixture import NoiseGroups
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,8 +32,7 @@ class Layout:
     """All shelves, the groups of readings that fail together, and how many cables the robot has."""
 
     shelves: tuple[Shelf, ...]
-    kind: np.ndarray
-    fixed: np.ndarray
+    groups: NoiseGroups
     m: int
 
 
@@ -45,7 +45,7 @@ def layout(data: Recorded) -> Layout:
         shelves.setdefault((0 if moves else len(members), moves), []).append(members)
     groups = _Groups(data)
     built = tuple(_shelf(data, blocks, groups) for _, blocks in sorted(shelves.items(), key=lambda item: item[0]))
-    return Layout(built, np.array(groups.kind), np.array(groups.fixed), data.cables)
+    return Layout(built, NoiseGroups(np.array(groups.kind), np.array(groups.fixed)), data.cables)
 
 
 class _Groups:
@@ -115,11 +115,8 @@ def noise_of_states(data: Recorded, where: Layout, noise: tuple[np.ndarray, ...]
     """(S, 6 + 2 m) noise of each state's readings from that of the blocks, (K, q) a shelf."""
     own, m = 6 + data.cables, data.cables
     found = np.zeros_like(data.sigma)
-    start = 0
-    for shelf in where.shelves:
+    for shelf, values in zip(where.shelves, noise, strict=True):
         p = shelf.states.shape[1]
-        values = noise[start : start + len(shelf.states)]
-        start += len(shelf.states)
         for k, j in zip(*np.nonzero(shelf.states >= 0), strict=True):
             state = shelf.states[k, j]
             found[state, :own] = values[k, j * own : (j + 1) * own]

@@ -34,7 +34,7 @@ class LeftOut:
 
     @property
     def concerned(self) -> np.ndarray:
-        """(n,) where the causes, fitted to other data, change a prediction by more than one sigma (a tenth at least)."""
+        """(n,) where the causes, fitted to other data, change a prediction by over one sigma (a tenth at least)."""
         change = np.abs(self.before - self.after) / self.sigma
         return change > min(1.0, float(np.quantile(change, 0.9)))
 
@@ -61,18 +61,20 @@ def left_out(data: Recorded, where: Layout, found: Judged) -> LeftOut | None:
     labels = _labels(data, where, 0 if found.lists is None else found.lists.shift.shape[1])
     read = (labels[0] >= 0) & np.isfinite(sums.sigma)
     kinds = np.array(KINDS, dtype=object)[labels[0][read]]
-    rows = [values[read] for values in (sums.residual, after, sums.sigma)]
-    return LeftOut(kinds, labels[1][read], labels[2][read], *rows, kept)
+    before, after, sigma = (values[read] for values in (sums.residual, after, sums.sigma))
+    return LeftOut(kinds, labels[1][read], labels[2][read], before, after, sigma, kept)
 
 
 def rows_of(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> LeftOut:
-    """Residuals of a fit's point as they stand, nothing left out, with their sigmas at given sizes of the noise."""
-    sums = BlockSums.of(found.model, noise, found.fit.soft, found.model.parameters)
+    """Residuals of a fit as they stand and less its causes, nothing left out; sigmas at given sizes of the noise."""
+    first = found.model.parameters - sum(len(part.pattern.prior) for part in found.hypothesis.parts)
+    sums = BlockSums.of(found.model, noise, found.fit.soft, first)
     labels = _labels(data, where, 0 if found.lists is None else found.lists.shift.shape[1])
     read = (labels[0] >= 0) & np.isfinite(sums.sigma)
     kinds = np.array(KINDS, dtype=object)[labels[0][read]]
-    rows = [values[read] for values in (sums.residual, sums.residual, sums.sigma)]
-    return LeftOut(kinds, labels[1][read], labels[2][read], *rows, np.zeros(0))
+    after = sums.residual - sums.columns[:, first:] @ found.fit.z_mean[first:]
+    before, after, sigma = (values[read] for values in (sums.residual, after, sums.sigma))
+    return LeftOut(kinds, labels[1][read], labels[2][read], before, after, sigma, np.zeros(0))
 
 
 def _predictions(sums: BlockSums, causes: np.ndarray) -> np.ndarray:
@@ -101,16 +103,10 @@ def _log(gram: np.ndarray, score: np.ndarray) -> float:
 
 def _labels(data: Recorded, where: Layout, modes: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Number of the kind (-1: no reading), state and cable of every row, shelf by shelf, block by block."""
-    found = []
-    hard = max(shelf.states.shape[1] * (6 + data.cables) + shelf.cables.shape[1] for shelf in where.shelves)
-    soft = max(shelf.vibrating.shape[1] * modes for shelf in where.shelves)
-    for shelf in where.shelves:
-        for k in range(len(shelf.states)):
-            rows = list(_of_block(data, shelf, k, modes))
-            moving = shelf.vibrating.shape[1] * modes
-            first, last = rows[: len(rows) - moving], rows[len(rows) - moving :]
-            found += first + [_NONE] * (hard - len(first)) + last + [_NONE] * (soft - len(last))
-    kind, state, cable = np.array(found, dtype=int).reshape((-1, 3)).T
+    rows = [
+        row for shelf in where.shelves for k in range(len(shelf.states)) for row in _of_block(data, shelf, k, modes)
+    ]
+    kind, state, cable = np.array(rows, dtype=int).reshape((-1, 3)).T
     return kind, state, cable
 
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cdpr_struct.diagnosis.commanded_lengths import SIGMA, Commanded, commanded
 from cdpr_struct.diagnosis.vibrations import Vibrations, vibrations
 from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
@@ -33,7 +34,7 @@ class Recorded:
     sigma (S, 6 + 2 m) : stated, of position and rotation [m, rad], tensions [N], lengths [m]
     read (S, 6 + 2 m) : bool, whether the reading exists;  unread (S, 6 + 2 m) : one sigma of it if not
     blocks : states that share a reading of lengths, in order of the campaign
-    vibrations : frequencies, None without any
+    vibrations : frequencies, None without any;  sent : commands that stand in for encoders
     """
 
     campaign: Campaign
@@ -46,6 +47,7 @@ class Recorded:
     unread: np.ndarray
     blocks: tuple[np.ndarray, ...]
     vibrations: Vibrations | None
+    sent: Commanded
 
     @property
     def cables(self) -> int:
@@ -72,17 +74,20 @@ def recorded(campaign: Campaign) -> Recorded:
     position, read_pose = _places(campaign)
     known = Circumstances.of(campaign, turn, position)
     arrays = RobotArrays.of(campaign.robot)
-    readings = _filled(campaign, arrays, known, Readings(position, turn, states.tension, states.length))
+    sent = commanded(campaign, position, turn)
+    lengths = np.where(np.isfinite(states.length), states.length, sent.lengths)
+    readings = _filled(campaign, arrays, known, Readings(position, turn, states.tension, lengths))
     m = arrays.cable_count
-    read = np.concatenate([read_pose, np.isfinite(states.tension), np.isfinite(states.length)], axis=1)
+    read = np.concatenate([read_pose, np.isfinite(states.tension), np.isfinite(lengths)], axis=1)
     mean = np.full((len(states.names), m), known.mean_tension)
     pose = np.repeat(np.stack([states.sigma_position, states.sigma_rotation], axis=1), 3, axis=1)
     tension = np.where(np.isfinite(states.tension_sigma), _rounded(states.tension, states.tension_sigma), 1.0)
     length = np.where(np.isfinite(states.length_sigma), states.length_sigma, 1e-3)
+    length = np.where(np.isfinite(states.length), length, np.where(np.isfinite(lengths), SIGMA, length))
     unread = [np.repeat([_UNREAD_POSE], len(mean), axis=0).repeat(3, axis=1), mean, np.full_like(mean, _UNREAD_LENGTH)]
     return Recorded(
         campaign, arrays, readings, known, arm_scale(arrays), np.concatenate([pose, tension, length], axis=1), read,
-        np.concatenate(unread, axis=1), _blocks(states.lock), vibrations(campaign),
+        np.concatenate(unread, axis=1), _blocks(states.lock), vibrations(campaign), sent,
     )  # fmt: skip
 
 

@@ -12,15 +12,22 @@ import numpy as np
 from scipy.special import logsumexp
 
 from cdpr_struct.diagnosis.alternatives import Gains, Offered, gains, offered
+from cdpr_struct.diagnosis.decision import UNKNOWN
+from cdpr_struct.diagnosis.hypotheses import internal_force
 from cdpr_struct.diagnosis.hypotheses.drift import AMPLITUDES
 from cdpr_struct.diagnosis.hypotheses.library import testable
 from cdpr_struct.diagnosis.hypothesis import Hypothesis
-from cdpr_struct.diagnosis.judge import Judged, again, extended, judged
+from cdpr_struct.diagnosis.judge import Judged, again, begun, extended, judged
 from cdpr_struct.diagnosis.layout import Layout, layout
 from cdpr_struct.diagnosis.recorded import Recorded
+from cdpr_struct.diagnosis.scan import beginnings
 from cdpr_struct.diagnosis.seen import seen_in
-from cdpr_struct.inference.evidence import fit
+from cdpr_struct.diagnosis.significant import p_of_null
+from cdpr_struct.inference.evidence import bound_at, fit
 from cdpr_struct.inference.scale_mixture import NoiseState
+
+_NOTHING = 2.0  # nats by which the best single cause may be behind none: else a second one beside it is not looked for
+_AGAIN = 6  # hypotheses that are fitted from another one's noise
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,11 +40,12 @@ class Budget:
     causes: int = 3
     near: float = 14.0
     pair_near: float = 5.0
+    hopeless: float = 30.0
     beginnings: int = 3
     pairs: int = 3
 
 
-BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 5, 6)}
+BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 60.0, 5, 6)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,7 +73,10 @@ class Search:
     def __init__(self, data: Recorded, budget: Budget) -> None:
         self.data, self.seen, self.budget = data, seen_in(data), budget
         self.causes, self.hidden = testable(self.seen, data.campaign.checked)
+        if not data.sent.internal.any():
+            self.hidden[internal_force.CAUSE.name] = internal_force.REASON
         self.where: Layout = layout(data)
+        self.p_value = 1.0
         self.found: dict[tuple[object, ...], Judged] = {}
         self.spread: dict[tuple[object, ...], float] = {}
 
@@ -81,12 +92,16 @@ class Search:
         nulls = self._nulls()
         base = max(nulls, key=lambda one: one.score)
         menu = offered(self.data, self.where, self.seen, self.causes, base)
+        self.p_value = p_of_null(menu, base)
         rows = self._screened(menu, nulls, self._rich(menu, base))
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
+        self._begin(menu, base)
         self._transfer()
-        for first in self._ranked(1)[: self.budget.beginnings]:
+        singles = self._ranked(1)
+        least = max(singles[0].score - self.budget.near, self._ranked(0)[0].score - _NOTHING)
+        for first in [one for one in singles[: self.budget.beginnings] if one.score > least]:
             self._pairs(first)
-        self._transfer()
+            self._transfer(2)
         return self.answers()
 
     def answers(self) -> list[Answer]:
@@ -109,18 +124,21 @@ class Search:
 
     def _rich(self, menu: Sequence[Offered], base: Judged) -> NoiseState:
         """Sizes of the noise where every cause may act at once: what none of them explains."""
-        known = [cause for cause in menu if not cause.laws]
-        columns = [[part * cause.patterns[-1].prior.max() for part in cause.columns] for cause in known]
-        everything = base.model.with_columns(np.concatenate([c[0] for c in columns], axis=-1))
+        known = [cause for cause in menu if cause.cause.name != UNKNOWN]
+        columns = [[part * cause.patterns[0].prior.max() for part in cause.columns] for cause in known]
+        everything = base.model.with_columns([np.concatenate(parts, axis=-1) for parts in zip(*columns, strict=True)])
         lists = None if base.lists is None else base.lists.copy()
         return fit(everything, base.fit.noise, lists, base.fit.soft).noise
 
     def _screened(self, menu: Sequence[Offered], bases: Sequence[Judged], rich: NoiseState | None) -> list[_Screened]:
         """The best of each cause beside every base, at its own noise and at the rich one; best first."""
         best: dict[str, _Screened] = {}
+        shapes = [part.shape[:2] for part in menu[0].columns] if menu else []
         for base in bases:
+            if [stack.r.shape for stack in base.model.stacks] != shapes:
+                continue  # about its point the robot has other modes than about that of the menu
             for noise in [base.fit.noise, *([rich] if rich is not None else [])]:
-                bound = base.log_evidence if noise is base.fit.noise else _bound(base, noise)
+                bound = base.log_evidence if noise is base.fit.noise else bound_at(base.model, noise, base.fit.soft)
                 for row in gains(menu, base, noise):
                     score = bound + base.hypothesis.log_prior + row.total
                     if row.cause.name not in best or score > best[row.cause.name].score:
@@ -136,19 +154,26 @@ class Search:
                 more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
                 self.spread[more.key] = row.gains.spread
                 own = [shelf @ part.pattern.basis * part.term.sigma for shelf in columns[part.cause.name]]
-                self.keep(extended(self.data, self.where, row.base, more, own, row.noise))
+                worth = self._ranked()[0].score - self.budget.hopeless
+                self.keep(extended(self.data, self.where, row.base, more, own, row.noise, worth))
+
+    def _begin(self, menu: Sequence[Offered], base: Judged) -> None:
+        """Fits of large changes that would put peaks right."""
+        for one in beginnings(self.data, menu, base, self.budget.beginnings + 1):
+            more = Hypothesis((*base.hypothesis.parts, one.part), base.hypothesis.drift)
+            self.keep(begun(self.data, self.where, base, more, one.z))
 
     def _ranked(self, causes: int | None = None) -> list[Judged]:
         own = [one for one in self.found.values() if causes is None or len(one.hypothesis.parts) == causes]
         return sorted(own, key=lambda one: -one.score)
 
-    def _transfer(self) -> None:
-        """Every hypothesis that may matter again from the noise of the best two."""
+    def _transfer(self, causes: int | None = None) -> None:
+        """The likeliest hypotheses, and nothing wrong, again from the noise of the best two."""
         ranked = self._ranked()
-        near = [one for one in ranked if one.score > ranked[0].score - self.budget.near or not one.hypothesis.parts]
+        near = [one for one in self._ranked(causes) if one.score > ranked[0].score - self.budget.near]
         for other in ranked[:2]:
-            for one in near:
-                if one is not other:
+            for one in [*near[:_AGAIN], *self._ranked(0)]:
+                if one.hypothesis.key != other.hypothesis.key:
                     self.keep(again(self.data, self.where, self.found[one.hypothesis.key], other.fit.noise))
 
     def _pairs(self, first: Judged) -> None:
@@ -157,8 +182,3 @@ class Search:
         menu = offered(self.data, self.where, self.seen, left, first)
         rows = self._screened(menu, [first], None)[: self.budget.pairs]
         self._fit_best(menu, rows, 0, self._ranked()[0].score - self.budget.pair_near)
-
-
-def _bound(base, noise):
-    lists = None if base.lists is None else base.lists.copy()
-    return fit(base.model, noise, lists, base.fit.soft).bounds[0]

@@ -14,13 +14,13 @@ def seen_in(data: Recorded) -> Seen:
     """Of the static readings and frequencies of a campaign."""
     campaign, m = data.campaign, data.cables
     states = campaign.states
-    kinds = {"EQ"} | ({"CO"} if np.isfinite(states.length).any() else set())
+    kinds = {"EQ"} | ({"CO"} if data.read[:, 6 + m :].any() else set())
     kinds |= {"CF"} if campaign.cable_frequencies.hertz.size else set()
     kinds |= {"RF"} if campaign.robot_frequencies.hertz.size else set()
     return Seen(
         kinds=frozenset(kinds),
         tensions=bool(np.isfinite(states.tension).any()),
-        lengths=bool(np.isfinite(states.length).any()),
+        lengths=bool(data.read[:, 6 + m :].any()),
         approach=bool(np.any(data.known.approach)),
         hours=float(np.ptp(data.known.hours)),
         cable_modes=len(set(campaign.cable_frequencies.mode.tolist())),

@@ -18,9 +18,9 @@ def set_aside(data: Recorded, where: Layout, found: Judged) -> list[SetAside]:
     """The readings set aside, worst first."""
     noise = found.fit.noise
     odd = noise.responsibility[:, KAPPA >= _OUTLIER].sum(axis=1) > _SURE
-    odd &= np.isnan(where.fixed)
+    odd &= np.isnan(where.groups.fixed_variance)
     rows = []
-    for shelf, mean in _with_noise(where, found):
+    for shelf, mean in zip(where.shelves, found.fit.noise_mean, strict=True):
         for group, kind, state, cable, value in _readings(data, shelf, mean):
             if odd[group]:
                 factor = float(noise.responsibility[group] @ KAPPA)
@@ -28,13 +28,6 @@ def set_aside(data: Recorded, where: Layout, found: Judged) -> list[SetAside]:
                 name = data.campaign.states.names[state]
                 rows.append(SetAside(kind, name, cable, float(np.linalg.norm(value)), gain))
     return sorted(rows, key=lambda row: -row.gain)
-
-
-def _with_noise(where: Layout, found: Judged) -> Iterator[tuple[Shelf, np.ndarray]]:
-    start = 0
-    for shelf in where.shelves:
-        yield shelf, found.fit.noise_mean[start : start + len(shelf.states)]
-        start += len(shelf.states)
 
 
 def _readings(data: Recorded, shelf: Shelf, mean: np.ndarray) -> Iterator[tuple[int, str, int, int, np.ndarray]]:

@@ -1,6 +1,6 @@
 """A campaign's frequencies: those of cables with their numbers, and lists of the robot's without any."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -8,14 +8,17 @@ from cdpr_struct.association.association import Association
 from cdpr_struct.association.detection import clutter, robot_detection
 from cdpr_struct.association.doubles import detection_of_doubles
 from cdpr_struct.association.modes import robot_modes
+from cdpr_struct.association.peak_noise import PeakNoise
 from cdpr_struct.association.peaks import PeakList, PeakLists, padded
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
+from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.cable_modes import CableModes, CableRows, cable_modes_at, cable_rates
 from cdpr_struct.observation.circumstances import Circumstances
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.observation.rest import rest
-from cdpr_struct.observation.robot_modes import VibratingModes, modes_at, rates
+from cdpr_struct.observation.robot_modes import BEYOND, VibratingModes, frequencies_at, modes_at, rates
 from cdpr_struct.observation.vibrating import of_states, vibrating
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
@@ -39,6 +42,18 @@ class Vibrations:
     sigma: np.ndarray
     peaks: PeakLists | None
     highest: np.ndarray
+
+    def richest(self, most: int) -> "Vibrations":
+        """The states with most peaks, and these alone."""
+        if self.peaks is None:
+            return self
+        some = np.sort(np.argsort(-self.peaks.count, kind="stable")[:most])
+        none = CableRows(*(np.zeros(0, dtype=int),) * 4)
+        lists = {f.name: getattr(self.peaks, f.name)[some] for f in fields(self.peaks)} | {
+            "state": np.arange(len(some))
+        }
+        blank = np.zeros(0)
+        return Vibrations(self.states[some], none, blank, blank, PeakLists(**lists), self.highest[some])
 
 
 def vibrations(campaign: Campaign) -> Vibrations | None:
@@ -79,7 +94,7 @@ class Vibrating:
         robot = None
         if measured.peaks is not None:
             massless = campaign.model == "static"
-            robot = modes_at(point, measured.highest, campaign.assembly, "static" if massless else "exact")
+            robot = modes_at(point, measured.highest, _assembly(campaign), "static" if massless else "exact")
         return cls(states, measured, known, cable_modes_at(point, measured.rows), robot)
 
     @property
@@ -101,11 +116,7 @@ class Vibrating:
         peaks, robot = self.measured.peaks, self.robot
         if peaks is None or robot is None:
             return None
-        low, high = np.exp(peaks.band[:, :1]), np.exp(peaks.band[:, 1:])
-        hertz = np.exp(robot.log_hertz)
-        share = np.where(robot.mask & (hertz > low) & (hertz < high), robot_detection(robot.share), 0.0)
-        detection = detection_of_doubles(robot.log_hertz, share)
-        return Association(peaks, robot_modes(robot.log_hertz, detection), clutter(peaks))
+        return _association(peaks, robot.log_hertz, np.where(robot.mask, robot.share, -1.0))
 
 
 def _point(
@@ -117,3 +128,55 @@ def _point(
         np.take(readings.tension, measured.states, axis=-2), np.take(readings.length, measured.states, axis=-2),
     )  # fmt: skip
     return vibrating(rest(of_states(arrays, measured.states, states), some, known), known)
+
+
+def log_likelihoods(
+    campaign: Campaign, known: Circumstances, measured: Vibrations, arrays: RobotArrays, readings: Readings,
+    variance: float, noise: PeakNoise,
+) -> np.ndarray:  # fmt: skip
+    """(A,) ln of the lists' density for robots (A, S or 1), peaks assigned anew; -inf where a state is unstable.
+
+    variance : of ln f of every mode, by all that is not sure
+    """
+    states, peaks = len(campaign.states.names), measured.peaks
+    if peaks is None:
+        return np.zeros(arrays.batch_shape[:1])
+    point = _whole(_point(states, measured, known.at(measured.states), arrays, readings))
+    try:
+        log_hertz, share = frequencies_at(point, float(measured.highest.max()) * BEYOND, _assembly(campaign))
+    except UnstableEquilibriumError:
+        return np.full(len(point.position), -np.inf)
+    found = []
+    for own, seen in zip(log_hertz, share, strict=True):
+        lists = _association(peaks, np.where(np.isfinite(own), own, 0.0), np.where(np.isfinite(own), seen, -1.0))
+        lists = lists.at(noise=noise, rule="poisson")
+        spread = np.full(own.shape, variance)
+        said = lists.expect(np.zeros(own.shape), spread, True)
+        found.append(said.constant - 0.5 * float((said.precision * (said.value**2 + spread)).sum()))
+    return np.array(found)
+
+
+def _whole(point: OperatingPoint) -> OperatingPoint:
+    """The same states with every field of pose and cables along all batch axes."""
+    shape = np.broadcast_shapes(point.position.shape[:-1], point.cables.length.shape[:-1], point.arrays.batch_shape)
+    cables = {f.name: getattr(point.cables, f.name) for f in fields(point.cables)}
+    full = {n: np.broadcast_to(v, shape + v.shape[-(1 + (n in ("offset", "heading"))) :]) for n, v in cables.items()}
+    arrays = replace(
+        point.arrays, mass=np.broadcast_to(point.arrays.mass, shape),
+        center_of_mass=np.broadcast_to(point.arrays.center_of_mass, (*shape, 3)),
+        inertia=np.broadcast_to(point.arrays.inertia, (*shape, 3, 3)),
+    )  # fmt: skip
+    place, turn = np.broadcast_to(point.position, (*shape, 3)), np.broadcast_to(point.rotation, (*shape, 3, 3))
+    return OperatingPoint(arrays, place, turn, type(point.cables)(**full))
+
+
+def _association(peaks: PeakLists, log_hertz: np.ndarray, share: np.ndarray) -> Association:
+    """Lists beside modes (F, M); where there is no mode, its share is negative."""
+    low, high = peaks.band[:, :1], peaks.band[:, 1:]
+    visible = (share >= 0.0) & (log_hertz > low) & (log_hertz < high)
+    detection = detection_of_doubles(log_hertz, np.where(visible, robot_detection(share), 0.0))
+    return Association(peaks, robot_modes(log_hertz, detection), clutter(peaks))
+
+
+def _assembly(campaign: Campaign) -> Assembly:
+    return "thesis" if campaign.assembly == "thesis" else "consistent"

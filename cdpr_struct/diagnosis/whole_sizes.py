@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.diagnosis.decision import UNKNOWN
 from cdpr_struct.diagnosis.hypotheses.cause import Seen
 from cdpr_struct.diagnosis.hypothesis import Part
 from cdpr_struct.diagnosis.judge import Judged
@@ -57,6 +58,7 @@ def whole_sizes(data: Recorded, seen: Seen, found: Judged) -> list[WholeSize]:
         start += d
         if part.law is None:
             own[:, : len(tolerance.sigma)] += _shares(seen, arrays, tolerance, part)
+        if part.cause.name != UNKNOWN:
             rows.append(WholeSize(part, own @ mean, own @ covariance @ own.T))
     return rows
 

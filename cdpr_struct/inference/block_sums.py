@@ -1,14 +1,14 @@
 """What each block says of the parameters, noise integrated out: for predictions of blocks that were not fitted."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from cdpr_struct.inference.joint_posterior import Marginal
-from cdpr_struct.inference.linear_model import LinearModel
+from cdpr_struct.inference.linear_model import LinearModel, Stack
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.inference.soft_rows import SoftExpectation
-from cdpr_struct.inference.white_rows import WhiteRows
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,23 +30,34 @@ class BlockSums:
     @classmethod
     def of(cls, model: LinearModel, noise: NoiseState, soft: SoftExpectation | None, known: int) -> "BlockSums":
         """At given sizes of the noise; `known` of the parameters, the first, are free in `sigma`."""
-        variance = model.groups.spread(noise.variance)
-        marginal = Marginal.of(WhiteRows.of(model), variance, soft)
-        blocks, n, t = model.X.shape
-        columns, r = marginal.X.reshape((blocks, n, t)), marginal.r.reshape((blocks, n))
-        residual = model.r.copy()
-        spread = (model.A**2 @ variance[..., None])[..., 0] + (model.X[..., :known] ** 2).sum(axis=-1) + model.floor**2
-        if len(model.soft):
-            residual[:, model.soft] = 0.0 if soft is None else soft.value
-            spread[:, model.soft] -= model.floor[:, model.soft] ** 2
-            read = np.zeros(residual[:, model.soft].shape) if soft is None else soft.precision
-            spread[:, model.soft] += np.where(read > 0.0, 1.0 / np.where(read > 0.0, read, 1.0), np.inf)
-        empty = ~model.A.any(axis=2) & ~model.X.any(axis=2)
+        variance = model.readings.spread(noise.variance)
+        marginal = Marginal.of(model.white, variance, soft)
+        parts = [_of_stack(stack, own, soft, known) for stack, own in zip(model.stacks, variance, strict=True)]
+        sizes = [stack.r.shape[1] for stack in model.stacks for _ in stack.r]
+        block = np.repeat(np.arange(len(sizes)), sizes)
+        first = np.concatenate([[0], np.cumsum(sizes)])
+        columns = [marginal.X[a:b] for a, b in pairwise(first)]
+        rows = [marginal.r[a:b] for a, b in pairwise(first)]
         return cls(
-            np.swapaxes(columns, 1, 2) @ columns,
-            np.einsum("knt,kn->kt", columns, r),
-            np.repeat(np.arange(blocks), n),
-            residual.ravel(),
-            model.X.reshape((-1, t)),
-            np.sqrt(np.where(empty, np.inf, spread)).ravel(),
+            np.stack([own.T @ own for own in columns]),
+            np.stack([own.T @ r for own, r in zip(columns, rows, strict=True)]),
+            block,
+            np.concatenate([residual.ravel() for residual, _ in parts]),
+            np.concatenate([stack.X.reshape((-1, model.parameters)) for stack in model.stacks]),
+            np.concatenate([sigma.ravel() for _, sigma in parts]),
         )
+
+
+def _of_stack(
+    stack: Stack, variance: np.ndarray, soft: SoftExpectation | None, known: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Residual and sigma (K, n) of the rows of a stack; soft rows have the value and precision of their mixture."""
+    residual = stack.r.copy()
+    spread = (stack.A**2 @ variance[..., None])[..., 0] + (stack.X[..., :known] ** 2).sum(axis=-1) + stack.floor**2
+    if len(stack.soft):
+        residual[:, stack.soft] = 0.0 if soft is None else soft.value
+        spread[:, stack.soft] -= stack.floor[:, stack.soft] ** 2
+        read = np.zeros(residual[:, stack.soft].shape) if soft is None else soft.precision
+        spread[:, stack.soft] += np.where(read > 0.0, 1.0 / np.where(read > 0.0, read, 1.0), np.inf)
+    empty = ~stack.A.any(axis=2) & ~stack.X.any(axis=2)
+    return residual, np.sqrt(np.where(empty, np.inf, spread))

@@ -1,79 +1,70 @@
-"""A campaign, linearised: which errors and parameters make which residual?
+"""A campaign, linearised: blocks (states of the robot) that share parameters z only, and the scales of their noise."""
 
-    r_k = A_k u_k + X_k z + e_k,    z ~ N(0, I),    e_k ~ N(0, diag(floor^2)),    u: see `scale_mixture`
-
-Blocks k (states of the robot) share z only, and the scales of u. All blocks are padded to common sizes.
-"""
-
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from cdpr_struct.inference.scale_mixture import NoiseGroups
+from cdpr_struct.inference.scale_mixture import GroupedReadings, NoiseGroups
+from cdpr_struct.inference.stack import Stack
+from cdpr_struct.inference.white_rows import WhiteRows
+
+__all__ = ["LinearModel", "Stack"]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class LinearModel:
-    """Residuals of K blocks of n rows, in any unit, the same throughout a row.
+    """Blocks, stacked by size, and the scales of their readings' noise.
 
-    r      : (K, n) residual at the linearisation point; ignored in soft rows
-    A      : (K, n, q) change of the residual per stated sigma of each reading
-    X      : (K, n, t) change of the residual per prior sigma of each parameter z
-    floor  : (K, n) standard deviation of the model itself; may be 0 where A A' has full rank; ignored in soft rows
-    groups : scales of the readings' noise, index (K, q)
-    soft   : (s,) positions of the soft rows, the same in each block; their prediction is A u + X z
+    stacks : all with the same t parameters; one of them may have soft rows
+    groups : scales that the readings' `index` refers to
 
-    Padding rows have r = 0, A = X = 0, floor = 1; padding readings have index -1 and A = 0.
+    Without slots, as white rows and grouped readings are kept once they were asked for.
     """
 
-    r: np.ndarray
-    A: np.ndarray
-    X: np.ndarray
-    floor: np.ndarray
+    stacks: tuple[Stack, ...]
     groups: NoiseGroups
-    soft: np.ndarray
 
     def __post_init__(self) -> None:
-        for name in ("r", "A", "X", "floor"):
-            value = np.array(getattr(self, name), dtype=float)
-            if not np.isfinite(value).all():
-                raise ValueError(f"LinearModel.{name} must be finite")
-            value.setflags(write=False)
-            object.__setattr__(self, name, value)
-        soft = np.array(self.soft, dtype=int)
-        soft.setflags(write=False)
-        object.__setattr__(self, "soft", soft)
-        self._check()
-
-    def _check(self) -> None:
-        shape, readings = self.r.shape, self.groups.index.shape[1]
-        if len(shape) != 2 or self.A.shape != (*shape, readings) or self.groups.index.shape[0] != shape[0]:
-            raise ValueError(f"r {shape}, A {self.A.shape} and index {self.groups.index.shape} do not fit together")
-        if self.X.shape[:-1] != shape or self.X.ndim != 3 or self.floor.shape != shape:
-            raise ValueError(f"X {self.X.shape} and floor {self.floor.shape} do not fit r {shape}")
-        if (self.floor < 0.0).any():
-            raise ValueError("LinearModel.floor must not be negative")
-        if self.soft.ndim != 1 or len(set(self.soft.tolist())) < len(self.soft):
-            raise ValueError(f"LinearModel.soft must be a list of different rows, got {self.soft.tolist()}")
-        if len(self.soft) and not (self.soft.min() >= 0 and self.soft.max() < shape[1]):
-            raise ValueError(f"LinearModel.soft must lie within 0 and {shape[1] - 1}, got {self.soft.tolist()}")
-        if np.any(self.A.swapaxes(1, 2)[self.groups.index < 0]):
-            raise ValueError("LinearModel.A must be zero for readings of index -1")
+        object.__setattr__(self, "stacks", tuple(self.stacks))
+        if not self.stacks or len({stack.X.shape[2] for stack in self.stacks}) > 1:
+            shapes = [stack.X.shape for stack in self.stacks]
+            raise ValueError(f"LinearModel needs stacks with the same number of parameters, got X of {shapes}")
+        if sum(len(stack.soft) > 0 for stack in self.stacks) > 1:
+            raise ValueError("one stack of a LinearModel at most may have soft rows")
+        _ = self.readings
 
     @property
     def parameters(self) -> int:
         """Number t of parameters z."""
-        return self.X.shape[2]
+        return self.stacks[0].X.shape[2]
 
-    @property
-    def hard(self) -> np.ndarray:
-        """(n,) rows that are read directly."""
-        return ~np.isin(np.arange(self.r.shape[1]), self.soft)
+    @cached_property
+    def readings(self) -> GroupedReadings:
+        """Which readings have which scale."""
+        return GroupedReadings(self.groups, tuple(stack.index for stack in self.stacks))
 
-    def with_columns(self, more: np.ndarray) -> "LinearModel":
-        """The same data with more parameters, columns (K, n, d) per prior sigma, behind the present ones."""
-        return replace(self, X=np.concatenate((self.X, more), axis=2))
+    @cached_property
+    def white(self) -> WhiteRows:
+        """The rows, made comparable; ValueError if hard rows of a block have no independent noise."""
+        return WhiteRows.of(self.stacks)
 
-    def with_residual(self, r: np.ndarray) -> "LinearModel":
-        """The same model of other data, (K, n)."""
-        return replace(self, r=r)
+    def with_columns(self, more: Sequence[np.ndarray]) -> "LinearModel":
+        """The same data with more parameters, columns (K_i, n_i, d) per prior sigma, behind the present ones."""
+        pairs = zip(self.stacks, more, strict=True)
+        return replace(self, stacks=tuple(stack.with_columns(columns) for stack, columns in pairs))
+
+    def with_noise(self, more: Sequence[np.ndarray]) -> "LinearModel":
+        """The same data with more noise: columns (K_i, n_i, e), each times an own standard normal number per block.
+
+        Their scale is not inferred and they are no part of stated sigmas, so states of the noise fit both models, and
+        evidences compare. In a `Fit`, they follow the readings.
+        """
+        pairs = zip(self.stacks, more, strict=True)
+        return replace(self, stacks=tuple(stack.with_noise(columns) for stack, columns in pairs))
+
+    def with_residual(self, r: Sequence[np.ndarray]) -> "LinearModel":
+        """The same model of other data, (K_i, n_i)."""
+        pairs = zip(self.stacks, r, strict=True)
+        return replace(self, stacks=tuple(replace(stack, r=value) for stack, value in pairs))

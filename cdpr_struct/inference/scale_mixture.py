@@ -10,6 +10,7 @@ ln Gamma is convex, so this is a bound, tighter than that of a variational Diric
 are certain. tau^2 keeps its conjugate factor, a scaled inverse chi-squared distribution.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -25,39 +26,64 @@ TAU_DEGREES = 4.0
 ROUNDS = 3
 
 
+# What stands in an index in place of a group: no reading, and noise of the stated variance that is never inferred.
+PADDING = -1
+UNIT = -2
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class NoiseGroups:
-    """Which readings share a scale.
+    """Groups of readings that share a scale.
 
-    index          : (K, q) group of each reading of each block, -1 for padding
     kind           : (G,) kind of sensor of each group, 0, 1, ...
     fixed_variance : (G,) variance in units of the stated one where it is given (a missing reading: 1e8), nan where
                      the scale is to be inferred
-    size           : (G,) number of readings of each group
-    members        : (kinds, G) 1 where the scale of a group of this kind is inferred, else 0
     """
 
-    index: np.ndarray
     kind: np.ndarray
     fixed_variance: np.ndarray
-    size: np.ndarray = field(init=False)
-    members: np.ndarray = field(init=False)
 
     def __post_init__(self) -> None:
-        index, kind = np.array(self.index, dtype=int), np.array(self.kind, dtype=int)
-        fixed = np.array(self.fixed_variance, dtype=float)
-        if index.ndim != 2 or kind.ndim != 1 or fixed.shape != kind.shape:
-            shapes = f"index {index.shape}, kind {kind.shape}, fixed_variance {fixed.shape}"
-            raise ValueError(f"NoiseGroups needs index (K, q), kind (G,), fixed_variance (G,), got {shapes}")
-        if index.size and not (index.min() >= -1 and index.max() < len(kind)):
-            raise ValueError(f"NoiseGroups.index must lie within -1 and {len(kind) - 1}")
+        kind, fixed = np.array(self.kind, dtype=int), np.array(self.fixed_variance, dtype=float)
+        if kind.ndim != 1 or fixed.shape != kind.shape:
+            raise ValueError(f"NoiseGroups needs kind (G,), fixed_variance (G,), got {kind.shape}, {fixed.shape}")
         if (kind < 0).any() or not ((fixed > 0.0) & np.isfinite(fixed) | np.isnan(fixed)).all():
             raise ValueError("NoiseGroups.kind must not be negative, fixed_variance must be positive or nan")
-        size = np.bincount(index.ravel() + 1, minlength=len(kind) + 1)[1:]
-        inferred = np.isnan(fixed) & (size > 0)
-        members = (np.arange(kind.max(initial=-1) + 1)[:, None] == kind) & inferred
-        arrays = {"index": index, "kind": kind, "fixed_variance": fixed, "size": size, "members": 1.0 * members}
-        for name, value in arrays.items():
+        for name, value in (("kind", kind), ("fixed_variance", fixed)):
+            value.setflags(write=False)
+            object.__setattr__(self, name, value)
+
+    @property
+    def kinds(self) -> int:
+        """Number of kinds of sensors."""
+        return int(self.kind.max(initial=-1)) + 1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GroupedReadings:
+    """Which readings share a scale. Values per reading are tuples of (K_i, q_i), one for each stack of blocks.
+
+    groups  : the scales
+    index   : group of each reading, PADDING or UNIT
+    size    : (G,) number of readings of each group
+    members : (kinds, G) 1 where the scale of a group of this kind is inferred, else 0
+    """
+
+    groups: NoiseGroups
+    index: tuple[np.ndarray, ...]
+    size: np.ndarray = field(init=False)
+    members: np.ndarray = field(init=False)
+    flat: np.ndarray = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        kind = self.groups.kind
+        flat = np.concatenate([index.ravel() for index in self.index])
+        if flat.size and not (flat.min() >= UNIT and flat.max() < len(kind)):
+            raise ValueError(f"the index of readings must lie within {UNIT} and {len(kind) - 1}")
+        size = np.bincount(flat - UNIT, minlength=len(kind) - UNIT)[-UNIT:]
+        inferred = np.isnan(self.groups.fixed_variance) & (size > 0)
+        members = 1.0 * ((np.arange(self.groups.kinds)[:, None] == kind) & inferred)
+        for name, value in (("size", size), ("members", members), ("flat", flat)):
             value.setflags(write=False)
             object.__setattr__(self, name, value)
 
@@ -71,19 +97,20 @@ class NoiseGroups:
         """(kinds,) degrees of freedom of the posterior of tau^2."""
         return TAU_DEGREES + self.members @ self.size
 
-    def sums(self, values: np.ndarray) -> np.ndarray:
-        """Sum over the readings of each group, (K, q) to (G,)."""
-        return self.sums_of(self.index, values[None])[0]
+    def sums(self, values: Sequence[np.ndarray]) -> np.ndarray:
+        """Sum over the readings of each group, to (G,)."""
+        return self.sums_of(self.flat, np.concatenate([value.ravel() for value in values])[None])[0]
 
-    def sums_of(self, index: np.ndarray, values: np.ndarray) -> np.ndarray:
-        """Sums of values (S, K, q) that belong to the groups `index` (K, q), to (S, G)."""
-        sets, width = len(values), len(self.kind) + 1
-        cell = (index + 1).ravel() + width * np.arange(sets)[:, None]
-        return np.bincount(cell.ravel(), values.ravel(), minlength=sets * width).reshape(sets, width)[:, 1:]
+    def sums_of(self, owner: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """Sums of values (S, Q) that belong to the groups `owner` (Q,), to (S, G)."""
+        sets, width = len(values), len(self.size) - UNIT
+        cell = owner - UNIT + width * np.arange(sets)[:, None]
+        return np.bincount(cell.ravel(), values.ravel(), minlength=sets * width).reshape(sets, width)[:, -UNIT:]
 
-    def spread(self, values: np.ndarray) -> np.ndarray:
-        """Give each reading the value of its group, (G,) to (K, q); zero for padding."""
-        return np.append(values, 0.0)[self.index]
+    def spread(self, values: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Give each reading the value (G,) of its group; zero for padding, one for noise that is never inferred."""
+        whole = np.append(values, (1.0, 0.0))
+        return tuple(whole[index] for index in self.index)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -93,65 +120,66 @@ class NoiseState:
     responsibility : (G, 5) probability of each factor KAPPA
     tau            : (kinds,) 1/sqrt(E 1/tau^2), common factor on the stated sigmas of a kind
     variance       : (G,) effective variance in units of the stated one: 1/E[1/(kappa tau)^2], or the given one
-    weight         : (kinds, 5) expected pi
     """
 
     responsibility: np.ndarray
     tau: np.ndarray
     variance: np.ndarray
-    weight: np.ndarray
 
     @classmethod
     def of(cls, groups: NoiseGroups, responsibility: np.ndarray, tau: np.ndarray) -> "NoiseState":
         """The state with these responsibilities (G, 5) and factors tau (kinds,)."""
-        if responsibility.shape != (len(groups.kind), len(KAPPA)) or tau.shape != groups.members.shape[:1]:
+        if responsibility.shape != (len(groups.kind), len(KAPPA)) or tau.shape != (groups.kinds,):
             raise ValueError(f"responsibility {responsibility.shape} and tau {tau.shape} do not fit the groups")
         inferred = tau[groups.kind] ** 2 / (responsibility @ KAPPA**-2)
-        variance = np.where(np.isnan(groups.fixed_variance), inferred, groups.fixed_variance)
-        counts = PSEUDO_COUNTS + groups.members @ responsibility
-        return cls(responsibility, tau, variance, counts / counts.sum(axis=1, keepdims=True))
+        return cls(responsibility, tau, np.where(np.isnan(groups.fixed_variance), inferred, groups.fixed_variance))
 
     @classmethod
     def stated(cls, groups: NoiseGroups) -> "NoiseState":
         """Every reading is as good as its sigma states."""
         certain = np.zeros((len(groups.kind), len(KAPPA)))
         certain[:, 0] = 1.0
-        return cls.of(groups, certain, np.ones(len(groups.members)))
+        return cls.of(groups, certain, np.ones(groups.kinds))
+
+    def weight(self, readings: GroupedReadings) -> np.ndarray:
+        """(kinds, 5) expected pi."""
+        counts = PSEUDO_COUNTS + readings.members @ self.responsibility
+        return counts / counts.sum(axis=1, keepdims=True)
 
 
-def updated_noise(groups: NoiseGroups, state: NoiseState, square: np.ndarray) -> NoiseState:
+def updated_noise(readings: GroupedReadings, state: NoiseState, square: np.ndarray) -> NoiseState:
     """Scales given the expected squared length of the readings' errors; the bound does not fall.
 
     Parameters
     ----------
     square : (G,) E |u_g|^2 of each group, in units of the stated variance.
     """
-    responsibility, tau = state.responsibility, state.tau
+    responsibility, tau, kind = state.responsibility, state.tau, readings.groups.kind
     for _ in range(ROUNDS):
-        price = np.log(PSEUDO_COUNTS + np.floor(groups.members @ responsibility))[groups.kind]
-        logit = price - groups.size[:, None] * np.log(KAPPA)
-        logit -= 0.5 * (square / tau[groups.kind] ** 2)[:, None] * KAPPA**-2
+        price = np.log(PSEUDO_COUNTS + np.floor(readings.members @ responsibility))[kind]
+        logit = price - readings.size[:, None] * np.log(KAPPA)
+        logit -= 0.5 * (square / tau[kind] ** 2)[:, None] * KAPPA**-2
         responsibility = np.exp(logit - logit.max(axis=1, keepdims=True))
         responsibility /= responsibility.sum(axis=1, keepdims=True)
-        excess = groups.members @ (square * (responsibility @ KAPPA**-2))
-        tau = np.sqrt((TAU_DEGREES + excess) / groups.tau_degrees)
-    return NoiseState.of(groups, responsibility, tau)
+        excess = readings.members @ (square * (responsibility @ KAPPA**-2))
+        tau = np.sqrt((TAU_DEGREES + excess) / readings.tau_degrees)
+    return NoiseState.of(readings.groups, responsibility, tau)
 
 
-def mixture_bound(groups: NoiseGroups, state: NoiseState) -> float:
+def mixture_bound(readings: GroupedReadings, state: NoiseState) -> float:
     """What the scales add to the bound [nat], beside the Gaussian evidence at the effective variances.
 
     E ln p(u | kappa, tau) - ln N(u; 0, variance) does not depend on u here, as the effective variance is that of the
     expected precision; to it come E ln p(kappa), E ln p(tau^2) and the entropies. Zero if all variances are given.
     """
-    free, size = groups.inferred, groups.size
+    free, size, kind = readings.inferred, readings.size, readings.groups.kind
     rho = state.responsibility[free]
-    shape, prior_shape = 0.5 * groups.tau_degrees, 0.5 * TAU_DEGREES
+    shape, prior_shape = 0.5 * readings.tau_degrees, 0.5 * TAU_DEGREES
     log_tau_square = np.log(shape * state.tau**2) - digamma(shape)
-    scales = 0.5 * size * (np.log(state.variance) - log_tau_square[groups.kind])
+    scales = 0.5 * size * (np.log(state.variance) - log_tau_square[kind])
     factors = -(rho * (size[free, None] * np.log(KAPPA)) + xlogy(rho, rho)).sum()
     return float(
-        scales[free].sum() + factors + _weight_bound(groups, state) - _tau_divergence(shape, prior_shape, state.tau)
+        scales[free].sum() + factors + _weight_bound(readings, state) - _tau_divergence(shape, prior_shape, state.tau)
     )
 
 
@@ -160,13 +188,13 @@ def log_density_tau(tau: np.ndarray) -> np.ndarray:
     return -TAU_DEGREES * (np.log(tau) + 0.5 / tau**2)
 
 
-def _weight_bound(groups: NoiseGroups, state: NoiseState) -> float:
+def _weight_bound(readings: GroupedReadings, state: NoiseState) -> float:
     """Bound of E ln p(kappa), pi integrated out: ln Gamma by its chord between neighbouring integer counts."""
-    count = groups.members @ state.responsibility
+    count = readings.members @ state.responsibility
     whole = np.floor(count)
     chord = gammaln(PSEUDO_COUNTS + whole) + (count - whole) * np.log(PSEUDO_COUNTS + whole) - gammaln(PSEUDO_COUNTS)
     total = PSEUDO_COUNTS.sum()
-    return float(chord.sum() + (gammaln(total) - gammaln(total + groups.members.sum(axis=1))).sum())
+    return float(chord.sum() + (gammaln(total) - gammaln(total + readings.members.sum(axis=1))).sum())
 
 
 def _tau_divergence(shape: np.ndarray, prior_shape: float, tau: np.ndarray) -> float:

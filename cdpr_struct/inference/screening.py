@@ -4,6 +4,7 @@ With noise and base parameters integrated out, columns c of a candidate enter th
 score = c' S^-1 r only (Schur complement), for every prior size of the candidate.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,16 +47,19 @@ class Screen:
     @classmethod
     def of(cls, model: LinearModel, noise: NoiseState, soft: SoftExpectation | None = None) -> "Screen":
         """Screen beside the parameters of `model`; put columns that are accepted already into it."""
-        rows = WhiteRows.of(model)
-        marginal = Marginal.of(rows, model.groups.spread(noise.variance), soft)
+        rows = model.white
+        marginal = Marginal.of(rows, model.readings.spread(noise.variance), soft)
         return cls(rows, marginal, ParameterPosterior.of(marginal, rows.rows, np.zeros(0, int)))
 
-    def screened(self, columns: np.ndarray) -> Screened:
-        """Columns (K, n, D) per prior sigma, in the rows of the model, of one or many candidates."""
-        white = self.marginal.white(self.rows.whitening @ columns)
-        explained = (white.T @ self.marginal.X) @ self.base.root
-        known = self.base.root.T @ (self.marginal.X.T @ self.marginal.r)
-        return Screened(white.T @ white - explained @ explained.T, white.T @ self.marginal.r - explained @ known)
+    def screened(self, columns: Sequence[np.ndarray]) -> Screened:
+        """Columns (K_i, n_i, D) per prior sigma, in the rows of the model, of one or many candidates."""
+        white = np.empty((self.rows.count, columns[0].shape[2]))
+        stacks = zip(self.rows.stacks, self.marginal.inverse, columns, self.rows.parts, strict=True)
+        for stack, inverse, own, part in stacks:
+            np.matmul(inverse @ stack.whitening, own, out=white[part].reshape(own.shape))
+        explained = self.base.spread(white.T @ self.marginal.X)
+        known = self.base.spread((self.marginal.r @ self.marginal.X)[None])[0]
+        return Screened(white.T @ white - explained @ explained.T, self.marginal.r @ white - explained @ known)
 
 
 def gains(gram: np.ndarray, score: np.ndarray, scales: np.ndarray, one_sided: np.ndarray | None = None) -> np.ndarray:

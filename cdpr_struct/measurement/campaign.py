@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.robot.robot import Robot
 
 if TYPE_CHECKING:
@@ -187,6 +188,7 @@ class Campaign:
     sheets : the data files, with the sigmas used
     memory : correlation of a sensor's noise in one state with that in the next, 0 for independent noise
     notes : what was assumed where the data files say nothing, in sentences for a person
+    loss : what mistakes of a diagnosis cost
     """
 
     source: str
@@ -207,6 +209,7 @@ class Campaign:
     memory: float = 0.0
     sheets: tuple[Sheet, ...] = ()
     notes: tuple[str, ...] = ()
+    loss: Loss = Loss()  # noqa: RUF009 - frozen
 
     @property
     def cable_model(self) -> str:

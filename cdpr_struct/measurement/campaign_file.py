@@ -13,6 +13,7 @@ from cdpr_struct.measurement.assumed_angles import angle_note
 from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
+from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.measurement.missing_readings import missing_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
@@ -76,6 +77,12 @@ class TolerancesTable(_Table):
     pulley_radius_m: NotNegative | None = None
 
 
+class LossTable(_Table):
+    wrong_name: Positive | None = None
+    too_wide: Positive | None = None
+    unknown: Positive | None = None
+
+
 class CampaignTable(_Table):
     robot: str
     model: Literal["static", "dsm", "exact", "spring"] = "dsm"
@@ -84,6 +91,7 @@ class CampaignTable(_Table):
     nominal: NominalTable = NominalTable()
     tolerances: TolerancesTable = TolerancesTable()
     checked: dict[str, Positive] = {}
+    loss: LossTable = LossTable()
     measurement: Annotated[list[MeasurementTable], Field(min_length=1)]
 
 
@@ -129,6 +137,7 @@ def load_campaign(path: str | Path, lower_bound: float | None = None, upper_boun
         tension_distribution=table.tension_distribution,
         lower_bound=lowest,
         checked=table.checked,
+        loss=_loss(table.loss, source),
         sheets=tuple(sheets),
         notes=(
             *(note for sheet in sheets if (note := angle_note(sheet.file, sheet.columns))),
@@ -180,6 +189,21 @@ def _commanding(robot: Robot, lower_bound: float | None, source: Path) -> Robot:
     except ValueError as error:
         expected = f"a force in N below the robot's least force_max, {robot.force_max.min():g} N"
         raise InputError(str(source), "lower_bound_N", lower_bound, expected) from error
+
+
+def _loss(table: LossTable, source: Path) -> Loss:
+    """The costs of mistakes, those of the default where none is given."""
+    given = {k: v for k, v in table.model_dump().items() if v is not None}
+    try:
+        return Loss(**given)
+    except ValueError as error:
+        usual = Loss()
+        expected = (
+            "wrong_name above unknown above too_wide; those not given are "
+            f"{usual.wrong_name:g}, {usual.unknown:g} and {usual.too_wide:g}"
+        )
+        said = ", ".join(f"{k} = {v:g}" for k, v in given.items())
+        raise InputError(str(source), "loss", said, expected) from error
 
 
 def _rows(entry: MeasurementTable, source: Path, number: int, cables: int) -> Rows:

@@ -64,6 +64,25 @@ def modes_at(
     return _collected(shapes, now, gradient, kept & (shapes.omega < limit[:, None]), assembly)
 
 
+def frequencies_at(
+    point: OperatingPoint, highest_omega: float, assembly: Assembly = "consistent"
+) -> tuple[np.ndarray, np.ndarray]:
+    """ln f [Hz] and share of the kinetic energy in the platform, both (..., M), of the modes below highest_omega
+    [rad/s] in states (...) of exact catenaries; to six digits, without their gradients. Beyond them f is infinite.
+
+    Raises
+    ------
+    UnstableEquilibriumError : a state is unstable.
+    """
+    order = polynomial_order(point, highest_omega, rough=True)
+    expansion = expand_catenaries_at(point, order).reduced(highest_omega)
+    below = int((expansion.omega_squared < highest_omega**2).sum(axis=(-2, -1)).max())
+    count = below + 6 + 3 * point.arrays.cable_count * point.arrays.has_masts
+    shapes = ritz_modes(point, expansion, count, assembly)
+    kept = shapes.omega < highest_omega
+    return np.where(kept, np.log(shapes.omega / (2.0 * np.pi)), np.inf), np.where(kept, shapes.platform_energy, 0.0)
+
+
 def rates(modes: VibratingModes, points: OperatingPoint, steps: np.ndarray) -> np.ndarray:
     """d ln f / d(step) (B, F, M) towards nearby states.
 

@@ -79,14 +79,15 @@ class PlannedRows:
         count = tolerances.static.shape[-1]
         soft = None if lists is None else lists.at_point(np.zeros((count, count)))
         columns = stacked(where, Rows.joined([tolerances, self.causes]))
-        return information_of(model, NoiseState.stated(model.groups), soft, columns[0])
+        return information_of(model, NoiseState.stated(model.groups), soft, columns)
 
 
 def information_of(
-    model: LinearModel, noise: NoiseState, soft: SoftExpectation | None, columns: np.ndarray
+    model: LinearModel, noise: NoiseState, soft: SoftExpectation | None, columns: Sequence[np.ndarray]
 ) -> np.ndarray:
-    """(d, d) in a campaign's rows on the numbers whose columns (K, n, d) are given, and on no others."""
-    return Screen.of(replace(model, X=model.X[..., :0]), noise, soft).screened(columns).gram
+    """(d, d) in a campaign's rows on the numbers whose columns (K, n, d) a stack are given, and on no others."""
+    bare = LinearModel(tuple(replace(stack, X=stack.X[..., :0]) for stack in model.stacks), model.groups)
+    return Screen.of(bare, noise, soft).screened(columns).gram
 
 
 def _with_expected_peaks(local: _Once) -> _Once:

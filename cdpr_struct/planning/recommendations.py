@@ -126,10 +126,11 @@ def _at_hand(found: Diagnosis, asked: Sequence[Question]) -> tuple[Numbers, np.n
     names = {name for question in asked for name in (*question.sized, *question.beside)}
     numbers = Numbers.of(search.data.cables, [c for c in search.causes if c.name in names], search.seen)
     local = Local.about(search.data, chosen.point)
-    causes = [stacked(search.where, local.columns(numbers.term(name)))[0] for name in numbers.causes]
+    causes = [stacked(search.where, local.columns(numbers.term(name))) for name in numbers.causes]
     drift = sum(len(t.sigma) for t in chosen.point.terms[1 : len(chosen.point.terms) - len(chosen.hypothesis.parts)])
-    own = chosen.model.X[..., : numbers.tolerances + drift]
-    whole = information_of(chosen.model, chosen.fit.noise, chosen.fit.soft, np.concatenate([own, *causes], axis=-1))
+    own = [stack.X[..., : numbers.tolerances + drift] for stack in chosen.model.stacks]
+    columns = [np.concatenate(parts, axis=-1) for parts in zip(own, *causes, strict=True)]
+    whole = information_of(chosen.model, chosen.fit.noise, chosen.fit.soft, columns)
     return numbers, _without(whole, slice(numbers.tolerances, numbers.tolerances + drift))
 
 

@@ -81,13 +81,18 @@ def tangent_stiffness(arrays: RobotArrays, states: CableStates, arms: PlatformAr
     if arrays.has_masts:
         tangent = behind_masts(stiff, map_, arrays.masts, arrays.frame_compliance)
     else:
-        m, lead = arrays.cable_count, stiff.shape[:-3]
-        stacked, carried = map_.reshape((*map_.shape[:-3], 3 * m, 6)), (stiff @ map_).reshape((*lead, 3 * m, 6))
+        moved = stiff @ map_
+        rows = 3 * arrays.cable_count
+        stacked, carried = map_.reshape((*map_.shape[:-3], rows, 6)), moved.reshape((*moved.shape[:-3], rows, 6))
         tangent = np.swapaxes(stacked, -1, -2) @ carried
     weight, center = np.moveaxis(weight_force(arrays), -1, 0), np.moveaxis(arms.center, -1, 0)
-    tangent[..., 3:, 3:] += cable_geometric_stiffness(states, arms) + geometric_stiffness(*weight, *center)
-    tangent[..., :3, :3] += arrays.hose[..., None, None] * np.eye(3)
-    return tangent
+    turned = cable_geometric_stiffness(states, arms) + geometric_stiffness(*weight, *center)
+    held = arrays.hose[..., None, None] * np.eye(3)
+    lead = np.broadcast_shapes(*(part.shape[:-2] for part in (tangent, turned, held)))
+    whole = np.array(np.broadcast_to(tangent, (*lead, 6, 6)))  # a load may have batch axes that no cable has
+    whole[..., 3:, 3:] += turned
+    whole[..., :3, :3] += held
+    return whole
 
 
 def cable_geometric_stiffness(states: CableStates, arms: PlatformArms) -> np.ndarray:

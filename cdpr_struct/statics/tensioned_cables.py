@@ -66,7 +66,8 @@ def _between(
         return np.broadcast_to(value, shape + core)
 
     states = CableStates(
-        whole(offset, (3,)), whole(heading, (3,)), whole(held.length), whole(wrap / (1.0 + bottom / arrays.axial_stiffness)),
+        whole(offset, (3,)), whole(heading, (3,)), whole(held.length),
+        whole(wrap / (1.0 + bottom / arrays.axial_stiffness)),
         whole(held.force_x), whole(held.force_z), whole(arrays.axial_stiffness), whole(arrays.weight),
         whole(held.status), whole(passed),
     )  # fmt: skip

@@ -38,7 +38,7 @@ from tests.blind.spoilt_sets import SpoiltKind, spoilt_cases, spoilt_kinds
 from tests.blind.suite import FINAL_RATES, FULL, composed, record_final_use, set_seed
 
 _Group = tuple[list[tuple[str, SpoiltKind]], int, Path, Path]  # named kinds of one reality, seed, where to
-_Job = tuple[CaseKind, str, tuple[int, ...], Path, Path]  # what, name, seed, where to, where the truth goes
+Job = tuple[CaseKind, str, tuple[int, ...], Path, Path]  # what, name, seed, where to, where the truth goes
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "blind_tests.md"
 MESH = Path(__file__).with_name("mesh_error.json")
 FOLLOW_UPS = "followups"  # ambiguous cases measured again
@@ -58,35 +58,38 @@ def sealed_of(options: argparse.Namespace) -> Path:
 
 
 def make(options: argparse.Namespace) -> int:
-    """Draw and write all cases of a set that are not there yet."""
+    """Draw and write all cases of a set that are not there yet, or all again."""
     out, sealed = Path(options.out), sealed_of(options)
     total = options.count or (WHOLE | SPOILT)[options.set]
     run = {"set": options.set, "release": options.release, "count": total}
     if other := _other_set(out, run):
         print(f"tests.blind: --out {out} holds {other}; give another directory", file=sys.stderr)
         return 2
-    jobs: list[Any] = (_groups if options.set in SPOILT else _jobs)(options.set, options.release, total, out, sealed)
+    if options.set in SPOILT:
+        jobs: list[Any] = _groups(options.set, options.release, total, out, sealed)
+    else:
+        jobs = jobs_of(options.set, options.release, total, out, sealed, options.again)
     if options.set == "final":
         more = round(total * sum(FINAL_RATES.values()) / sum(FULL.values()))
-        jobs += _jobs("final-rates", options.release, more, out / RATES, sealed / RATES)
+        jobs += jobs_of("final-rates", options.release, more, out / RATES, sealed / RATES, options.again)
     if options.set == "final" and not (out / "run.json").exists():
         record_final_use(options.release)
     out.mkdir(parents=True, exist_ok=True)
     (out / "run.json").write_text(json.dumps(run) + "\n", "utf-8")
     with ProcessPoolExecutor(options.workers) as pool:
-        made = pool.map(_made_group if options.set in SPOILT else _made, jobs)
+        made = pool.map(_made_group if options.set in SPOILT else make_case, jobs)
         for _ in track(made, "make", len(jobs), disable=not sys.stderr.isatty()):
             pass
     return 0
 
 
-def _jobs(name: str, release: str, total: int, out: Path, sealed: Path) -> list[_Job]:
-    """What is still to be made of a set."""
+def jobs_of(name: str, release: str, total: int, out: Path, sealed: Path, again: bool = False) -> list[Job]:
+    """What is still to be made of a set, or all of it."""
     base = set_seed(name, release)
     kinds = composed(name, total, base)
     letter = "r" if name == "final-rates" else "c"
     jobs = [(kind, f"{letter}{n:03d}", (base, n), out, sealed) for n, kind in enumerate(kinds, start=1)]
-    return [job for job in jobs if not (campaigns_of(out) / job[1] / "manifest.json").exists()]
+    return [job for job in jobs if again or not (campaigns_of(out) / job[1] / "manifest.json").exists()]
 
 
 def _groups(name: str, release: str, total: int, out: Path, sealed: Path) -> list[_Group]:
@@ -113,7 +116,8 @@ def _other_set(out: Path, run: dict[str, Any]) -> str:
     return "" if same else f"the set {held['set']} {held['release']}".strip()
 
 
-def _made(job: _Job) -> None:
+def make_case(job: Job) -> None:
+    """Write a campaign and its truth, of an ambiguous case also the follow-up."""
     kind, name, seed, out, sealed = job
     if can_be_separated(kind):
         more = drawn_case(replace(kind, separated=True), seed)
@@ -199,7 +203,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--budget", choices=("small", "full"), default="small")
     parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--command", default="", help="what to run instead of cdpr-struct diagnose")
-    parser.add_argument("--again", action="store_true", help="diagnose also what has an answer")
+    parser.add_argument("--again", action="store_true", help="make, or diagnose, also what is there")
     parser.add_argument("--page", default="", help="page that report writes")
     parser.add_argument("--robot", default="", help="robot whose sizes are measured")
     options = parser.parse_args(arguments)

@@ -85,6 +85,16 @@ def test_an_exit_on_the_floor_stands_still():
     assert all(len(mast.flexibility) == 1 for mast in cantilevers(robot))
 
 
+def test_masts_softer_than_their_cables_come_to_rest():
+    """Plain repetition drives such masts apart; at rest each exit is where the pulls on it put it."""
+    robot, soft = entered_robot("thesis-5"), grown("frame_compliance", 8e-5)
+    rest = at_rest(robot, soft, planned(robot).statics[0], 12)
+    moved = np.array([cable.nodes[0] for cable in rest.cables]) - robot.frame_anchors
+    pulls = -np.array([cable.start_force for cable in rest.cables])
+    np.testing.assert_allclose(moved, mast_deflections(robot, soft["frame_compliance"], pulls), atol=1e-9)
+    assert np.abs(moved).max() > 1e-3
+
+
 def test_joints_are_bodies():
     robot = entered_robot("cogiro")
     with_joints, without = (

@@ -11,6 +11,7 @@ from fem_reference import CableData, PlatformData, PointForce, PulleyData, Robot
 from tests.blind.bending_masts import mast_deflections
 from tests.blind.deviations import EXPANSION, Deviations
 from tests.blind.entered_robot import UP, EnteredRobot
+from tests.blind.settling import Settling
 
 ROUNDS = 30  # of forces and exits that depend on where the platform rests
 SETTLED = 1e-9  # m, rad
@@ -170,7 +171,7 @@ def at_rest(robot: EnteredRobot, deviations: Deviations, command: Command, eleme
     (slack cable, no equilibrium) pass through.
     """
     position, rotation = command.position, command.rotation
-    yielded, tensions = np.zeros_like(robot.frame_anchors), np.zeros(robot.cables)
+    yielded, tensions, masts = np.zeros_like(robot.frame_anchors), np.zeros(robot.cables), Settling()
     for _ in range(ROUNDS):
         data = true_robot(robot, deviations, command, rotation, yielded, tensions)
         force = placed_force(robot, deviations, position)
@@ -181,9 +182,10 @@ def at_rest(robot: EnteredRobot, deviations: Deviations, command: Command, eleme
         pulls = np.array([np.linalg.norm(cable.end_force) for cable in equilibrium.cables])
         stretches = [bedding(deviations, about)[0] * command.lengths for about in (pulls, tensions)]
         moved += np.abs(stretches[0] - stretches[1]).max()
-        position, rotation, yielded, tensions = equilibrium.position, equilibrium.rotation, shift, pulls
+        position, rotation, tensions = equilibrium.position, equilibrium.rotation, pulls
         if moved < SETTLED or not _depends_on_pose(deviations):
             return equilibrium
+        yielded = masts.next(yielded, shift)
     raise RuntimeError(f"the platform did not settle in {ROUNDS} rounds, last motion {moved:.3g}")
 
 

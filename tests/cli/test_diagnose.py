@@ -1,25 +1,31 @@
-"""`diagnose` and `plan` as a script uses them, on the thesis's own table of tensions."""
+"""`diagnose` and `plan` as a script uses them: their second examples, level poses of the thesis's table of tensions."""
 
 import json
 import re
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from cdpr_struct.cli.main import run
-from cdpr_struct.reports import diagnosis_result
-from cdpr_struct.reports.diagnosis_tables import next_table
+from cdpr_struct.reports.diagnose import tables
 
-CAMPAIGN = str(Path(__file__).parents[2] / "examples" / "table-4-4" / "campaign.toml")
-LEVEL = str(Path(__file__).parents[2] / "examples" / "table-4-4" / "level.toml")
+EXAMPLES = Path(__file__).parents[2] / "examples"
+CAMPAIGN = str(EXAMPLES / "table-4-4" / "campaign.toml")
+SHAKEN = EXAMPLES / "tables-4-5-4-6" / "campaign.toml"
 
 
 @pytest.fixture(scope="module")
-def level(tmp_path_factory):
-    out = tmp_path_factory.mktemp("diagnose")
-    assert run(["diagnose", LEVEL, "--out", str(out)]) == 0
+def level(runs):
+    out = runs("diagnose", 1)
+    return json.loads((out / "result.json").read_text()), out
+
+
+@pytest.fixture(scope="module")
+def shaken(tmp_path_factory):
+    """Cables vibrate slower than their tensions let expect: a shaker on the platform, or heavier cables."""
+    out = tmp_path_factory.mktemp("shaken")
+    assert run(["diagnose", str(SHAKEN), "--out", str(out)]) == 0
     return json.loads((out / "result.json").read_text()), out
 
 
@@ -27,6 +33,9 @@ def test_result_has_the_promised_keys(level):
     result, _ = level
     promised = {"simulation_error", "significant", "p_value", "verdict", "candidates", "gain", "extended_model"}
     assert promised | {"not_testable", "minimum_detectable"} <= result.keys()
+    beside = {"campaign", "robot", "model", "p_value_of", "p_adequate", "set_aside", "noise_memory", "outside_library"}
+    beside |= {"why_not_testable", "tolerances", "sigmas", "warnings", "not_used", "signals", "damping"}
+    assert beside <= result.keys()
     said = {"status", "causes", "class", "probability", "location", "next_measurement", "sentence"}
     assert said <= result["verdict"].keys()
 
@@ -36,13 +45,6 @@ def test_report_stands_alone(level):
     page = (out / "report.html").read_text()
     assert "http://" not in page.replace("http://www.w3.org", "")
     assert (out / "residuals.csv").exists()
-
-
-def test_extended_robot_is_a_robot(level, capsys):
-    result, out = level
-    if result["extended_model"]:
-        assert run(["inverse", str(out / "extended_robot.toml"), "--json"]) == 0
-        capsys.readouterr()
 
 
 @pytest.mark.slow
@@ -55,10 +57,8 @@ def test_inclined_pose_contradicts_its_own_forces(capsys):
 
 
 @pytest.fixture(scope="module")
-def plan(tmp_path_factory):
-    out = tmp_path_factory.mktemp("plan")
-    assert run(["plan", LEVEL, "--out", str(out)]) == 0
-    return json.loads((out / "result.json").read_text())
+def plan(runs):
+    return json.loads((runs("plan", 1) / "result.json").read_text())
 
 
 def test_plan_lists_sizes_and_confusions(plan):
@@ -84,12 +84,12 @@ def test_plan_says_what_to_measure_next(plan):
 def one_state(tmp_path_factory):
     """Five robot frequencies at one pose, no tension read."""
     out = tmp_path_factory.mktemp("one-state")
-    assert run(["diagnose", str(Path(LEVEL).parents[1] / "section-4-3-3" / "simulated.toml"), "--out", str(out)]) == 0
+    assert run(["diagnose", str(EXAMPLES / "section-4-3-3" / "simulated.toml"), "--out", str(out)]) == 0
     return json.loads((out / "result.json").read_text()), out
 
 
-def test_gain_counts_the_same_readings_everywhere(level):
-    result, out = level
+def test_gain_counts_the_same_readings_everywhere(shaken):
+    result, out = shaken
     gain, page = result["gain"], (out / "report.html").read_text()
     assert sum(row["counted"] for row in gain["per_kind"].values()) == gain["counted"] < gain["of"]
     assert all(
@@ -102,7 +102,6 @@ def test_no_gain_is_claimed_of_an_unconfirmed_cause(level, one_state):
     for result, out in (level, one_state):
         assert not result["gain"]["confirmed"]
         assert "smaller error" not in (out / "report.html").read_text()
-    assert "does not confirm" in (level[1] / "report.html").read_text()
 
 
 def test_kinds_without_readings_are_not_shown(one_state):
@@ -112,56 +111,62 @@ def test_kinds_without_readings_are_not_shown(one_state):
     assert "e-12" not in (out / "report.html").read_text().split("</svg>")[-1].split("What these data")[0]
 
 
-def test_a_class_is_led_by_no_fact_and_no_zero_share(level, one_state):
-    for result, _ in (level, one_state):
-        assert "explains 0 %" not in result["verdict"]["sentence"]
-    assert one_state[0]["verdict"]["sentence"].startswith("Best candidate of its class: ")
-    causes = [name.replace("_", " ") for name in level[0]["verdict"]["class"][0]]
-    assert len(causes) > 4
-    assert all(name in level[0]["verdict"]["sentence"] for name in causes)
+def test_a_class_is_led_by_no_fact(shaken):
+    said = shaken[0]["verdict"]
+    assert said["status"] == "class"
+    assert said["sentence"].startswith("Best candidate of its class: ")
+    assert all(name.replace("_", " ") in said["sentence"] for name in said["class"][0])
+    assert said["causes"] == [shaken[0]["candidates"][0]["cause"]]
 
 
-def test_status_probability_p_and_class_are_said(level):
-    from cdpr_struct.reports.diagnosis_text import diagnosis_text
+def test_status_probability_p_and_class_are_said(shaken):
+    from cdpr_struct.reports.diagnose.text import result_text
 
-    result, out = level
-    text, page = diagnosis_text(result), (out / "report.html").read_text()
+    result, out = shaken
+    text, page = result_text(result), (out / "report.html").read_text()
     said = result["verdict"]
-    line = f"tatus: {said['status']}; probability {said['probability']:.2f}; p = {result['p_value']:.2g}"
+    line = f"tatus: {said['status']}; probability {tables.percentage(said['probability'])}; p = {result['p_value']:.2g}"
     for shown in (text, page):
         assert line in shown
         assert "lass: " + " | ".join(said["class"][0]) in shown
-        assert "p is that of " in shown
+        assert "p: upper bound" in shown
+
+
+def test_candidates_without_a_size_are_not_shown(level, shaken):
+    """Nothing is listed where nothing is wrong; elsewhere only what is likelier than nothing."""
+    assert level[0]["verdict"]["status"] == "adequate"
+    assert level[0]["candidates"] == []
+    assert shaken[0]["candidates"]
+    assert all(row["log_evidence_gain"] > 0.0 for row in shaken[0]["candidates"])
 
 
 def test_large_numbers_are_rounded_for_a_person():
-    from cdpr_struct.reports.diagnosis_tables import figure
-
+    figure = tables.figure
     assert figure(397739310579649.1) == "4e14"
     assert figure(7102487688923.14, 2) == "7e12"
     assert [figure(12.34), figure(-20000.0), figure(0.461, 2)] == ["12.3", "-2e4", "0.46"]
 
 
-def test_a_pair_is_one_hypothesis(level):
-    from cdpr_struct.reports.diagnosis_tables import hypotheses
-    from cdpr_struct.reports.diagnosis_text import diagnosis_text
-
-    result, out = level
-    first, second = result["candidates"][:2]
-    assert first["with"] == [second["cause"]]
-    assert second["with"] == [first["cause"]]
-    pair = f"{first['cause']} + {second['cause']}"
-    shown = hypotheses(result["candidates"])
-    assert [h.name for h in shown].count(pair) == 1
-    assert len({h.gain for h in shown}) == len(shown)
-    assert set(shown[0].sizes) == set(first["parameters"]) | set(second["parameters"])
-    for text in (diagnosis_text(result), (out / "report.html").read_text()):
-        assert pair in text
-    assert pair.replace("_", " ") in (out / "evidence.svg").read_text()
+def test_a_pair_is_one_hypothesis():
+    size = {"value": 1.1, "sigma": 0.01, "unit": "ratio"}
+    rows = [
+        {"cause": one, "with": [other], "parameters": {one: size}, "log_evidence_gain": 9.0, "explained_fraction": 0.5}
+        for one, other in (("platform_mass", "load_cell_gain"), ("load_cell_gain", "platform_mass"))
+    ]
+    (pair,) = tables.hypotheses(rows)
+    assert pair.name == "platform_mass + load_cell_gain"
+    assert set(pair.sizes) == {"platform_mass", "load_cell_gain"}
+    assert len(tables.candidates(rows, 8, 2).rows) == 1
 
 
-def test_page_lists_every_size_and_says_that_it_scrolls(level):
-    result, out = level
+def test_a_cause_with_no_place_in_the_table_of_detectable_sizes_says_why(level):
+    result, _ = level
+    assert set(result["minimum_detectable"]).isdisjoint(result["not_testable"])
+    assert result["not_testable"] == sorted(result["why_not_testable"])
+
+
+def test_page_lists_every_size_and_says_that_it_scrolls(shaken):
+    result, out = shaken
     page = (out / "report.html").read_text()
     names = {name for c in result["candidates"] for name in c["parameters"]}
     assert all(f"<td>{name}</td>" in page for name in names)
@@ -169,21 +174,19 @@ def test_page_lists_every_size_and_says_that_it_scrolls(level):
 
 
 def test_sizes_have_the_digits_of_their_sigma():
-    from cdpr_struct.reports.diagnosis_tables import with_sigma
-
+    with_sigma = tables.with_sigma
     assert with_sigma(0.999612, 3.5e-5) == "0.999612 ± 0.000035"
     assert with_sigma(12.7012, 3.13) == "12.7 ± 3.1"
     assert with_sigma(-0.001, 0.0) == "-0.001"
 
 
-def test_extended_robot_says_how_far_to_trust_it(level, capsys):
-    result, out = level
+def test_extended_robot_says_how_far_to_trust_it(shaken, capsys):
+    result, out = shaken
     head = [line for line in (out / "extended_robot.toml").read_text().splitlines() if line.startswith("# ")]
     text = "\n".join(head)
     assert "status: class; probability" in text
     assert " | ".join(result["verdict"]["class"][0]) in text
     assert "WARNING: these data do not tell" in text
-    assert "WARNING: not confirmed" in text
     for command in (["inverse"], ["modes", "--count", "3"]):
         assert run([*command, str(out / "extended_robot.toml"), "--json"]) == 0
     capsys.readouterr()
@@ -210,7 +213,7 @@ def test_residual_figure_can_be_read(level):
 def test_ticks_are_plain_numbers_at_any_size(largest):
     from matplotlib.figure import Figure
 
-    from cdpr_struct.reports.figures.diagnosis import _plain_sigmas
+    from cdpr_struct.reports.figures.diagnose import _plain_sigmas
 
     axes = Figure().subplots()
     _plain_sigmas(axes, [np.array([-largest, 0.3])])
@@ -221,13 +224,12 @@ def test_ticks_are_plain_numbers_at_any_size(largest):
 
 
 def test_what_to_measure_next_is_a_list():
-    table = next_table("poses with 0, 18 kg: expected to separate a from b by 7 nats; or weighing: 3 nats")
+    table = tables.next_steps("poses with 0, 18 kg: expected to separate a from b by 7 nats; or weighing: 3 nats")
     assert [row[0][:2] for row in table.rows] == ["1.", "2."]
     assert table.rows[1] == ["2. or weighing: 3 nats"]
-    assert next_table("") is None
+    assert tables.next_steps("") is None
 
 
-def test_a_cause_that_the_verdict_leaves_open_is_not_called_hidden():
-    found = SimpleNamespace(not_testable={"dead_length": "it hides", "platform_inertia": "it hides"})
-    said = SimpleNamespace(classes=(("joint_compliance", "dead_length"),))
-    assert diagnosis_result._hidden(found, said) == {"platform_inertia": "it hides"}
+def test_a_cause_that_the_verdict_leaves_open_is_not_called_hidden(shaken):
+    result, _ = shaken
+    assert not set(result["not_testable"]) & {name for names in result["verdict"]["class"] for name in names}

@@ -1,6 +1,7 @@
 """What holds for every command: examples run, files can be read again, pages repeat their run, nothing is lost.
 
-Each example of each command's help runs once, with its files in a directory of its own; the laws are then read off.
+Each example of each command's help runs once (`runs`, conftest.py), with its files in a directory of its own; the laws
+are then read off. `diagnose` and `plan` are long, and their first examples run with `-m slow`.
 """
 
 import functools
@@ -19,16 +20,20 @@ import pytest
 from cdpr_struct.cli.main import COMMANDS, run
 from cdpr_struct.cli.output import repeating
 from derivations import regenerate
+from tests.cli.conftest import EXAMPLES, FAILS, ROOT, words_of
 
-ROOT = Path(__file__).parents[2]
-EXAMPLES = [(command.NAME, number, line) for command in COMMANDS for number, line in enumerate(command.EXAMPLES)]
 NAMES = [command.NAME for command in COMMANDS]
 REPORTING = [name for name in NAMES if name != "import-caspr"]  # which writes one robot file
 PYTHON = re.compile(r"\b(np|array|float64|int64|None|nan|inf|True|False)\b|[{}]|^\[.*\]$|^[('\"]|[0-9]j\b")  # no words
-RENDER = regenerate.render
 CLOCK = {"seconds"}  # of the run, not of the result; pages show it, so digests of `files` differ then
+LONG = ("diagnose", "plan")
+OF_ALL = [
+    pytest.param(name, number, marks=pytest.mark.slow) if name in LONG and number == 0 else (name, number)
+    for name, number, _ in EXAMPLES
+    if name in REPORTING
+]
+QUICKEST = ("platform", "tension_bound")  # sheets; test_derivations_current.py holds all of them against the files
 
-FAILS = {"audit": 1}  # what its examples check does not hold, as the pages show
 # Where the numbers of a table stand in result.json: file, column, path.
 SAME = {
     "robots": [("robots.csv", "name", "robots.*.name")],
@@ -43,37 +48,23 @@ SAME = {
 }
 
 
-def words_of(line: str) -> list[str]:
-    return [word for word in repeating(shlex.split(line)[1:])[1:-1]]
-
-
-@pytest.fixture(scope="session")
-def runs(tmp_path_factory):
-    """(command, number) -> directory with the files of the example, made when it is first asked for."""
-    base = tmp_path_factory.mktemp("examples")
-    done: dict[tuple[str, int], Path] = {}
-
-    def of(name: str, number: int) -> Path:
-        if (name, number) not in done:
-            line = next(line for n, k, line in EXAMPLES if (n, k) == (name, number))
-            directory = base / f"{name}-{number}"
-            assert run([*words_of(line), "--out", str(directory), "--quiet"]) == FAILS.get(name, 0), line
-            done[name, number] = directory
-        return done[name, number]
-
-    return of
-
-
 @pytest.fixture(autouse=True)
 def from_the_repository(monkeypatch):
     monkeypatch.chdir(ROOT)
-    monkeypatch.setattr(regenerate, "render", lambda progress: derived_once())
+    monkeypatch.setattr(regenerate, "render", lambda progress: two_sheets())
 
 
 @functools.cache
-def derived_once() -> regenerate.Rendering:
-    """The derivations, which take ten seconds, once a process."""
-    return RENDER()
+def two_sheets() -> regenerate.Rendering:
+    """What two of the derivations print, once a process; all of them take ten seconds."""
+    sheets = {name: regenerate.SHEETS[name] for name in QUICKEST}
+    functions = {name: sheet.functions() for name, sheet in sheets.items()}
+    texts = {
+        f"{regenerate.GENERATED}/{name}.py": regenerate.module_text(sheet.SOURCE, functions[name])
+        for name, sheet in sheets.items()
+    }
+    formulas = tuple(formula for sheet in sheets.values() for formula in sheet.formulas())
+    return regenerate.Rendering(formulas, functions, texts)
 
 
 def result_of(directory: Path) -> dict:
@@ -105,7 +96,7 @@ def test_help_by_either_name_ends_with_the_examples(name, capsys):
     assert [line.strip() for line in texts[0].splitlines()[-2:]] == list(command.EXAMPLES)
 
 
-@pytest.mark.parametrize(("name", "number"), [(n, k) for n, k, _ in EXAMPLES if n in REPORTING])
+@pytest.mark.parametrize(("name", "number"), OF_ALL)
 def test_examples_run_and_every_cell_can_be_read(name, number, runs):
     directory = runs(name, number)
     assert {path.name for path in directory.iterdir()} == set(result_of(directory)["files"])
@@ -140,12 +131,13 @@ def test_tables_are_compared_for_every_command_that_writes_lists():
 
 @pytest.mark.parametrize("name", REPORTING)
 def test_the_command_on_a_page_gives_the_same_result(name, runs, tmp_path):
-    page = (runs(name, 0) / "report.html").read_text("utf-8")
+    first_run = runs(name, 1 if name in LONG else 0)
+    page = (first_run / "report.html").read_text("utf-8")
     line = unescape(re.search(r"<h2>Reproduce</h2>\s*<pre>(.*?)</pre>", page, re.DOTALL)[1])
     words = [word.replace("--out=DIR", f"--out={tmp_path}") for word in shlex.split(line)[1:]]
     assert f"--out={tmp_path}" in words
     assert run([*words, "--quiet"]) == FAILS.get(name, 0)
-    first, again = result_of(runs(name, 0)), result_of(tmp_path)
+    first, again = result_of(first_run), result_of(tmp_path)
     clocked = CLOCK | {"files"} if CLOCK & set(first) else set()
     assert {k: v for k, v in first.items() if k not in clocked} == {k: v for k, v in again.items() if k not in clocked}
 

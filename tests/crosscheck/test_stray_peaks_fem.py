@@ -18,6 +18,7 @@ from tests.conftest import at_rest
 
 POSES = np.array([[0.4, 0.3, 0.6], [-0.8, 0.5, 1.0], [0.9, -0.7, 0.8]])
 FOUR_POSES = np.concatenate([POSES, [[1.5, 0.8, 0.5]]])  # in the last one a mode is near a cable's own frequency
+SIZES = pytest.mark.parametrize("count", [2, pytest.param(len(POSES), marks=pytest.mark.slow)])  # poses
 CAMPAIGN = """robot = "thesis-3-1"
 model = "dsm"
 [[measurement]]
@@ -56,8 +57,9 @@ def test_no_peak_of_the_right_body_is_stray(tmp_path):
     assert prepared.p_value > 0.04
 
 
-def test_the_inertia_is_found_by_peaks_that_no_mode_explains(tmp_path):
-    found = diagnose(written(tmp_path, 0.5))
+@SIZES
+def test_the_inertia_is_found_by_peaks_that_no_mode_explains(tmp_path, count):
+    found = diagnose(written(tmp_path, 0.5, POSES[:count]))
     said = verdict(found)
     assert found.ground.strays > 1.5
     assert said.causes == ("platform_inertia",)
@@ -66,16 +68,18 @@ def test_the_inertia_is_found_by_peaks_that_no_mode_explains(tmp_path):
     assert found.selection.fit.ground.strays == pytest.approx(0.0, abs=0.2)
 
 
-def test_one_stray_peak_is_enough_to_find_a_large_change_about_one_axis(tmp_path):
+@SIZES
+def test_one_stray_peak_is_enough_to_find_a_large_change_about_one_axis(tmp_path, count):
     """All other peaks find modes, so small changes show nothing; the law that catches the stray is significant."""
     about_y = np.sqrt([1.0, 1.4, 1.0])
-    found = diagnose(written(tmp_path, np.outer(about_y, about_y)))
+    found = diagnose(written(tmp_path, np.outer(about_y, about_y), POSES[:count]))
     assert found.ground.strays == pytest.approx(1.0, abs=0.1)
     assert found.p_value < SIGNIFICANT
     assert found.selection.fit.names == ("platform_inertia",)
     assert found.selection.fit.ground.strays == pytest.approx(0.0, abs=0.1)
 
 
+@pytest.mark.slow
 def test_rivals_are_looked_for_in_the_world_that_explains_everything(tmp_path):
     """A cell 15 N too high beside half the inertia: gain or zero in three states, and nothing does what inertia does.
 

@@ -1,11 +1,13 @@
 """Small random campaigns for the laws of inference, and their evidence by brute force."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
+from scipy.linalg import block_diag
 from scipy.special import gammaln, logsumexp
 
-from cdpr_struct.inference.linear_model import LinearModel
+from cdpr_struct.inference.linear_model import LinearModel, Stack
 from cdpr_struct.inference.scale_mixture import KAPPA, PSEUDO_COUNTS, TAU_DEGREES, NoiseGroups
 
 NO_ROWS = np.zeros(0, int)
@@ -29,23 +31,32 @@ def campaign(seed, shape=(3, 4, 6, 3), joint=2, kinds=2, floor=0.1, outlier=0.0,
     count = own[-1] + 1
     index = own + count * np.arange(blocks)[:, None]
     kind = np.tile(np.arange(count) % kinds, blocks)
-    groups = NoiseGroups(index, kind, np.full(len(kind), given))
+    groups = NoiseGroups(kind, np.full(len(kind), given))
     soft_rows = np.arange(rows, rows + soft)
     r[:, soft_rows] = 0.0
-    return LinearModel(r, A, X, np.full(r.shape, floor), groups, soft_rows)
+    return LinearModel((Stack(r, A, X, np.full(r.shape, floor), index, soft_rows),), groups)
+
+
+def changed(model, **change):
+    """The model with other arrays in its first stack."""
+    return replace(model, stacks=(replace(model.stacks[0], **change), *model.stacks[1:]))
 
 
 def dense_log_density(model, variance):
     """ln N(r; 0, S) + ln|S at stated sigmas, z = 0|/2 of all rows in one matrix; group variances (..., G) to (...)."""
-    index, (blocks, rows) = model.groups.index, model.r.shape
-    A = np.zeros((blocks, rows, *index.shape))
-    A[np.arange(blocks), :, np.arange(blocks)] = model.A
-    A, X, r = A.reshape(blocks * rows, -1), model.X.reshape(blocks * rows, -1), model.r.ravel()
-    noise = np.diag(model.floor.ravel() ** 2)
-    S = (A * variance[..., None, index.ravel()]) @ A.T + X @ X.T + noise
+    A = block_diag(*(block for stack in model.stacks for block in stack.A))
+    index, X = np.concatenate([stack.index.ravel() for stack in model.stacks]), whole(model, "X")
+    r, noise = whole(model, "r"), np.diag(whole(model, "floor") ** 2)
+    S = (A * variance[..., None, index]) @ A.T + X @ X.T + noise
     misfit = (r * np.linalg.solve(S, np.broadcast_to(r[:, None], (*S.shape[:-1], 1)))[..., 0]).sum(axis=-1)
     log_density = -0.5 * (np.linalg.slogdet(S)[1] + misfit + len(r) * np.log(2.0 * np.pi))
     return log_density + 0.5 * np.linalg.slogdet(A @ A.T + noise)[1]
+
+
+def whole(model, name):
+    """Rows of all blocks behind each other."""
+    arrays = [getattr(stack, name) for stack in model.stacks]
+    return np.concatenate([block for array in arrays for block in array])
 
 
 def log_prior_tau(log_tau):

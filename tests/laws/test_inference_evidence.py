@@ -7,11 +7,12 @@ import pytest
 from scipy.special import logsumexp
 
 from cdpr_struct.inference.evidence import SETTLED, fit
-from cdpr_struct.inference.linear_model import LinearModel
-from cdpr_struct.inference.scale_mixture import KAPPA, PSEUDO_COUNTS, NoiseGroups, NoiseState
+from cdpr_struct.inference.linear_model import LinearModel, Stack
+from cdpr_struct.inference.scale_mixture import KAPPA, PADDING, PSEUDO_COUNTS, NoiseGroups, NoiseState
 from tests.laws.inference_cases import (
     NO_ROWS,
     campaign,
+    changed,
     dense_log_density,
     enumerated_log_evidence,
     log_prior_tau,
@@ -41,12 +42,13 @@ def test_a_model_without_parameters_has_evidence():
 def test_gaussian_posterior_is_that_of_one_least_squares_problem():
     """(u, z, e) jointly: rows r = A u + X z + floor e, priors N(0, variance), N(0, 1), N(0, 1)."""
     model = campaign(2, shape=(1, 4, 6, 3), given=3.0)
-    rows = np.hstack((model.A[0] * np.sqrt(3.0), model.X[0], np.diag(model.floor[0])))
+    stack = model.stacks[0]
+    rows = np.hstack((stack.A[0] * np.sqrt(3.0), stack.X[0], np.diag(stack.floor[0])))
     gain = rows.T @ np.linalg.inv(rows @ rows.T)
-    mean, covariance = gain @ model.r[0], np.eye(rows.shape[1]) - gain @ rows
+    mean, covariance = gain @ stack.r[0], np.eye(rows.shape[1]) - gain @ rows
     found = fit(model)
-    np.testing.assert_allclose(found.noise_mean[0], np.sqrt(3.0) * mean[:6], atol=1e-10)
-    np.testing.assert_allclose(found.noise_variance[0], 3.0 * np.diag(covariance)[:6], atol=1e-10)
+    np.testing.assert_allclose(found.noise_mean[0][0], np.sqrt(3.0) * mean[:6], atol=1e-10)
+    np.testing.assert_allclose(found.noise_variance[0][0], 3.0 * np.diag(covariance)[:6], atol=1e-10)
     np.testing.assert_allclose(found.z_mean, mean[6:9], atol=1e-10)
     np.testing.assert_allclose(found.z_covariance, covariance[6:9, 6:9], atol=1e-10)
 
@@ -80,9 +82,9 @@ def plain_integral(r, x, grids, draws=3000):
 def readings_model(r, x):
     """Group g is read as u_g + x_g z, in one block: A = I."""
     count, size = r.shape
-    groups = NoiseGroups(np.repeat(np.arange(count), size)[None], np.zeros(count, int), np.full(count, np.nan))
+    groups, index = NoiseGroups(np.zeros(count, int), np.full(count, np.nan)), np.repeat(np.arange(count), size)[None]
     A, X = np.eye(r.size)[None], x.reshape(1, r.size, -1)
-    return LinearModel(r.reshape(1, -1), A, X, np.zeros((1, r.size)), groups, NO_ROWS)
+    return LinearModel((Stack(r.reshape(1, -1), A, X, np.zeros((1, r.size)), index, NO_ROWS),), groups)
 
 
 GRID = np.linspace(-5.0, 5.0, 81)
@@ -114,18 +116,19 @@ def test_the_bound_never_falls(seed, outlier):
 
 def test_evidence_does_not_depend_on_any_order():
     model, rng = campaign(5, outlier=6.0), np.random.default_rng(5)
-    blocks, rows, columns = (rng.permutation(count) for count in model.X.shape)
+    stack = model.stacks[0]
+    blocks, rows, columns = (rng.permutation(count) for count in stack.X.shape)
     names = rng.permutation(len(model.groups.kind))
-    index = np.argsort(names)[model.groups.index[blocks]]
-    mixed = LinearModel(
-        model.r[blocks][:, rows],
-        model.A[blocks][:, rows],
-        model.X[blocks][:, rows][:, :, columns],
-        model.floor[blocks][:, rows],
-        NoiseGroups(index, model.groups.kind[names], model.groups.fixed_variance[names]),
+    mixed = Stack(
+        stack.r[blocks][:, rows],
+        stack.A[blocks][:, rows],
+        stack.X[blocks][:, rows][:, :, columns],
+        stack.floor[blocks][:, rows],
+        np.argsort(names)[stack.index[blocks]],
         NO_ROWS,
     )
-    one, other = fit(model), fit(mixed)
+    groups = NoiseGroups(model.groups.kind[names], model.groups.fixed_variance[names])
+    one, other = fit(model), fit(LinearModel((mixed,), groups))
     assert other.log_evidence == pytest.approx(one.log_evidence, abs=1e-9)
     np.testing.assert_allclose(other.z_mean, one.z_mean[columns], atol=1e-9)
     np.testing.assert_allclose(other.noise.variance, one.noise.variance[names], rtol=1e-9)
@@ -135,16 +138,16 @@ def test_padding_and_equivalent_residuals_change_nothing():
     """More rows and readings of padding, and rows of other units mixed with each other."""
     model, rng = campaign(6, outlier=6.0, floor=0.0), np.random.default_rng(6)
     mix = rng.normal(size=(3, 4, 4))
-    index = np.pad(model.groups.index, ((0, 0), (0, 2)), constant_values=-1)
-    padded = LinearModel(
-        np.pad((mix @ model.r[..., None])[..., 0], ((0, 0), (0, 3))),
-        np.pad(mix @ model.A, ((0, 0), (0, 3), (0, 2))),
-        np.pad(mix @ model.X, ((0, 0), (0, 3), (0, 0))),
-        np.pad(model.floor, ((0, 0), (0, 3)), constant_values=1.0),
-        NoiseGroups(index, model.groups.kind, model.groups.fixed_variance),
+    stack = model.stacks[0]
+    padded = Stack(
+        np.pad((mix @ stack.r[..., None])[..., 0], ((0, 0), (0, 3))),
+        np.pad(mix @ stack.A, ((0, 0), (0, 3), (0, 2))),
+        np.pad(mix @ stack.X, ((0, 0), (0, 3), (0, 0))),
+        np.pad(stack.floor, ((0, 0), (0, 3)), constant_values=1.0),
+        np.pad(stack.index, ((0, 0), (0, 2)), constant_values=PADDING),
         NO_ROWS,
     )
-    one, other = fit(model), fit(padded)
+    one, other = fit(model), fit(replace(model, stacks=(padded,)))
     assert other.log_evidence == pytest.approx(one.log_evidence, abs=1e-8)
     np.testing.assert_allclose(other.z_mean, one.z_mean, atol=1e-8)
 
@@ -157,7 +160,7 @@ def test_a_missing_reading_is_a_dropped_row_up_to_a_constant():
         r, x = rng.normal(size=(6, 1)) + rng.normal(), rng.normal(size=(6, 1, 2))
         whole = readings_model(r, x)
         missing = np.where(np.arange(6) == 3, 1e8, np.nan)
-        filled = replace(whole, groups=NoiseGroups(whole.groups.index, whole.groups.kind, missing))
+        filled = replace(whole, groups=NoiseGroups(whole.groups.kind, missing))
         kept = np.arange(6) != 3
         with_missing, dropped = fit(filled), fit(readings_model(r[kept], x[kept]))
         np.testing.assert_allclose(with_missing.z_mean, dropped.z_mean, atol=1e-6)
@@ -170,24 +173,16 @@ def test_a_missing_reading_is_a_dropped_row_up_to_a_constant():
 def test_a_block_that_shares_nothing_adds_its_own_evidence_and_changes_nothing_else():
     """A block is repeated with readings of kinds of its own and no parameters."""
     model = campaign(7, outlier=6.0)
-    count, kinds = len(model.groups.kind), len(model.groups.members)
-    there = model.groups.index[:1]
-    mapped = np.arange(count) <= there.max()
+    stack, count, kinds = model.stacks[0], len(model.groups.kind), model.groups.kinds
+    there = stack.index[:1]
 
-    def groups(index, *kind):
-        return NoiseGroups(index, np.concatenate(kind), np.full(sum(map(len, kind)), np.nan))
+    def groups(*kind):
+        return NoiseGroups(np.concatenate(kind), np.full(sum(map(len, kind)), np.nan))
 
-    alone = LinearModel(
-        model.r[:1], model.A[:1], 0.0 * model.X[:1], model.floor[:1], groups(there, model.groups.kind[mapped]), NO_ROWS
-    )
-    both = LinearModel(
-        np.concatenate((model.r, alone.r)),
-        np.concatenate((model.A, alone.A)),
-        np.concatenate((model.X, alone.X)),
-        np.concatenate((model.floor, alone.floor)),
-        groups(np.concatenate((model.groups.index, there + count)), model.groups.kind, alone.groups.kind + kinds),
-        NO_ROWS,
-    )
+    own = Stack(stack.r[:1], stack.A[:1], 0.0 * stack.X[:1], stack.floor[:1], there, NO_ROWS)
+    kind = model.groups.kind[: there.max() + 1]
+    alone = LinearModel((own,), groups(kind))
+    both = LinearModel((stack, replace(own, index=there + count)), groups(model.groups.kind, kind + kinds))
     one, other, total = fit(model), fit(alone), fit(both)
     assert total.log_evidence == pytest.approx(one.log_evidence + other.log_evidence, abs=2 * SETTLED)
     np.testing.assert_allclose(total.z_mean, one.z_mean, atol=0.02)  # as settled as the bound
@@ -208,17 +203,17 @@ def test_an_outlier_is_set_aside_and_the_estimates_stay():
     shape = (12, 14, 22, 10)
     clean, spoilt = campaign(9, shape=shape), campaign(9, shape=shape, outlier=20.0)
     one, other = fit(clean), fit(spoilt)
-    group = spoilt.groups.index[0, -1]
+    group = spoilt.stacks[0].index[0, -1]
     assert other.noise.responsibility[group, 2:].sum() > 0.999
     assert np.delete(other.noise.responsibility[:, 0], group).min() > 0.5
-    assert other.noise_mean[0, -1] == pytest.approx(one.noise_mean[0, -1] + 20.0, abs=1.0)
+    assert other.noise_mean[0][0, -1] == pytest.approx(one.noise_mean[0][0, -1] + 20.0, abs=1.0)
     shift = (other.z_mean - one.z_mean) / np.sqrt(np.diag(one.z_covariance))
     assert np.abs(shift).max() < 0.2  # measured .04; with Gaussian noise .8
 
 
 def test_sigmas_that_are_twice_the_stated_are_found():
     model = campaign(10, shape=(18, 14, 22, 10), kinds=1)
-    doubled = replace(model, A=0.5 * model.A, floor=0.5 * model.floor)
+    doubled = changed(model, A=0.5 * model.stacks[0].A, floor=0.5 * model.stacks[0].floor)
     assert fit(doubled).noise.tau == pytest.approx(2.0, rel=0.15)
 
 
@@ -234,10 +229,21 @@ def test_sigmas_that_are_twice_the_stated_are_found():
 )
 def test_a_model_that_does_not_fit_together_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
-        replace(campaign(1), **change)
+        changed(campaign(1), **change)
 
 
 def test_rows_without_noise_of_their_own_are_refused():
     model = campaign(1, floor=0.0)
     with pytest.raises(ValueError, match="floor a positive value"):
-        fit(replace(model, A=np.repeat(model.A[:, :1], 4, axis=1)))
+        fit(changed(model, A=np.repeat(model.stacks[0].A[:, :1], 4, axis=1)))
+
+
+def test_stacks_that_do_not_fit_together_are_refused():
+    model = campaign(1, soft=1)
+    with pytest.raises(ValueError, match="at most may have soft rows"):
+        LinearModel(model.stacks * 2, model.groups)
+    other = campaign(1, shape=(3, 4, 6, 2)).stacks[0]
+    with pytest.raises(ValueError, match="same number of parameters"):
+        LinearModel((*model.stacks, other), model.groups)
+    with pytest.raises(ValueError, match="index of readings"):
+        changed(model, index=model.stacks[0].index + 1)

@@ -14,25 +14,25 @@ SCALES = np.array([0.5, 1.0, 4.0, 16.0])
 
 
 def candidates(model, count, seed=3):
-    return np.random.default_rng(seed).normal(size=(*model.r.shape, count))
+    return np.random.default_rng(seed).normal(size=(*model.stacks[0].r.shape, count))
 
 
 def test_gain_is_the_difference_of_evidence_in_the_gaussian_case():
     model = campaign(3, given=2.0)
     columns = candidates(model, 5)
-    screened = Screen.of(model, fit(model).noise).screened(columns)
+    screened = Screen.of(model, fit(model).noise).screened([columns])
     for chosen in ([0], [1, 4], [0, 2, 3]):
         found = gains(*screened.take(np.array(chosen)), SCALES)
-        refit = [fit(model.with_columns(s * columns[..., chosen])).log_evidence for s in SCALES]
+        refit = [fit(model.with_columns([s * columns[..., chosen]])).log_evidence for s in SCALES]
         np.testing.assert_allclose(found, np.array(refit) - fit(model).log_evidence, atol=1e-9)
 
 
 def test_gain_beside_an_accepted_column_is_conditional_on_it():
     model = campaign(4, given=1.0)
     columns = candidates(model, 2)
-    accepted = model.with_columns(columns[..., :1])
-    screened = Screen.of(accepted, fit(model).noise).screened(columns[..., 1:])
-    both = fit(model.with_columns(columns)).log_evidence - fit(accepted).log_evidence
+    accepted = model.with_columns([columns[..., :1]])
+    screened = Screen.of(accepted, fit(model).noise).screened([columns[..., 1:]])
+    both = fit(model.with_columns([columns])).log_evidence - fit(accepted).log_evidence
     assert gains(screened.gram, screened.score, np.ones(1))[0] == pytest.approx(both, abs=1e-9)
 
 
@@ -41,15 +41,15 @@ def test_one_sided_gain_is_that_of_the_one_sided_refit(chosen):
     model = campaign(5, given=2.0)
     columns = candidates(model, 5)
     sided = np.arange(model.parameters + len(chosen)) >= model.parameters
-    screened = Screen.of(model, fit(model).noise).screened(columns)
+    screened = Screen.of(model, fit(model).noise).screened([columns])
     found = gains(*screened.take(np.array(chosen)), SCALES, np.ones(len(chosen), bool))
-    refit = [fit(model.with_columns(s * columns[..., chosen]), one_sided=sided).log_evidence for s in SCALES]
+    refit = [fit(model.with_columns([s * columns[..., chosen]]), one_sided=sided).log_evidence for s in SCALES]
     np.testing.assert_allclose(found, np.array(refit) - fit(model).log_evidence, atol=1e-7)
 
 
 def test_many_candidates_at_once_are_each_of_them_alone():
     model = campaign(6, outlier=8.0)
-    screened = Screen.of(model, fit(model).noise).screened(candidates(model, 6))
+    screened = Screen.of(model, fit(model).noise).screened([candidates(model, 6)])
     pairs = np.array([[0, 1], [2, 5], [3, 4]])
     for sided in (None, np.array([True, False]), np.array([True, True])):
         together = gains(*screened.take(pairs), SCALES, sided)
@@ -62,19 +62,19 @@ def test_both_signs_of_a_size_share_its_evidence():
     model = campaign(7, given=1.0)
     column = candidates(model, 1)
     sided = np.arange(model.parameters + 1) == model.parameters
-    either = [fit(model.with_columns(sign * column), one_sided=sided).log_evidence for sign in (1.0, -1.0)]
-    assert summed(np.array(either)) == pytest.approx(fit(model.with_columns(column)).log_evidence, abs=1e-9)
+    either = [fit(model.with_columns([sign * column]), one_sided=sided).log_evidence for sign in (1.0, -1.0)]
+    assert summed(np.array(either)) == pytest.approx(fit(model.with_columns([column])).log_evidence, abs=1e-9)
 
 
 def test_a_one_sided_size_that_looks_negative_stays_near_zero():
     """Data made with -3 prior sigmas of the column."""
     model = campaign(8, shape=(6, 5, 8, 2), given=1.0)
     column = candidates(model, 1)
-    data = model.with_residual(model.r - 3.0 * column[..., 0]).with_columns(column)
+    data = model.with_residual([model.stacks[0].r - 3.0 * column[..., 0]]).with_columns([column])
     free, sided = fit(data), fit(data, one_sided=np.array([False, False, True]))
     assert free.z_mean[2] < -2.0
     assert 0.0 < sided.z_mean[2] < 0.2
-    assert sided.log_evidence < fit(model.with_residual(data.r)).log_evidence < free.log_evidence
+    assert sided.log_evidence < fit(model.with_residual([data.stacks[0].r])).log_evidence < free.log_evidence
 
 
 def test_a_one_sided_posterior_is_that_of_drawing_and_rejecting():

@@ -1,6 +1,6 @@
 """Rows that are a mixture: a certain one is a Gaussian reading, an uncertain one a sum over its labels."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from scipy.special import logsumexp, xlogy
 
 from cdpr_struct.inference.evidence import fit
 from cdpr_struct.inference.soft_rows import SoftExpectation
-from tests.laws.inference_cases import NO_ROWS, campaign, dense_log_density
+from tests.laws.inference_cases import NO_ROWS, campaign, changed, dense_log_density
 
 SIGMA = 0.3
 
@@ -29,22 +29,22 @@ class LabelledPeaks:
 
 def labelled_evidence(model, peak, labels):
     """Dense evidence if the peak of block k is the soft row labels[k]."""
-    blocks = np.arange(len(peak))
-    read = model.soft[np.array(labels)]
-    hard = np.flatnonzero(model.hard)
+    stack = model.stacks[0]
+    read = stack.soft[np.array(labels)]
+    hard = np.flatnonzero(stack.hard)
     rows = np.concatenate((np.broadcast_to(hard, (len(peak), len(hard))), read[:, None]), axis=1)
-    r, floor = np.take_along_axis(model.r, rows, 1), np.take_along_axis(model.floor, rows, 1)
+    r, floor = np.take_along_axis(stack.r, rows, 1), np.take_along_axis(stack.floor, rows, 1)
     r[:, -1], floor[:, -1] = peak, SIGMA
-    A, X = (np.take_along_axis(values, rows[..., None], 1) for values in (model.A, model.X))
-    dense = replace(model, r=r, A=A, X=X, floor=floor, soft=NO_ROWS)
+    A, X = (np.take_along_axis(values, rows[..., None], 1) for values in (stack.A, stack.X))
+    dense = changed(model, r=r, A=A, X=X, floor=floor, soft=NO_ROWS)
     variance = model.groups.fixed_variance
 
-    def normaliser(part):
+    def normaliser(model):
+        part = model.stacks[0]
         noise = part.A @ part.A.swapaxes(1, 2) + np.eye(part.r.shape[1]) * part.floor[:, None] ** 2
         return 0.5 * np.linalg.slogdet(noise)[1].sum()
 
-    only_hard = replace(dense, r=r[:, :-1], A=A[:, :-1], X=X[:, :-1], floor=floor[:, :-1])
-    assert blocks.size == model.r.shape[0]
+    only_hard = changed(dense, r=r[:, :-1], A=A[:, :-1], X=X[:, :-1], floor=floor[:, :-1])
     return dense_log_density(dense, variance) - normaliser(dense) + normaliser(only_hard)
 
 
@@ -68,10 +68,10 @@ def test_predictions_are_those_of_the_posterior():
     """With nothing read in soft rows: mean and variance of A u + X z by the dense formula."""
     model = campaign(2, shape=(1, 4, 6, 3), given=1.0, soft=2)
     found = fit(model)
-    rows = np.hstack((model.A[0], model.X[0]))
+    rows = np.hstack((model.stacks[0].A[0], model.stacks[0].X[0]))
     hard, soft = rows[:4], rows[4:]
     gain = soft @ hard.T @ np.linalg.inv(hard @ hard.T + 0.1**2 * np.eye(4))
-    np.testing.assert_allclose(found.soft_mean[0], gain @ model.r[0, :4], atol=1e-10)
+    np.testing.assert_allclose(found.soft_mean[0], gain @ model.stacks[0].r[0, :4], atol=1e-10)
     np.testing.assert_allclose(found.soft_variance[0], np.diag(soft @ soft.T - gain @ hard @ soft.T), atol=1e-10)
 
 

@@ -23,6 +23,9 @@ RESPONSE = "case,frequency_hz,real,imag,respond,excite\n"
             ["checked.Frame_Compliance", "1e-06", "frame_compliance is"],
         ),
         (CAMPAIGN + "[checked]\nunit_error = 1\n", ["checked.unit_error", "no such cause", "known are"]),
+        (CAMPAIGN + "[loss]\nwrong_name = 5\n", ["loss", "wrong_name = 5", "above unknown above too_wide", "10"]),
+        (CAMPAIGN + "[loss]\nto_wide = 5\n", ["loss.to_wide", "no such key", "too_wide"]),
+        (CAMPAIGN + "[loss]\nunknown = -1\n", ["loss.unknown", "got -1", "above"]),
         ("checked = 3\n" + CAMPAIGN, ["checked", "got 3", "give a table"]),
         (CAMPAIGN + '[tolerances]\nanchor_m = "0.002"\n', ["tolerances.anchor_m", "without quotes"]),
         (CAMPAIGN + "[tolerances]\nanchor_m = 1e300\n", ["tolerances.anchor_m", "1e+300", "not above 1e+12"]),
@@ -39,7 +42,7 @@ RESPONSE = "case,frequency_hz,real,imag,respond,excite\n"
         (CAMPAIGN.replace("states.csv", ""), ["campaign.toml", "measurement[1].file", "got ''"]),
         (CAMPAIGN.replace("states.csv", "a\\u0000b"), ["measurement[1].file", "data file"]),
     ],
-    ids=range(18),
+    ids=range(21),
 )
 def test_bad_tables(campaign, words, tmp_path, capsys):
     line = complaint(tmp_path, capsys, campaign=campaign)
@@ -47,7 +50,7 @@ def test_bad_tables(campaign, words, tmp_path, capsys):
 
 
 def test_names_in_checked_are_read_before_anything_is_computed(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("cdpr_struct.diagnosis.prepared.make_setting", None)
+    monkeypatch.setattr("cdpr_struct.diagnosis.explain.recorded", None)
     assert "checked.mood" in complaint(tmp_path, capsys, campaign=CAMPAIGN + "[checked]\nmood = 1\n")
 
 

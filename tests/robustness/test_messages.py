@@ -64,7 +64,7 @@ def test_a_missing_campaign_is_told():
 
 
 def test_out_is_tried_before_anything_is_computed(capsys, monkeypatch):
-    monkeypatch.setattr("cdpr_struct.diagnosis.diagnose.diagnose", None)
+    monkeypatch.setattr("cdpr_struct.diagnosis.diagnosing.diagnosed", None)
     assert run(["diagnose", str(ROOT / "examples/table-4-4/level.toml"), "--out", "/proc/none"]) == 2
     assert "--out" in capsys.readouterr().err
 

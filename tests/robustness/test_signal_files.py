@@ -65,9 +65,10 @@ def test_a_record_that_adds_nothing_is_told(tmp_path, capsys):
     noise = np.random.default_rng(5).standard_normal((400, 3))
     quiet = decay(np.arange(400) * 0.01).assign(**dict(zip(("ax", "ay", "az"), noise.T, strict=True)))
     quiet.to_csv(tmp_path / "decay.csv", index=False)
-    states = (Path(__file__).parents[2] / "examples" / "table-4-4" / "level.csv").resolve()
+    states = (Path(__file__).parents[2] / "examples" / "table-4-4" / "level.csv").read_text().splitlines()
+    (tmp_path / "one.csv").write_text("\n".join(states[: 2 + 8]))  # head and one pose
     path = tmp_path / "campaign.toml"
-    more = f'[[measurement]]\nkind = "static_state"\nfile = "{states}"\n'
+    more = '[[measurement]]\nkind = "static_state"\nfile = "one.csv"\n'
     path.write_text(CAMPAIGN.format(kind="free_decay", file="decay.csv").replace("thesis-3-1", "cogiro") + more)
     assert run(["diagnose", str(path)]) == 0
     assert "Warning: free_decay a adds no frequency: " in capsys.readouterr().out

@@ -17,12 +17,13 @@ EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "table-4-4"
     ("campaign", "data", "newton", "status", "words"),
     [
         ("level.toml", "level.csv", 9.80665, "class", "The tensions are not in N but in kgf (mend column tension_N of"),
-        (
+        pytest.param(
             "campaign.toml",
             "states.csv",
             4.4482216,
             "unknown",
             "That the tensions are not in N but in lbf would explain a",
+            marks=pytest.mark.slow,
         ),
     ],
 )

@@ -9,7 +9,7 @@ import pytest
 from benchmarks import thesis_campaigns, thesis_findings
 from cdpr_struct.thesis.reproduction import printed_table
 
-HEAVY = ("table-4-4/campaign",)
+HEAVY = ("table-4-4/campaign", "table-4-4/level", "tables-4-5-4-6/with-shaker")
 NAMES = [pytest.param(n, marks=pytest.mark.slow) if n in HEAVY else n for n in thesis_campaigns.CAMPAIGNS]
 AGAIN = "run: python -m benchmarks.thesis_campaigns --write, and read the page again: its text may no longer be true"
 

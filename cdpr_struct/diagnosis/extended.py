@@ -1,0 +1,33 @@
+"""The robot with the causes that a decision names, at their whole sizes, for every other command."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from cdpr_struct.diagnosis.recorded import Recorded
+from cdpr_struct.diagnosis.whole_sizes import WholeSize
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.robot.robot_from_arrays import robot_from_arrays
+
+
+def extended_robot(data: Recorded, sizes: Sequence[WholeSize], causes: Sequence[str]) -> Robot:
+    """The campaign's robot with causes put in, no tolerances; what belongs to single states is no part of a robot.
+
+    causes : names for the file, those of corrected data among them
+    """
+    arrays, entered = extended_arrays(data, sizes), data.campaign.robot
+    named = tuple(dict.fromkeys([*entered.extensions.causes, *causes]))
+    return robot_from_arrays(entered, arrays, named)
+
+
+def extended_arrays(data: Recorded, sizes: Sequence[WholeSize]) -> RobotArrays:
+    """The robot as entered with causes at their whole sizes; hose and elasticity refer to the campaign's states."""
+    arrays = replace(
+        data.arrays, hose_center=data.known.center, reference_tension=np.asarray(float(data.known.mean_tension))
+    )
+    for size in sizes:
+        if size.part.cause.carrier != "state":
+            arrays = size.part.cause.apply(arrays, (size.part.pattern.basis @ size.mean)[None])
+    return arrays

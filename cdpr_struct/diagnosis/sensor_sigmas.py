@@ -1,0 +1,160 @@
+"""The sigmas that were used, which of them are defaults, and signs that one is in a wrong unit."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.stats import chi2, f
+
+from cdpr_struct.diagnosis.judge import Judged
+from cdpr_struct.inference.scale_mixture import KAPPA, TAU_DEGREES
+from cdpr_struct.measurement.campaign import SIGNALS, Campaign, Sheet
+
+SENSORS = ("position", "rotation", "tension", "length", "cable_frequency")
+"""Names of the kinds of sensors, in the order of their numbers."""
+_TOO_SMALL = 1e-3  # probability of errors so small, below which sigmas are doubted
+_OUTLIER = 5.0  # times the usual size: the second of the factors that mean a wrong reading
+_UNIT = {
+    "tension_N": "N", "position_m": "m", "rotation_deg": "deg", "length_m": "m", "frequency_hz": "Hz",
+    "acceleration": "m/s^2",
+}  # fmt: skip
+_POSE = ("position_m", "rotation_deg")
+_NEEDED = {
+    "static_state": ("tension_N", "length_m", *_POSE), "loaded_pose": ("length_m", *_POSE),
+    "cable_frequency": ("frequency_hz", *_POSE), "robot_frequency": ("frequency_hz", *_POSE),
+    "frf": ("frequency_hz",), "free_decay": ("frequency_hz",), "platform_motion": ("frequency_hz", *_POSE),
+}  # fmt: skip
+_RANGE = {"position_m": (1e-6, 0.05), "rotation_deg": (1e-5, 5.0), "length_m": (1e-6, 0.05)}
+_SHARE = {"tension_N": (1e-5, 0.3), "frequency_hz": (1e-6, 0.2)}  # of the median reading
+_LOOSE = {  # tolerances beyond these are no drawing's
+    "anchor_m": 0.1, "length_m": 0.1, "center_of_mass_m": 0.3, "pulley_radius_m": 0.02,
+    "axial_stiffness": 0.5, "linear_density": 0.5, "platform_inertia": 1.0, "load_cell_gain": 0.3,
+}  # fmt: skip
+_DEFAULT_FREQUENCY = "0.3 % of each"
+
+
+@dataclass(frozen=True, slots=True)
+class Used:
+    """A sigma of a file: its key, value in words, and whether the campaign file or a column gives it."""
+
+    kind: str
+    file: str
+    sigma: str
+    value: float | None
+    words: str
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """A sigma or tolerance that can hardly be right.
+
+    about : "sigma", "tolerance", or "errors" that are smaller than sigmas allow
+    name, file : of what is doubted;  words : its size;  unit : that it should have, "" for a share
+    large : whether it is too large;  probability : of errors so small, else nan
+    """
+
+    about: str
+    name: str
+    file: str
+    words: str
+    unit: str
+    large: bool
+    probability: float = np.nan
+
+
+@dataclass(frozen=True, slots=True)
+class NoiseOfKind:
+    """How a kind of sensor scatters.
+
+    factor : on its stated sigma, outliers apart;  readings, outliers : how many
+    p_large : of a factor so large, if stated sigmas are right within what is assumed of them;  p_small : of errors so
+    small, if they are right
+    """
+
+    kind: str
+    factor: float
+    readings: int
+    outliers: int
+    p_large: float
+    p_small: float
+
+
+def noise_of_kinds(found: Judged) -> list[NoiseOfKind]:
+    """Of each kind of sensor that was read."""
+    groups, noise, rows = found.model.readings, found.fit.noise, []
+    odd = noise.responsibility[:, KAPPA >= _OUTLIER].sum(axis=1) > 0.5  # more likely than not
+    for kind, members in enumerate(groups.members > 0.0):
+        count = int(groups.size[members].sum())
+        if count:
+            factor = float(noise.tau[kind])
+            square = max(factor**2 * (TAU_DEGREES + count) - TAU_DEGREES, 0.0)
+            large, small = float(f.sf(square / count, count, TAU_DEGREES)), float(chi2.cdf(square, count))
+            rows.append(NoiseOfKind(SENSORS[kind], factor, count, int(groups.size[members & odd].sum()), large, small))
+    return rows
+
+
+def sigmas_used(campaign: Campaign) -> list[Used]:
+    """Of every file, the sigmas that its rows need."""
+    return [_used(sheet, name) for sheet in campaign.sheets for name in _NEEDED[sheet.kind] if _read(sheet, name)]
+
+
+def _read(sheet: Sheet, name: str) -> bool:
+    """Whether a file of static states holds the quantity at all; other kinds hold theirs."""
+    return sheet.kind != "static_state" or name in _POSE or name in sheet.columns
+
+
+def _used(sheet: Sheet, name: str) -> Used:
+    value = getattr(sheet.sigmas, name)
+    words = _DEFAULT_FREQUENCY if value is None else f"{value:g} {_UNIT[name]}"
+    source = "stated" if name in sheet.stated else "default"
+    if value is None and sheet.kind in SIGNALS:
+        words, source = "of each identified mode", "signal"
+    if "sigma" in sheet.columns and name == _main(sheet):
+        source = f"column sigma, else {source}"
+    return Used(sheet.kind, sheet.file, name, value, words, source)
+
+
+def _main(sheet: Sheet) -> str:
+    """The quantity that a column `sigma` is about."""
+    if sheet.kind == "static_state":
+        return "tension_N" if "tension_N" in sheet.columns else "length_m"
+    return "position_m" if sheet.kind == "loaded_pose" else "frequency_hz"
+
+
+def tolerance_unit(name: str) -> str:
+    """Unit of a tolerance, which ends its name; "" of those that are shares of the value entered."""
+    return next((ending for ending in ("m", "kg", "N") if name.endswith(f"_{ending}")), "")
+
+
+def doubts(campaign: Campaign, noise: list[NoiseOfKind]) -> list[Doubt]:
+    """What is odd about sigmas and tolerances."""
+    rows = [doubt for used in sigmas_used(campaign) if (doubt := _absurd(campaign, used))]
+    for name, most in _LOOSE.items():
+        value = getattr(campaign.tolerances, name)
+        if value > most:
+            rows.append(Doubt("tolerance", name, "", f"{value:g}", tolerance_unit(name), True))
+    for one in noise:
+        if one.p_small < _TOO_SMALL:
+            rows.append(Doubt("errors", one.kind, "", f"{one.factor:.2g}", "", False, one.p_small))
+    return rows
+
+
+def _absurd(campaign: Campaign, used: Used) -> Doubt | None:
+    """A sigma out of the range of any sensor of its kind."""
+    if used.value is None or used.sigma not in {*_RANGE, *_SHARE}:
+        return None
+    low, high = _RANGE[used.sigma] if used.sigma in _RANGE else _of_readings(campaign, used)
+    if low <= used.value <= high:
+        return None
+    return Doubt("sigma", used.sigma, used.file, used.words, _UNIT[used.sigma], used.value > high)
+
+
+def _of_readings(campaign: Campaign, used: Used) -> tuple[float, float]:
+    values: Any = campaign.states.tension
+    if used.sigma == "frequency_hz":
+        values = np.concatenate([campaign.cable_frequencies.hertz, campaign.robot_frequencies.hertz])
+    values = values[np.isfinite(values)]
+    middle = float(np.median(values)) if values.size else np.inf
+    low, high = _SHARE[used.sigma]
+    return (low * middle, high * middle) if np.isfinite(middle) else (0.0, np.inf)

@@ -1,0 +1,22 @@
+"""What mistakes of a diagnosis cost: three numbers that a campaign file may give."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """What mistakes cost, in the unit of one name too many.
+
+    wrong_name : a class in which no cause is there
+    too_wide   : one more name in a class, or a cause that is not spoken of
+    unknown    : to say that nothing is wrong, or nothing that the library knows, where it does know the cause
+    """
+
+    wrong_name: float = 20.0
+    too_wide: float = 1.0
+    unknown: float = 10.0
+
+    def __post_init__(self) -> None:
+        if not self.wrong_name > self.unknown > self.too_wide > 0.0:
+            given = f"{self.wrong_name:g}, {self.unknown:g}, {self.too_wide:g}"
+            raise ValueError(f"a loss needs wrong_name > unknown > too_wide > 0, got {given}")

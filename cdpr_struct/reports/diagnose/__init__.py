@@ -1,0 +1,1 @@
+"""The results of `diagnose`: rendered, nothing is computed here."""

@@ -1,0 +1,164 @@
+"""The files of a diagnosis: residuals as CSV, figures, extended robot, and the report page."""
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from itertools import count
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.diagnosis.diagnosis import Diagnosis
+from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.diagnose import tables
+from cdpr_struct.reports.diagnose.result import KINDS
+from cdpr_struct.reports.diagnose.signals import signal_plates, signal_table
+from cdpr_struct.reports.figures import diagnose as figures
+from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.robot.robot_writing import robot_toml
+
+_METHOD = (
+    "Measured pose and tensions are put into the model; what is left of wrench balance, cable lengths and frequencies "
+    "is judged against sensor noise and tolerances together. Noise is a mixture of scales: a reading may be an "
+    "outlier, and each kind of sensor may scatter more or less than stated. Which peak is which mode is summed over. "
+    "Every cause of the library is fitted with a prior on its size; the evidence counts how well it predicts and how "
+    "many numbers it needed. The verdict is the answer of least expected loss. Held-out states were predicted from "
+    "fits to all the others."
+)
+
+
+def result_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, str | bytes]:
+    """Contents of every file of the report, by name."""
+    shown = plates(found, result)
+    files: dict[str, str | bytes] = {
+        "residuals.csv": _residuals_csv(found),
+        **{f"{plate.name}.svg": plate.svg for plate in shown},
+        "report.html": render_page(page(found, result, shown)),
+    }
+    if found.extended is not None:
+        comments = [*robot_comments(result), *_without_place(found)]
+        files["extended_robot.toml"] = robot_toml(found.extended, f"{found.campaign.robot.name}-extended", comments)
+    return files
+
+
+def plates(found: Diagnosis, result: Mapping[str, Any]) -> list[Plate]:
+    """The figures."""
+    shown = [
+        Plate(
+            "residuals",
+            "What the simulation gets wrong",
+            svg("residuals", figures.RESIDUAL_SIZE, lambda f: figures.draw_residuals(f, found)),
+            "Each point is one residual, simulated minus measured at the measured state, in its own standard deviation "
+            "under noise and tolerances. Look for points outside the shaded band of +-2 sigma, and for several inside "
+            "it that go together: one alone says nothing there. Faint lines part the states, whose names stand above "
+            "where there is room; values of all points: residuals.csv.",
+        )
+    ]
+    if result["candidates"]:
+        drawn = svg("evidence", figures.EVIDENCE_SIZE, lambda f: figures.draw_evidence(f, result))
+        said = "See which bar is longest, and which end within three nats of it (a factor of twenty in probability): "
+        said += "these the data hardly tell apart. Nats: the logarithm of how much likelier a cause makes the data."
+        shown.append(Plate("evidence", "Which cause explains it", drawn, said))
+    drawn = svg("probabilities", figures.PROBABILITY_SIZE, lambda f: figures.draw_probabilities(f, result))
+    said = "Posterior probabilities of the likeliest sets of causes; blue: those that the verdict speaks of. See "
+    said += "whether one stands out or several share the probability. Unknown: laws that the library does not know."
+    shown.append(Plate("probabilities", "How probable each answer is", drawn, said))
+    return shown + signal_plates(found.damped, found.campaign.identified)
+
+
+def robot_comments(result: Mapping[str, Any]) -> list[str]:
+    """What a reader of extended_robot.toml must know: where it is from and how far it can be trusted."""
+    said, gain = result["verdict"], result["gain"]
+    lines = [
+        f"Written by cdpr-struct diagnose {result['campaign']}.",
+        said["sentence"],
+        *tables.standing(result),
+        *result["warnings"],
+    ]
+    if any(len(names) > 1 for names in said["class"]):
+        lines.append(
+            "WARNING: these data do not tell the causes of a class; of each only the likeliest is in this file."
+        )
+    if said["status"] == "class" and not gain["confirmed"] and gain["ratio"] is not None:
+        lines.append("WARNING: not confirmed by anything that was left out of the fit; do not rely on it.")
+    return lines
+
+
+def _without_place(found: Diagnosis) -> list[str]:
+    """A line for causes that no robot file can hold: they are of single states."""
+    names = [size.part.cause.name for size in found.sizes if size.part.cause.carrier == "state"]
+    lines = [f"Not in this file, which has no place for it: {', '.join(names)}."] if names else []
+    return lines + (["Not in this file: the drift of the load cells."] if found.drift else [])
+
+
+def page(found: Diagnosis, result: Mapping[str, Any], shown: list[Plate]) -> Page:
+    """The report page."""
+    said = result["verdict"]
+    more = [line[:1].upper() + line[1:] for line in tables.standing(result)]
+    more += [f"Where: {said['location']}."] if said["location"] else []
+    states = len(found.campaign.states.names)
+    counted = "1 state" if states == 1 else f"{states} states"
+    return Page(
+        title=f"{found.campaign.robot_name}: what the simulation gets wrong, and why",
+        subtitle=f"model {found.campaign.model}, {counted}, {found.campaign.source}",
+        verdict=[said["sentence"], *more],
+        holds=said["status"] == "adequate",
+        facts=_facts(result),
+        plates=shown,
+        tables=_tables(result),
+        notes=[("How it was computed", [_METHOD])],
+    )
+
+
+def _facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Errors of each kind, and what was gained where it was not fitted."""
+    facts = [
+        (f"{row['rms']:.3g} {row['unit']}", f"rms error, {row['kind'].replace('_', ' ')}")
+        for row in result["simulation_error"]
+    ]
+    gain = result["gain"]
+    if gain["confirmed"]:
+        said = f"smaller error where it was not fitted ({gain['counted']} of {gain['of']} readings, those that the "
+        facts.append((f"{gain['ratio']:.1f}×", f"{said}cause concerns)"))
+        if gain["generic_fudge_ratio"] is not None:
+            fudge = f"{gain['generic_fudge_ratio']:.1f}×"
+            facts.append((fudge, "the same by a generic fit of common EA and cell gain, all readings"))
+    return facts
+
+
+def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
+    shown = (
+        tables.errors(result),
+        tables.candidates(result["candidates"], 20, 3),
+        tables.left_out(result["gain"]),
+        tables.next_steps(result["verdict"]["next_measurement"]),
+        tables.set_aside(result["set_aside"]),
+        tables.noise(result["noise"]),
+        tables.all_sizes(result["candidates"]),
+        tables.not_shown(result),
+        tables.detectable(result),
+        tables.tolerances(result),
+        tables.sigmas(result["sigmas"]),
+        signal_table(result),
+    )
+    return [table for table in shown if table]
+
+
+def _residuals_csv(found: Diagnosis) -> str:
+    """Residuals as entered and with the causes, kind by kind as in docs/diagnosis.md; rows are counted in each."""
+    rows, after = found.recorded, found.residuals
+    counted: defaultdict[tuple[str, int], Iterator[int]] = defaultdict(lambda: count(1))
+    factor = np.array([KINDS[kind][1] for kind in rows.kind])
+    same = len(after.kind) == len(rows.kind)
+    return csv_text(
+        {
+            "block": rows.kind,
+            "case": [found.campaign.states.names[i] for i in rows.state],
+            "row": [next(counted[place]) for place in zip(rows.kind.tolist(), rows.state.tolist(), strict=True)],
+            "cable": [cable + 1 if cable >= 0 else "" for cable in rows.cable.tolist()],
+            "residual": factor * rows.before,
+            "unit": [KINDS[kind][2] for kind in rows.kind],
+            "sigma": factor * rows.sigma,
+            "with_causes": factor * after.after if same else np.full(len(rows.kind), np.nan),
+        }
+    )

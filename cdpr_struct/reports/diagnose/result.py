@@ -1,0 +1,209 @@
+"""A diagnosis as result.json: names are fixed, scripts read them."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.diagnosis.decision import UNKNOWN, fits
+from cdpr_struct.diagnosis.diagnosis import Candidate, Diagnosis, Tried
+from cdpr_struct.diagnosis.left_out import LeftOut
+from cdpr_struct.reports.diagnose import signals
+from cdpr_struct.reports.diagnose.mending import corrected
+from cdpr_struct.reports.diagnose.sentences import finite, sentence
+from cdpr_struct.reports.diagnose.words import doubt, place, recommendation
+
+KINDS = {
+    "EQ": ("static_state (wrench balance)", 1.0, "N"), "CO": ("static_state (cable lengths)", 1e3, "mm"),
+    "CF": ("cable_frequency", 100.0, "%"), "RF": ("robot_frequency", 100.0, "%"),
+}  # fmt: skip
+"""Of each kind of rows: name, factor from what is computed with, unit that is shown."""
+
+
+MOST_REPEATED = 4  # readings that are proposed to be read again
+
+
+def result_json(found: Diagnosis) -> dict[str, Any]:
+    """result.json of `diagnose`."""
+    hidden, law = _hidden(found), found.outside
+    return {
+        "campaign": found.campaign.source,
+        "robot": found.campaign.robot_name,
+        "model": found.campaign.model,
+        "simulation_error": [_error(found, i) for i in range(len(found.errors))],
+        "significant": found.decision.status != "adequate",
+        "p_value": found.p_value,
+        "p_value_of": "evidence",
+        "p_adequate": found.p_adequate,
+        "verdict": _verdict(found),
+        "probabilities": [{"causes": list(b.names), "probability": b.probability} for b in found.beliefs],
+        "set_aside": [
+            {"kind": row.kind, "case": row.case, "cable": row.cable + 1, "off_sigmas": row.sigmas,
+             "log_evidence_gain": row.gain}
+            for row in found.set_aside
+        ],
+        "noise": [
+            {"kind": row.kind, "factor": row.factor, "readings": row.readings, "outliers": row.outliers}
+            for row in found.noise
+        ],
+        "noise_memory": 0.0,
+        "load_cell_drift_N": found.drift,
+        "unassigned_peaks": [asdict(peak) for peak in found.peaks.uncertain],
+        "candidates": candidate_rows(found),
+        "outside_library": {"law": law[0], "log_evidence_gain": finite(law[1])},
+        "gain": _gain(found),
+        "extended_model": None if found.extended is None else "extended_robot.toml",
+        "not_testable": sorted(hidden),
+        "why_not_testable": hidden,
+        "minimum_detectable": found.minimum_detectable,
+        "tolerances": {
+            name: {"value": getattr(found.campaign.tolerances, name), "stated": name in found.campaign.stated}
+            for name in found.campaign.tolerances.__slots__
+        },
+        "loss": asdict(found.campaign.loss),
+        "sigmas": [asdict(used) for used in found.sigmas],
+        "warnings": _warnings(found),
+        "not_used": _not_used(found),
+        "signals": [signals.signal_json(item) for item in found.campaign.identified],
+        "damping": None if found.damped is None else signals.damping_json(found.damped),
+    }  # fmt: skip
+
+
+def _verdict(found: Diagnosis) -> dict[str, Any]:
+    decision = found.decision
+    return {
+        "status": decision.status, "causes": likeliest(found), "class": [list(names) for names in decision.classes],
+        "probability": float(decision.probability), "location": place(found.location),
+        "next_measurement": "; ".join(_next(found)), "sentence": sentence(found),
+    }  # fmt: skip
+
+
+def _next(found: Diagnosis) -> list[str]:
+    """What to measure next; of readings to repeat the worst, all of which are in `set_aside`."""
+    again = [one for one in found.recommendations if one.purpose == "repeat"]
+    shown = [one for one in found.recommendations if one not in again[MOST_REPEATED:]]
+    more = len(again) - MOST_REPEATED
+    return [*map(recommendation, shown), *([f"read again {more} more readings"] if more > 0 else [])]
+
+
+def likeliest(found: Diagnosis) -> list[str]:
+    """Of each class the cause that was chosen, in the order of the classes."""
+    if found.by_damping:
+        return list(found.damped.finding.causes) if found.damped is not None else []
+    own = [] if found.correction is None else [found.correction.cause]
+    names = [*own, *found.chosen.hypothesis.names]
+    order = []
+    for own_class in found.decision.classes:
+        name = next((n for n in names if n in own_class and n not in order), own_class[0])
+        order.append(name)
+    return order
+
+
+def _error(found: Diagnosis, i: int) -> dict[str, Any]:
+    row = found.errors[i]
+    worst: dict[str, Any] = {"case": row.case} | ({"cable": row.cable + 1} if row.cable >= 0 else {})
+    return {"kind": row.kind, "rms": row.rms, "expected": row.expected, "unit": row.unit,
+            "chi2_per_n": finite(row.chi2_per_n), "worst": worst}  # fmt: skip
+
+
+def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
+    """Corrections of the data, then every cause that was fitted, best first.
+
+    A cause without a size, or less likely than none, is left out unless the verdict leaves it open. Corrections that
+    are not believed stand last.
+    """
+    mended = [_of_correction(found, one) for one in found.tried if one.correction is found.correction]
+    others = [
+        _of_correction(found, one) for one in found.tried if one.correction is not found.correction and one.gain > 0.0
+    ]
+    shown = [one for one in found.candidates if UNKNOWN not in one.names and (one.has_size or _left_open(found, one))]
+    shown.sort(key=lambda one: one.best is not found.chosen)
+    laws = [] if found.damped is None or not found.damped.finding.causes else list(found.damped.finding.fits)
+    return [
+        *mended, *(row for one in shown for row in _of_candidate(found, one)), *others,
+        *map(signals.law_row, laws[: signals.MOST_ROWS]),
+    ]  # fmt: skip
+
+
+def _left_open(found: Diagnosis, one: Candidate) -> bool:
+    """Whether the verdict speaks of just these causes."""
+    own = None if found.correction is None else found.correction.cause
+    classes = tuple(names for names in found.decision.classes if own not in names)
+    return bool(classes) and len(one.names) == len(classes) and fits(classes, one.names)
+
+
+def _of_correction(found: Diagnosis, one: Tried) -> dict[str, Any]:
+    return {
+        "cause": one.correction.cause, "with": [], "pattern": "", "parameters": {},
+        "description": corrected(found.campaign, one.correction), "log_evidence_gain": float(one.gain),
+        "heldout_rms": None, "explained_fraction": one.explained,
+    }  # fmt: skip
+
+
+def _of_candidate(found: Diagnosis, one: Candidate) -> Iterator[dict[str, Any]]:
+    """One row for each cause of a fit."""
+    left = found.left_out if one.best is found.chosen else None
+    after = None if left is None else left.rms(np.ones(len(left.kind), dtype=bool))[1]
+    for size in one.sizes:
+        name = size.part.cause.name
+        yield {
+            "cause": name, "with": [other for other in one.names if other != name],
+            "pattern": size.part.pattern.label, "parameters": size.parameters, "log_evidence_gain": float(one.gain),
+            "heldout_rms": after, "explained_fraction": one.explained,
+        }  # fmt: skip
+
+
+def _gain(found: Diagnosis) -> dict[str, Any]:
+    left = found.left_out
+    if left is None:
+        return {"heldout_rms_before": None, "heldout_rms_after": None, "ratio": None, "per_kind": {}, "transfer": {},
+                "confirmed": False, "left_out": ""}  # fmt: skip
+    rows, every = left.concerned, np.ones(len(left.kind), dtype=bool)
+    before, after = left.rms(rows)
+    return {
+        "heldout_rms_before": before, "heldout_rms_after": after, "ratio": left.ratio(rows),
+        "unit": "standard deviations under the null, of the readings that the causes change by more than one",
+        "ratio_of_all": left.ratio(every), "per_kind": _by_kind(left), "counted": int(rows.sum()), "of": len(rows),
+        "left_out": "state", "confirmed": found.confirmed, "generic_fudge_ratio": found.generic, "transfer": {},
+    }  # fmt: skip
+
+
+def _by_kind(left: LeftOut) -> dict[str, dict[str, Any]]:
+    """Root mean squares of the readings of each kind that the causes concern, in its unit and in sigmas."""
+    table: dict[str, dict[str, Any]] = {}
+    for kind, (name, factor, unit) in KINDS.items():
+        own = left.kind == kind
+        rows = own & left.concerned
+        if rows.any():
+            before, after = (factor * float(np.sqrt(np.mean(r[rows] ** 2))) for r in (left.before, left.after))
+            sigmas = left.rms(rows)
+            table[name] = {
+                "before": before, "after": after, "unit": unit, "ratio": left.ratio(rows),
+                "counted": int(rows.sum()), "of": int(own.sum()), "before_sigmas": sigmas[0],
+                "after_sigmas": sigmas[1],
+            }  # fmt: skip
+    return table
+
+
+def _hidden(found: Diagnosis) -> dict[str, str]:
+    """Why these data cannot show a cause, of those that the verdict does not leave open: larger than usual it shows."""
+    open_ones = {name for names in found.decision.classes for name in names}
+    hidden = {name: why for name, why in found.not_testable.items() if name not in open_ones}
+    return hidden | ({} if found.damped is None else signals.untestable(found.damped.finding))
+
+
+def _warnings(found: Diagnosis) -> list[str]:
+    silent = [signals.silent(item) for item in found.campaign.identified if not item.used.any()]
+    return [*_unique([doubt(one) for one in found.doubts]), *found.campaign.notes, *silent]
+
+
+def _not_used(found: Diagnosis) -> list[str]:
+    """Kinds of signals that added no frequency."""
+    if not found.campaign.identified:
+        return sorted({series.kind for series in found.campaign.series})
+    return sorted({item.record.kind for item in found.campaign.identified if not item.used.any()})
+
+
+def _unique(lines: Sequence[str]) -> list[str]:
+    return [line if line.endswith(("?", ".")) else f"{line}." for line in dict.fromkeys(lines)]

@@ -1,0 +1,145 @@
+"""The verdict in plain sentences."""
+
+import numpy as np
+
+from cdpr_struct.diagnosis.decision import UNKNOWN
+from cdpr_struct.diagnosis.diagnosis import Diagnosis
+from cdpr_struct.reports.diagnose.mending import corrected
+from cdpr_struct.reports.diagnose.signals import damping_sentence
+from cdpr_struct.reports.diagnose.words import described, listed, place, plain, reading
+
+LARGEST_CLASS = 4  # causes beyond which a sentence leads with none of them
+_MOST = 4  # readings that one sentence lists
+_BETTER = 1.05  # times smaller error from which a prediction is better
+_FAR = 30.0  # times its stated sigma from which the scatter of a sensor means another robot or unit
+
+
+def sentence(found: Diagnosis) -> str:
+    """What was found, for a person."""
+    status = found.decision.status
+    if found.by_damping:
+        parts = [_damping(found), "Nothing else is significant."]
+    elif status == "adequate":
+        parts = [agreement(found)]
+    elif status == UNKNOWN:
+        parts = _unknown(found)
+    else:
+        parts = _named(found)
+    parts += [_peaks(found), _aside(found), _drift(found)]
+    if not found.by_damping:
+        parts.append(_damping(found))
+    return " ".join(filter(None, parts))
+
+
+def agreement(found: Diagnosis) -> str:
+    """Where nothing is significant: of peaks without a mode for certain it says nothing."""
+    p = f"(p = {found.p_value:.2g})."
+    wrong = [one.kind for one in found.noise if 2 * one.outliers > one.readings]
+    if wrong:
+        return (
+            f"No cause stands out {p} But most of the {listed(wrong)} readings contradict the simulation by far more "
+            "than their sigmas: they neither agree nor disagree with any cause."
+        )
+    uncertain, count = found.peaks.uncertain, found.peaks.count
+    if not uncertain:
+        rest = "the other measurements" if found.set_aside else "measurements"
+        return f"Nothing significant: simulation and {rest} agree within their uncertainty {p}"
+    some = ", ".join(f"{peak.hertz:g}" for peak in uncertain[:6]) + (", ..." if len(uncertain) > 6 else "")
+    text = f"Nothing significant {p} But {len(uncertain)} of {count} robot frequencies ({some} Hz)"
+    text += " cannot be given to a mode for certain, so that they neither agree nor disagree."
+    return text + (" The rest agrees within its uncertainty." if len(uncertain) < count else "")
+
+
+def _named(found: Diagnosis) -> list[str]:
+    """Corrections and causes with their sizes, what is not told apart, what they explain."""
+    parts = [] if found.correction is None else [corrected(found.campaign, found.correction)]
+    own = [names for names in found.decision.classes if not _of_correction(found, names)]
+    if any(len(names) > LARGEST_CLASS for names in own):
+        lead = [f"{said[:1].upper()}{said[1:]}." for said in parts]
+        left = " and, beside them, ".join(_many(names) for names in own)
+        return [*lead, f"Something is wrong in {place(found.location)}; these data leave open {left}."]
+    for size in found.sizes:
+        names = next((n for n in own if size.part.cause.name in n), ())
+        lead_of = "best candidate of its class: " if len(names) > 1 else "" if found.confirmed else "best candidate: "
+        parts.append(lead_of + described(size))
+    text = "; ".join(parts)
+    said = [f"{text[:1].upper()}{text[1:]}."]
+    said += [f"These data do not tell {listed(names)} apart." for names in found.decision.classes if len(names) > 1]
+    return [*said, _standing(found) if found.sizes else ""]
+
+
+def _of_correction(found: Diagnosis, names: tuple[str, ...]) -> bool:
+    return found.correction is not None and found.correction.cause in names
+
+
+def _many(names: tuple[str, ...]) -> str:
+    """The causes of a class too large to lead with one of them, or the only one."""
+    return f"{len(names)} causes ({', '.join(map(plain, names))})" if len(names) > 1 else plain(names[0])
+
+
+def _standing(found: Diagnosis) -> str:
+    """What the chosen causes account for, and whether what was left out agrees."""
+    chosen = next((one for one in found.candidates if one.best is found.chosen), None)
+    share = 0.0 if chosen is None else 100.0 * chosen.explained
+    said = [f"This accounts for {share:.0f} % of the error beyond noise."] if share >= 0.5 else []
+    left = found.left_out
+    if left is None:
+        said.append("With a single state nothing can be left out to confirm it.")
+    elif not found.confirmed:
+        said.append("It hangs on one state: nothing that was left out confirms it.")
+    else:
+        ratio = left.ratio(left.concerned)
+        fall = f"falls by a factor of {ratio:.1f}" if ratio > _BETTER else "is no smaller"
+        said.append(f"In held-out states the prediction error of the affected readings {fall}.")
+    return " ".join(said)
+
+
+def _unknown(found: Diagnosis) -> list[str]:
+    """What no cause explains: where it is, what comes nearest, through what it acts."""
+    parts = [f"Something is wrong in {place(found.location)}, and no cause in the library explains it."]
+    best = next((one for one in found.candidates if one.has_size), None)
+    if best is not None:
+        parts.append(f"The best candidate, {listed(best.names, 'with')}, leaves a structured remainder.")
+    law, gain = found.outside
+    if law and gain > 0.0:
+        parts.append(f"It looks like {law}.")
+    if any(one.factor > _FAR for one in found.noise):
+        parts.append(
+            "The scatter is far larger than any wear or slip leaves: see whether the campaign names the robot that was "
+            "measured, and whether all files use its axes and units."
+        )
+    return parts
+
+
+def _peaks(found: Diagnosis) -> str:
+    """Peaks that are no mode of the chosen model, where something is wrong."""
+    none = [peak for peak in found.peaks.uncertain if peak.none > 0.5]
+    if found.decision.status == "adequate" or not none:
+        return ""
+    some = ", ".join(f"{peak.hertz:g}" for peak in none[:_MOST]) + (", ..." if len(none) > _MOST else "")
+    return f"{len(none)} of {found.peaks.count} robot frequencies are no mode of the model ({some} Hz)."
+
+
+def _aside(found: Diagnosis) -> str:
+    """Which readings contradict all others."""
+    rows = found.set_aside
+    if not rows:
+        return ""
+    places = [f"{reading(row.kind, row.case, row.cable)} (off by {row.sigmas:.0f} sigma)" for row in rows[:_MOST]]
+    more = f"; {len(rows) - _MOST} more" if len(rows) > _MOST else ""
+    return f"{'Contradicts' if len(rows) == 1 else 'Contradict'} all other readings: {'; '.join(places)}{more}."
+
+
+def _drift(found: Diagnosis) -> str:
+    if not found.drift:
+        return ""
+    return f"The zeros of the load cells drift, by {found.drift:.2g} N (rms over the cells) during the campaign."
+
+
+def _damping(found: Diagnosis) -> str:
+    return "" if found.damped is None else damping_sentence(found.damped.finding)
+
+
+def finite(value: float) -> float | None:
+    """A number as JSON may hold it."""
+    return float(value) if np.isfinite(value) else None

@@ -1,0 +1,31 @@
+"""A diagnosis as text for a terminal."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from cdpr_struct.reports.diagnose import tables
+from cdpr_struct.reports.html import HtmlTable
+from cdpr_struct.reports.text import paragraphs, plain_table
+
+
+def result_text(result: Mapping[str, Any]) -> str:
+    """The sentence first, then errors, candidates and the gain."""
+    said = result["verdict"]
+    blocks = [said["sentence"], "\n".join(tables.standing(result)), _shown(tables.errors(result))]
+    rest = (
+        tables.candidates(result["candidates"], 8, 2),
+        tables.left_out(result["gain"]),
+        tables.noise(result["noise"], all_of_them=False),
+        tables.set_aside(result["set_aside"]),
+    )
+    blocks += [_shown(table) for table in rest if table]
+    after = tables.next_steps(said["next_measurement"])
+    blocks += [f"{after.title}\n" + "\n".join(row[0] for row in after.rows)] if after else []
+    blocks += filter(None, [tables.default_sigmas(result["sigmas"])])
+    return paragraphs(*blocks)
+
+
+def _shown(table: HtmlTable) -> str:
+    """A table for a terminal, its note below."""
+    text = plain_table(table.title, table.columns, table.rows)
+    return f"{text}\n{table.note}" if table.note else text

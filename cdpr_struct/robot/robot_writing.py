@@ -1,0 +1,76 @@
+"""Robots as robot files (TOML): what `robot_file` reads again is the same robot, to the last digit."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from cdpr_struct.robot.cable import Cable
+from cdpr_struct.robot.robot import Robot
+
+
+def robot_toml(robot: Robot, name: str, comments: Sequence[str] = ()) -> str:
+    """Text of a robot file, comments at its head; every cable has its own entry, only active extensions are written."""
+    body = robot.platform
+    lines = [
+        *(f"# {printable(line)}" for line in comments),
+        f'name = "{_quotable(name)}"',
+        f"gravity = {float(robot.gravity)!r}",
+        *_home(robot),
+        "",
+        "[platform]",
+        f"mass = {float(body.mass)!r}",
+        f"center_of_mass = {body.center_of_mass.tolist()}",
+        f"inertia = {body.inertia.tolist()}",
+        "",
+        "[extensions]",
+        f"causes = {_words(robot.extensions.causes)}",
+        *(f"{key} = {value}" for key, value in robot.extensions.entered.items()),
+    ]
+    for i in range(len(robot.cables)):
+        lines += ["", *_cable(robot, i)]
+    return "\n".join(lines) + "\n"
+
+
+def printable(line: str) -> str:
+    """A comment of one line: names of cases may hold anything."""
+    return "".join(c if c.isprintable() else " " for c in line)
+
+
+def _cable(robot: Robot, i: int) -> list[str]:
+    """Lines of one cable."""
+    cable, pulley = robot.cables[i], robot.pulleys[i]
+    lines = [
+        f"[[cables]]  # {i + 1}",
+        f"axial_stiffness = {float(cable.axial_stiffness)!r}",
+        f"linear_density = {float(cable.linear_density)!r}",
+        f"damping_ratio = {float(cable.damping_ratio)!r}",
+        *_force_limits(cable),
+        f"platform_anchor = {robot.platform_anchors[i].tolist()}",
+        f"frame_anchor = {robot.frame_anchors[i].tolist()}",
+    ]
+    if pulley is not None:
+        lines.append(f"pulley = {{ radius = {float(pulley.radius)!r}, axis = {pulley.axis.tolist()} }}")
+    return lines
+
+
+def _home(robot: Robot) -> list[str]:
+    if robot.home is None:
+        return []
+    pose = [*robot.home.position.tolist(), *np.degrees(robot.home.angles).tolist()]
+    return [f"home_pose = {pose}"]
+
+
+def _force_limits(cable: Cable) -> list[str]:
+    """Lines of the limits that a cable has."""
+    lower = [f"force_min = {float(cable.force_min)!r}"] if cable.force_min > 0.0 else []
+    return lower + ([f"force_max = {float(cable.force_max)!r}"] if cable.force_max < math.inf else [])
+
+
+def _words(causes: Sequence[str]) -> str:
+    return "[" + ", ".join(f'"{c}"' for c in causes) + "]"
+
+
+def _quotable(name: str) -> str:
+    """A name as TOML text in quotes may hold it."""
+    return printable(name).replace("\\", "\\\\").replace('"', '\\"')

@@ -1,0 +1,103 @@
+"""A robot that is written and read again is the same, and that of a diagnosis explains what it was fitted to."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from cdpr_struct.diagnosis.diagnosing import diagnosed
+from cdpr_struct.diagnosis.hypothesis import Hypothesis
+from cdpr_struct.diagnosis.judge import judged
+from cdpr_struct.diagnosis.layout import layout
+from cdpr_struct.diagnosis.left_out import rows_of
+from cdpr_struct.diagnosis.recorded import recorded
+from cdpr_struct.generated.platform import rotation
+from cdpr_struct.inference.scale_mixture import NoiseState
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.robot_from_arrays import bodily, robot_from_arrays
+from cdpr_struct.robot.robot_writing import robot_toml
+from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.masts import carriers
+from tests.laws.crime_campaign import NO_CABLES, clean_campaign
+
+
+def everything() -> RobotArrays:
+    """CoGiRo with every number off, each by another share."""
+    arrays, each = RobotArrays.of(load_robot("cogiro")), np.linspace(0.5, 1.5, 8)
+    body = arrays.with_point_masses(0.1 * each, arrays.platform_anchors)
+    return replace(
+        body, axial_stiffness=arrays.axial_stiffness * each, linear_density=arrays.linear_density * each,
+        frame_anchors=arrays.frame_anchors + 1e-3 / 3.0, platform_anchors=arrays.platform_anchors * (1.0 + 1e-3 / 7.0),
+        length_offset=0.002 * each, length_scale=1.0 + 0.001 * each, series_compliance=2e-6 * each,
+        frame_compliance=2e-6 * np.linspace(0.0, 1.5, 4) @ carriers(arrays.masts).T, cell_gain=1.0 + 0.01 * each,
+        cell_bias=2.0 * each, friction=0.02 * each, force=np.array([5.0, -3.0, 2.0]), hose=np.array(30.0),
+        hose_center=np.array([0.1, 0.2, 1.0 / 3.0]), tilt=np.array([0.002, -0.001]), nonlinearity=np.array(0.1),
+        reference_tension=np.array(1000.0 / 3.0), tracker=np.array([0.001, 0.0, 0.002, 0.0, 0.001, 0.0]),
+        creep=np.array(0.05), slip=1e-4 * each, sensor_mass=np.array(2.0), bending_stiffness=0.1 * each,
+        added_mass=0.01 * each,
+    )  # fmt: skip
+
+
+def test_a_robot_that_is_written_and_read_again_has_the_same_arrays(tmp_path):
+    robot = robot_from_arrays(load_robot("cogiro"), everything(), ("platform_mass",))
+    (tmp_path / "robot.toml").write_text(robot_toml(robot, 'a "new" name', ["first line", "second\tline"]))
+    again = load_robot(tmp_path / "robot.toml")
+    assert again.name == 'a "new" name'
+    assert again.extensions.causes == ("platform_mass",)
+    assert again.home.position == pytest.approx(robot.home.position)
+    for field in fields(RobotArrays):
+        expected, found = (np.asarray(getattr(arrays, field.name)) for arrays in (everything(), RobotArrays.of(again)))
+        np.testing.assert_allclose(found, np.broadcast_to(expected, found.shape), rtol=1e-12, atol=0.0)
+
+
+def test_arrays_of_several_robots_are_no_robot():
+    arrays = RobotArrays.of(load_robot("cogiro"))
+    with pytest.raises(ValueError, match=r"RobotArrays.mass describes more than one robot: it has the shape \(2,\)"):
+        robot_from_arrays(load_robot("cogiro"), replace(arrays, mass=np.array([100.0, 110.0])))
+
+
+def test_an_inertia_that_no_body_has_becomes_the_nearest_that_one_has():
+    """Principal moments 1, 2, 4: the largest becomes 3, along the same axes."""
+    turn = Rotation.from_rotvec([0.3, -0.2, 0.5]).as_matrix()
+    assert bodily(turn @ np.diag([1.0, 2.0, 4.0]) @ turn.T) == pytest.approx(turn @ np.diag([1.0, 2.0, 3.0]) @ turn.T)
+
+
+def commanded(true_robot):
+    """Clean tensions and lengths of a robot at rest at the poses of a campaign whose robot is the entered one."""
+    campaign = replace(clean_campaign(), cable_frequencies=NO_CABLES)
+    states, more = campaign.states, true_robot.extensions
+    held = [
+        inverse(true_robot.with_load(float(w)), p, rotation(*a))
+        for w, p, a in zip(states.payload, states.position, states.angles, strict=True)
+    ]
+    tension = np.array([h.tensions for h in held]) * more.cell_gain + more.cell_bias
+    return replace(campaign, states=replace(states, tension=tension, length=np.array([h.lengths for h in held])))
+
+
+def rms_in_sigmas(campaign) -> float:
+    """Of all rows as entered, under noise and tolerances."""
+    data = recorded(campaign)
+    where = layout(data)
+    null = judged(data, where, Hypothesis())
+    rows = rows_of(data, where, null, NoiseState.stated(null.model.groups))
+    return float(np.sqrt(np.mean((rows.before / rows.sigma) ** 2)))
+
+
+@pytest.mark.parametrize(
+    ("cause", "change"),
+    [
+        ("axial_stiffness", lambda a: replace(a, axial_stiffness=0.8 * a.axial_stiffness)),
+        ("load_cell_gain", lambda a: replace(a, cell_gain=1.08 * a.cell_gain)),
+    ],
+)
+def test_the_extended_robot_explains_its_campaign(cause, change, tmp_path):
+    entered = load_robot("cogiro")
+    campaign = commanded(robot_from_arrays(entered, change(RobotArrays.of(entered))))
+    found = diagnosed(campaign)
+    assert found.extended.extensions.causes == (cause,)
+    (tmp_path / "robot.toml").write_text(robot_toml(found.extended, "again"))
+    mended = replace(campaign, robot=load_robot(tmp_path / "robot.toml"))
+    assert rms_in_sigmas(campaign) > 1.0
+    assert rms_in_sigmas(mended) < 0.2
