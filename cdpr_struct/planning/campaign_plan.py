@@ -1,6 +1,6 @@
 """Before measuring: what a campaign can find, what it would confuse, and what to measure next."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -60,29 +60,35 @@ def planned(campaign: Campaign, progress: Callable[[str], None] = lambda name: N
     InputError : the campaign holds nothing that can be diagnosed.
     """
     progress("simulating the campaign")
-    one_sided = _one_sided(campaign)
-    data = recorded(one_sided)
+    data = recorded(_one_sided(campaign))
     seen = seen_in(data)
     causes, hidden = testable(seen, campaign.checked)
     numbers = Numbers.of(data.cables, causes, seen)
     information = PlannedRows.of(data, numbers, {}).information()
     gram = of_causes(information, numbers.tolerances)
-    for name, patterns in numbers.patterns.items():
-        every = np.hstack([numbers.pattern(name, pattern) for pattern in patterns])
-        if (every * (gram @ every)).sum(axis=0).max() < _VISIBLE**2:
-            hidden[name] = "at its typical size it hides in noise and tolerances"
-    if one_sided is not campaign and _FRICTION in numbers.causes:
+    hidden |= _invisible(numbers, gram)
+    if data.campaign is not campaign and _FRICTION in numbers.causes:
         hidden[_FRICTION] = "needs a column approach (+1 or -1)"
-    sizes = {
-        name: smallest(pattern, _of(gram, numbers.pattern(name, pattern)))
-        for name in numbers.causes
-        if name not in hidden
-        for pattern in [plainest(numbers.patterns[name])]
-    }
     progress("comparing causes")
     pairs = confusions(numbers, gram)
     progress("trying further measurements")
-    return Plan(sizes, pairs, _gains(data, numbers, information, pairs), hidden)
+    gains = _gains(data, numbers, information, pairs)
+    return Plan(_sizes(numbers, gram, hidden), pairs, gains, hidden)
+
+
+def _invisible(numbers: Numbers, gram: np.ndarray) -> dict[str, str]:
+    """Causes of whose patterns none changes the data by `_VISIBLE` at its typical size, and that they do not."""
+    found = {}
+    for name, patterns in numbers.patterns.items():
+        every = np.hstack([numbers.pattern(name, pattern) for pattern in patterns])
+        if (every * (gram @ every)).sum(axis=0).max() < _VISIBLE**2:
+            found[name] = "at its typical size it hides in noise and tolerances"
+    return found
+
+
+def _sizes(numbers: Numbers, gram: np.ndarray, hidden: Mapping[str, str]) -> dict[str, dict[str, float | str]]:
+    plain = {name: plainest(patterns) for name, patterns in numbers.patterns.items() if name not in hidden}
+    return {name: smallest(pattern, _of(gram, numbers.pattern(name, pattern))) for name, pattern in plain.items()}
 
 
 def _of(gram: np.ndarray, columns: np.ndarray) -> np.ndarray:

@@ -59,7 +59,7 @@ class PlannedRows:
         parts = []
         for name, cause in numbers.causes.items():
             own = len(numbers.sigma[name])
-            per_state = cause.carrier == "state" and own % data.states
+            per_state = cause.carrier == "state" and own != len(cause.parameters) * data.states
             found = local.r.only_static(np.zeros((*local.r.static.shape, own)))
             found = found if per_state else local.columns(numbers.term(name))
             if name in instead:

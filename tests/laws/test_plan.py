@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.assembled import linear_model, stacked
-from cdpr_struct.diagnosis.detectable import FALSE_ALARMS, POWER
+from cdpr_struct.diagnosis.detectable import FALSE_ALARMS, POWER, noncentrality
 from cdpr_struct.diagnosis.detectable_sizes import plainest
 from cdpr_struct.diagnosis.hypotheses.library import testable as causes_for
 from cdpr_struct.diagnosis.layout import layout
@@ -113,23 +113,22 @@ def test_a_detectable_size_is_found_as_often_as_promised(rows, data, numbers, na
     """Draws of noise and tolerances with the cause of this size, judged by the score that screening computes."""
     where, columns = layout(data), numbers.pattern(name, plainest(numbers.patterns[name]))
     model, generator = linear_model(rows.local, where), np.random.default_rng(7)
-    own = stacked(where, rows.causes)[0] @ columns
+    own = [part @ columns for part in stacked(where, rows.causes)]
     gram = of_causes(rows.information(), numbers.tolerances)
-    size = planned_size(columns.T @ gram @ columns)
+    size = np.sqrt(noncentrality(1) / (columns.T @ gram @ columns)[0, 0])
     found, draws = 0, 300
     for _ in range(draws):
-        u, z, e = (generator.standard_normal(a.shape) for a in (model.A[:, 0], model.X[0, 0], model.floor))
-        r = (model.A @ u[..., None])[..., 0] + model.X @ z + e * model.floor + own[..., 0] * size
+        z = generator.standard_normal(model.parameters)
+        r = [
+            np.einsum("knq,kq->kn", s.A, generator.standard_normal(s.A[:, 0].shape))
+            + s.floor * generator.standard_normal(s.floor.shape)
+            + s.X @ z
+            + part[..., 0] * size
+            for s, part in zip(model.stacks, own, strict=True)
+        ]
         said = Screen.of(model.with_residual(r), NoiseState.stated(model.groups)).screened(own)
         found += said.score[0] ** 2 / said.gram[0, 0] > chi2.isf(FALSE_ALARMS, 1)
     assert found / draws == pytest.approx(POWER, abs=3.0 * np.sqrt(POWER * (1.0 - POWER) / draws))
-
-
-def planned_size(gram):
-    """In prior sigmas: what `smallest` says of a cause of one number."""
-    from cdpr_struct.diagnosis.detectable import noncentrality
-
-    return np.sqrt(noncentrality(1) / gram[0, 0])
 
 
 def extended(old: Campaign, new: Campaign, chosen: tuple[int, ...]) -> Campaign:
