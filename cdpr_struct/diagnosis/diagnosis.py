@@ -113,7 +113,8 @@ class Peaks:
 class Diagnosis:
     """Everything found.
 
-    campaign : as recorded;  correction : of the data that is believed (where no cause explains them: that helps most), None where they stand
+    campaign : as recorded;  correction : of the data that is believed (where no cause explains them: that helps most),
+    None where they stand
     chosen, null : what the decision speaks of, and nothing wrong, both on the data that are believed
     p_value : of nothing being wrong with the data as recorded: no likelihood ratio exceeds 1 / p more often than p
     p_adequate : of noise as large as what the choice leaves, sigmas being known as well as they usually are
