@@ -6,24 +6,48 @@ from cdpr_struct.association.association import Association
 from cdpr_struct.diagnosis.commanded_lengths import MISSED
 from cdpr_struct.diagnosis.layout import Layout, Shelf
 from cdpr_struct.diagnosis.linearised import Local, Rows
+from cdpr_struct.diagnosis.modal_sizes import MODEL, measured_sizes
 from cdpr_struct.inference.linear_model import LinearModel, Stack
 from cdpr_struct.inference.soft_rows import SoftExpectation
 
-FLOOR = (0.05, 2e-5, 3e-4)  # N, m, of ln f: what the model misses of the FEM's balance, lengths, frequencies
+FLOOR = (0.05, 2e-5, 3e-4, 5e-3)
+"""N, m, of ln f, of ln A: what the model misses of the FEM's balance, lengths, frequencies and modal constants."""
 
 
 def linear_model(local: Local, where: Layout) -> LinearModel:
     """r = A u + X z about a point, referred to zero noise and zero numbers: r = R + A u0 + X z0."""
     by_noise, columns = local.by_noise(), local.own_columns()
     shift = shifts(local, by_noise, columns)
-    residual = Rows(local.r.static + shift.static, local.r.cables + shift.cables, local.r.robot)
+    r = local.r
+    residual = Rows(r.static + shift.static, r.cables + shift.cables, r.robot, r.sizes + shift.sizes)
     stacks = []
     for shelf in where.shelves:
-        r, x = of_shelf(where, shelf, residual), of_shelf(where, shelf, columns)
+        own, x = of_shelf(where, shelf, residual), of_shelf(where, shelf, columns)
         noise, soft = _noise(local, where, shelf, by_noise), soft_rows(where, shelf, local)
-        stack = Stack(r, noise, x, _floor(where, shelf, r.shape), shelf.index, soft)
+        stack = Stack(own, noise, x, _floor(where, shelf, own.shape), shelf.index, soft)
         stacks.append(stack.with_noise(_meant(local, where, shelf)) if local.data.sent.known.any() else stack)
+    if len(residual.sizes):
+        stacks.append(_of_sizes(local, where, residual.sizes, columns.sizes))
     return LinearModel(tuple(stacks), where.groups)
+
+
+def _of_sizes(local: Local, where: Layout, residual: np.ndarray, columns: np.ndarray) -> Stack:
+    """Modal constants, those of a state as one block: each with noise of its own, those of a mode with a common one."""
+    sizes = local.vibrating.measured.sizes if local.vibrating is not None else measured_sizes(local.data.campaign)
+    place = sizes.by_state
+    _, mode = np.unique(sizes.peak, return_inverse=True)
+    shared = (mode[:, None] == np.arange(mode.max() + 1)) * np.hypot(sizes.common, MODEL)[:, None]
+    own = _placed(place, np.broadcast_to(sizes.sigma, (1, len(sizes))).T)[..., 0]
+    floor = np.where(place >= 0, FLOOR[3], 1.0)
+    noise = own[:, :, None] * np.eye(place.shape[1])
+    index = np.where(place >= 0, where.of_sizes[place], -1)
+    stack = Stack(_placed(place, residual), noise, _placed(place, columns), floor, index, np.zeros(0))
+    return stack.with_noise(_placed(place, shared))
+
+
+def _placed(place: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Values (a, ...) in blocks (K, n, ...), zero where there is none."""
+    return np.where((place >= 0).reshape((*place.shape, *(1,) * (values.ndim - 1))), values[place], 0.0)
 
 
 def shifts(local: Local, by_noise: Rows, columns: Rows) -> Rows:
@@ -31,11 +55,11 @@ def shifts(local: Local, by_noise: Rows, columns: Rows) -> Rows:
     noise, z = local.point.noise, local.told()
     static = np.einsum("srj,sj->sr", by_noise.static, noise) + columns.static @ z
     if local.vibrating is None:
-        return Rows(static, local.r.cables, local.r.robot)
+        return Rows(static, local.r.cables, local.r.robot, local.r.sizes)
     own = noise[local.vibrating.measured.states]
     cables = np.einsum("rj,rj->r", by_noise.cables, own[local.vibrating.measured.rows.state]) + columns.cables @ z
     robot = np.einsum("fmj,fj->fm", by_noise.robot, own) + columns.robot @ z
-    return Rows(static, cables, robot)
+    return Rows(static, cables, robot, columns.sizes @ z)
 
 
 def of_shelf(where: Layout, shelf: Shelf, rows: Rows) -> np.ndarray:
@@ -52,7 +76,8 @@ def of_shelf(where: Layout, shelf: Shelf, rows: Rows) -> np.ndarray:
 
 def stacked(where: Layout, rows: Rows) -> list[np.ndarray]:
     """Columns as they stand in the blocks of every shelf."""
-    return [of_shelf(where, shelf, rows) for shelf in where.shelves]
+    found = [of_shelf(where, shelf, rows) for shelf in where.shelves]
+    return [*found, _placed(where.sizes_of_states, rows.sizes)] if len(rows.sizes) else found
 
 
 def _noise(local: Local, where: Layout, shelf: Shelf, by_noise: Rows) -> np.ndarray:

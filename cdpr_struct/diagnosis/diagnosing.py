@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from cdpr_struct.diagnosis import stories
 from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
-from cdpr_struct.diagnosis.decision import Belief, Decision, decided
+from cdpr_struct.diagnosis.decision import UNKNOWN, Belief, Decision, decided
 from cdpr_struct.diagnosis.detectable_sizes import minimum_detectable
 from cdpr_struct.diagnosis.diagnosis import DAMPING, Candidate, Diagnosis, Location, Peaks, SetAside
 from cdpr_struct.diagnosis.errors_of_kinds import errors_of_kinds, located
@@ -29,6 +29,8 @@ from cdpr_struct.robot.robot import Robot
 
 KEEPS = 1.0  # nats that a cause must keep without the block of data that it needs most: else it explains that block
 HANGS = 0.6  # largest probability that is said of a cause that does not
+_LEAST = 0.03  # probability that anything is wrong, below which outliers explain what is significant
+_MOSTLY, _OPEN = 0.5, 4  # of it an unknown law must hold so much to be spoken of; else so many causes are left open
 _LIKELIEST = 3  # candidates that a recommendation speaks of where no cause explains the data
 
 
@@ -61,11 +63,16 @@ def _decided(beliefs: Sequence[Belief], loss: Loss, hidden: set[str], p_value: f
     decision = decided(beliefs, loss, hidden)
     wrong = [one for one in beliefs if one.names]
     share = sum(one.probability for one in wrong)
-    if decision.status != "adequate" or p_value >= SIGNIFICANT or not share:
+    if decision.status != "adequate" or p_value >= SIGNIFICANT or share < _LEAST:
         return decision
     rest = decided([Belief(one.names, one.probability / share) for one in wrong], loss, hidden)
     if rest.status == "adequate":
         return decision
+    if rest.status == UNKNOWN and rest.probability < _MOSTLY:
+        alone = sorted((one for one in wrong if len(one.names) == 1), key=lambda one: -one.probability)
+        names = [one.names[0] for one in alone if not {UNKNOWN, *hidden} & set(one.names)][:_OPEN]
+        held = sum(one.probability for one in wrong if set(names) & set(one.names))
+        return Decision("class", (tuple(names),), held) if names else decision
     return Decision(rest.status, rest.classes, rest.probability * share)
 
 

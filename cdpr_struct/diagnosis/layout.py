@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.diagnosis.recorded import CABLE_FREQUENCY, LENGTH, POSITION, ROTATION, TENSION, Recorded
+from cdpr_struct.diagnosis.recorded import CABLE_FREQUENCY, LENGTH, MODAL_SIZE, POSITION, ROTATION, TENSION, Recorded
 from cdpr_struct.inference.scale_mixture import NoiseGroups
 
 
@@ -29,11 +29,16 @@ class Shelf:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Layout:
-    """All shelves, the groups of readings that fail together, and how many cables the robot has."""
+    """All shelves, groups of readings that fail together, the number m of cables.
+
+    of_sizes : groups of the modal constants;  sizes_of_states (K, n) : which of them belong to each of K states
+    """
 
     shelves: tuple[Shelf, ...]
     groups: NoiseGroups
     m: int
+    of_sizes: np.ndarray
+    sizes_of_states: np.ndarray
 
 
 def layout(data: Recorded) -> Layout:
@@ -45,7 +50,10 @@ def layout(data: Recorded) -> Layout:
         shelves.setdefault((0 if moves else len(members), moves), []).append(members)
     groups = _Groups(data)
     built = tuple(_shelf(data, blocks, groups) for _, blocks in sorted(shelves.items(), key=lambda item: item[0]))
-    return Layout(built, NoiseGroups(np.array(groups.kind), np.array(groups.fixed)), data.cables)
+    count = 0 if data.vibrations is None else len(data.vibrations.sizes)
+    places = np.zeros((0, 0), dtype=int) if data.vibrations is None else data.vibrations.sizes.by_state
+    sizes = np.array([groups.new(MODAL_SIZE) for _ in range(count)], dtype=int)
+    return Layout(built, NoiseGroups(np.array(groups.kind), np.array(groups.fixed)), data.cables, sizes, places)
 
 
 class _Groups:
@@ -115,7 +123,7 @@ def noise_of_states(data: Recorded, where: Layout, noise: tuple[np.ndarray, ...]
     """(S, 6 + 2 m) noise of each state's readings from that of the blocks, (K, q) a shelf."""
     own, m = 6 + data.cables, data.cables
     found = np.zeros_like(data.sigma)
-    for shelf, values in zip(where.shelves, noise, strict=True):
+    for shelf, values in zip(where.shelves, noise, strict=False):  # modal constants come last
         p = shelf.states.shape[1]
         for k, j in zip(*np.nonzero(shelf.states >= 0), strict=True):
             state = shelf.states[k, j]

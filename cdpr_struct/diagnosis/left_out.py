@@ -12,8 +12,8 @@ from cdpr_struct.inference.block_sums import BlockSums
 from cdpr_struct.inference.scale_mixture import NoiseState
 
 _NONE = (-1, -1, -1)
-KINDS = ("EQ", "CO", "CF", "RF")
-"""Wrench balance, cable lengths, cable frequencies, robot frequencies."""
+KINDS = ("EQ", "CO", "CF", "RF", "FA")
+"""Wrench balance, cable lengths, cable frequencies, robot frequencies, modal constants."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -106,8 +106,16 @@ def _labels(data: Recorded, where: Layout, modes: int) -> tuple[np.ndarray, np.n
     rows = [
         row for shelf in where.shelves for k in range(len(shelf.states)) for row in _of_block(data, shelf, k, modes)
     ]
+    for places in where.sizes_of_states.tolist():
+        of = _state_of(data, places[0])
+        rows += [(4, of, -1) if place >= 0 else _NONE for place in places]
     kind, state, cable = np.array(rows, dtype=int).reshape((-1, 3)).T
     return kind, state, cable
+
+
+def _state_of(data: Recorded, place: int) -> int:
+    """State of a modal constant."""
+    return -1 if data.vibrations is None else int(data.vibrations.sizes.state[place])
 
 
 def _of_block(data: Recorded, shelf: Shelf, k: int, modes: int) -> Iterator[tuple[int, int, int]]:

@@ -99,12 +99,13 @@ class Rows:
     """Residuals, or their columns with one more axis (d).
 
     static (S, 6 + m, ...) [N, m];  cables (r, ...) : ln f of single cables;  robot (F, M, ...) : predictions of the
-    robot's ln f, against which peaks are held
+    robot's ln f, against which peaks are held;  sizes (a, ...) : ln of modal constants
     """
 
     static: np.ndarray
     cables: np.ndarray
     robot: np.ndarray
+    sizes: np.ndarray
 
     @classmethod
     def joined(cls, parts: Sequence["Rows"]) -> "Rows":
@@ -113,12 +114,12 @@ class Rows:
 
     def times(self, z: np.ndarray) -> "Rows":
         """Columns times numbers z (d,), or (d, e)."""
-        return Rows(self.static @ z, self.cables @ z, self.robot @ z)
+        return Rows(self.static @ z, self.cables @ z, self.robot @ z, self.sizes @ z)
 
     def only_static(self, columns: np.ndarray) -> "Rows":
         """Columns (S, 6 + m, d) of what acts on static rows alone, in the form of these residuals."""
         d = columns.shape[-1]
-        return Rows(columns, np.zeros((*self.cables.shape, d)), np.zeros((*self.robot.shape, d)))
+        return Rows(columns, *(np.zeros((*part.shape, d)) for part in (self.cables, self.robot, self.sizes)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -141,11 +142,12 @@ class Local:
         arrays, readings = point.robot(data), point.readings(data)
         nearby = NearbyRest.about(arrays, readings, data.known, data.radius)
         found, measured = None, data.vibrations
-        cables, robot = np.zeros(0), np.zeros((0, 0))
+        cables, robot, sizes = np.zeros(0), np.zeros((0, 0)), np.zeros(0)
         if measured is not None:
             found = Vibrating.about(data.campaign, data.known, measured, arrays, readings)
             cables, robot = measured.log_hertz - found.cables.log_hertz, np.zeros_like(found.log_hertz)
-        return cls(data, point, arrays, nearby, found, Rows(nearby.residuals(arrays, readings), cables, robot))
+            sizes = measured.sizes.log - found.log_sizes(arrays)[0]
+        return cls(data, point, arrays, nearby, found, Rows(nearby.residuals(arrays, readings), cables, robot, sizes))
 
     def by_noise(self) -> Rows:
         """-dR/du, each reading of all states moved at once: d = 6 + 2 m."""
@@ -189,4 +191,6 @@ class Local:
         if self.vibrating is None:
             return self.r.only_static(static)
         cables, robot = self.vibrating.changes(arrays, readings, count)
-        return Rows(static, np.moveaxis(cables, 0, -1) / _STEP, np.moveaxis(robot, 0, -1) / _STEP)
+        measured = self.vibrating.measured.sizes.log
+        sizes = np.broadcast_to(self.vibrating.log_sizes(arrays) - measured, (count, len(measured))) + self.r.sizes
+        return Rows(static, *(np.moveaxis(part, 0, -1) / _STEP for part in (cables, robot, sizes)))

@@ -20,7 +20,7 @@ from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.tensioned_cables import tensioned
 
-POSITION, ROTATION, TENSION, LENGTH, CABLE_FREQUENCY = range(5)
+POSITION, ROTATION, TENSION, LENGTH, CABLE_FREQUENCY, MODAL_SIZE = range(6)
 """Kinds of sensors: what shares a size of its noise."""
 _UNREAD_LENGTH = 1.0  # m, one sigma of a length that nobody read: nothing is known of it
 _UNREAD_POSE = (1.0, 0.5)  # m, rad, of a pose that nobody read

@@ -17,6 +17,7 @@ def seen_in(data: Recorded) -> Seen:
     kinds = {"EQ"} | ({"CO"} if data.read[:, 6 + m :].any() else set())
     kinds |= {"CF"} if campaign.cable_frequencies.hertz.size else set()
     kinds |= {"RF"} if campaign.robot_frequencies.hertz.size else set()
+    kinds |= {"FA"} if data.vibrations is not None and len(data.vibrations.sizes) else set()
     return Seen(
         kinds=frozenset(kinds),
         tensions=bool(np.isfinite(states.tension).any()),

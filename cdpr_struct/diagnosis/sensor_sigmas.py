@@ -10,7 +10,7 @@ from cdpr_struct.diagnosis.judge import Judged
 from cdpr_struct.inference.scale_mixture import KAPPA, TAU_DEGREES
 from cdpr_struct.measurement.campaign import SIGNALS, Campaign, Sheet
 
-SENSORS = ("position", "rotation", "tension", "length", "cable_frequency")
+SENSORS = ("position", "rotation", "tension", "length", "cable_frequency", "frf")
 """Names of the kinds of sensors, in the order of their numbers."""
 _TOO_SMALL = 1e-3  # probability of errors so small, below which sigmas are doubted
 _OUTLIER = 5.0  # times the usual size: the second of the factors that mean a wrong reading

@@ -20,7 +20,7 @@ def set_aside(data: Recorded, where: Layout, found: Judged) -> list[SetAside]:
     odd = noise.responsibility[:, KAPPA >= _OUTLIER].sum(axis=1) > _SURE
     odd &= np.isnan(where.groups.fixed_variance)
     rows = []
-    for shelf, mean in zip(where.shelves, found.fit.noise_mean, strict=True):
+    for shelf, mean in zip(where.shelves, found.fit.noise_mean, strict=False):  # modal constants come last
         for group, kind, state, cable, value in _readings(data, shelf, mean):
             if odd[group]:
                 factor = float(noise.responsibility[group] @ KAPPA)

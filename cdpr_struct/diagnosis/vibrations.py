@@ -10,6 +10,7 @@ from cdpr_struct.association.doubles import detection_of_doubles
 from cdpr_struct.association.modes import robot_modes
 from cdpr_struct.association.peak_noise import PeakNoise
 from cdpr_struct.association.peaks import PeakList, PeakLists, padded
+from cdpr_struct.diagnosis.modal_sizes import ModalSizes, measured_sizes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import UnstableEquilibriumError
@@ -24,7 +25,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _BELOW = 0.7  # of the lowest peak: where somebody who picked it began to look
 _ABOVE = 1.02  # of the highest: the list ends there, and modes beyond were not looked for
-_MOST_MODES = 60  # of a state, those of the largest share of the platform: the rest is hardly ever seen
+_SHOWN = 0.08  # share of the kinetic energy in the platform from which a mode shows there
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,7 +34,7 @@ class Vibrations:
 
     states (F,) : which of the campaign's, ascending
     rows : cable modes (r,), their states counted within F;  log_hertz (r,), sigma (r,) of ln f
-    peaks : a list for each of F states, or None without any;  highest (F,) [rad/s]
+    peaks : a list for each of F states, or None without any;  highest (F,) [rad/s];  sizes : modal constants of FRFs
     """
 
     states: np.ndarray
@@ -42,6 +43,7 @@ class Vibrations:
     sigma: np.ndarray
     peaks: PeakLists | None
     highest: np.ndarray
+    sizes: ModalSizes
 
     def richest(self, most: int) -> "Vibrations":
         """The states with most peaks, and these alone."""
@@ -53,7 +55,7 @@ class Vibrations:
             "state": np.arange(len(some))
         }
         blank = np.zeros(0)
-        return Vibrations(self.states[some], none, blank, blank, PeakLists(**lists), self.highest[some])
+        return Vibrations(self.states[some], none, blank, blank, PeakLists(**lists), self.highest[some], self.sizes)
 
 
 def vibrations(campaign: Campaign) -> Vibrations | None:
@@ -71,7 +73,9 @@ def vibrations(campaign: Campaign) -> Vibrations | None:
         lists.append(PeakList(hertz, robot.sigma[own] / np.where(own.size, hertz, 1.0), band, k, 0))
         highest[k] = 2.0 * np.pi * band[1]
     peaks = padded(lists) if robot.hertz.size else None
-    return Vibrations(states, rows, np.log(cables.hertz), cables.sigma / cables.hertz, peaks, highest)
+    return Vibrations(
+        states, rows, np.log(cables.hertz), cables.sigma / cables.hertz, peaks, highest, measured_sizes(campaign)
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -110,6 +114,18 @@ class Vibrating:
         if self.robot is None:
             return own, np.zeros((count, len(self.measured.states), 0))
         return own, np.broadcast_to(rates(self.robot, point, ones), (count, *self.robot.log_hertz.shape))
+
+    def log_sizes(self, arrays: RobotArrays) -> np.ndarray:
+        """(B, a) ln of modal constants of the modes nearest to the peaks, by the accelerometers of robots (B, 1)."""
+        sizes, robot = self.measured.sizes, self.robot
+        if not len(sizes) or robot is None:
+            return np.zeros((1, len(sizes)))
+        gain = sizes.log_gain(arrays.accelerometer_gain)
+        gain = gain[:, 0] if gain.ndim > 2 else gain.reshape((-1, len(sizes)))
+        row = np.searchsorted(self.measured.states, sizes.state)
+        apart = np.abs(robot.log_hertz[row] - sizes.log_hertz[:, None])
+        near = np.where(robot.mask[row] & (robot.share[row] > _SHOWN), apart, np.inf).argmin(axis=1)
+        return np.asarray(gain + sizes.of_modes(robot.platform[row, near]))
 
     def association(self) -> Association | None:
         """The lists of peaks beside the modes at the point."""

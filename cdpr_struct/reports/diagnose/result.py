@@ -17,6 +17,7 @@ from cdpr_struct.reports.diagnose.words import doubt, place, recommendation
 KINDS = {
     "EQ": ("static_state (wrench balance)", 1.0, "N"), "CO": ("static_state (cable lengths)", 1e3, "mm"),
     "CF": ("cable_frequency", 100.0, "%"), "RF": ("robot_frequency", 100.0, "%"),
+    "FA": ("frf (modal constants)", 100.0, "%"),
 }  # fmt: skip
 """Of each kind of rows: name, factor from what is computed with, unit that is shown."""
 

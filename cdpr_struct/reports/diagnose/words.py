@@ -12,7 +12,8 @@ from cdpr_struct.diagnosis.whole_sizes import WholeSize
 
 PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
-    "CF": "the cable frequencies", "RF": "the robot frequencies", DAMPING: "the damping ratios",
+    "CF": "the cable frequencies", "RF": "the robot frequencies",
+    "FA": "the modal constants of the FRFs", DAMPING: "the damping ratios",
 }  # fmt: skip
 
 
