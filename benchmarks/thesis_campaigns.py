@@ -16,9 +16,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from benchmarks import thesis_findings as findings
 from benchmarks.markdown_page import put, table
-from cdpr_struct.diagnosis.diagnose import diagnose
-from cdpr_struct.reports.diagnosis_page import diagnosis_files
-from cdpr_struct.reports.diagnosis_result import diagnosis_json
+from cdpr_struct.diagnosis.diagnosing import diagnosed
+from cdpr_struct.reports.diagnose.page import plates
+from cdpr_struct.reports.diagnose.result import result_json
 
 FIGURES = {"table-4-4/level": "level", "tables-4-5-4-6/campaign": "frequencies"}
 PAGE = Path(__file__).parents[1] / "docs" / "thesis_measurements.md"
@@ -34,7 +34,7 @@ CAMPAIGNS = (
 
 def verdict_row(name: str) -> list[str]:
     """Name, verdict and evidence, place."""
-    result = diagnosis_json(diagnose(findings.example(name)))
+    result = result_json(diagnosed(findings.example(name)))
     return [name, *findings.verdict_cells(result), result["verdict"]["location"] or "-"]
 
 
@@ -58,8 +58,8 @@ TABLES = {
 def draw() -> None:
     """The residuals of two campaigns, as `diagnose --out` draws them, beside the page."""
     for name, short in FIGURES.items():
-        found = diagnose(findings.example(name))
-        drawn = diagnosis_files(found, diagnosis_json(found))["residuals.svg"]
+        found = diagnosed(findings.example(name))
+        drawn = next(plate.svg for plate in plates(found, result_json(found)) if plate.name == "residuals")
         text = drawn if isinstance(drawn, str) else drawn.decode("utf-8")
         PAGE.with_name(f"{PAGE.stem}_{short}.svg").write_text(text, "utf-8")
 

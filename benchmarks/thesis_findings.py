@@ -13,26 +13,22 @@ from scipy.optimize import least_squares
 from scipy.stats import chi2
 
 from benchmarks.markdown_page import table
-from cdpr_struct.diagnosis.diagnose import diagnose
-from cdpr_struct.diagnosis.prepared import BUDGETS, prepare
-from cdpr_struct.diagnosis.readings import Readings
-from cdpr_struct.diagnosis.refit import Ground
-from cdpr_struct.diagnosis.residuals import residuals
-from cdpr_struct.diagnosis.setting import make_setting
-from cdpr_struct.diagnosis.simulation_error import tension_errors
-from cdpr_struct.diagnosis.world import World
+from cdpr_struct.diagnosis.commanded_lengths import null_space
+from cdpr_struct.diagnosis.diagnosing import diagnosed
+from cdpr_struct.diagnosis.linearised import Local, Point, tolerance_term
+from cdpr_struct.diagnosis.recorded import Recorded, recorded
 from cdpr_struct.dynamics.natural_frequencies import static_frequencies
 from cdpr_struct.measurement.campaign import Campaign, Tolerances
 from cdpr_struct.measurement.campaign_file import load_campaign
-from cdpr_struct.reports.diagnosis_result import diagnosis_json
-from cdpr_struct.reports.diagnosis_tables import hypotheses
+from cdpr_struct.observation.rest import at_states, static_residuals
+from cdpr_struct.reports.diagnose.result import result_json
+from cdpr_struct.reports.diagnose.tables import hypotheses
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.thesis import cable_tables, cogiro_vibration
 from cdpr_struct.thesis.reproduction import printed_table
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 FACTORS = (0.5, 1.0, 2.0)
-STATIC = (("EQ", "balance"), ("NS", "internal force"))
 
 
 def example(name: str) -> Campaign:
@@ -44,15 +40,17 @@ def where_table_4_4_fails() -> str:
     """Per pose: what the measured and the thesis's simulated forces leave of the balance, and of the null space."""
     rows = []
     for column, label in (("measured_N", "measured"), ("thesis_simulation_N", "thesis's simulation")):
-        ground = _ground(_with_column(example("table-4-4/campaign"), column))
-        labels, r, off = ground.setting.labels, ground.null.r, tension_errors(ground.setting)
-        for i, name in enumerate(ground.setting.campaign.states.names):
-            own = labels.state == i
-            balance, inner = r[own & (labels.block == "EQ")], r[own & (labels.block == "NS")]
+        data = recorded(_with_column(example("table-4-4/campaign"), column))
+        local = Local.about(data, Point.entered(data))
+        causes = np.concatenate([local.by_noise().static, local.columns(tolerance_term(data)).static], axis=-1)
+        off = data.campaign.states.tension - _ours(data)
+        for i, name in enumerate(data.campaign.states.names):
+            left, spread, null = local.r.static[i], causes[i], 1e3 * _null(data, i).T
+            balance, inner = left[:6], null @ left[6:]
             rows.append(
                 [name, label, f"{np.sqrt((off[i] ** 2).mean()):.0f}", " ".join(f"{f:+.0f}" for f in balance[:3]),
-                 f"{np.linalg.norm(balance[3:]) * ground.setting.radius:.0f}", " ".join(f"{n:+.1f}" for n in inner),
-                 *(_chance(ground, own & (labels.block == block)) for block, _ in STATIC)]
+                 f"{np.linalg.norm(balance[3:]) * data.radius:.0f}", " ".join(f"{n:+.1f}" for n in inner),
+                 _chance(balance, spread[:6]), _chance(inner, null @ spread[6:])]
             )  # fmt: skip
     head = ["pose", "forces", "rms from ours [N]", "unbalanced x y z [N]", "moment [N m]", "null space [mm of cable]",
             "p of balance", "p of null space"]  # fmt: skip
@@ -66,24 +64,22 @@ def inclined_imbalance(column: str) -> list[tuple[float, float]]:
     for axis, sign in product(range(3), (1.0, -1.0)):
         angles = states.angles.copy()
         angles[3] = sign * np.radians(23.0) * np.eye(3)[axis]
-        setting, _ = make_setting(replace(campaign, states=replace(states, angles=angles)))
-        world, readings = World.of(campaign.robot, len(states.names)), Readings.of(setting.campaign.states)
-        balance = residuals(setting, world, readings)[(setting.labels.state == 3) & (setting.labels.block == "EQ")]
-        left.append((float(np.hypot(*balance[:2])), float(np.linalg.norm(balance[3:]) * setting.radius)))
+        data = recorded(replace(campaign, states=replace(states, angles=angles)))
+        balance = static_residuals(data.arrays, data.readings, data.known, data.radius)[3, :6]
+        left.append((float(np.hypot(*balance[:2])), float(np.linalg.norm(balance[3:]) * data.radius)))
     return left
 
 
 def internal_force_share() -> str:
     """Per pose and pair of force columns: rms difference, and the share of its square in the null space."""
     campaign = example("table-4-4/campaign")
-    ground, measured = _ground(campaign), campaign.states.tension
-    ours = measured - tension_errors(ground.setting)
-    thesis = _with_column(campaign, "thesis_simulation_N").states.tension
+    data, measured = recorded(campaign), campaign.states.tension
+    ours, thesis = _ours(data), _with_column(campaign, "thesis_simulation_N").states.tension
     rows = []
     for i, name in enumerate(campaign.states.names):
         cells = [name]
         for gap in (measured[i] - thesis[i], measured[i] - ours[i], thesis[i] - ours[i]):
-            inner = ground.setting.sent.null_space[i].T @ gap
+            inner = _null(data, i).T @ gap
             cells.append(f"{np.sqrt((gap**2).mean()):.0f} N, {100.0 * (inner @ inner) / (gap @ gap):.0f} %")
         rows.append(cells)
     return table(["pose", "measured - thesis", "measured - ours", "thesis - ours"], rows)
@@ -95,14 +91,24 @@ def _with_column(campaign: Campaign, column: str) -> Campaign:
     return replace(campaign, states=replace(campaign.states, tension=printed.reshape(campaign.states.tension.shape)))
 
 
-def _ground(campaign: Campaign) -> Ground:
-    return prepare(campaign, BUDGETS["small"]).ground
+def _ours(data: Recorded) -> np.ndarray:
+    """(S, m) tensions of the simulation's distribution at the measured poses [N]."""
+    there, readings = at_states(data.arrays, data.known), data.readings
+    bound = data.campaign.lower_bound
+    held = inverse(
+        there, readings.position, readings.rotation, data.known.model, lower_bound=bound, allow_unheld=True
+    )
+    return held.tensions
 
 
-def _chance(ground: Ground, rows: np.ndarray) -> str:
-    """p-value of some residuals under noise and tolerances."""
-    lower = np.linalg.cholesky(ground.null.covariance[np.ix_(rows, rows)])
-    z = np.linalg.solve(lower, ground.null.r[rows])
+def _null(data: Recorded, state: int) -> np.ndarray:
+    """(m, m - 6) internal forces at a state."""
+    return null_space(data.campaign.robot, data.readings.position[state], data.readings.rotation[state])
+
+
+def _chance(left: np.ndarray, causes: np.ndarray) -> str:
+    """p-value of residuals (n,) under noise and tolerances, a column a standard normal number each (n, k)."""
+    z = np.linalg.solve(np.linalg.cholesky(causes @ causes.T), left)
     return f"{chi2.sf(float(z @ z), len(z)):.1g}"
 
 
@@ -111,7 +117,7 @@ def sensitivity(name: str) -> str:
     rows = []
     for sigma in FACTORS:
         for tolerance in FACTORS:
-            result = diagnosis_json(diagnose(scaled(example(name), sigma, tolerance)))
+            result = result_json(diagnosed(scaled(example(name), sigma, tolerance)))
             place = result["verdict"]["location"].rpartition("case ")[2] or "-"
             rows.append([f"x{sigma:g}", f"x{tolerance:g}", *verdict_cells(result), place])
     return table(["sigmas", "tolerances", *VERDICT_HEAD, "worst state"], rows)

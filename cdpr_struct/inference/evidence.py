@@ -89,9 +89,10 @@ def fit(
         if soft is not None:
             mixture = soft.expect(point.joint.soft_mean, point.joint.soft_variance)
         far = extrapolated(squares, readings.inferred)
-        ahead = None if far is None else _Point.at(model, updated_noise(readings, point.noise, far), mixture, sided)
+        ahead = None
         if far is not None:
             squares.clear()
+            ahead = _leap(model, updated_noise(readings, point.noise, far), mixture, sided)
         if ahead is None or not ahead.bound >= point.bound:
             ahead = _Point.at(model, updated_noise(readings, point.noise, point.square), mixture, sided)
         converged = abs(ahead.bound - point.bound) < SETTLED
@@ -99,6 +100,16 @@ def fit(
         bounds.append(point.bound)
         squares.append(point.square)
     return _answer(point, tuple(bounds), converged)
+
+
+def _leap(
+    model: LinearModel, noise: NoiseState, mixture: SoftExpectation | None, sided: np.ndarray
+) -> "_Point | None":
+    """The point at extrapolated sizes of the noise; None where these are so large that nothing can be computed."""
+    try:
+        return _Point.at(model, noise, mixture, sided)
+    except np.linalg.LinAlgError:
+        return None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,9 +6,9 @@ from dataclasses import replace
 import pytest
 
 from cdpr_struct.cli.main import run
-from cdpr_struct.diagnosis.extended_model import robot_toml
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.robot_writing import robot_toml
 
 GIVEN = {"series_compliance": 2e-6, "bending_stiffness": 0.1, "cell_gain": 1.05, "length_offset": 0.002}
 COMMANDS = {

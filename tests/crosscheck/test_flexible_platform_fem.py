@@ -1,7 +1,6 @@
 """A mode inside the platform, in the FEM: a mass on a spring, of which the model under test knows nothing."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -9,16 +8,7 @@ import pytest
 from scipy.sparse import block_array, csc_array
 
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
-from cdpr_struct.diagnosis import internal_modes
-from cdpr_struct.diagnosis.candidate_rows import candidate_rows
-from cdpr_struct.diagnosis.causes.internal_mode import MOVING
-from cdpr_struct.diagnosis.diagnose import diagnose
-from cdpr_struct.diagnosis.extended_model import extended_robot
-from cdpr_struct.diagnosis.prepared import BUDGETS, SIGNIFICANT, prepare
-from cdpr_struct.diagnosis.robot_rows import pairing_of
-from cdpr_struct.diagnosis.setting import modes_in
-from cdpr_struct.diagnosis.steady_peaks import moves_alone, steady_peaks
-from cdpr_struct.diagnosis.verdict import verdict
+from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.robot.robot_file import load_robot
@@ -122,84 +112,29 @@ def written(folder, seed, mass=0.0, hertz=0.0, inertia=1.0, missed=()):
     return load_campaign(folder / "campaign.toml"), np.array(inner)
 
 
-def steady(campaign):
-    """Groups of steady peaks, and by how many nats each is one frequency rather than a mode off by a factor."""
-    ground = prepare(campaign, BUDGETS["small"]).ground
-    model = modes_in(ground.setting, ground.world)
-    pairing, peaks = pairing_of(ground.setting, model, wary=False), campaign.robot_frequencies
-    return [(group, moves_alone(peaks, group, pairing, model.modes)) for group in steady_peaks(peaks, pairing)]
-
-
-def test_a_mode_inside_the_platform_is_found_with_its_frequency(tmp_path):
-    """6 kg of 118.5 on a spring; the robot's modes are judged without its peaks."""
-    campaign, inner = written(tmp_path, seed=3, mass=6.0, hertz=7.8)
-    found = diagnose(campaign)
-    said, row = verdict(found), candidate_rows(found)[0]
-    assert said.status == "class"
-    assert said.classes == (("flexible_platform", "frame_compliance"),)
-    size = row["parameters"]["frequency"]
-    assert row["cause"] == "flexible_platform"
-    assert np.abs(inner - size["value"]).max() < 1.96 * size["sigma"]
-    assert size["sigma"] < 0.02 * size["value"]
-    assert said.probability <= 0.95
-    assert "accelerometers" in said.next_measurement
-    assert "flexible_platform" not in found.not_testable
-    assert "flexible_platform" not in extended_robot(found).extensions.causes
-    left = found.ground.setting.campaign.robot_frequencies
-    assert len(left.hertz) == len(campaign.robot_frequencies.hertz) - len(POSES)
-
-
-@pytest.mark.slow
-def test_no_internal_mode_explains_more_than_it_is_allowed_to(tmp_path):
-    """Of the same data: the bound that spares the trial lies above every trial, and not by a hundred nats."""
+@pytest.mark.xfail(strict=True, reason="no cause stands for a mode inside the platform")
+def test_a_mode_inside_the_platform_is_found(tmp_path):
+    """6 kg of 118.5 on a spring."""
     campaign, _ = written(tmp_path, seed=3, mass=6.0, hertz=7.8)
-    plan = BUDGETS["small"]
-    full = prepare(campaign, plan)
-    ((group, _),) = steady(campaign)
-    most = internal_modes._most_gain(full, group)
-    for moving in MOVING:
-        gain = internal_modes._without(campaign, full, group, moving, plan).gain
-        assert most - 100.0 < gain < most
-    assert not internal_modes._outdone(full, group)
+    said = diagnosed(campaign)
+    assert any("flexible_platform" in names for names in said.decision.classes)
 
 
-@pytest.mark.parametrize(("gain", "clear", "outdone"), [(61.0, True, True), (59.0, True, False), (61.0, False, False)])
-def test_a_cause_outdoes_an_internal_mode_by_explaining_everything_far_better(monkeypatch, gain, clear, outdone):
-    full = SimpleNamespace(search=SimpleNamespace(rank=lambda: [SimpleNamespace(gain=gain)]))
-    monkeypatch.setattr(internal_modes, "clears", lambda fit: clear)
-    monkeypatch.setattr(internal_modes, "_most_gain", lambda full, steady: 50.0)
-    assert internal_modes._outdone(full, None) is outdone
+def test_a_mode_inside_the_platform_is_called_no_single_cause(tmp_path):
+    """Its peaks are no mode of the model; nothing that the library knows is named for them with confidence."""
+    campaign, _ = written(tmp_path, seed=3, mass=6.0, hertz=7.8)
+    said = diagnosed(campaign)
+    assert said.decision.status != "named" or said.decision.probability < 0.9
 
 
 def test_a_rigid_platform_is_adequate(tmp_path):
     campaign, _ = written(tmp_path, seed=1)
-    assert verdict(diagnose(campaign)).status == "adequate"
-
-
-def test_peaks_of_a_heavy_mass_are_steady(tmp_path):
-    """15 % of the platform's mass, close to the modes of the robot; not picked at one pose of the four."""
-    campaign, inner = written(tmp_path, seed=4, mass=18.0, hertz=6.9, missed=(2,))
-    ((group, nats),) = steady(campaign)
-    assert len(group.rows) == len(POSES) - 1
-    assert np.abs(inner - group.hertz).max() < 1.96 * group.sigma
-    assert nats == np.inf
-
-
-def turned_lighter(folder):
-    """Campaign of a body of 0.6 of the entered inertia about z."""
-    about_z = np.sqrt([1.0, 1.0, 0.6])
-    return written(folder, seed=12, inertia=np.outer(about_z, about_z))[0]
-
-
-def test_steady_peaks_of_a_wrong_inertia_are_no_internal_mode(tmp_path):
-    """Peaks of 8.3 to 8.8 Hz, where the model's mode without a peak moves alike from pose to pose."""
-    found = steady(turned_lighter(tmp_path))
-    assert len(found[0][0].rows) == len(POSES)
-    assert all(nats < 0.0 for _, nats in found)
+    assert diagnosed(campaign).decision.status == "adequate"
 
 
 @pytest.mark.slow
-def test_what_peaks_of_a_wrong_inertia_are_called(tmp_path):
-    found = diagnose(turned_lighter(tmp_path))
-    assert found.p_value < SIGNIFICANT
-    assert verdict(found).classes == (("platform_inertia",),)
+def test_peaks_of_a_wrong_inertia_are_called_so(tmp_path):
+    """A body of 0.6 of the entered inertia about z."""
+    about_z = np.sqrt([1.0, 1.0, 0.6])
+    campaign, _ = written(tmp_path, seed=12, inertia=np.outer(about_z, about_z))
+    assert diagnosed(campaign).decision.classes == (("platform_inertia",),)

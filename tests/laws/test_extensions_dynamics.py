@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
 from cdpr_struct.diagnosis.robot_pitch import Dynamics
+
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.damping import Viscous

@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 
 from cdpr_struct.crosscheck.limits_poses import audit_poses
-from cdpr_struct.diagnosis.extended_model import robot_toml
-from cdpr_struct.diagnosis.extended_robot import robot_of
-from cdpr_struct.diagnosis.world import World
 from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.robot_from_arrays import robot_from_arrays
+from cdpr_struct.robot.robot_writing import robot_toml
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.tension_distribution import distribute
 from cdpr_struct.workspace.grid import Grid
@@ -54,7 +53,7 @@ def test_limits_survive_the_file_of_an_extended_robot(tmp_path):
     robot = limited_one_by_one(PRELOADED)
     robot = replace(robot, cables=(Cable(1e5, 0.1), *robot.cables[1:]))
     path = tmp_path / "robot.toml"
-    path.write_text(robot_toml(robot_of(robot, World.of(robot)), "again"))
+    path.write_text(robot_toml(robot_from_arrays(robot, RobotArrays.of(robot)), "again"))
     again = load_robot(path)
     np.testing.assert_array_equal(again.force_min, robot.force_min)
     np.testing.assert_array_equal(again.force_max, robot.force_max)

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from cdpr_struct.diagnosis.causes.registry import LIBRARY
-from cdpr_struct.diagnosis.diagnose import diagnose
-from cdpr_struct.diagnosis.verdict import verdict
-from tests.laws.crime_campaign import clean_campaign
+from cdpr_struct.diagnosis.diagnosing import diagnosed
+from cdpr_struct.diagnosis.hypotheses.library import LIBRARY
+from cdpr_struct.reports.diagnose.result import result_json
+from cdpr_struct.robot.robot_file import load_robot
+from tests.laws.written_campaigns import noisy, plan_of, written
 
 PAGE = Path(__file__).parents[2] / "docs" / "diagnosis.md"
 WARMER = 40.0  # [K]
@@ -26,19 +27,20 @@ def own():
     LIBRARY.update(before)
 
 
-def test_the_printed_cause_is_found_with_its_size(own):
+def warmed(kelvin: float, expansion: float):
     """The frame was entered as it was when cold."""
-    campaign = clean_campaign(8)
-    cold = campaign.robot.frame_anchors / (1.0 + own["ALUMINIUM"] * WARMER)
-    found = diagnose(replace(campaign, robot=replace(campaign.robot, frame_anchors=cold)), "small")
-    said = verdict(found)
-    assert said.causes == ("warm_frame",)
-    assert "the frame is warmer by" in said.sentence.lower()
-    best = found.selection.fit
-    assert best.theta[0] * best.choices[0].prior[0] == pytest.approx(
-        WARMER, abs=2.0 * best.covariance[0, 0] ** 0.5 * 15.0
-    )
+    robot = load_robot("cogiro")
+    cold = replace(robot, frame_anchors=robot.frame_anchors / (1.0 + expansion * kelvin))
+    return noisy(written(robot, plan_of(robot, 8), cold), 5)
+
+
+def test_the_printed_cause_is_found_with_its_size(own):
+    found = diagnosed(warmed(2.0 * WARMER, own["ALUMINIUM"]))
+    assert found.decision.classes == (("warm_frame",),)
+    assert "the frame is warmer by" in result_json(found)["verdict"]["sentence"].lower()
+    (size,) = found.sizes
+    assert abs(size.mean[0] - 2.0 * WARMER) < 3.0 * size.sigma[0]
 
 
 def test_it_is_not_found_where_it_is_not(own):
-    assert verdict(diagnose(clean_campaign(8), "small")).status == "adequate"
+    assert diagnosed(warmed(0.0, own["ALUMINIUM"])).decision.status == "adequate"

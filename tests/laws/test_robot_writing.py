@@ -20,7 +20,7 @@ from cdpr_struct.robot.robot_from_arrays import bodily, robot_from_arrays
 from cdpr_struct.robot.robot_writing import robot_toml
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.masts import carriers
-from tests.laws.crime_campaign import NO_CABLES, clean_campaign
+from tests.laws.written_campaigns import plan_of, written
 
 
 def everything() -> RobotArrays:
@@ -66,7 +66,8 @@ def test_an_inertia_that_no_body_has_becomes_the_nearest_that_one_has():
 
 def commanded(true_robot):
     """Clean tensions and lengths of a robot at rest at the poses of a campaign whose robot is the entered one."""
-    campaign = replace(clean_campaign(), cable_frequencies=NO_CABLES)
+    robot = load_robot("cogiro")
+    campaign = written(robot, plan_of(robot, 6))
     states, more = campaign.states, true_robot.extensions
     held = [
         inverse(true_robot.with_load(float(w)), p, rotation(*a))

@@ -5,34 +5,27 @@ import re
 from dataclasses import replace
 from html import escape
 from pathlib import Path
-from types import SimpleNamespace
 
-import numpy as np
 import pandas as pd
 import pytest
 
 from cdpr_struct.cli.main import run
-from cdpr_struct.diagnosis.null_model import NullModel
-from cdpr_struct.diagnosis.sigma_check import sigmas_used, warnings
+from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind, doubts, sigmas_used
 from cdpr_struct.measurement.campaign import Sheet, Sigmas
-from cdpr_struct.reports.diagnosis_tables import default_sigmas, sigma_table
-from tests.laws.crime_campaign import clean_campaign
+from cdpr_struct.reports.diagnose.tables import default_sigmas, sigmas
+from cdpr_struct.reports.diagnose.words import doubt
+from cdpr_struct.robot.robot_file import load_robot
+from tests.laws.written_campaigns import plan_of, written
 
 
 @pytest.fixture(scope="module")
 def clean():
-    return clean_campaign()
+    robot = load_robot("cogiro")
+    return written(robot, plan_of(robot, 2))
 
 
-def found(campaign, spread=1.0):
-    """60 residuals of static states that scatter by `spread` of their sigma."""
-    noise = np.random.default_rng(3).standard_normal(60) * spread
-    labels = SimpleNamespace(
-        block=np.array(["EQ"] * 60, dtype=object), kind=np.array(["static_state"] * 60, dtype=object),
-        state=np.zeros(60, dtype=int),
-    )  # fmt: skip
-    null = NullModel(noise, np.eye(60), np.eye(60))
-    return SimpleNamespace(campaign=campaign, entered=null, entered_setting=SimpleNamespace(labels=labels))
+def warnings(campaign, noise=()):
+    return [doubt(one) for one in doubts(campaign, list(noise))]
 
 
 def sheet(stated, columns=("cable", "tension_N"), **sigmas):
@@ -48,7 +41,7 @@ def test_defaults_are_told_from_what_was_stated(clean):
     assert default_sigmas(shown) == (
         "Sigmas not given, defaults used: position_m 0.0005 m (a.csv), rotation_deg 0.02 deg (a.csv)."
     )
-    assert ["static_state", "a.csv", "tension_N", "3 N", "stated"] in sigma_table(shown).rows
+    assert ["static_state", "a.csv", "tension_N", "3 N", "stated"] in sigmas(shown).rows
 
 
 def vars_of(used):
@@ -62,7 +55,7 @@ def test_a_sigma_column_is_told(clean):
 
 @pytest.mark.parametrize(("name", "value", "word"), [("position_m", 0.5, "large"), ("tension_N", 5e-6, "small")])
 def test_an_absurd_sigma_is_doubted(clean, name, value, word):
-    (text,) = warnings(found(replace(clean, sheets=(sheet({name}, **{name: value}),))))
+    (text,) = warnings(replace(clean, sheets=(sheet({name}, **{name: value}),)))
     assert f"sigma.{name} of a.csv" in text
     assert word in text
 
@@ -71,15 +64,15 @@ def test_an_absurd_sigma_is_doubted(clean, name, value, word):
     ("name", "value", "words"), [("anchor_m", 0.5, "is it in m?"), ("axial_stiffness", 2.0, "is it a share of it?")]
 )
 def test_an_absurd_tolerance_is_doubted(clean, name, value, words):
-    text, *_ = warnings(found(replace(clean, tolerances=replace(clean.tolerances, **{name: value}))))
+    text, *_ = warnings(replace(clean, tolerances=replace(clean.tolerances, **{name: value})))
     assert f"the tolerance {name}, {value:g}, is very large" in text
     assert words in text
 
 
-def test_residuals_far_below_their_sigmas_are_told(clean):
-    assert warnings(found(clean)) == []
-    (text,) = warnings(found(clean, 0.2))
-    assert "smaller than their sigmas" in text
+def test_errors_far_below_their_sigmas_are_told(clean):
+    assert warnings(clean, [NoiseOfKind("tension", 1.0, 60, 0, 0.5, 0.5)]) == []
+    (text,) = warnings(clean, [NoiseOfKind("tension", 0.2, 60, 0, 1.0, 1e-9)])
+    assert "errors of the tension readings are improbably small" in text
 
 
 def test_screen_and_page_show_the_warning_as_a_sentence(tmp_path, capsys):

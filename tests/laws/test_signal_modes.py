@@ -12,7 +12,7 @@ from cdpr_struct.diagnosis.damping_rows import DampingRows
 from cdpr_struct.measurement.decay_modes import decay_modes
 from cdpr_struct.measurement.peak_kinds import COMBINATION, MODE, peak_kinds
 from cdpr_struct.measurement.response_modes import response_modes
-from cdpr_struct.reports.diagnosis_signals import damping_sentence
+from cdpr_struct.reports.diagnose.signals import damping_sentence
 
 
 def spaced(generator, count, low, high, gap):

@@ -6,16 +6,16 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from cdpr_struct.diagnosis.damped import damped
 from cdpr_struct.diagnosis.damping_law import damping_finding
 from cdpr_struct.diagnosis.damping_rows import _laws, damping_rows, left_out
-from cdpr_struct.measurement.campaign import Sigmas
+from cdpr_struct.measurement.campaign import Sigmas, Tolerances
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.modal_estimate import Modes
 from cdpr_struct.measurement.peak_kinds import MODE
 from cdpr_struct.measurement.signal_records import SignalRecord
 from cdpr_struct.measurement.signal_states import held_against, model_shapes, own_modes
 from cdpr_struct.measurement.state_modes import state_modes
-from cdpr_struct.reports import diagnosis_signals
 from cdpr_struct.robot.robot_file import load_robot
 
 ROBOT = load_robot("thesis-3-1")
@@ -121,16 +121,13 @@ def test_losses_in_the_cables_are_still_found():
     assert "hysteretic_damping" in found.causes
 
 
-def test_ratios_are_compared_with_those_of_the_fitted_robot(monkeypatch):
+def test_ratios_are_compared_with_those_of_the_fitted_robot():
     """Where EA is named wrong, damping ratios are expected of the robot with the right one."""
     judged = tuple(held_against(shaken(STIFFER, number), ROBOT, "exact") for number in range(3))
-    found = SimpleNamespace(
-        campaign=SimpleNamespace(identified=judged, model="exact"), selection=SimpleNamespace(fit=object())
-    )
-    monkeypatch.setattr(diagnosis_signals, "extended_robot", lambda _: STIFFER)
-    off = {}
-    for status in ("named", "adequate"):
-        rows = damping_rows(diagnosis_signals.judged_signals(found, {"verdict": {"status": status}}))
-        off[status] = np.abs(rows.ratio / rows.entered - 1.0).max()
-    assert off["named"] < 1e-6
-    assert off["adequate"] > 0.2
+    campaign = SimpleNamespace(identified=judged, model="exact", tolerances=Tolerances())
+    off = []
+    for robot in (STIFFER, None):
+        rows = damped(campaign, robot).finding.rows
+        off.append(np.abs(rows.ratio / rows.entered - 1.0).max())
+    assert off[0] < 1e-6
+    assert off[1] > 0.2

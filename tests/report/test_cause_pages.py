@@ -2,8 +2,13 @@
 
 from pathlib import Path
 
-from cdpr_struct.diagnosis.causes.registry import HANDLING, LIBRARY, NEEDS_SIGNALS, SHORTCUTS
-from cdpr_struct.reports.diagnosis_causes import pages
+from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS
+from cdpr_struct.diagnosis.hypotheses import internal_force
+from cdpr_struct.diagnosis.hypotheses.library import LIBRARY
+from cdpr_struct.reports.diagnose.cause_pages import pages
+
+HANDLING = ("unit_error", "sign_error", "swapped_channels", "pose_mismatch")
+SHORTCUTS = ("cable_sag", "cable_dynamics", "attachment_geometric_stiffness")
 
 DOCS = Path(__file__).parents[2] / "docs" / "causes"
 
@@ -14,5 +19,5 @@ def test_pages_are_current():
 
 def test_every_name_that_a_verdict_can_have_has_a_page():
     """What is tested, corrected or left out of a simulation, and the laws of damping."""
-    names = {*LIBRARY, "internal_force", "flexible_platform", *HANDLING, *SHORTCUTS, *NEEDS_SIGNALS}
+    names = {*LIBRARY, internal_force.CAUSE.name, *HANDLING, *SHORTCUTS, *NEEDS_SIGNALS}
     assert {f"{name}.md" for name in names} == set(pages())

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from cdpr_struct.diagnosis.whole_readings import whole_readings
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.measurement.campaign_file import load_campaign
@@ -53,8 +52,6 @@ def test_a_pose_without_rotation_is_unknown_and_not_level(tmp_path):
     np.testing.assert_array_equal(np.isnan(found.states.angles), [[True] * 3, [False] * 3])
     assert found.states.position[0].tolist() == [0.1, 0.0, 1.0]
     assert "The rotation of a was not measured in full: taken as unknown." in found.notes
-    with pytest.raises(InputError, match="case a: pose"):
-        whole_readings(found)
 
 
 def test_what_one_file_leaves_empty_another_gives(tmp_path):
@@ -73,14 +70,6 @@ def test_a_length_missing_at_a_lock_is_missing_in_all_its_rows(tmp_path):
     assert one.states.lock.tolist() == [0, 0]
     other = loaded(tmp_path, loaded_pose=head + row.format("a", 0) + row.format("b", 5).replace(",,", ",8,"))
     assert other.states.lock.tolist() == [0, 1]
-
-
-def test_the_diagnosis_leaves_out_what_is_not_whole(tmp_path):
-    found = loaded(tmp_path, static_state=LONG + state("a", without=(3,)) + state("b").replace("1,300,", "1,300,8"))
-    whole = whole_readings(found)
-    assert whole.states.has_tension.tolist() == [False, True]
-    assert whole.states.has_length.tolist() == [False, True]
-    assert whole.states.lock.tolist() == [-1, 0]
 
 
 def test_signals_need_the_whole_pose(tmp_path):
