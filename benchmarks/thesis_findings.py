@@ -95,9 +95,7 @@ def _ours(data: Recorded) -> np.ndarray:
     """(S, m) tensions of the simulation's distribution at the measured poses [N]."""
     there, readings = at_states(data.arrays, data.known), data.readings
     bound = data.campaign.lower_bound
-    held = inverse(
-        there, readings.position, readings.rotation, data.known.model, lower_bound=bound, allow_unheld=True
-    )
+    held = inverse(there, readings.position, readings.rotation, data.known.model, lower_bound=bound, allow_unheld=True)
     return held.tensions
 
 

@@ -102,9 +102,7 @@ def fit(
     return _answer(point, tuple(bounds), converged)
 
 
-def _leap(
-    model: LinearModel, noise: NoiseState, mixture: SoftExpectation | None, sided: np.ndarray
-) -> "_Point | None":
+def _leap(model: LinearModel, noise: NoiseState, mixture: SoftExpectation | None, sided: np.ndarray) -> "_Point | None":
     """The point at extrapolated sizes of the noise; None where these are so large that nothing can be computed."""
     try:
         return _Point.at(model, noise, mixture, sided)
