@@ -8,7 +8,7 @@ too many in a class, and for every true cause that is not spoken of.
 from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
-from itertools import permutations
+from itertools import combinations, permutations
 
 from cdpr_struct.measurement.loss import Loss
 
@@ -64,12 +64,21 @@ def _right(status: str, classes: Classes, beliefs: Sequence[Belief]) -> float:
 
 
 def _beginnings(beliefs: Sequence[Belief], without_size: AbstractSet[str]) -> Iterable[Classes]:
-    """Every likely set of causes named, and every likely cause alone."""
+    """Every likely set of causes named, every likely cause alone, and of two sets as large either cause of each."""
     ranked = sorted(beliefs, key=lambda one: -one.probability)[:8]
     hidden = {UNKNOWN, *without_size}
     known = [one.names for one in ranked if one.names and not hidden & set(one.names)]
     alone = {(name,) for names in known for name in names}
-    return [tuple((name,) for name in names) for names in [*known, *sorted(alone)]]
+    pairs = [(one, order) for one, other in combinations(known, 2) if len(one) == len(other) for order in permutations(other)]
+    either = [tuple(tuple(dict.fromkeys(own)) for own in zip(one, order, strict=True)) for one, order in pairs]
+    named: list[Classes] = [tuple((name,) for name in names) for names in [*known, *sorted(alone)]]
+    return [*named, *(classes for classes in either if _apart(classes))]
+
+
+def _apart(classes: Classes) -> bool:
+    """Whether no name is in two classes."""
+    names = [name for own in classes for name in own]
+    return len(set(names)) == len(names)
 
 
 def _widened(classes: Classes, beliefs: Sequence[Belief], loss: Loss, without_size: AbstractSet[str]) -> Classes:

@@ -7,20 +7,25 @@ import numpy as np
 from cdpr_struct.diagnosis.alternatives import offered
 from cdpr_struct.diagnosis.detectable import noncentrality
 from cdpr_struct.diagnosis.hypotheses.cause import Pattern
+from cdpr_struct.diagnosis.hypothesis import SCALES
 from cdpr_struct.diagnosis.judge import Judged
 from cdpr_struct.diagnosis.search import Search
 from cdpr_struct.inference.screening import Screen
 
 
 def minimum_detectable(search: Search, null: Judged) -> dict[str, dict[str, float | str]]:
-    """Per cause the size found with probability 0.8 at a false alarm rate of 0.001; of several numbers their rms."""
+    """Per cause the size found with probability 0.8 at a false alarm rate of 0.001; of several numbers their rms.
+
+    Causes that would show only beyond the largest size that is considered are left out.
+    """
     menu = [one for one in offered(search.data, search.where, search.seen, search.causes, null) if not one.laws]
     screen = Screen.of(null.model, null.fit.noise, null.fit.soft)
     table: dict[str, dict[str, float | str]] = {}
     for cause in menu:
         pattern = plainest(cause.patterns)
         gram = screen.screened([part @ pattern.basis * pattern.prior for part in cause.columns]).gram
-        table[cause.cause.name] = smallest(pattern, gram)
+        if np.trace(gram) * SCALES[-1] ** 2 > noncentrality(len(gram)):
+            table[cause.cause.name] = smallest(pattern, gram)
     return table
 
 

@@ -29,6 +29,7 @@ from cdpr_struct.robot.robot import Robot
 
 KEEPS = 1.0  # nats that a cause must keep without the block of data that it needs most: else it explains that block
 HANGS = 0.6  # largest probability that is said of a cause that does not
+TOO_SMALL = "in these data it hides in noise and tolerances, whatever its size"
 _LEAST = 0.03  # probability that anything is wrong, below which outliers explain what is significant
 _MOSTLY, _OPEN = 0.5, 4  # of it an unknown law must hold so much to be spoken of; else so many causes are left open
 _LIKELIEST = 3  # candidates that a recommendation speaks of where no cause explains the data
@@ -126,6 +127,8 @@ def _assembled(
     """Everything of a diagnosis."""
     story, null, chosen, campaign = said.story, said.null, said.chosen, said.campaign
     data, search, recorded = story.search.data, story.search, stories.as_recorded(found)
+    least = minimum_detectable(search, null)
+    unseen = {cause.name: TOO_SMALL for cause in search.causes if cause.name not in least}
     noise, aside = noise_of_kinds(chosen), tuple(set_aside(data, search.where, chosen))
     advice = recommended(said.decision, said.confirmed, _likeliest(rows))
     return Diagnosis(
@@ -139,8 +142,7 @@ def _assembled(
         generic=None if said.left is None else generic_ratio(search, null, chosen), confirmed=said.confirmed,
         extended=said.robot, damped=said.damped, recommendations=(*advice, *_again(aside)),
         sigmas=tuple(sigmas_used(campaign)), doubts=tuple(doubts(campaign, noise)),
-        not_testable=search.hidden | ({} if campaign.identified else NEEDS_SIGNALS),
-        minimum_detectable=minimum_detectable(search, null),
+        not_testable=search.hidden | unseen | ({} if campaign.identified else NEEDS_SIGNALS), minimum_detectable=least,
     )  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from cdpr_struct.association.detection import SHARE_INVISIBLE
 from cdpr_struct.diagnosis.diagnosis import ErrorOfKind, Location
 from cdpr_struct.diagnosis.explain import Explained
 from cdpr_struct.diagnosis.judge import Judged
@@ -93,7 +94,7 @@ def _cable_frequencies(data: Recorded, null: Judged) -> np.ndarray:
 
 
 def _robot_frequencies(data: Recorded, null: Judged) -> np.ndarray:
-    """(S, 1) largest distance of a peak from the nearest mode [Hz]."""
+    """(S, 1) largest distance of a peak from the nearest mode that moves the platform [Hz]."""
     return _hertz(data, null)[1]
 
 
@@ -110,7 +111,8 @@ def _hertz(data: Recorded, null: Judged) -> tuple[np.ndarray, np.ndarray]:
             cables[where] = error
     if measured.peaks is not None and local.vibrating.robot is not None:
         for k, state in enumerate(measured.states):
-            modes = np.exp(local.vibrating.log_hertz[k][local.vibrating.robot.mask[k]])
+            own = local.vibrating.robot
+            modes = np.exp(local.vibrating.log_hertz[k][own.mask[k] & (own.share[k] > SHARE_INVISIBLE)])
             peaks = np.exp(measured.peaks.ln_frequency[k][measured.peaks.present[k]])
             if peaks.size and modes.size:
                 near = peaks[:, None] - modes

@@ -16,7 +16,6 @@ from cdpr_struct.diagnosis.search import Answer, Budget, Search
 from cdpr_struct.measurement.campaign import Campaign
 
 _BEHIND = 12.0  # nats by which corrected data without a cause may lie behind the best, and be looked into all the same
-_WRONG = 3.0  # nats of the best cause over none, from which handling is suspected at all
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,11 +40,8 @@ def explained(campaign: Campaign, budget: Budget, progress: Callable[[str], None
     """The campaign as recorded, and corrected in every way that may explain it as well; best first."""
     progress("fitting causes")
     first = _searched(campaign, None, budget)
-    null = next(answer for answer in first.answers if not answer.names)
-    found = [first]
-    if first.answers[0].score > null.score + _WRONG:
-        progress("trying how the data may have been handled")
-        found += _corrected(campaign, first, budget)
+    progress("trying how the data may have been handled")
+    found = [first, *_corrected(campaign, first, budget)]
     return sorted(found, key=lambda one: -(one.answers[0].score + one.price))
 
 

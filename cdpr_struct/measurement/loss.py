@@ -8,8 +8,8 @@ class Loss:
     """What mistakes cost, in the unit of one name too many.
 
     wrong_name : a class in which no cause is there
-    too_wide   : one more name in a class, or a cause that is not spoken of
-    unknown    : to say that nothing is wrong, or nothing that the library knows, where it does know the cause
+    too_wide   : one more name in a class
+    unknown    : a cause of the library that is not spoken of, be it beside others or by `adequate` or `unknown`
     """
 
     wrong_name: float = 20.0

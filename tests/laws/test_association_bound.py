@@ -12,7 +12,7 @@ from cdpr_struct.association.modes import robot_modes
 from cdpr_struct.association.peak_noise import SCALES, known_noise, stated_noise
 from cdpr_struct.association.peaks import PeakList, padded
 from cdpr_struct.inference.evidence import fit
-from cdpr_struct.inference.linear_model import LinearModel
+from cdpr_struct.inference.linear_model import LinearModel, Stack
 from cdpr_struct.inference.scale_mixture import NoiseGroups
 
 WEIGHT = np.array([0.9, 0.06, 0.03, 0.01])
@@ -171,11 +171,13 @@ def test_fit_finds_a_shift_that_only_peaks_show():
     X = np.concatenate([np.zeros((states, 1, 1)), slope[:, :, None]], axis=1)  # first row: a reading that says nothing
     A, r = np.zeros((states, modes + 1, 1)), np.zeros((states, modes + 1))
     A[:, 0] = 1.0
-    groups = NoiseGroups(np.arange(states)[:, None], np.zeros(states, int), np.ones(states))
-    model = LinearModel(r, A, X, np.ones(r.shape), groups, np.arange(1, modes + 1))
+    groups = NoiseGroups(np.zeros(states, int), np.ones(states))
+    index, soft = np.arange(states)[:, None], np.arange(1, modes + 1)
+    model = LinearModel((Stack(r, A, X, np.ones(r.shape), index, soft),), groups)
+    still = LinearModel((replace(model.stacks[0], X=0.0 * X),), groups)
     association = Association(peaks, predicted, clutter(peaks))
     found = fit(model, soft=association)
-    null = fit(replace(model, X=0.0 * X), soft=association.at(noise=stated_noise()))
+    null = fit(still, soft=association.at(noise=stated_noise()))
     assert np.diff(found.bounds).min() > -1e-6  # tolerance of the propagation
     assert abs(found.z_mean[0] - true) < 4.0 * np.sqrt(found.z_covariance[0, 0])
     assert found.log_evidence > null.log_evidence + 10.0

@@ -79,7 +79,6 @@ def test_clean_readings_with_frequencies_give_no_cause(poses, modes):
     assert not said.set_aside
 
 
-@pytest.mark.xfail(strict=True, reason="tensions set aside as outliers hide the exchange: handling is not even tried")
 @pytest.mark.parametrize("pair", [(0, 1), pytest.param((3, 7), marks=SLOW)])
 def test_exchanged_load_cells_are_found(pair):
     said = diagnosed(exchanged(measured(cogiro(), 4), *pair))
@@ -121,7 +120,6 @@ def test_two_causes_together_are_both_named():
     assert all(abs(v - true) < 4.0 * s for (v, s), true in zip(found, OFFSETS, strict=True))
 
 
-@pytest.mark.xfail(strict=True, reason="a second cause with a rival is not spoken of, and the fit chosen lacks it")
 def test_a_second_cause_that_is_sure_is_in_the_fit_that_is_chosen():
     """Mass, and the elasticity of a cable that compliance in line may be in 5 of 100: 33 nats against mass alone."""
     said = diagnosed(measured(softer(lighter(5.0), 2, 0.6), 7))

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from cdpr_struct.diagnosis.robot_pitch import Dynamics
 
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.certified_modes import certified_modes
@@ -12,14 +11,11 @@ from cdpr_struct.dynamics.damping import Viscous
 from cdpr_struct.dynamics.fundamental_frequency import fundamental_frequency
 from cdpr_struct.dynamics.natural_frequencies import natural_frequencies, static_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.dynamics.robot_dynamic_stiffness import attachment
 from cdpr_struct.dynamics.stiff_cable import bending_factor, load_factor, slenderness
 from cdpr_struct.dynamics.swept_stiffness import dynamic_stiffness, swept_dynamic_stiffness
-from cdpr_struct.robot.extensions import Extensions, masts_of
+from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot_file import load_robot
-from cdpr_struct.statics.cable_state import cable_stiffness
 from cdpr_struct.statics.inverse_kinematics import inverse
-from cdpr_struct.statics.masts import behind_masts
 
 
 def at_rest(given: dict) -> OperatingPoint:
@@ -83,17 +79,6 @@ def test_static_limit_of_the_exact_cable_is_the_series_of_both():
     series = rigid @ np.linalg.inv(np.eye(3) + give / stretch * along[:, :, None] * along[:, None, :] @ rigid)
     # what passes the frame end weighs: w c next to 1, here 3e-5
     np.testing.assert_allclose(soft, series, atol=5e-5 * np.abs(series).max())
-
-
-@pytest.mark.parametrize("give", [np.full(8, 5e-5), np.tile([0.0, 5e-5, 2e-5, 0.0], 2)])
-def test_the_diagnosis_has_the_same_stiffness_behind_masts(give):
-    """Two forms of the condensation, in dynamics and in the diagnosis: K - .. and K (1 + C K)^-1."""
-    point = at_rest({"frame_compliance": give})
-    nothing, masts = np.zeros((6, 6)), masts_of(point.robot.frame_anchors)
-    density, arms = point.robot.linear_density, point.robot.platform_anchors
-    own = Dynamics(point.cables, density, arms, nothing, nothing, give, masts, True).matrix(np.array(1.0))
-    expected = behind_masts(cable_stiffness(point.cables), attachment(point), masts, give)
-    np.testing.assert_allclose(own, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
 
 
 def test_sweep_over_masts_is_the_full_evaluation():

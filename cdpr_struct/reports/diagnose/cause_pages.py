@@ -42,8 +42,8 @@ def internal_force_page() -> str:
 _DAMPING = "log-uniform over four decades, up to a damping ratio of 0.3"
 _DECAYS = "two amplitudes or more and four modes or more; free decays rather than FRFs"
 _FILED = (
-    f"none; a corrected copy of the data, whose prior odds against the data as filed are exp(-{PRICE:g}) over the number "
-    "of such corrections"
+    f"none; a corrected copy of the data, whose prior odds against the data as filed are exp(-{PRICE:g}) over the "
+    "number of such corrections"
 )
 BESIDE = {
     "unit_error": ("A column is in another unit", _FILED, "every column with a unit", "asking who filed it"),
