@@ -10,19 +10,11 @@ from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from itertools import combinations, permutations
 
+from cdpr_struct.hypotheses.explain import Belief
+from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.measurement.loss import Loss
 
 Classes = tuple[tuple[str, ...], ...]
-UNKNOWN = "unknown"
-"""Name of every hypothesis that no cause of the library explains."""
-
-
-@dataclass(frozen=True, slots=True)
-class Belief:
-    """A set of causes that may be the truth, none for nothing wrong, and its probability."""
-
-    names: tuple[str, ...]
-    probability: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +61,9 @@ def _beginnings(beliefs: Sequence[Belief], without_size: AbstractSet[str]) -> It
     hidden = {UNKNOWN, *without_size}
     known = [one.names for one in ranked if one.names and not hidden & set(one.names)]
     alone = {(name,) for names in known for name in names}
-    pairs = [(one, order) for one, other in combinations(known, 2) if len(one) == len(other) for order in permutations(other)]
+    pairs = [
+        (one, order) for one, other in combinations(known, 2) if len(one) == len(other) for order in permutations(other)
+    ]
     either = [tuple(tuple(dict.fromkeys(own)) for own in zip(one, order, strict=True)) for one, order in pairs]
     named: list[Classes] = [tuple((name,) for name in names) for names in [*known, *sorted(alone)]]
     return [*named, *(classes for classes in either if _apart(classes))]

@@ -4,12 +4,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cdpr_struct.diagnosis.alternatives import offered
-from cdpr_struct.diagnosis.detectable import noncentrality
-from cdpr_struct.diagnosis.hypotheses.cause import Pattern
-from cdpr_struct.diagnosis.hypothesis import SCALES
-from cdpr_struct.diagnosis.judge import Judged
-from cdpr_struct.diagnosis.search import Search
+from cdpr_struct.hypotheses.alternatives import offered
+from cdpr_struct.hypotheses.causes.cause import Pattern
+from cdpr_struct.hypotheses.detectable import noncentrality
+from cdpr_struct.hypotheses.hypothesis import SCALES
+from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.hypotheses.search import Search
 from cdpr_struct.inference.screening import Screen
 
 

@@ -5,23 +5,24 @@ from dataclasses import dataclass
 
 from cdpr_struct.diagnosis import stories
 from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
-from cdpr_struct.diagnosis.decision import UNKNOWN, Belief, Decision, decided
+from cdpr_struct.diagnosis.decision import Decision, decided
 from cdpr_struct.diagnosis.detectable_sizes import minimum_detectable
 from cdpr_struct.diagnosis.diagnosis import DAMPING, Candidate, Diagnosis, Location, Peaks, SetAside
 from cdpr_struct.diagnosis.errors_of_kinds import errors_of_kinds, located
-from cdpr_struct.diagnosis.explain import Explained, believed, explained
 from cdpr_struct.diagnosis.extended import extended_robot
 from cdpr_struct.diagnosis.generic_fit import generic_ratio
-from cdpr_struct.diagnosis.hypotheses.library import require_known
-from cdpr_struct.diagnosis.judge import Judged
 from cdpr_struct.diagnosis.left_out import LeftOut, left_out, rows_of
 from cdpr_struct.diagnosis.recommended import Recommendation, recommended
-from cdpr_struct.diagnosis.search import BUDGETS
 from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind, doubts, noise_of_kinds, sigmas_used
 from cdpr_struct.diagnosis.set_aside import set_aside
-from cdpr_struct.diagnosis.significant import SIGNIFICANT
 from cdpr_struct.diagnosis.unassigned import peak_count, uncertain_peaks
 from cdpr_struct.diagnosis.whole_sizes import WholeSize, whole_sizes
+from cdpr_struct.hypotheses.causes.library import require_known
+from cdpr_struct.hypotheses.explain import Belief, Explained, believed, explained
+from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.hypotheses.laws import UNKNOWN
+from cdpr_struct.hypotheses.search import BUDGETS
+from cdpr_struct.hypotheses.significant import SIGNIFICANT
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.measurement.loss import Loss

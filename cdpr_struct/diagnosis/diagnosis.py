@@ -5,16 +5,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.diagnosis.damped import Damped
-from cdpr_struct.diagnosis.decision import UNKNOWN, Belief, Decision
-from cdpr_struct.diagnosis.explain import Explained
-from cdpr_struct.diagnosis.hypotheses.handling import Correction
-from cdpr_struct.diagnosis.hypothesis import Part
-from cdpr_struct.diagnosis.judge import Judged
+from cdpr_struct.diagnosis.decision import Decision
 from cdpr_struct.diagnosis.left_out import LeftOut
 from cdpr_struct.diagnosis.recommended import Recommendation
 from cdpr_struct.diagnosis.sensor_sigmas import Doubt, NoiseOfKind, Used
 from cdpr_struct.diagnosis.unassigned import UncertainPeak
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
+from cdpr_struct.hypotheses.explain import Belief, Explained
+from cdpr_struct.hypotheses.handling import Correction
+from cdpr_struct.hypotheses.hypothesis import Part
+from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.robot.robot import Robot
 

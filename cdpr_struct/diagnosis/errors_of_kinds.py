@@ -4,15 +4,15 @@ import numpy as np
 
 from cdpr_struct.association.detection import SHARE_INVISIBLE
 from cdpr_struct.diagnosis.diagnosis import ErrorOfKind, Location
-from cdpr_struct.diagnosis.explain import Explained
-from cdpr_struct.diagnosis.judge import Judged
 from cdpr_struct.diagnosis.left_out import KINDS, rows_of
-from cdpr_struct.diagnosis.linearised import Local, Point
-from cdpr_struct.diagnosis.recorded import Recorded
+from cdpr_struct.hypotheses.explain import Explained
+from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.observation.readings import cell_reading
 from cdpr_struct.observation.rest import at_states
 from cdpr_struct.observation.vibrating import of_states
+from cdpr_struct.residuals.linearised import Local, Point
+from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
+from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_from_arrays import robot_from_arrays

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from cdpr_struct.diagnosis.alternatives import offered
-from cdpr_struct.diagnosis.hypothesis import Hypothesis
-from cdpr_struct.diagnosis.judge import Judged
 from cdpr_struct.diagnosis.left_out import left_out
-from cdpr_struct.diagnosis.search import Search
+from cdpr_struct.hypotheses.alternatives import offered
+from cdpr_struct.hypotheses.hypothesis import Hypothesis
+from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.hypotheses.search import Search
 
 _GENERIC = ("axial_stiffness", "load_cell_gain")
 

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.diagnosis.judge import Judged
-from cdpr_struct.diagnosis.layout import Layout, Shelf
-from cdpr_struct.diagnosis.recorded import Recorded
+from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.block_sums import BlockSums
 from cdpr_struct.inference.scale_mixture import NoiseState
+from cdpr_struct.residuals.layout import Layout, Shelf
+from cdpr_struct.residuals.recorded import Recorded
 
 _NONE = (-1, -1, -1)
 KINDS = ("EQ", "CO", "CF", "RF", "FA")

@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from cdpr_struct.diagnosis.decision import UNKNOWN, Decision
-from cdpr_struct.diagnosis.hypotheses.library import LIBRARY
+from cdpr_struct.diagnosis.decision import Decision
+from cdpr_struct.hypotheses.causes.library import LIBRARY
+from cdpr_struct.hypotheses.laws import UNKNOWN
 
 _OF_HANDLING = {
     "unit_error": "asking who filed the data for the unit of each column",

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import chi2, f
 
-from cdpr_struct.diagnosis.judge import Judged
+from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.scale_mixture import KAPPA, TAU_DEGREES
 from cdpr_struct.measurement.campaign import SIGNALS, Campaign, Sheet
 

@@ -5,10 +5,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from cdpr_struct.diagnosis.diagnosis import SetAside
-from cdpr_struct.diagnosis.judge import Judged
-from cdpr_struct.diagnosis.layout import Layout, Shelf
-from cdpr_struct.diagnosis.recorded import Recorded
+from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.scale_mixture import KAPPA
+from cdpr_struct.residuals.layout import Layout, Shelf
+from cdpr_struct.residuals.recorded import Recorded
 
 _OUTLIER = 5.0  # times the usual size of the noise: smaller ones are bad luck
 _SURE = 0.5  # probability from which a reading is set aside

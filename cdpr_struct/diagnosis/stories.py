@@ -6,13 +6,14 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.special import logsumexp
 
-from cdpr_struct.diagnosis.decision import UNKNOWN, Decision, fits
+from cdpr_struct.diagnosis.decision import Decision, fits
 from cdpr_struct.diagnosis.diagnosis import Candidate, Tried
-from cdpr_struct.diagnosis.explain import Explained
-from cdpr_struct.diagnosis.hypotheses.drift import WAVES, walk
-from cdpr_struct.diagnosis.judge import Judged
-from cdpr_struct.diagnosis.search import Answer
 from cdpr_struct.diagnosis.whole_sizes import whole_sizes
+from cdpr_struct.hypotheses.causes.drift import WAVES, walk
+from cdpr_struct.hypotheses.explain import Explained
+from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.hypotheses.laws import UNKNOWN
+from cdpr_struct.hypotheses.search import Answer
 
 
 def as_recorded(found: Sequence[Explained]) -> Explained:

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.diagnosis.judge import Judged
-from cdpr_struct.diagnosis.recorded import Recorded
+from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.residuals.recorded import Recorded
 
 _MORE_LIKELY_THAN_NOT = 0.5
 

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.diagnosis.decision import UNKNOWN
-from cdpr_struct.diagnosis.hypotheses.cause import Seen
-from cdpr_struct.diagnosis.hypothesis import Part
-from cdpr_struct.diagnosis.judge import Judged
-from cdpr_struct.diagnosis.linearised import Term
-from cdpr_struct.diagnosis.recorded import Recorded
+from cdpr_struct.hypotheses.causes.cause import Seen
+from cdpr_struct.hypotheses.hypothesis import Part
+from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.hypotheses.laws import UNKNOWN
+from cdpr_struct.residuals.linearised import Term
+from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.robot.parameters import PARAMETERS
 from cdpr_struct.robot.robot_arrays import RobotArrays
 

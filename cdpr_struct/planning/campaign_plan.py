@@ -6,14 +6,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.diagnosis.detectable_sizes import plainest, smallest
-from cdpr_struct.diagnosis.hypotheses.library import testable
-from cdpr_struct.diagnosis.recorded import Recorded, recorded
-from cdpr_struct.diagnosis.seen import seen_in
+from cdpr_struct.hypotheses.causes.library import testable
+from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.planning.candidates import at_the_robot, checks
 from cdpr_struct.planning.information import Numbers, expected_evidence, of_causes
 from cdpr_struct.planning.planned_rows import PlannedRows
 from cdpr_struct.planning.separations import WIDE, Gain, Separator, Sized
+from cdpr_struct.residuals.recorded import Recorded, recorded
 
 SAME = 3.0  # nats: expected evidence below which two causes are one class, a factor of 20
 _WORTH = 0.1  # nats below which a measurement is not listed

@@ -5,14 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from cdpr_struct.diagnosis.linearised import Term
-from cdpr_struct.diagnosis.recorded import Recorded, recorded
 from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.planning.checks import CHECKS, check_rows
 from cdpr_struct.planning.information import Numbers
 from cdpr_struct.planning.measurements import FREQUENCIES, Measurement, Proposed, proposed
 from cdpr_struct.planning.planned_rows import PlannedRows
+from cdpr_struct.residuals.linearised import Term
+from cdpr_struct.residuals.recorded import Recorded, recorded
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _BEHIND_A_CLAMP = "dead_length"

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.diagnosis.linearised import Term
-from cdpr_struct.diagnosis.tolerances import tolerated
 from cdpr_struct.measurement.campaign import Tolerances
 from cdpr_struct.planning.information import Numbers
+from cdpr_struct.residuals.linearised import Term
+from cdpr_struct.residuals.tolerances import tolerated
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.masts import of_each_mast
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.diagnosis.hypotheses.cause import Cause, Pattern, Seen
-from cdpr_struct.diagnosis.linearised import Term
-from cdpr_struct.diagnosis.tolerances import tolerance_count
+from cdpr_struct.hypotheses.causes.cause import Cause, Pattern, Seen
+from cdpr_struct.residuals.linearised import Term
+from cdpr_struct.residuals.tolerances import tolerance_count
 
 
 @dataclass(frozen=True, slots=True, eq=False)

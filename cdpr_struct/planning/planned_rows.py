@@ -6,15 +6,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.association.detection import robot_detection
-from cdpr_struct.diagnosis.assembled import Lists, linear_model, stacked
-from cdpr_struct.diagnosis.layout import layout
-from cdpr_struct.diagnosis.linearised import Local, Point, Rows, Term
-from cdpr_struct.diagnosis.recorded import Recorded
 from cdpr_struct.inference.linear_model import LinearModel
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.inference.screening import Screen
 from cdpr_struct.inference.soft_rows import SoftExpectation
 from cdpr_struct.planning.information import Numbers
+from cdpr_struct.residuals.assembled import Lists, linear_model, stacked
+from cdpr_struct.residuals.layout import layout
+from cdpr_struct.residuals.linearised import Local, Point, Rows, Term
+from cdpr_struct.residuals.recorded import Recorded
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,17 +10,17 @@ from itertools import combinations
 
 import numpy as np
 
-from cdpr_struct.diagnosis.assembled import stacked
-from cdpr_struct.diagnosis.decision import UNKNOWN
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
-from cdpr_struct.diagnosis.hypotheses.cause import Pattern
-from cdpr_struct.diagnosis.linearised import Local
-from cdpr_struct.diagnosis.search import Answer
+from cdpr_struct.hypotheses.causes.cause import Pattern
+from cdpr_struct.hypotheses.laws import UNKNOWN
+from cdpr_struct.hypotheses.search import Answer
 from cdpr_struct.planning.candidates import at_the_robot, checks
 from cdpr_struct.planning.information import Numbers
 from cdpr_struct.planning.measurements import SERIES, Measurement
 from cdpr_struct.planning.planned_rows import information_of
 from cdpr_struct.planning.separations import ENOUGH, WIDE, Pair, Separation, Separator, Sized, separations
+from cdpr_struct.residuals.assembled import stacked
+from cdpr_struct.residuals.linearised import Local
 
 NEAR = 10.0  # nats from a named cause within which its next rival is worth telling apart
 LIKELY = 5.0  # nats from the best candidate of an unknown

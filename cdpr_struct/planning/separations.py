@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.diagnosis.detectable import noncentrality
 from cdpr_struct.diagnosis.detectable_sizes import plainest
-from cdpr_struct.diagnosis.hypotheses.cause import Pattern
+from cdpr_struct.hypotheses.causes.cause import Pattern
+from cdpr_struct.hypotheses.detectable import noncentrality
 from cdpr_struct.planning.information import Numbers, expected_evidence, of_causes
 from cdpr_struct.planning.measurements import Measurement
 

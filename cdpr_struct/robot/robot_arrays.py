@@ -188,3 +188,13 @@ class RobotArrays:
 def _batch(arrays: RobotArrays, name: str) -> tuple[int, ...]:
     shape: tuple[int, ...] = getattr(arrays, name).shape
     return shape[: len(shape) - PARAMETERS[name].axes]
+
+
+def plus(arrays: RobotArrays, **changes: np.ndarray) -> RobotArrays:
+    """The robot with changes added to the named fields; batch axes broadcast."""
+    return replace(arrays, **{name: getattr(arrays, name) + change for name, change in changes.items()})
+
+
+def times(arrays: RobotArrays, **factors: np.ndarray) -> RobotArrays:
+    """The robot with the named fields multiplied; batch axes broadcast."""
+    return replace(arrays, **{name: getattr(arrays, name) * factor for name, factor in factors.items()})

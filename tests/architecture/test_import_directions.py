@@ -8,6 +8,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "cdpr_struct"
 
+EVIDENCE = {"robot", "statics", "dynamics", "measurement", "observation", "inference", "association"}
 # What each room of the package may import from it, besides itself, `errors`, `side_by_side` and `generated`.
 MAY_IMPORT = {
     "generated": set(),
@@ -19,8 +20,10 @@ MAY_IMPORT = {
     "observation": {"robot", "statics", "dynamics", "measurement"},
     "inference": set(),
     "association": {"observation", "inference"},
-    "diagnosis": {"robot", "statics", "dynamics", "measurement", "observation", "inference", "association"},
-    "planning": {"robot", "statics", "dynamics", "measurement", "observation", "inference", "association", "diagnosis"},
+    "residuals": EVIDENCE,
+    "hypotheses": {*EVIDENCE, "residuals"},
+    "diagnosis": {*EVIDENCE, "residuals", "hypotheses"},
+    "planning": {*EVIDENCE, "residuals", "hypotheses", "diagnosis"},
     "workspace": {"robot", "statics", "dynamics"},
     "thesis": {"robot", "statics", "dynamics", "crosscheck", "workspace"},
     "reports": {
@@ -29,6 +32,7 @@ MAY_IMPORT = {
         "dynamics",
         "crosscheck",
         "measurement",
+        "hypotheses",
         "diagnosis",
         "planning",
         "workspace",
@@ -47,7 +51,7 @@ MAY_IMPORT = {
         "reports",
     },
 }
-NUMERICS = ("generated", "statics", "dynamics", "crosscheck", "workspace")
+NUMERICS = ("generated", "statics", "dynamics", "crosscheck", "workspace", "residuals", "hypotheses")
 SCREEN_AND_FILES = {"matplotlib", "plotly", "rich", "typer", "jinja2", "pathlib", "json", "csv"}
 MAY_IMPORT_THE_REFEREE = {"crosscheck"}
 

@@ -7,10 +7,12 @@ import pytest
 
 PACKAGE = Path(__file__).parents[2] / "cdpr_struct"
 ROOMS = (
-    "statics", "dynamics", "crosscheck", "workspace", "observation", "inference", "association", "diagnosis",
-    "diagnosis/hypotheses", "planning",
+    "statics", "dynamics", "crosscheck", "workspace", "observation", "inference", "association", "residuals",
+    "hypotheses", "hypotheses/causes", "diagnosis", "planning",
 )  # fmt: skip
-LONGEST_CHAIN = 12  # files of one room that import each other in a row; only ever to become fewer
+LONGEST_CHAIN = 11  # files of one room that import each other in a row; only ever to become fewer
+SHORT = {"observation", "inference", "association", "residuals", "hypotheses", "diagnosis", "planning"}
+LONGEST_SHORT_CHAIN = 7
 
 
 def table(room: str) -> dict[str, set[str]]:
@@ -63,7 +65,7 @@ def names_in(path: Path) -> set[str]:
 
 @pytest.mark.parametrize("room", sorted({room.split("/")[0] for room in ROOMS}))
 def test_imports_in_a_room_make_no_circle_and_no_long_chain(room):
-    assert chain(PACKAGE / room) <= LONGEST_CHAIN
+    assert chain(PACKAGE / room) <= (LONGEST_SHORT_CHAIN if room in SHORT else LONGEST_CHAIN)
 
 
 @pytest.mark.parametrize("room", ROOMS)

@@ -9,7 +9,7 @@ import pytest
 import fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.diagnosis.diagnosing import diagnosed
-from cdpr_struct.diagnosis.significant import SIGNIFICANT
+from cdpr_struct.hypotheses.significant import SIGNIFICANT
 from cdpr_struct.measurement.campaign_file import load_campaign
 from tests.conftest import at_rest
 

@@ -2,7 +2,9 @@
 
 import pytest
 
-from cdpr_struct.diagnosis.decision import UNKNOWN, Belief, Loss, decided, fits
+from cdpr_struct.diagnosis.decision import Loss, decided, fits
+from cdpr_struct.hypotheses.explain import Belief
+from cdpr_struct.hypotheses.laws import UNKNOWN
 
 LOSS = Loss(wrong_name=20.0, too_wide=1.0, unknown=10.0)
 

@@ -6,15 +6,15 @@ from functools import cache
 import numpy as np
 import pytest
 
-from cdpr_struct.diagnosis.hypotheses.library import LIBRARY
-from cdpr_struct.diagnosis.hypothesis import Hypothesis, Part
-from cdpr_struct.diagnosis.judge import judged
-from cdpr_struct.diagnosis.layout import layout
-from cdpr_struct.diagnosis.recorded import recorded
-from cdpr_struct.diagnosis.search import BUDGETS, Search
-from cdpr_struct.diagnosis.seen import seen_in
 from cdpr_struct.diagnosis.whole_sizes import whole_sizes
+from cdpr_struct.hypotheses.causes.library import LIBRARY
+from cdpr_struct.hypotheses.hypothesis import Hypothesis, Part
+from cdpr_struct.hypotheses.judge import judged
+from cdpr_struct.hypotheses.search import BUDGETS, Search
+from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.residuals.layout import layout
+from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.robot_file import load_robot
 from tests.laws.written_campaigns import lighter, measured, noisy, plan_of, with_states, written
 

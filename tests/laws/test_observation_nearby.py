@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from cdpr_struct.diagnosis.hypotheses.library import LIBRARY
-from cdpr_struct.diagnosis.linearised import Term, less
-from cdpr_struct.diagnosis.recorded import Recorded, recorded
-from cdpr_struct.diagnosis.seen import seen_in
-from cdpr_struct.diagnosis.tolerances import tolerance_count, tolerated
+from cdpr_struct.hypotheses.causes.library import LIBRARY
+from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.observation.nearby_rest import NearbyRest
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.observation.rest import static_residuals
+from cdpr_struct.residuals.linearised import Term, less
+from cdpr_struct.residuals.recorded import Recorded, recorded
+from cdpr_struct.residuals.tolerances import tolerance_count, tolerated
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from tests.laws.written_campaigns import extended, mast_values, on_pulleys, plan_of, written

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cdpr_struct.diagnosis.linearised import Local, Point
-from cdpr_struct.diagnosis.recorded import recorded
+from cdpr_struct.residuals.linearised import Local, Point
+from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.extensions import EXTENSIONS
 from cdpr_struct.robot.robot_file import load_robot
 from tests.laws.written_campaigns import extended, mast_values, on_pulleys, plan_of, written

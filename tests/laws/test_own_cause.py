@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from cdpr_struct.diagnosis.diagnosing import diagnosed
-from cdpr_struct.diagnosis.hypotheses.library import LIBRARY
+from cdpr_struct.hypotheses.causes.library import LIBRARY
 from cdpr_struct.reports.diagnose.result import result_json
 from cdpr_struct.robot.robot_file import load_robot
 from tests.laws.written_campaigns import noisy, plan_of, written

@@ -6,14 +6,11 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from cdpr_struct.diagnosis.assembled import linear_model, stacked
-from cdpr_struct.diagnosis.detectable import FALSE_ALARMS, POWER, noncentrality
 from cdpr_struct.diagnosis.detectable_sizes import plainest
-from cdpr_struct.diagnosis.hypotheses.library import testable as causes_for
-from cdpr_struct.diagnosis.layout import layout
-from cdpr_struct.diagnosis.recorded import recorded
-from cdpr_struct.diagnosis.seen import seen_in
 from cdpr_struct.generated.platform import rotation
+from cdpr_struct.hypotheses.causes.library import testable as causes_for
+from cdpr_struct.hypotheses.detectable import FALSE_ALARMS, POWER, noncentrality
+from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.inference.screening import Screen
 from cdpr_struct.measurement.campaign import CableFrequencies, Campaign, RobotFrequencies, States, Tolerances
@@ -26,6 +23,9 @@ from cdpr_struct.planning.planned_rows import PlannedRows
 from cdpr_struct.planning.separations import WIDE, Separator, Sized
 from cdpr_struct.reports.plan.measurements import CHECKS as CHECK_TEXTS
 from cdpr_struct.reports.plan.measurements import measurement_text
+from cdpr_struct.residuals.assembled import linear_model, stacked
+from cdpr_struct.residuals.layout import layout
+from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
 

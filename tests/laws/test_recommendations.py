@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 from cdpr_struct.diagnosis.decision import Decision
-from cdpr_struct.diagnosis.hypotheses.library import LIBRARY
-from cdpr_struct.diagnosis.hypothesis import Hypothesis, Part
-from cdpr_struct.diagnosis.judge import judged
-from cdpr_struct.diagnosis.recorded import recorded
-from cdpr_struct.diagnosis.search import BUDGETS, Answer, Search
+from cdpr_struct.hypotheses.causes.library import LIBRARY
+from cdpr_struct.hypotheses.hypothesis import Hypothesis, Part
+from cdpr_struct.hypotheses.judge import judged
+from cdpr_struct.hypotheses.search import BUDGETS, Answer, Search
 from cdpr_struct.planning import recommendations as following
 from cdpr_struct.planning.recommendations import APART, Question, questions, recommendations
 from cdpr_struct.reports.plan.measurements import recommendations_text
+from cdpr_struct.residuals.recorded import recorded
 from tests.laws.test_plan import clean_campaign
 
 MASSES = ("platform_mass", "joint_mass")

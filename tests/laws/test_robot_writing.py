@@ -7,13 +7,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from cdpr_struct.diagnosis.diagnosing import diagnosed
-from cdpr_struct.diagnosis.hypothesis import Hypothesis
-from cdpr_struct.diagnosis.judge import judged
-from cdpr_struct.diagnosis.layout import layout
 from cdpr_struct.diagnosis.left_out import rows_of
-from cdpr_struct.diagnosis.recorded import recorded
 from cdpr_struct.generated.platform import rotation
+from cdpr_struct.hypotheses.hypothesis import Hypothesis
+from cdpr_struct.hypotheses.judge import judged
 from cdpr_struct.inference.scale_mixture import NoiseState
+from cdpr_struct.residuals.layout import layout
+from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.robot.robot_from_arrays import bodily, robot_from_arrays

@@ -5,15 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cdpr_struct.diagnosis.hypotheses.handling import Correction
-from cdpr_struct.diagnosis.hypotheses.library import LIBRARY
-from cdpr_struct.diagnosis.hypothesis import Part
-from cdpr_struct.diagnosis.recorded import recorded
-from cdpr_struct.diagnosis.seen import seen_in
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
+from cdpr_struct.hypotheses.causes.library import LIBRARY
+from cdpr_struct.hypotheses.handling import Correction
+from cdpr_struct.hypotheses.hypothesis import Part
+from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas
 from cdpr_struct.reports.diagnose.mending import changed_columns, corrected
 from cdpr_struct.reports.diagnose.words import described
+from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.robot_file import load_robot
 from tests.laws.written_campaigns import plan_of, written
 

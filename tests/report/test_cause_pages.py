@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS
-from cdpr_struct.diagnosis.hypotheses import internal_force
-from cdpr_struct.diagnosis.hypotheses.library import LIBRARY
+from cdpr_struct.hypotheses.causes import internal_force
+from cdpr_struct.hypotheses.causes.library import LIBRARY
 from cdpr_struct.reports.diagnose.cause_pages import pages
 
 HANDLING = ("unit_error", "sign_error", "swapped_channels", "pose_mismatch")

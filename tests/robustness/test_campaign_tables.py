@@ -50,7 +50,7 @@ def test_bad_tables(campaign, words, tmp_path, capsys):
 
 
 def test_names_in_checked_are_read_before_anything_is_computed(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("cdpr_struct.diagnosis.explain.recorded", None)
+    monkeypatch.setattr("cdpr_struct.hypotheses.explain.recorded", None)
     assert "checked.mood" in complaint(tmp_path, capsys, campaign=CAMPAIGN + "[checked]\nmood = 1\n")
 
 

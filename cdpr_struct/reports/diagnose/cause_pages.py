@@ -2,10 +2,10 @@
 
 from dataclasses import replace
 
-from cdpr_struct.diagnosis.hypotheses import internal_force
-from cdpr_struct.diagnosis.hypotheses.cause import Cause
-from cdpr_struct.diagnosis.hypotheses.library import LIBRARY
-from cdpr_struct.diagnosis.hypothesis import PRICE
+from cdpr_struct.hypotheses.causes import internal_force
+from cdpr_struct.hypotheses.causes.cause import Cause
+from cdpr_struct.hypotheses.causes.library import LIBRARY
+from cdpr_struct.hypotheses.hypothesis import PRICE
 
 BLOCKS = {
     "EQ": "wrench balance", "CO": "cable lengths", "NS": "internal force", "CF": "cable frequencies",

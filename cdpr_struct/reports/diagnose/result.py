@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from cdpr_struct.diagnosis.decision import UNKNOWN, fits
+from cdpr_struct.diagnosis.decision import fits
 from cdpr_struct.diagnosis.diagnosis import Candidate, Diagnosis, Tried
 from cdpr_struct.diagnosis.left_out import LeftOut
+from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.reports.diagnose import signals
 from cdpr_struct.reports.diagnose.mending import corrected
 from cdpr_struct.reports.diagnose.sentences import finite, sentence

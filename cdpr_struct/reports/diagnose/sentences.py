@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from cdpr_struct.diagnosis.decision import UNKNOWN
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
+from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.reports.diagnose.mending import corrected
 from cdpr_struct.reports.diagnose.signals import damping_sentence
 from cdpr_struct.reports.diagnose.words import described, listed, place, plain, reading

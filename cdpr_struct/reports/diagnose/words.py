@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from cdpr_struct.diagnosis.diagnosis import DAMPING, Location
-from cdpr_struct.diagnosis.hypotheses.cause import Pattern
 from cdpr_struct.diagnosis.recommended import Recommendation
 from cdpr_struct.diagnosis.sensor_sigmas import Doubt
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
+from cdpr_struct.hypotheses.causes.cause import Pattern
 
 PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",

@@ -1,0 +1,145 @@
+"""What a cause is: named parameters with priors, one change of the robot, and patterns of occurrence."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from cdpr_struct.robot.robot_arrays import RobotArrays
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One number of a cause.
+
+    ratio : theta is the logarithm of a factor; reported as the factor
+    squared : theta is the root of what is reported
+    positive : theta below zero means nothing
+    prior   : one sigma of theta
+    """
+
+    name: str
+    unit: str
+    prior: float
+    ratio: bool = False
+    squared: bool = False
+    positive: bool = False
+
+    def shown(self, theta: float, sigma: float) -> dict[str, float | str]:
+        """Value, sigma and unit as they are reported."""
+        if self.squared:
+            return {"value": theta * abs(theta), "sigma": 2.0 * abs(theta) * sigma, "unit": self.unit}
+        value = float(np.exp(theta)) if self.ratio else float(theta)
+        return {"value": value, "sigma": float(sigma * value if self.ratio else sigma), "unit": self.unit}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pattern:
+    """How the basic parameters theta0 = basis @ theta of a cause occur together.
+
+    weight : probability of this pattern among those of the cause
+    """
+
+    label: str
+    basis: np.ndarray
+    parameters: tuple[Parameter, ...]
+    weight: float
+
+    @property
+    def prior(self) -> np.ndarray:
+        """(d,) sigma of theta."""
+        return np.array([p.prior for p in self.parameters])
+
+    @property
+    def positive(self) -> np.ndarray:
+        """(d,) bool: theta below zero means nothing."""
+        return np.array([p.positive for p in self.parameters])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Seen:
+    """What a campaign's data hold, for causes to say whether they can show there.
+
+    kinds : of rows, as in `seen_in`;  tensions, lengths : whether any was read;  approach : whether directions are
+    known;  hours : that the readings span;  cable_modes : how many different modes of a cable;  states : names
+    groups : endings and words of what carries parameters of its own, by carrier ("cable", "mast", "axis", "state")
+    """
+
+    kinds: frozenset[str]
+    tensions: bool
+    lengths: bool
+    approach: bool
+    hours: float
+    cable_modes: int
+    states: tuple[str, ...]
+    groups: Mapping[str, Mapping[str, str]]
+
+
+def always(seen: Seen) -> str:
+    """Testable by default."""
+    return ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cause:
+    """A cause in the library.
+
+    apply     : robot (arrays) with basic parameters theta0 (..., d0) put in, (...) the batch axes of its fields
+    carrier   : "" for parameters of the robot as a whole, else "cable", "mast", "axis" or "state": each has its own
+    alike     : probability that all carriers have the same, 0 if that cannot be
+    shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
+    seen_in   : kinds of rows it shows in;  needs : why these data cannot show it, or ""
+    becomes   : causes that it is where some of its parameters are zero
+    sentence  : for a person, with {value} and {unit} of the first parameter;  sign : what a number above zero means
+    separated_by : measurements that tell it from its rivals;  extension : what of the extended robot holds it
+    """
+
+    name: str
+    title: str
+    parameters: tuple[Parameter, ...]
+    apply: Callable[[RobotArrays, np.ndarray], RobotArrays]
+    carrier: str = ""
+    alike: float = 0.4
+    shapes: tuple[tuple[str, slice, float], ...] = ()
+    seen_in: tuple[str, ...] = ()
+    needs: Callable[[Seen], str] = always
+    becomes: tuple[str, ...] = ()
+    sentence: str = ""
+    sign: str = ""
+    separated_by: str = ""
+    extension: str = ""
+    known: Mapping[str, float] = field(default_factory=dict)
+
+    def basic(self, seen: Seen) -> tuple[Parameter, ...]:
+        """Basic parameters of the cause for this campaign."""
+        if not self.carrier:
+            return self.parameters
+        endings = seen.groups[self.carrier]
+        return tuple(replace(p, name=f"{p.name}_{ending}") for ending in endings for p in self.parameters)
+
+    def patterns(self, seen: Seen) -> list[Pattern]:
+        """Patterns of occurrence: all carriers alike, each differently, one alone; or the only one."""
+        basic, axes = self.basic(seen), len(self.parameters)
+        every = np.eye(len(basic))
+        if self.shapes:
+            return [Pattern(label, every[:, own], basic[own], weight) for label, own, weight in self.shapes]
+        parts = [slice(axes * i, axes * (i + 1)) for i in range(len(basic) // axes)]
+        if len(parts) < 2:
+            return [Pattern("", every, self.parameters, 1.0)]
+        words = list(seen.groups[self.carrier].values())
+        alone = 1.0 if self.carrier == "state" else 0.5 * (1.0 - self.alike)
+        found = [
+            Pattern(f"{word} alone", every[:, own], basic[own], alone / len(parts))
+            for word, own in zip(words, parts, strict=True)
+        ]
+        if self.carrier == "state":
+            return found
+        if self.alike:
+            same = np.tile(np.eye(axes), (len(parts), 1))
+            found.append(Pattern("all alike", same, self.parameters, self.alike))
+        return [*found, Pattern("each its own", every, basic, 0.5 * (1.0 - self.alike))]
+
+
+def by_carrier(theta: np.ndarray, axes: int) -> np.ndarray:
+    """(..., n * axes) as (..., n, axes)."""
+    return theta.reshape((*theta.shape[:-1], -1, axes))

@@ -1,0 +1,162 @@
+"""Where things are, other than entered."""
+
+import numpy as np
+
+from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen, by_carrier
+from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
+
+STEEL = 1.2e-5  # [1/K], cables and frame
+_XYZ = ("x", "y", "z")
+
+
+def _frame_anchor(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, frame_anchors=by_carrier(theta, 3))
+
+
+def _platform_anchor(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, platform_anchors=by_carrier(theta, 3))
+
+
+def _offset(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, length_offset=theta)
+
+
+def _drum(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return times(arrays, length_scale=np.exp(theta))
+
+
+def _temperature(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    grown = 1.0 + STEEL * theta
+    return times(arrays, length_scale=grown, frame_anchors=grown[..., None])
+
+
+def _pulley(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, pulley_radius=np.maximum(theta, -0.9 * arrays.pulley_radius))
+
+
+def _tracker(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, tracker=theta)
+
+
+def _tilt(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, tilt=theta)
+
+
+def _pose(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    """A frame of its own for the tracker in each state (..., S * 6)."""
+    return plus(arrays, tracker=by_carrier(theta, 6)[..., 0, :, :])
+
+
+def _lengths(seen: Seen) -> str:
+    return "" if seen.lengths else "needs lengths from the encoders"
+
+
+CAUSES = (
+    Cause(
+        "frame_anchor_position",
+        "frame anchors are not where entered",
+        tuple(Parameter(f"frame_anchor_{a}", "m", 5e-3) for a in _XYZ),
+        _frame_anchor,
+        carrier="cable",
+        seen_in=("CO", "NS"),
+        sentence="frame anchors are off, by {far} m in the mean",
+        separated_by="platform rotations among the poses; a laser tracker on the pulleys",
+        extension="frame_anchors",
+    ),
+    Cause(
+        "platform_anchor_position",
+        "platform anchors are not where entered",
+        tuple(Parameter(f"platform_anchor_{a}", "m", 4e-3) for a in _XYZ),
+        _platform_anchor,
+        carrier="cable",
+        seen_in=("EQ", "CO"),
+        sentence="platform anchors are off, by {far} m in the mean",
+        separated_by="tilted poses; a caliper on the platform",
+        extension="platform_anchors",
+    ),
+    Cause(
+        "unstrained_length_offset",
+        "zero of the cable lengths",
+        (Parameter("length_offset", "m", 4e-3),),
+        _offset,
+        carrier="cable",
+        seen_in=("CO", "NS"),
+        sentence="the length zero is off, by {rms} m in the mean",
+        sign="paid out = encoder length + this",
+        needs=_lengths,
+        separated_by="six or more spread poses; homing again",
+        extension="length_offset",
+    ),
+    Cause(
+        "drum_scale",
+        "length a turn of the drum",
+        (Parameter("length_scale", "ratio", 1e-3, True),),
+        _drum,
+        carrier="cable",
+        seen_in=("CO",),
+        sentence="the winches pay out {percent} of what the encoders say",
+        needs=_lengths,
+        separated_by="a thermometer; encoder count over a measured metre",
+        extension="length_scale",
+    ),
+    Cause(
+        "temperature",
+        "cables and frame are warmer or colder than at calibration",
+        (Parameter("temperature_change", "K", 15.0),),
+        _temperature,
+        seen_in=("CO",),
+        sentence="cables and frame are {value} K off their calibration temperature",
+        sign="above zero is warmer",
+        needs=_lengths,
+        separated_by="a thermometer; the same poses at another temperature",
+        extension="length_scale",
+    ),
+    Cause(
+        "pulley_radius",
+        "radius of the pulleys",
+        (Parameter("pulley_radius", "m", 0.01),),
+        _pulley,
+        carrier="cable",
+        seen_in=("CO", "NS"),
+        sentence="the pulleys' radius is off by {value} m",
+        sign="above zero is larger than entered",
+        separated_by="poses at other heights",
+        extension="pulley_radius",
+    ),
+    Cause(
+        "tracker_frame",
+        "the tracker's frame is not the robot's",
+        tuple(Parameter(f"shift_{a}", "m", 3e-3) for a in _XYZ)
+        + tuple(Parameter(f"turn_{a}", "rad", 3e-3) for a in _XYZ),
+        _tracker,
+        seen_in=("CO",),
+        sentence="the tracker's frame is shifted or turned, by {parts}",
+        separated_by="common points measured on the frame",
+        shapes=(
+            ("shifted", slice(0, 3), 0.25),
+            ("turned", slice(3, 6), 0.25),
+            ("shifted and turned", slice(None), 0.5),
+        ),
+    ),
+    Cause(
+        "gravity_tilt",
+        "the frame is not level",
+        (Parameter("tilt_x", "rad", 6e-3), Parameter("tilt_y", "rad", 6e-3)),
+        _tilt,
+        seen_in=("EQ",),
+        sentence="the frame is out of level by {norm} rad",
+        separated_by="a payload series; a spirit level",
+        extension="tilt",
+    ),
+    Cause(
+        "pose_mismatch",
+        "the pose of a state is not the one that was measured there",
+        tuple(Parameter(f"shift_{a}", "m", 0.05) for a in _XYZ)
+        + tuple(Parameter(f"turn_{a}", "rad", 0.03) for a in _XYZ),
+        _pose,
+        seen_in=("EQ", "CO"),
+        sentence="the pose entered for one state is not the one that was measured there",
+        separated_by="measuring that pose again",
+        carrier="state",
+    ),
+)

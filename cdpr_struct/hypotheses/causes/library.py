@@ -1,0 +1,64 @@
+"""All causes by name, and which of them a campaign's data can show."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from importlib.metadata import entry_points
+
+from cdpr_struct.errors import InputError, known_names
+from cdpr_struct.hypotheses.causes import accelerometers, cables, geometry, platform, sensors, stiffness
+from cdpr_struct.hypotheses.causes.cause import Cause, Seen
+
+FAMILIES = (stiffness, geometry, platform, cables, sensors, accelerometers)
+LIBRARY: dict[str, Cause] = {cause.name: cause for family in FAMILIES for cause in family.CAUSES}
+
+ENTRY_POINTS = "cdpr_struct.causes"
+"""Group in which an installed package names its causes: each entry is a `Cause`, or a sequence of them."""
+
+
+def register(*causes: Cause) -> None:
+    """Add causes of one's own to the library, for all diagnoses of this process.
+
+    Raises
+    ------
+    ValueError : there is a cause of this name already.
+    """
+    for cause in causes:
+        if LIBRARY.setdefault(cause.name, cause) is not cause:
+            raise ValueError(f"there is a cause called {cause.name!r} already: give yours another name")
+
+
+def installed() -> None:
+    """Register the causes of all installed packages; those that are known already stay."""
+    for entry in entry_points(group=ENTRY_POINTS):
+        found = entry.load()
+        register(*([found] if isinstance(found, Cause) else found))
+
+
+def require_known(source: str, checked: Mapping[str, float]) -> None:
+    """Raises `InputError` if the table [checked] of a campaign file names what is no cause."""
+    for name, sigma in checked.items():
+        if name not in LIBRARY:
+            expected = f"no such cause; {known_names(name.lower(), sorted(LIBRARY))}"
+            raise InputError(source, f"checked.{name}", sigma, expected)
+
+
+def testable(seen: Seen, checked: Mapping[str, float]) -> tuple[list[Cause], dict[str, str]]:
+    """Causes that the data can show in principle, with priors no wider than a check has left, and why not the others.
+
+    checked : by cause, one sigma of what it may still be, in the unit of its parameters
+    """
+    installed()
+    found, hidden = [], {}
+    for name, cause in LIBRARY.items():
+        reason = cause.needs(seen) or ("" if set(cause.seen_in) & seen.kinds else "not seen in these kinds of data")
+        if reason:
+            hidden[name] = reason
+        else:
+            found.append(_bounded(cause, checked.get(name, math.inf)))
+    return found, hidden
+
+
+def _bounded(cause: Cause, sigma: float) -> Cause:
+    parameters = [replace(p, prior=min(p.prior, math.sqrt(sigma) if p.squared else sigma)) for p in cause.parameters]
+    return replace(cause, parameters=tuple(parameters))

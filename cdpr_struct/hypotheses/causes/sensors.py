@@ -1,0 +1,89 @@
+"""What the readings do to the truth."""
+
+import numpy as np
+
+from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen
+from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
+
+_LEAST_HOURS = 0.01  # half a minute: a slip is counted by the hour
+
+
+def _gain(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return times(arrays, cell_gain=np.exp(theta))
+
+
+def _bias(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, cell_bias=theta)
+
+
+def _friction(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, friction=theta)
+
+
+def _slip(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, slip=theta)
+
+
+def _cells(seen: Seen) -> str:
+    return "" if seen.tensions else "needs tensions"
+
+
+def _approach(seen: Seen) -> str:
+    return "" if seen.approach else "needs a column approach (+1 or -1)"
+
+
+def _times(seen: Seen) -> str:
+    return "" if seen.hours > _LEAST_HOURS else "needs time_s"
+
+
+CAUSES = (
+    Cause(
+        "load_cell_gain",
+        "gain of the load cells",
+        (Parameter("gain", "ratio", 0.03, True),),
+        _gain,
+        carrier="cable",
+        seen_in=("EQ", "CO", "CF"),
+        sentence="the load cells read {percent} of the tension",
+        needs=_cells,
+        separated_by="a payload series; cable frequencies; a known weight on one cell",
+        extension="cell_gain",
+    ),
+    Cause(
+        "load_cell_bias",
+        "zero of the load cells",
+        (Parameter("bias", "N", 6.0),),
+        _bias,
+        carrier="cable",
+        seen_in=("EQ", "CO", "CF"),
+        sentence="the load cells' zero is off, by {rms} N in the mean",
+        sign="reading = tension + this",
+        needs=_cells,
+        separated_by="tensions over a range of two or more",
+        extension="cell_bias",
+    ),
+    Cause(
+        "pulley_friction",
+        "friction between cable and load cell",
+        (Parameter("friction", "1", 0.03, positive=True),),
+        _friction,
+        carrier="cable",
+        seen_in=("EQ", "CO", "CF"),
+        sentence="pulley friction takes {value} of the tension a right angle",
+        needs=_approach,
+        separated_by="approaching each pose from both sides",
+        extension="friction",
+    ),
+    Cause(
+        "brake_slip",
+        "a brake or a winch creeps",
+        (Parameter("slip", "m/h", 2e-3),),
+        _slip,
+        carrier="cable",
+        seen_in=("CO",),
+        needs=_times,
+        sentence="a winch slips by {rms} m an hour",
+        sign="above zero pays out",
+        separated_by="the motor encoder's log",
+    ),
+)

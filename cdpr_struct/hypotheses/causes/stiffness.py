@@ -1,0 +1,105 @@
+"""What gives way more than entered."""
+
+import numpy as np
+
+from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen
+from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
+from cdpr_struct.statics.masts import carriers
+
+_LEAST_HOURS = 0.05  # three minutes: creep is counted in decades of time after the first
+
+
+def _axial(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return times(arrays, axial_stiffness=np.exp(theta))
+
+
+def _joint(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, series_compliance=theta)
+
+
+def _dead(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, series_compliance=theta / arrays.axial_stiffness)
+
+
+def _frame(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, frame_compliance=theta @ carriers(arrays.masts).T)
+
+
+def _nonlinear(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, nonlinearity=theta[..., 0])
+
+
+def _creep(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, creep=theta[..., 0])
+
+
+def _times(seen: Seen) -> str:
+    return "" if seen.hours > _LEAST_HOURS else "needs time_s over some minutes"
+
+
+CAUSES = (
+    Cause(
+        "axial_stiffness",
+        "axial stiffness EA of the cables",
+        (Parameter("axial_stiffness", "ratio", 0.15, True),),
+        _axial,
+        carrier="cable",
+        seen_in=("CO", "RF"),
+        sentence="the cables' axial stiffness is {percent} of what was entered",
+        separated_by="poses at other heights: EA acts in proportion to the free length; a tensile test of 2 m of cable",
+        extension="axial_stiffness",
+    ),
+    Cause(
+        "joint_compliance",
+        "joints, load cells or winches in line with the cables give way",
+        (Parameter("compliance", "m/N", 4e-6, positive=True),),
+        _joint,
+        carrier="cable",
+        seen_in=("CO", "RF"),
+        sentence="each cable has an elastic element in line with it, {value} m/N",
+        separated_by="a dial gauge across the joint; clamping the cable at the pulley",
+        extension="series_compliance",
+    ),
+    Cause(
+        "dead_length",
+        "elastic cable between pulley and winch",
+        (Parameter("dead_length", "m", 3.0, positive=True),),
+        _dead,
+        carrier="cable",
+        seen_in=("CO", "RF"),
+        sentence="{value} m of elastic cable lie between pulley and winch",
+        separated_by="clamping the cable at the pulley; an amplitude sweep",
+        extension="series_compliance",
+    ),
+    Cause(
+        "frame_compliance",
+        "the masts bend",
+        (Parameter("compliance", "m/N", 2e-6, positive=True),),
+        _frame,
+        carrier="mast",
+        seen_in=("CO", "RF"),
+        sentence="the masts give way by {value} m/N",
+        separated_by="a dial gauge on a mast; pulling one cable and watching its neighbour",
+        extension="frame_compliance",
+    ),
+    Cause(
+        "nonlinear_elasticity",
+        "cables stiffen with tension",
+        (Parameter("k", "1", 0.15),),
+        _nonlinear,
+        seen_in=("CO", "RF"),
+        sentence="the cables' stiffness changes with tension, k = {value}",
+        separated_by="two preloads; a payload series",
+        extension="nonlinearity",
+    ),
+    Cause(
+        "creep",
+        "cables creep",
+        (Parameter("creep_per_decade", "1", 0.1, positive=True),),
+        _creep,
+        seen_in=("CO",),
+        needs=_times,
+        sentence="the cables creep, {value} of the elastic strain per decade of time",
+        separated_by="a load held for 30 minutes",
+    ),
+)

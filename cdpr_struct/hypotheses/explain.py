@@ -1,0 +1,83 @@
+"""From a campaign to what may be wrong with it: data as recorded, and corrected where people handled them wrongly."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import logsumexp
+
+from cdpr_struct.hypotheses.handled import promising
+from cdpr_struct.hypotheses.handling import Correction, corrections, shortcuts
+from cdpr_struct.hypotheses.hypothesis import Hypothesis
+from cdpr_struct.hypotheses.judge import judged
+from cdpr_struct.hypotheses.laws import UNKNOWN
+from cdpr_struct.hypotheses.search import Answer, Budget, Search
+from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.residuals.recorded import recorded
+
+_BEHIND = 12.0  # nats by which corrected data without a cause may lie behind the best, and be looked into all the same
+
+
+@dataclass(frozen=True, slots=True)
+class Belief:
+    """A set of causes that may be the truth, none for nothing wrong, and its probability."""
+
+    names: tuple[str, ...]
+    probability: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Explained:
+    """A campaign, corrected or as recorded, with its hypotheses; `price` is what the correction costs [nat]."""
+
+    correction: Correction | None
+    search: Search
+    answers: tuple[Answer, ...]
+    price: float
+
+    def beliefs(self) -> list[tuple[tuple[str, ...], float]]:
+        """Sets of names with ln of evidence times prior; what holds an unknown law is unknown as a whole."""
+        own = () if self.correction is None else (self.correction.cause,)
+        return [
+            ((UNKNOWN,) if UNKNOWN in answer.names else (*own, *answer.names), answer.score + self.price)
+            for answer in self.answers
+        ]
+
+
+def explained(campaign: Campaign, budget: Budget, progress: Callable[[str], None]) -> list[Explained]:
+    """The campaign as recorded, and corrected in every way that may explain it as well; best first."""
+    progress("fitting causes")
+    first = _searched(campaign, None, budget)
+    progress("trying how the data may have been handled")
+    found = [first, *_corrected(campaign, first, budget)]
+    return sorted(found, key=lambda one: -(one.answers[0].score + one.price))
+
+
+def _searched(campaign: Campaign, correction: Correction | None, budget: Budget) -> Explained:
+    search = Search(recorded(campaign), budget)
+    price = 0.0 if correction is None else correction.log_prior + correction.log_stretch
+    return Explained(correction, search, tuple(search.run()), price)
+
+
+def _corrected(campaign: Campaign, first: Explained, budget: Budget) -> list[Explained]:
+    """Corrections whose data alone, nothing else wrong, come near the best explanation of those recorded."""
+    best = first.answers[0].score
+    found = []
+    for correction in [*promising(first.search.data, corrections(campaign)), *shortcuts(campaign)]:
+        data = recorded(correction.campaign)
+        null = judged(data, first.search.where, Hypothesis())
+        if null.log_evidence + correction.log_prior + correction.log_stretch > best - _BEHIND:
+            found.append(_searched(correction.campaign, correction, budget))
+            best = max(best, found[-1].answers[0].score + found[-1].price)
+    return found
+
+
+def believed(found: Sequence[Explained]) -> list[Belief]:
+    """Probabilities of all sets of names."""
+    logs: dict[tuple[str, ...], list[float]] = {}
+    for one in found:
+        for names, score in one.beliefs():
+            logs.setdefault(tuple(sorted(names)), []).append(score)
+    whole = {names: float(logsumexp(scores)) for names, scores in logs.items()}
+    total = logsumexp(list(whole.values()))
+    return [Belief(names, float(np.exp(score - total))) for names, score in whole.items()]

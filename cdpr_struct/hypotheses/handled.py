@@ -1,0 +1,68 @@
+"""Which corrections of the data are worth judging? Those that leave least of what every state says against itself.
+
+Each state's residual is held against its readings and the tolerances; a state that is wrong for another reason costs
+only so much, as it does under Student's distribution.
+"""
+
+from collections.abc import Sequence
+from dataclasses import fields, replace
+
+import numpy as np
+
+from cdpr_struct.generated.platform import rotation as rotation_from_angles
+from cdpr_struct.hypotheses.handling import Correction
+from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.observation.readings import Readings
+from cdpr_struct.observation.rest import static_residuals
+from cdpr_struct.residuals.linearised import Local, Point
+from cdpr_struct.residuals.recorded import Recorded
+
+_MOST = 4  # corrections that are judged
+_DEGREES = 4.0  # of freedom, Student's: how surely a state is right that contradicts the others
+
+
+def promising(data: Recorded, found: Sequence[Correction]) -> list[Correction]:
+    """The likeliest corrections, of those that are likelier than the data as they are."""
+    covariance = _covariance(data, Local.about(data, Point.entered(data)))
+    now = _costs(data, covariance, [data.campaign])[0]
+    prices = np.array([-one.log_prior - one.log_stretch for one in found])
+    costs = _costs(data, covariance, [one.campaign for one in found]) + prices
+    order = np.argsort(costs, kind="stable")
+    return [found[i] for i in order[:_MOST] if costs[i] < now]
+
+
+def _covariance(data: Recorded, local: Local) -> np.ndarray:
+    """(S, 6 + m, 6 + m) of each state's residual by readings and tolerances."""
+    size = np.where(data.read, 1.0, data.unread / data.sigma)
+    noise = local.by_noise().static * size[:, None, :]
+    tolerance = local.own_columns().static
+    return np.asarray(noise @ np.swapaxes(noise, 1, 2) + tolerance @ np.swapaxes(tolerance, 1, 2))
+
+
+def _costs(data: Recorded, covariance: np.ndarray, campaigns: Sequence[Campaign]) -> np.ndarray:
+    """(B,) minus ln of the density of all states, each Student's; estimates of what nobody read stay."""
+    readings = [_readings(data, campaign) for campaign in campaigns]
+    whole = Readings(*(np.stack([getattr(one, f.name) for one in readings]) for f in fields(Readings)))
+    r = np.array(static_residuals(data.arrays, whole, data.known, data.radius))
+    for i, campaign in enumerate(campaigns):
+        if campaign.states.payload is not data.campaign.states.payload:
+            known = replace(data.known, payload=campaign.states.payload)
+            r[i] = static_residuals(data.arrays, readings[i], known, data.radius)
+    root = np.linalg.inv(np.linalg.cholesky(covariance))
+    square = ((root @ r[..., None]) ** 2).sum(axis=(-2, -1))
+    return np.asarray(0.5 * (_DEGREES + r.shape[-1]) * np.log1p(square / _DEGREES).sum(axis=-1))
+
+
+def _readings(data: Recorded, campaign: Campaign) -> Readings:
+    """The readings of a corrected campaign, filled as those recorded."""
+    states, own = campaign.states, data.readings
+    turn = own.rotation
+    if states.angles is not data.campaign.states.angles:
+        read = np.isfinite(states.angles).all(axis=1)[:, None, None]
+        turned = np.array([rotation_from_angles(*angles) for angles in np.nan_to_num(states.angles)])
+        turn = np.where(read, turned, own.rotation)
+    position, tension, length = (
+        np.where(np.isfinite(new), new, old)
+        for new, old in ((states.position, own.position), (states.tension, own.tension), (states.length, own.length))
+    )
+    return Readings(position, turn, tension, length)

@@ -1,0 +1,160 @@
+"""What people do to data and models: units, signs, exchanged channels and poses, effects left out.
+
+Each hypothesis is a corrected campaign: a transformation of its readings, or a switch of the simulation under test.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.hypotheses.hypothesis import PRICE
+from cdpr_struct.measurement.campaign import Campaign, States
+
+TENSION_UNITS = {"kgf": 9.80665, "lbf": 4.4482216, "kN": 1000.0, "daN": 10.0}
+LENGTH_UNITS = {"mm": 1e-3, "ft": 0.3048}
+_TILTED = 0.05  # of the largest angle
+PAIRS_OF_STATES = 2000  # static ones: all of 63
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Correction:
+    """A corrected campaign: what was wrong with the recorded one, in words, and how many alternatives its kind has.
+
+    log_stretch : ln of by how much all readings together were stretched, which is part of their density
+    """
+
+    cause: str
+    sentence: str
+    campaign: Campaign
+    alternatives: int = 1
+    log_stretch: float = 0.0
+    parameters: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def log_prior(self) -> float:
+        """ln of its probability against that of data as they are."""
+        return -PRICE - math.log(self.alternatives)
+
+
+def corrections(campaign: Campaign) -> list[Correction]:
+    """Every hypothesis about the handling of the data, with the number of its kind filled in."""
+    families = [list(f(campaign)) for f in (_units, _signs, _swaps, _exchanged_poses)]
+    return [replace(c, alternatives=len(family)) for family in families for c in family]
+
+
+def shortcuts(campaign: Campaign) -> list[Correction]:
+    """Effects that the simulation under test leaves out."""
+    found = []
+    if campaign.model == "spring":
+        better = replace(campaign, model="dsm")
+        found.append(Correction("cable_sag", "the simulation leaves out the weight of the cables", better))
+    if campaign.model == "static" and campaign.robot_frequencies.hertz.size:
+        better = replace(campaign, model="dsm")
+        found.append(Correction("cable_dynamics", "the simulation leaves out the cables' own vibration", better))
+    if campaign.assembly == "thesis" and campaign.robot_frequencies.hertz.size:
+        better = replace(campaign, assembly="consistent")
+        why = "the simulation leaves out the work of the cable forces on the rotating attachment"
+        found.append(Correction("attachment_geometric_stiffness", why, better))
+    return found
+
+
+def _with(campaign: Campaign, **changes: Any) -> Campaign:
+    return replace(campaign, states=replace(campaign.states, **changes))
+
+
+def _units(campaign: Campaign) -> Iterator[Correction]:
+    states, m = campaign.states, campaign.states.tension.shape[1]
+    whole = range(-1, m)
+    for which in whole if np.isfinite(states.tension).any() else ():
+        for unit, factor in TENSION_UNITS.items():
+            for size, wrong in ((factor, unit), (1.0 / factor, f"N taken for {unit}")):
+                scale = np.ones(m)
+                scale[slice(None) if which < 0 else which] = size
+                who = "the tensions" if which < 0 else f"the tensions of cable {which + 1}"
+                new = _with(campaign, tension=states.tension * scale, tension_sigma=states.tension_sigma)
+                count = int(np.isfinite(states.tension[:, scale != 1.0]).sum())
+                stretch = count * math.log(size)
+                said = f"{who} are not in N but in {wrong}"
+                yield Correction("unit_error", said, new, log_stretch=stretch, parameters={"factor": size})
+    for unit, factor in LENGTH_UNITS.items():
+        for what in ("length", "position"):
+            new = _with(campaign, **{what: getattr(states, what) * factor})
+            stretch = int(np.isfinite(getattr(states, what)).sum()) * math.log(factor)
+            said = f"the {what}s are in {unit}"
+            yield Correction("unit_error", said, new, log_stretch=stretch, parameters={"factor": factor})
+    turned = ((np.degrees(1.0), "rad"), (np.radians(1.0), "deg written as if rad"))
+    for factor, unit in turned if _several_tilted(states) else ():
+        new = _with(campaign, angles=states.angles * factor)
+        stretch = int(np.isfinite(states.angles).sum()) * math.log(factor)
+        said = f"the pose angles are in {unit}"
+        yield Correction("unit_error", said, new, log_stretch=stretch, parameters={"factor": factor})
+    for factor, unit in ((0.45359237, "lb"), (1.0 / 9.80665, "N")) if np.any(states.payload) else ():
+        new = _with(campaign, payload=states.payload * factor)
+        yield Correction("unit_error", f"the payloads are in {unit}", new, parameters={"factor": factor})
+    for what in ("cable_frequencies", "robot_frequencies"):
+        rows = getattr(campaign, what)
+        if rows.hertz.size:
+            turn = 0.5 / np.pi
+            new = replace(campaign, **{what: replace(rows, hertz=rows.hertz * turn, sigma=rows.sigma * turn)})
+            yield Correction(
+                "unit_error", f"the {what.replace('_', ' ')} are in rad/s", new, parameters={"factor": turn}
+            )
+
+
+def _several_tilted(states: States) -> bool:
+    """Whether more than one orientation is of the largest's order: a single one may be any slip of the pen."""
+    size = np.abs(states.angles).max(axis=1, initial=0.0)
+    tilted = states.angles[(size > 0.0) & (size > _TILTED * size.max(initial=0.0))]
+    return len(np.unique(tilted, axis=0)) > 1
+
+
+def _signs(campaign: Campaign) -> Iterator[Correction]:
+    states = campaign.states
+    for who in range(-1, len(states.names)):
+        rows = slice(None) if who < 0 else slice(who, who + 1)
+        where = "" if who < 0 else f" of case {states.names[who]}"
+        for what, names in (("position", "x y"), ("angles", "rx ry rz")):
+            for axis, name in enumerate(names.split()):
+                values = getattr(states, what).copy()
+                if not np.any(np.abs(values[rows, axis]) > 1e-3):
+                    continue
+                values[rows, axis] *= -1.0
+                new = _with(campaign, **{what: values})
+                yield Correction("sign_error", f"the sign of {name}{where} is wrong", new, parameters={"column": name})
+
+
+def _swaps(campaign: Campaign) -> Iterator[Correction]:
+    states = campaign.states
+    for what in ("tension", "length"):
+        values = getattr(states, what)
+        if not np.isfinite(values).any():
+            continue
+        for i, j in combinations(range(values.shape[1]), 2):
+            order = np.arange(values.shape[1])
+            order[[i, j]] = j, i
+            new = _with(
+                campaign, **{what: values[:, order], f"{what}_sigma": getattr(states, f"{what}_sigma")[:, order]}
+            )
+            says = f"the {what} channels of cables {i + 1} and {j + 1} are exchanged"
+            yield Correction("swapped_channels", says, new, parameters={"first": i + 1, "second": j + 1})
+
+
+def _exchanged_poses(campaign: Campaign) -> Iterator[Correction]:
+    states: States = campaign.states
+    rows = np.flatnonzero(states.static)
+    for step in (1, -1) if rows.size > 2 else ():
+        order = np.arange(len(states.names))
+        order[rows] = np.roll(rows, step)
+        new = _with(campaign, position=states.position[order], angles=states.angles[order])
+        says = f"the poses of the static states are shifted by {'one' if step > 0 else 'minus one'} row"
+        yield Correction("pose_mismatch", says, new, parameters={"rows": step})
+    for i, j in list(combinations(rows.tolist(), 2))[:PAIRS_OF_STATES]:
+        order = np.arange(len(states.names))
+        order[[i, j]] = j, i
+        new = _with(campaign, position=states.position[order], angles=states.angles[order])
+        says = f"the poses of cases {states.names[i]} and {states.names[j]} are exchanged"
+        yield Correction("pose_mismatch", says, new, parameters={"first": i + 1, "second": j + 1})

@@ -1,0 +1,89 @@
+"""A hypothesis: which causes at which scale, and how far the load cells drift."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.hypotheses.causes.cause import Cause, Pattern
+from cdpr_struct.hypotheses.causes.drift import AMPLITUDES, WAVES, drifted, walk
+from cdpr_struct.residuals.linearised import Point, Term
+from cdpr_struct.residuals.recorded import Recorded
+
+SCALES = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
+"""Of a cause's prior sigma, equally likely: how large an error is when it occurs is known to an order of magnitude."""
+PRICE = 3.0  # nats that a cause costs before it is found: one campaign in twenty has a given one
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Part:
+    """A cause in a pattern of occurrence at a scale of its prior.
+
+    law (S, 6 + m, d) : of what is no change of the robot, what its basic parameters of this pattern do to the rows
+    """
+
+    cause: Cause
+    pattern: Pattern
+    scale: float
+    law: np.ndarray | None = None
+
+    @property
+    def term(self) -> Term:
+        """What it changes of the robot, or what it does to the rows."""
+        if self.law is not None:
+            return Term.outside(self.law * (self.scale * self.pattern.prior))
+        return Term(self.cause.apply, self.pattern.basis, self.scale * self.pattern.prior)
+
+    @property
+    def log_weight(self) -> float:
+        """ln of the probability of pattern and scale, given the cause."""
+        return float(np.log(self.pattern.weight / len(SCALES)))
+
+    @property
+    def key(self) -> tuple[str, str, float]:
+        """What tells it from others."""
+        return self.cause.name, self.pattern.label, self.scale
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Hypothesis:
+    """Causes, and the amplitude of the load cells' drift in sigmas of a reading (0: none)."""
+
+    parts: tuple[Part, ...] = ()
+    drift: float = 0.0
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the causes."""
+        return tuple(part.cause.name for part in self.parts)
+
+    @property
+    def log_prior(self) -> float:
+        """ln of its probability against that of nothing being wrong, drift included."""
+        own = sum(part.log_weight - PRICE for part in self.parts)
+        return own + float(np.log(dict(AMPLITUDES)[self.drift]))
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """What tells it from others, whatever the order of its causes."""
+        return (*sorted(part.key for part in self.parts), self.drift)
+
+    def terms(self, data: Recorded) -> tuple[Term, ...]:
+        """What it changes of the robot, beside the tolerances."""
+        found = tuple(part.term for part in self.parts)
+        return found if self.drift == 0.0 else (drift_term(data, self.drift), *found)
+
+    def positive(self, point: Point) -> np.ndarray:
+        """(t,) bool, of all numbers of a point with these terms: which cannot be negative."""
+        own = [part.pattern.positive for part in self.parts]
+        count = sum(len(term.sigma) for term in point.terms) - sum(len(mask) for mask in own)
+        return np.concatenate([np.zeros(count, dtype=bool), *own])
+
+
+def drift_term(data: Recorded, amplitude: float) -> Term:
+    """Walks of the load cells' zeros, of so many sigmas of a reading."""
+    waves, m = walk(data.states), data.cables
+    sigma = np.median(data.sigma[:, 6 : 6 + m], axis=0)
+    return Term(
+        lambda arrays, theta: drifted(arrays, theta, waves),
+        np.eye(m * WAVES), amplitude * np.repeat(sigma, WAVES),
+    )  # fmt: skip

@@ -1,0 +1,184 @@
+"""Which hypotheses are worth the evidence? Screened in closed form, fitted from several starts, pairs on top.
+
+A hypothesis that was fitted once is fitted again from the noise of the best ones, nothing being wrong among them:
+outliers that one start sets aside may be what another explains. The best of all starts counts, so that a longer search
+never finds less.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import logsumexp
+
+from cdpr_struct.hypotheses.alternatives import Gains, Offered, gains, offered
+from cdpr_struct.hypotheses.causes import internal_force
+from cdpr_struct.hypotheses.causes.drift import AMPLITUDES
+from cdpr_struct.hypotheses.causes.library import testable
+from cdpr_struct.hypotheses.hypothesis import Hypothesis
+from cdpr_struct.hypotheses.judge import Judged, again, begun, extended, judged
+from cdpr_struct.hypotheses.laws import UNKNOWN
+from cdpr_struct.hypotheses.scan import beginnings
+from cdpr_struct.hypotheses.seen import seen_in
+from cdpr_struct.hypotheses.significant import p_of_null
+from cdpr_struct.inference.evidence import bound_at, fit
+from cdpr_struct.inference.scale_mixture import NoiseState
+from cdpr_struct.residuals.layout import Layout, layout
+from cdpr_struct.residuals.recorded import Recorded
+
+_NOTHING = 2.0  # nats by which the best single cause may be behind none: else a second one beside it is not looked for
+_AGAIN = 6  # hypotheses that are fitted from another one's noise
+
+
+@dataclass(frozen=True, slots=True)
+class Budget:
+    """Causes fitted at least, nats from the best within which all are, beginnings of pairs, pairs of each fitted.
+
+    near : in the closed form, which errs by some nats where effects are large
+    """
+
+    causes: int = 3
+    near: float = 14.0
+    pair_near: float = 5.0
+    hopeless: float = 30.0
+    beginnings: int = 3
+    pairs: int = 3
+
+
+BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 60.0, 5, 6)}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Answer:
+    """A set of causes: its best fit, and ln of evidence times prior over all its patterns and scales."""
+
+    names: tuple[str, ...]
+    best: Judged
+    score: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Screened:
+    """A cause beside a base at sizes of the noise: ln of evidence times prior, in closed form."""
+
+    score: float
+    gains: Gains
+    base: Judged
+    noise: NoiseState
+
+
+class Search:
+    """Hypotheses of one campaign, each with the best fit found so far."""
+
+    def __init__(self, data: Recorded, budget: Budget) -> None:
+        self.data, self.seen, self.budget = data, seen_in(data), budget
+        self.causes, self.hidden = testable(self.seen, data.campaign.checked)
+        if not data.sent.internal.any():
+            self.hidden[internal_force.CAUSE.name] = internal_force.REASON
+        self.where: Layout = layout(data)
+        self.p_value = 1.0
+        self.found: dict[tuple[object, ...], Judged] = {}
+        self.spread: dict[tuple[object, ...], float] = {}
+
+    def keep(self, found: Judged) -> Judged:
+        """The best fit of a hypothesis so far."""
+        before = self.found.get(found.hypothesis.key)
+        if before is None or found.log_evidence > before.log_evidence:
+            self.found[found.hypothesis.key] = found
+        return self.found[found.hypothesis.key]
+
+    def run(self) -> list[Answer]:
+        """Everything worth fitting, best first."""
+        nulls = self._nulls()
+        base = max(nulls, key=lambda one: one.score)
+        menu = offered(self.data, self.where, self.seen, self.causes, base)
+        self.p_value = p_of_null(menu, base)
+        rows = self._screened(menu, nulls, self._rich(menu, base))
+        self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
+        self._begin(menu, base)
+        self._transfer()
+        singles = self._ranked(1)
+        least = max(singles[0].score - self.budget.near, self._ranked(0)[0].score - _NOTHING)
+        for first in [one for one in singles[: self.budget.beginnings] if one.score > least]:
+            self._pairs(first)
+            self._transfer(2)
+        return self.answers()
+
+    def answers(self) -> list[Answer]:
+        """Sets of causes, best first."""
+        groups: dict[tuple[str, ...], list[Judged]] = {}
+        for one in self.found.values():
+            groups.setdefault(tuple(sorted(one.hypothesis.names)), []).append(one)
+        rows = []
+        for names, own in groups.items():
+            score = float(logsumexp([one.score + self.spread.get(one.hypothesis.key, 0.0) for one in own]))
+            rows.append(Answer(names, max(own, key=lambda one: one.score), score))
+        return sorted(rows, key=lambda row: -row.score)
+
+    def _nulls(self) -> list[Judged]:
+        """Nothing wrong, load cells drifting or not."""
+        first = self.keep(judged(self.data, self.where, Hypothesis()))
+        start, noise = first.likeliest(self.data, self.where), first.fit.noise
+        drifting = [Hypothesis(drift=size) for size, _ in AMPLITUDES if size > 0.0]
+        return [first, *(self.keep(judged(self.data, self.where, one, start, noise)) for one in drifting)]
+
+    def _rich(self, menu: Sequence[Offered], base: Judged) -> NoiseState:
+        """Sizes of the noise where every cause may act at once: what none of them explains."""
+        known = [cause for cause in menu if cause.cause.name != UNKNOWN]
+        columns = [[part * cause.patterns[0].prior.max() for part in cause.columns] for cause in known]
+        everything = base.model.with_columns([np.concatenate(parts, axis=-1) for parts in zip(*columns, strict=True)])
+        lists = None if base.lists is None else base.lists.copy()
+        return fit(everything, base.fit.noise, lists, base.fit.soft).noise
+
+    def _screened(self, menu: Sequence[Offered], bases: Sequence[Judged], rich: NoiseState | None) -> list[_Screened]:
+        """The best of each cause beside every base, at its own noise and at the rich one; best first."""
+        best: dict[str, _Screened] = {}
+        shapes = [part.shape[:2] for part in menu[0].columns] if menu else []
+        for base in bases:
+            if [stack.r.shape for stack in base.model.stacks] != shapes:
+                continue  # about its point the robot has other modes than about that of the menu
+            for noise in [base.fit.noise, *([rich] if rich is not None else [])]:
+                bound = base.log_evidence if noise is base.fit.noise else bound_at(base.model, noise, base.fit.soft)
+                for row in gains(menu, base, noise):
+                    score = bound + base.hypothesis.log_prior + row.total
+                    if row.cause.name not in best or score > best[row.cause.name].score:
+                        best[row.cause.name] = _Screened(score, row, base, noise)
+        return sorted(best.values(), key=lambda one: -one.score)
+
+    def _fit_best(self, menu: Sequence[Offered], rows: Sequence[_Screened], at_least: int, above: float) -> None:
+        """Fits of what screening finds best: some at least, and all above a score."""
+        columns = {cause.cause.name: cause.columns for cause in menu}
+        for i, row in enumerate(rows):
+            if i < at_least or row.score > above:
+                part = row.gains.part
+                more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
+                self.spread[more.key] = row.gains.spread
+                own = [shelf @ part.pattern.basis * part.term.sigma for shelf in columns[part.cause.name]]
+                worth = self._ranked()[0].score - self.budget.hopeless
+                self.keep(extended(self.data, self.where, row.base, more, own, row.noise, worth))
+
+    def _begin(self, menu: Sequence[Offered], base: Judged) -> None:
+        """Fits of large changes that would put peaks right."""
+        for one in beginnings(self.data, menu, base, self.budget.beginnings + 1):
+            more = Hypothesis((*base.hypothesis.parts, one.part), base.hypothesis.drift)
+            self.keep(begun(self.data, self.where, base, more, one.z))
+
+    def _ranked(self, causes: int | None = None) -> list[Judged]:
+        own = [one for one in self.found.values() if causes is None or len(one.hypothesis.parts) == causes]
+        return sorted(own, key=lambda one: -one.score)
+
+    def _transfer(self, causes: int | None = None) -> None:
+        """The likeliest hypotheses, and nothing wrong, again from the noise of the best two."""
+        ranked = self._ranked()
+        near = [one for one in self._ranked(causes) if one.score > ranked[0].score - self.budget.near]
+        for other in ranked[:2]:
+            for one in [*near[:_AGAIN], *self._ranked(0)]:
+                if one.hypothesis.key != other.hypothesis.key:
+                    self.keep(again(self.data, self.where, self.found[one.hypothesis.key], other.fit.noise))
+
+    def _pairs(self, first: Judged) -> None:
+        """A second cause beside one, where that may come near the best."""
+        left = [cause for cause in self.causes if cause.name not in first.hypothesis.names]
+        menu = offered(self.data, self.where, self.seen, left, first)
+        rows = self._screened(menu, [first], None)[: self.budget.pairs]
+        self._fit_best(menu, rows, 0, self._ranked()[0].score - self.budget.pair_near)

@@ -1,0 +1,160 @@
+"""A campaign's static readings, ready to be judged: filled where nothing was read, with how far each may be off."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cdpr_struct.errors import CdprError, InputError
+from cdpr_struct.generated.platform import rotation as rotation_from_angles
+from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.observation.circumstances import Circumstances
+from cdpr_struct.observation.readings import LEAST_TENSION, Readings, cell_reading
+from cdpr_struct.observation.rest import at_states
+from cdpr_struct.residuals.commanded_lengths import SIGMA, Commanded, commanded
+from cdpr_struct.residuals.vibrations import Vibrations, vibrations
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.cable_models import cable_model
+from cdpr_struct.statics.energy_descent import arm_scale
+from cdpr_struct.statics.equilibrium import PlatformArms
+from cdpr_struct.statics.forward_kinematics import forward
+from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.tensioned_cables import tensioned
+
+POSITION, ROTATION, TENSION, LENGTH, CABLE_FREQUENCY, MODAL_SIZE = range(6)
+"""Kinds of sensors: what shares a size of its noise."""
+_UNREAD_LENGTH = 1.0  # m, one sigma of a length that nobody read: nothing is known of it
+_UNREAD_POSE = (1.0, 0.5)  # m, rad, of a pose that nobody read
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Recorded:
+    """Static readings of S states of a robot with m cables, as entered.
+
+    arrays : the robot;  readings : filled;  known : circumstances;  radius : of the platform [m]
+    sigma (S, 6 + 2 m) : stated, of position and rotation [m, rad], tensions [N], lengths [m]
+    read (S, 6 + 2 m) : bool, whether the reading exists;  unread (S, 6 + 2 m) : one sigma of it if not
+    blocks : states that share a reading of lengths, in order of the campaign
+    vibrations : frequencies, None without any;  sent : commands that stand in for encoders
+    """
+
+    campaign: Campaign
+    arrays: RobotArrays
+    readings: Readings
+    known: Circumstances
+    radius: float
+    sigma: np.ndarray
+    read: np.ndarray
+    unread: np.ndarray
+    blocks: tuple[np.ndarray, ...]
+    vibrations: Vibrations | None
+    sent: Commanded
+
+    @property
+    def cables(self) -> int:
+        """m."""
+        return self.arrays.cable_count
+
+    @property
+    def states(self) -> int:
+        """S."""
+        return len(self.campaign.states.names)
+
+
+def recorded(campaign: Campaign) -> Recorded:
+    """The static readings of a campaign.
+
+    Raises
+    ------
+    InputError : a campaign without states, or a state that cannot be imagined: neither held nor at rest.
+    """
+    states = campaign.states
+    if not len(states.names):
+        raise InputError(campaign.source, "measurement", "no states", "static states, loaded poses or frequencies")
+    turn = np.array([rotation_from_angles(*angles) for angles in np.nan_to_num(states.angles)]).reshape((-1, 3, 3))
+    position, read_pose = _places(campaign)
+    known = Circumstances.of(campaign, turn, position)
+    arrays = RobotArrays.of(campaign.robot)
+    sent = commanded(campaign, position, turn)
+    lengths = np.where(np.isfinite(states.length), states.length, sent.lengths)
+    readings = _filled(campaign, arrays, known, Readings(position, turn, states.tension, lengths))
+    m = arrays.cable_count
+    read = np.concatenate([read_pose, np.isfinite(states.tension), np.isfinite(lengths)], axis=1)
+    mean = np.full((len(states.names), m), known.mean_tension)
+    pose = np.repeat(np.stack([states.sigma_position, states.sigma_rotation], axis=1), 3, axis=1)
+    tension = np.where(np.isfinite(states.tension_sigma), _rounded(states.tension, states.tension_sigma), 1.0)
+    length = np.where(np.isfinite(states.length_sigma), states.length_sigma, 1e-3)
+    length = np.where(np.isfinite(states.length), length, np.where(np.isfinite(lengths), SIGMA, length))
+    unread = [np.repeat([_UNREAD_POSE], len(mean), axis=0).repeat(3, axis=1), mean, np.full_like(mean, _UNREAD_LENGTH)]
+    return Recorded(
+        campaign, arrays, readings, known, arm_scale(arrays), np.concatenate([pose, tension, length], axis=1), read,
+        np.concatenate(unread, axis=1), _blocks(states.lock), vibrations(campaign), sent,
+    )  # fmt: skip
+
+
+def _places(campaign: Campaign) -> tuple[np.ndarray, np.ndarray]:
+    """Positions (S, 3), the middle of the others where none was read, and which of (S, 6) pose readings exist."""
+    states = campaign.states
+    read = np.isfinite(np.concatenate([states.position, states.angles], axis=1))
+    middle = np.nanmean(states.position, axis=0) if read[:, :3].any() else np.zeros(3)
+    return np.where(np.isfinite(states.position), states.position, middle), read
+
+
+def _rounded(tension: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+    """Sigma (S, m) with the variance of rounding, where all tensions are multiples of one step."""
+    found = tension[np.isfinite(tension)]
+    step = _step(found)
+    return np.sqrt(sigma**2 + step**2 / 12.0)
+
+
+def _step(values: np.ndarray) -> float:
+    """The largest step of 1, 2 or 5 times a power of ten of which all values are multiples; 0 if there is none."""
+    if values.size < 10:
+        return 0.0
+    for step in (50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01):
+        if np.abs(values / step - np.round(values / step)).max() < 1e-6 * np.abs(values / step).max():
+            return step
+    return 0.0
+
+
+def _blocks(lock: np.ndarray) -> tuple[np.ndarray, ...]:
+    """States of one lock together, each other state alone."""
+    own = np.where(lock >= 0, lock, lock.max(initial=-1) + 1 + np.arange(len(lock)))
+    _, first = np.unique(own, return_index=True)
+    return tuple(np.flatnonzero(own == own[i]) for i in np.sort(first))
+
+
+def _filled(campaign: Campaign, arrays: RobotArrays, known: Circumstances, readings: Readings) -> Readings:
+    """Readings with estimates where nothing was read: tensions that hold the platform, lengths of the cables then."""
+    tension = readings.tension
+    if np.isnan(tension).any():
+        there = at_states(arrays, known)
+        held = np.maximum(_tensions(campaign, there, readings, known), LEAST_TENSION)
+        said = cell_reading(arrays, held, known.approach, known.wrap)
+        tension = np.where(np.isfinite(tension), tension, said)
+    readings = replace(readings, tension=tension)
+    if np.isnan(readings.length).any():
+        there = at_states(arrays, known)
+        arms = PlatformArms.at(there, readings.position, readings.rotation)
+        cables = tensioned(cable_model(known.model), there, arms.points, np.maximum(tension, LEAST_TENSION))
+        length = arrays.reading(cables.total_length)
+        readings = replace(readings, length=np.where(np.isfinite(readings.length), readings.length, length))
+    return readings
+
+
+def _tensions(campaign: Campaign, there: RobotArrays, readings: Readings, known: Circumstances) -> np.ndarray:
+    """(S, m) tensions in balance at or near the poses: at locked lengths where all were read, else of least norm."""
+    try:
+        held = inverse(there, readings.position, readings.rotation, known.model, allow_unheld=True)
+    except CdprError as error:
+        expected = f"poses that the robot can hold, or tensions: {error}"
+        raise InputError(campaign.source, "poses", "static states", expected) from error
+    found = held.tensions
+    locked = np.isfinite(readings.length).all(axis=1)
+    if locked.any():
+        index = np.flatnonzero(locked)
+        place, turn = readings.position[index], readings.rotation[index]
+        rest_ = forward(there.take(index), readings.length[index], place, turn, known.model)
+        near = rest_.converged & (np.linalg.norm(rest_.position - place, axis=-1) < 0.2 * arm_scale(there))
+        found = found.copy()
+        found[index[near]] = rest_.tensions[near]
+    return found

@@ -1,0 +1,198 @@
+"""A campaign's frequencies: those of cables with their numbers, and lists of the robot's without any."""
+
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from cdpr_struct.association.association import Association
+from cdpr_struct.association.detection import clutter, robot_detection
+from cdpr_struct.association.doubles import detection_of_doubles
+from cdpr_struct.association.modes import robot_modes
+from cdpr_struct.association.peak_noise import PeakNoise
+from cdpr_struct.association.peaks import PeakList, PeakLists, padded
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
+from cdpr_struct.errors import UnstableEquilibriumError
+from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.observation.cable_modes import CableModes, CableRows, cable_modes_at, cable_rates
+from cdpr_struct.observation.circumstances import Circumstances
+from cdpr_struct.observation.readings import Readings
+from cdpr_struct.observation.rest import rest
+from cdpr_struct.observation.robot_modes import BEYOND, VibratingModes, frequencies_at, modes_at, rates
+from cdpr_struct.observation.vibrating import of_states, vibrating
+from cdpr_struct.residuals.modal_sizes import ModalSizes, measured_sizes
+from cdpr_struct.robot.robot_arrays import RobotArrays
+
+_BELOW = 0.7  # of the lowest peak: where somebody who picked it began to look
+_ABOVE = 1.02  # of the highest: the list ends there, and modes beyond were not looked for
+_SHOWN = 0.08  # share of the kinetic energy in the platform from which a mode shows there
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Vibrations:
+    """Frequencies measured in F states.
+
+    states (F,) : which of the campaign's, ascending
+    rows : cable modes (r,), their states counted within F;  log_hertz (r,), sigma (r,) of ln f
+    peaks : a list for each of F states, or None without any;  highest (F,) [rad/s];  sizes : modal constants of FRFs
+    """
+
+    states: np.ndarray
+    rows: CableRows
+    log_hertz: np.ndarray
+    sigma: np.ndarray
+    peaks: PeakLists | None
+    highest: np.ndarray
+    sizes: ModalSizes
+
+    def richest(self, most: int) -> "Vibrations":
+        """The states with most peaks, and these alone."""
+        if self.peaks is None:
+            return self
+        some = np.sort(np.argsort(-self.peaks.count, kind="stable")[:most])
+        none = CableRows(*(np.zeros(0, dtype=int),) * 4)
+        lists = {f.name: getattr(self.peaks, f.name)[some] for f in fields(self.peaks)} | {
+            "state": np.arange(len(some))
+        }
+        blank = np.zeros(0)
+        return Vibrations(self.states[some], none, blank, blank, PeakLists(**lists), self.highest[some], self.sizes)
+
+
+def vibrations(campaign: Campaign) -> Vibrations | None:
+    """The frequencies of a campaign; None if it has none."""
+    cables, robot = campaign.cable_frequencies, campaign.robot_frequencies
+    states = np.unique(np.concatenate([cables.state, robot.state])).astype(int)
+    if not states.size:
+        return None
+    rows = CableRows(np.searchsorted(states, cables.state), cables.cable, cables.mode, cables.in_plane)
+    lists, highest = [], np.zeros(len(states))
+    for k, state in enumerate(states):
+        own = np.flatnonzero(robot.state == state)
+        hertz = robot.hertz[own]
+        band = (_BELOW * hertz.min(), _ABOVE * hertz.max()) if own.size else (1.0, 2.0)
+        lists.append(PeakList(hertz, robot.sigma[own] / np.where(own.size, hertz, 1.0), band, k, 0))
+        highest[k] = 2.0 * np.pi * band[1]
+    peaks = padded(lists) if robot.hertz.size else None
+    return Vibrations(
+        states, rows, np.log(cables.hertz), cables.sigma / cables.hertz, peaks, highest, measured_sizes(campaign)
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Vibrating:
+    """Frequencies that the model has in the states where some were measured, and how they change near a point."""
+
+    states: int
+    measured: Vibrations
+    known: Circumstances
+    cables: CableModes
+    robot: VibratingModes | None
+
+    @classmethod
+    def about(
+        cls, campaign: Campaign, known: Circumstances, measured: Vibrations, arrays: RobotArrays, readings: Readings
+    ) -> "Vibrating":
+        """At the robot and readings (S) of a point."""
+        known, states = known.at(measured.states), len(campaign.states.names)
+        point = _point(states, measured, known, arrays, readings)
+        robot = None
+        if measured.peaks is not None:
+            massless = campaign.model == "static"
+            robot = modes_at(point, measured.highest, _assembly(campaign), "static" if massless else "exact")
+        return cls(states, measured, known, cable_modes_at(point, measured.rows), robot)
+
+    @property
+    def log_hertz(self) -> np.ndarray:
+        """(F, M) of the robot's modes."""
+        return np.zeros((len(self.measured.states), 0)) if self.robot is None else self.robot.log_hertz
+
+    def changes(self, arrays: RobotArrays, readings: Readings, count: int) -> tuple[np.ndarray, np.ndarray]:
+        """Changes of ln f, of cable modes (count, r) and the robot's (count, F, M), for nearby robots or readings."""
+        point = _point(self.states, self.measured, self.known, arrays, readings)
+        ones = np.ones(count)
+        own = cable_rates(self.cables, point, ones)
+        if self.robot is None:
+            return own, np.zeros((count, len(self.measured.states), 0))
+        return own, np.broadcast_to(rates(self.robot, point, ones), (count, *self.robot.log_hertz.shape))
+
+    def log_sizes(self, arrays: RobotArrays) -> np.ndarray:
+        """(B, a) ln of modal constants of the modes nearest to the peaks, by the accelerometers of robots (B, 1)."""
+        sizes, robot = self.measured.sizes, self.robot
+        if not len(sizes) or robot is None:
+            return np.zeros((1, len(sizes)))
+        gain = sizes.log_gain(arrays.accelerometer_gain)
+        gain = gain[:, 0] if gain.ndim > 2 else gain.reshape((-1, len(sizes)))
+        row = np.searchsorted(self.measured.states, sizes.state)
+        apart = np.abs(robot.log_hertz[row] - sizes.log_hertz[:, None])
+        near = np.where(robot.mask[row] & (robot.share[row] > _SHOWN), apart, np.inf).argmin(axis=1)
+        return np.asarray(gain + sizes.of_modes(robot.platform[row, near]))
+
+    def association(self) -> Association | None:
+        """The lists of peaks beside the modes at the point."""
+        peaks, robot = self.measured.peaks, self.robot
+        if peaks is None or robot is None:
+            return None
+        return _association(peaks, robot.log_hertz, np.where(robot.mask, robot.share, -1.0))
+
+
+def _point(
+    states: int, measured: Vibrations, known: Circumstances, arrays: RobotArrays, readings: Readings
+) -> OperatingPoint:
+    """States where vibration was measured, (..., F)."""
+    some = Readings(
+        np.take(readings.position, measured.states, axis=-2), np.take(readings.rotation, measured.states, axis=-3),
+        np.take(readings.tension, measured.states, axis=-2), np.take(readings.length, measured.states, axis=-2),
+    )  # fmt: skip
+    return vibrating(rest(of_states(arrays, measured.states, states), some, known), known)
+
+
+def log_likelihoods(
+    campaign: Campaign, known: Circumstances, measured: Vibrations, arrays: RobotArrays, readings: Readings,
+    variance: float, noise: PeakNoise,
+) -> np.ndarray:  # fmt: skip
+    """(A,) ln of the lists' density for robots (A, S or 1), peaks assigned anew; -inf where a state is unstable.
+
+    variance : of ln f of every mode, by all that is not sure
+    """
+    states, peaks = len(campaign.states.names), measured.peaks
+    if peaks is None:
+        return np.zeros(arrays.batch_shape[:1])
+    point = _whole(_point(states, measured, known.at(measured.states), arrays, readings))
+    try:
+        log_hertz, share = frequencies_at(point, float(measured.highest.max()) * BEYOND, _assembly(campaign))
+    except UnstableEquilibriumError:
+        return np.full(len(point.position), -np.inf)
+    found = []
+    for own, seen in zip(log_hertz, share, strict=True):
+        lists = _association(peaks, np.where(np.isfinite(own), own, 0.0), np.where(np.isfinite(own), seen, -1.0))
+        lists = lists.at(noise=noise, rule="poisson")
+        spread = np.full(own.shape, variance)
+        said = lists.expect(np.zeros(own.shape), spread, True)
+        found.append(said.constant - 0.5 * float((said.precision * (said.value**2 + spread)).sum()))
+    return np.array(found)
+
+
+def _whole(point: OperatingPoint) -> OperatingPoint:
+    """The same states with every field of pose and cables along all batch axes."""
+    shape = np.broadcast_shapes(point.position.shape[:-1], point.cables.length.shape[:-1], point.arrays.batch_shape)
+    cables = {f.name: getattr(point.cables, f.name) for f in fields(point.cables)}
+    full = {n: np.broadcast_to(v, shape + v.shape[-(1 + (n in ("offset", "heading"))) :]) for n, v in cables.items()}
+    arrays = replace(
+        point.arrays, mass=np.broadcast_to(point.arrays.mass, shape),
+        center_of_mass=np.broadcast_to(point.arrays.center_of_mass, (*shape, 3)),
+        inertia=np.broadcast_to(point.arrays.inertia, (*shape, 3, 3)),
+    )  # fmt: skip
+    place, turn = np.broadcast_to(point.position, (*shape, 3)), np.broadcast_to(point.rotation, (*shape, 3, 3))
+    return OperatingPoint(arrays, place, turn, type(point.cables)(**full))
+
+
+def _association(peaks: PeakLists, log_hertz: np.ndarray, share: np.ndarray) -> Association:
+    """Lists beside modes (F, M); where there is no mode, its share is negative."""
+    low, high = peaks.band[:, :1], peaks.band[:, 1:]
+    visible = (share >= 0.0) & (log_hertz > low) & (log_hertz < high)
+    detection = detection_of_doubles(log_hertz, np.where(visible, robot_detection(share), 0.0))
+    return Association(peaks, robot_modes(log_hertz, detection), clutter(peaks))
+
+
+def _assembly(campaign: Campaign) -> Assembly:
+    return "thesis" if campaign.assembly == "thesis" else "consistent"
