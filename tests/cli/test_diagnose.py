@@ -132,12 +132,15 @@ def test_status_probability_p_and_class_are_said(shaken):
         assert "p: upper bound" in shown
 
 
-def test_candidates_without_a_size_are_not_shown(level, shaken):
+def test_candidates_without_a_size_are_not_shown(level, shaken, capsys):
     """Nothing is listed where nothing is wrong; elsewhere only what is likelier than nothing."""
-    assert level[0]["verdict"]["status"] == "adequate"
-    assert level[0]["candidates"] == []
-    assert shaken[0]["candidates"]
-    assert all(row["log_evidence_gain"] > 0.0 for row in shaken[0]["candidates"])
+    assert run(["diagnose", str(SHAKEN.with_name("with-shaker.toml")), "--json"]) == 0
+    adequate = json.loads(capsys.readouterr().out)
+    assert adequate["verdict"]["status"] == "adequate"
+    assert adequate["candidates"] == []
+    for result, _ in (level, shaken):
+        assert result["candidates"]
+        assert all(row["log_evidence_gain"] > 0.0 for row in result["candidates"])
 
 
 def test_large_numbers_are_rounded_for_a_person():

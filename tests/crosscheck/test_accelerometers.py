@@ -9,7 +9,6 @@ GAIN = 1.15
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(strict=True, reason="modal constants of FRFs are no rows of a diagnosis: a gain is not looked for")
 def test_a_wrong_gain_is_named_with_its_value(tmp_path):
     said = diagnosed(fem_campaign(tmp_path, Shaken(gain=(GAIN,) * 3)))
     assert said.decision.classes == (("accelerometer_gain",),)
