@@ -34,8 +34,8 @@ def promising(data: Recorded, found: Sequence[Correction]) -> list[Correction]:
 def _covariance(data: Recorded, local: Local) -> np.ndarray:
     """(S, 6 + m, 6 + m) of each state's residual by readings and tolerances."""
     size = np.where(data.read, 1.0, data.unread / data.sigma)
-    noise = local.by_noise().static * size[:, None, :]
-    tolerance = local.own_columns().static
+    noise = local.by_noise.static * size[:, None, :]
+    tolerance = local.own_columns.static
     return np.asarray(noise @ np.swapaxes(noise, 1, 2) + tolerance @ np.swapaxes(tolerance, 1, 2))
 
 

@@ -79,7 +79,7 @@ class _Parts:
     @classmethod
     def of(cls, local: Local) -> "_Parts":
         data, m = local.data, local.data.cables
-        by_noise = local.by_noise().static
+        by_noise = local.by_noise.static
         sigma, read = data.sigma, data.read
         readings, known = data.readings, data.known
         spread = np.maximum(readings.position.std(axis=0), 1e-3)

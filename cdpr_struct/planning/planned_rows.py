@@ -18,22 +18,6 @@ from cdpr_struct.residuals.recorded import Recorded
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Once(Local):
-    """A campaign about a point whose slopes and columns were computed before."""
-
-    slopes: Rows
-    own: Rows
-
-    def by_noise(self) -> Rows:
-        """-dR/du."""
-        return self.slopes
-
-    def own_columns(self) -> Rows:
-        """-dR/dz of the point's own terms."""
-        return self.own
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class PlannedRows:
     """Readings that are planned: rows about the robot as entered, and what every number does to them."""
 
@@ -52,10 +36,6 @@ class PlannedRows:
         A cause with parameters of its own in each state does nothing in new ones.
         """
         local = Local.about(data, Point.entered(data))
-        once = _Once(
-            local.data, local.point, local.arrays, local.nearby, local.vibrating, local.r, local.by_noise(),
-            local.own_columns(),
-        )  # fmt: skip
         parts = []
         for name, cause in numbers.causes.items():
             own = len(numbers.sigma[name])
@@ -66,7 +46,7 @@ class PlannedRows:
                 term, where = instead[name]
                 found.static[where] = local.columns(term).static[where]
             parts.append(found)
-        return cls(data, _with_expected_peaks(once), Rows.joined(parts))
+        return cls(data, _with_expected_peaks(local), Rows.joined(parts))
 
     def information(self, states: Sequence[int] | None = None) -> np.ndarray:
         """(t + c, t + c) in all states, or in some that share no reading with others."""
@@ -74,7 +54,7 @@ class PlannedRows:
         if states is not None:
             blocks = tuple(block for block in blocks if np.isin(block, states).all())
         where = layout(replace(self.data, blocks=blocks))
-        model, tolerances = linear_model(self.local, where), self.local.own_columns()
+        model, tolerances = linear_model(self.local, where), self.local.own_columns
         lists = Lists.of(self.local, where) if any(shelf.vibrating.size for shelf in where.shelves) else None
         count = tolerances.static.shape[-1]
         soft = None if lists is None else lists.at_point(np.zeros((count, count)))
@@ -90,7 +70,7 @@ def information_of(
     return Screen.of(bare, noise, soft).screened(columns).gram
 
 
-def _with_expected_peaks(local: _Once) -> _Once:
+def _with_expected_peaks(local: Local) -> Local:
     """Lists of as many peaks as planned, at the frequencies of the modes that are most likely to be seen."""
     vibrating = local.vibrating
     if vibrating is None or vibrating.robot is None or vibrating.measured.peaks is None:

@@ -16,7 +16,7 @@ FLOOR = (0.05, 2e-5, 3e-4, 5e-3)
 
 def linear_model(local: Local, where: Layout) -> LinearModel:
     """r = A u + X z about a point, referred to zero noise and zero numbers: r = R + A u0 + X z0."""
-    by_noise, columns = local.by_noise(), local.own_columns()
+    by_noise, columns = local.by_noise, local.own_columns
     shift = shifts(local, by_noise, columns)
     r = local.r
     residual = Rows(r.static + shift.static, r.cables + shift.cables, r.robot, r.sizes + shift.sizes)
@@ -161,8 +161,8 @@ class Lists:
         found = None if local.vibrating is None else local.vibrating.association()
         if found is None:
             return None
-        columns = local.own_columns()
-        shift = shifts(local, local.by_noise(), columns).robot
+        columns = local.own_columns
+        shift = shifts(local, local.by_noise, columns).robot
         shelf = next(shelf for shelf in where.shelves if shelf.vibrating.shape[1])
         return cls(found, shift, columns.robot, shelf)
 

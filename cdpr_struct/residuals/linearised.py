@@ -9,6 +9,7 @@ Each block of states that share a reading has rows and noise of its own; z belon
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from cdpr_struct.residuals.vibrations import Vibrating
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
 Change = Callable[[RobotArrays, np.ndarray], RobotArrays]
+_KEPT = 16  # points whose model is kept: those of the hypotheses that a search goes back to
 _STEP = 0.05  # of a sigma, of differences: the residuals are smooth, and all but straight so near
 
 
@@ -65,6 +67,7 @@ class Point:
     noise: np.ndarray
 
     @classmethod
+    @lru_cache(maxsize=_KEPT)
     def entered(cls, data: Recorded) -> "Point":
         """Everything as entered, and as read."""
         term = tolerance_term(data)
@@ -122,11 +125,13 @@ class Rows:
         return Rows(columns, *(np.zeros((*part.shape, d)) for part in (self.cables, self.robot, self.sizes)))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Local:
     """A campaign about a point: the robot and the readings there, and the states near it, at rest and vibrating.
 
     r : residuals at the point; of the robot's frequencies zero, as they are predictions
+
+    Without slots, as columns are kept once they were asked for.
     """
 
     data: Recorded
@@ -137,8 +142,9 @@ class Local:
     r: Rows
 
     @classmethod
+    @lru_cache(maxsize=_KEPT)
     def about(cls, data: Recorded, point: Point) -> "Local":
-        """The states that the readings less their noise mean for the point's robot."""
+        """The states that the readings less their noise mean for the point's robot; of the last points they are kept."""
         arrays, readings = point.robot(data), point.readings(data)
         nearby = NearbyRest.about(arrays, readings, data.known, data.radius)
         found, measured = None, data.vibrations
@@ -149,6 +155,7 @@ class Local:
             sizes = measured.sizes.log - found.log_sizes(arrays)[0]
         return cls(data, point, arrays, nearby, found, Rows(nearby.residuals(arrays, readings), cables, robot, sizes))
 
+    @cached_property
     def by_noise(self) -> Rows:
         """-dR/du, each reading of all states moved at once: d = 6 + 2 m."""
         steps = _STEP * np.eye(self.data.sigma.shape[1])[:, None, :]
@@ -165,6 +172,7 @@ class Local:
         """-dR (S, 6 + m, 3) of the static rows by each of three numbers of a change, a unit."""
         return self.columns(Term(change, np.eye(3), np.full(3, step))).static / step
 
+    @cached_property
     def own_columns(self) -> Rows:
         """-dR/dz of the point's own terms, at their numbers."""
         parts, readings = [], self.point.readings(self.data)
