@@ -39,7 +39,7 @@ def decided(beliefs: Sequence[Belief], loss: Loss, without_size: AbstractSet[str
         classes = _widened(start, beliefs, loss, without_size)
         options.append((_of_classes(classes, beliefs, loss), _status(classes), classes))
     _, status, classes = min(options, key=lambda option: option[0])
-    return Decision(status, classes, _right(status, classes, beliefs))
+    return Decision(status, classes, min(1.0, _right(status, classes, beliefs)))
 
 
 def _status(classes: Classes) -> str:

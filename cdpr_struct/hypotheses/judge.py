@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cdpr_struct.errors import CdprError
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.inference.evidence import Fit, fit
 from cdpr_struct.inference.linear_model import LinearModel
@@ -15,7 +16,8 @@ from cdpr_struct.residuals.layout import Layout, noise_of_states
 from cdpr_struct.residuals.linearised import Local, Point
 from cdpr_struct.residuals.recorded import Recorded
 
-PASSES = 3  # linearisations at most; the steps shrink by ten and more each
+PASSES = 5  # linearisations at most; near the data the steps shrink by ten and more each
+_STEPS = (1.0, 0.4, 0.1)  # of the way to the likeliest point, as long as that leads nowhere
 WORTH = 0.1  # nats: by so much must another start be better to be followed
 _SETTLED = 0.5  # sigmas: a point that moves less is where it was; what bends on so short a way is no tenth of a nat
 
@@ -120,12 +122,40 @@ def again(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> Ju
 
 
 def settled(data: Recorded, where: Layout, found: Judged) -> Judged:
-    """Linearised about its likeliest point until that stays where it is."""
+    """Linearised about its likeliest point until that stays where it is, or comes no nearer to that."""
     for _ in range(PASSES):
         if found.moved < _SETTLED:
             break
-        found = _fitted(data, where, found.hypothesis, found.likeliest(data, where), found.fit.noise, found)
+        nearer = _nearer(data, where, found)
+        if nearer is None:
+            break
+        found = nearer
     return found
+
+
+def _nearer(data: Recorded, where: Layout, found: Judged) -> Judged | None:
+    """Linearised about the likeliest point, or on the way to it: whose own likeliest point is nearer; None if there is none.
+
+    A hypothesis that does not explain the data may ask for readings that no robot has; there it is not followed.
+    """
+    there = found.likeliest(data, where)
+    for share in _STEPS:
+        point = found.point.towards(there, share)
+        if not _possible(data, point):
+            continue
+        try:
+            other = _fitted(data, where, found.hypothesis, point, found.fit.noise, found)
+        except (CdprError, np.linalg.LinAlgError):  # the robot has no stable equilibrium there
+            continue
+        if other.moved < found.moved:
+            return other
+    return None
+
+
+def _possible(data: Recorded, point: Point) -> bool:
+    """Whether all cables are tight and have a length, and the platform has a mass."""
+    readings, arrays = point.readings(data), point.robot(data)
+    return bool((readings.tension > 0.0).all() and (readings.length > 0.0).all() and np.all(arrays.mass > 0.0))
 
 
 def _copied(lists: Lists | None) -> Lists | None:

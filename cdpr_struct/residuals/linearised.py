@@ -78,6 +78,11 @@ class Point:
         own = np.zeros(len(term.sigma)) if z is None else z
         return replace(self, terms=(*self.terms, term), z=(*self.z, own))
 
+    def towards(self, other: "Point", share: float) -> "Point":
+        """A share of the way to another point of the same terms; all of it is that point."""
+        z = tuple(own + share * (there - own) for own, there in zip(self.z, other.z, strict=True))
+        return other if share == 1.0 else replace(self, z=z, noise=self.noise + share * (other.noise - self.noise))
+
     def robot(self, data: Recorded) -> RobotArrays:
         """The robot at the point."""
         arrays = data.arrays
