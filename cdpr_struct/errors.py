@@ -47,6 +47,10 @@ class UnstableEquilibriumError(CdprError):
     """The platform is balanced, but a small motion would grow: there are no vibrations about this state."""
 
 
+class CrowdedModesError(CdprError):
+    """A cable hangs so slack that it has more modes in the band than can be told apart."""
+
+
 class ConvergenceError(CdprError):
     """An iteration stopped before it converged; holds the last residual."""
 

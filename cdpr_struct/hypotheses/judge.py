@@ -134,7 +134,7 @@ def settled(data: Recorded, where: Layout, found: Judged) -> Judged:
 
 
 def _nearer(data: Recorded, where: Layout, found: Judged) -> Judged | None:
-    """Linearised about the likeliest point, or on the way to it: whose own likeliest point is nearer; None if there is none.
+    """Linearised at the likeliest point or on the way to it, where the next one is nearer; None if that is nowhere.
 
     A hypothesis that does not explain the data may ask for readings that no robot has; there it is not followed.
     """

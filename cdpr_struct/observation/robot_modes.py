@@ -8,6 +8,7 @@ from cdpr_struct.dynamics.cable_dynamics import CableModel, StaticCables, expand
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import RitzModes, ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
+from cdpr_struct.errors import CrowdedModesError
 from cdpr_struct.observation.cable_fields import fields_of_expansion, massless_fields
 from cdpr_struct.observation.dependence import BENDING, TIGHTENED, Dependence
 from cdpr_struct.observation.mode_gradient import CableGradient, cable_gradient, whole_gradient
@@ -15,6 +16,7 @@ from cdpr_struct.observation.mode_gradient import CableGradient, cable_gradient,
 BEYOND = 1.3  # times the highest frequency of the band: from there changes of tens of per cent bring modes into it
 PLATFORM_SHARE = 0.02  # of the kinetic energy: modes beyond the band with less in the platform are left out
 _SAME = 1e-6  # relative distance below which the split of modes is rounding or symmetry
+_HIGHEST_ORDER = 160  # of polynomials where many robots are tried: some 75 modes of one cable in one plane
 _STATIC_ORDER = 16  # of Gauss points along massless cables
 
 
@@ -72,9 +74,12 @@ def frequencies_at(
 
     Raises
     ------
+    CrowdedModesError : a cable has more modes below highest_omega than polynomials of `_HIGHEST_ORDER` can tell apart.
     UnstableEquilibriumError : a state is unstable.
     """
     order = polynomial_order(point, highest_omega, rough=True)
+    if order > _HIGHEST_ORDER:
+        raise CrowdedModesError(f"a cable has some {order // 2} modes below {highest_omega / (2.0 * np.pi):.4g} Hz")
     expansion = expand_catenaries_at(point, order).reduced(highest_omega)
     below = int((expansion.omega_squared < highest_omega**2).sum(axis=(-2, -1)).max())
     count = below + 6 + 3 * point.arrays.cable_count * point.arrays.has_masts

@@ -149,7 +149,7 @@ class Local:
     @classmethod
     @lru_cache(maxsize=_KEPT)
     def about(cls, data: Recorded, point: Point) -> "Local":
-        """The states that the readings less their noise mean for the point's robot; of the last points they are kept."""
+        """The states that the readings less their noise mean for the point's robot; kept for the last few points."""
         arrays, readings = point.robot(data), point.readings(data)
         nearby = NearbyRest.about(arrays, readings, data.known, data.radius)
         found, measured = None, data.vibrations

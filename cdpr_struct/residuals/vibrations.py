@@ -12,7 +12,7 @@ from cdpr_struct.association.peak_noise import PeakNoise
 from cdpr_struct.association.peaks import PeakList, PeakLists, padded
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
-from cdpr_struct.errors import UnstableEquilibriumError
+from cdpr_struct.errors import CrowdedModesError, UnstableEquilibriumError
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.cable_modes import CableModes, CableRows, cable_modes_at, cable_rates
 from cdpr_struct.observation.circumstances import Circumstances
@@ -150,7 +150,7 @@ def log_likelihoods(
     campaign: Campaign, known: Circumstances, measured: Vibrations, arrays: RobotArrays, readings: Readings,
     variance: float, noise: PeakNoise,
 ) -> np.ndarray:  # fmt: skip
-    """(A,) ln of the lists' density for robots (A, S or 1), peaks assigned anew; -inf where a state is unstable.
+    """(A,) ln of the lists' density for robots (A, S or 1), peaks assigned anew; -inf where one is unstable or slack.
 
     variance : of ln f of every mode, by all that is not sure
     """
@@ -160,7 +160,7 @@ def log_likelihoods(
     point = _whole(_point(states, measured, known.at(measured.states), arrays, readings))
     try:
         log_hertz, share = frequencies_at(point, float(measured.highest.max()) * BEYOND, _assembly(campaign))
-    except UnstableEquilibriumError:
+    except (CrowdedModesError, UnstableEquilibriumError):
         return np.full(len(point.position), -np.inf)
     found = []
     for own, seen in zip(log_hertz, share, strict=True):
