@@ -102,7 +102,7 @@ def _standing(found: Diagnosis) -> str:
     if left is None:
         said.append("A single state leaves no held-out data to confirm it.")
     elif not found.confirmed:
-        said.append("It rests on one state; held-out states do not confirm it.")
+        said.append("It rests on one part of the data; held-out data do not confirm it.")
     else:
         ratio = left.ratio(left.concerned)
         fall = f"falls by a factor of {ratio:.1f}" if ratio > _BETTER else "is no smaller"

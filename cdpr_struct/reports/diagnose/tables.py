@@ -88,7 +88,7 @@ def candidates(rows: Sequence[Row], most: int, sizes: int) -> HtmlTable | None:
     note = "Evidence: log Bayes factor against the nominal model, prior included (3 nats = a factor of 20). "
     note += "Explained: share of the excess chi-squared removed by the cause."
     if any(row.get("description") for row in rows):
-        note += " Evidence of a correction is against the data as filed; that of causes against the corrected data."
+        note += " Evidence of a correction is against the data as recorded; that of causes against the corrected data."
     columns = ["cause", "evidence [nats]", "explained [%]", "size"]
     return HtmlTable("Candidates", columns, shown, note) if shown else None
 
