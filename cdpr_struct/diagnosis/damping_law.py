@@ -13,7 +13,7 @@ from scipy.stats import chi2
 from cdpr_struct.diagnosis.damping_rows import DampingRows
 
 NAMED, SAME_CLASS, ADEQUATE = 5.0, 3.0, 1e-3
-SCATTER = "the damping ratios scatter more than their sigmas, whatever the law"
+SCATTER = "the damping ratios scatter by more than their sigmas under every law"
 MODEL_SHARE = 0.15  # of a mode's damping: how well the model knows its energies and angles
 _POINTS, _DECADES = {1: 4001, 2: 601}, 4.0  # of the prior, level in the logarithm of the size
 _LARGEST = 0.3  # damping ratio of the largest size considered

@@ -30,7 +30,7 @@ from cdpr_struct.robot.robot import Robot
 
 KEEPS = 1.0  # nats that a cause must keep without the block of data that it needs most: else it explains that block
 HANGS = 0.6  # largest probability that is said of a cause that does not
-TOO_SMALL = "in these data it hides in noise and tolerances, whatever its size"
+TOO_SMALL = "in these data it is masked by noise and tolerances at any size"
 _LEAST = 0.03  # probability that anything is wrong, below which outliers explain what is significant
 _MOSTLY, _OPEN = 0.5, 4  # of it an unknown law must hold so much to be spoken of; else so many causes are left open
 _LIKELIEST = 3  # candidates that a recommendation speaks of where no cause explains the data

@@ -8,8 +8,8 @@ from cdpr_struct.hypotheses.causes.library import LIBRARY
 from cdpr_struct.hypotheses.laws import UNKNOWN
 
 _OF_HANDLING = {
-    "unit_error": "asking who filed the data for the unit of each column",
-    "sign_error": "asking who filed the data for the axes of the pose",
+    "unit_error": "asking who recorded the data for the unit of each column",
+    "sign_error": "asking who recorded the data for the axes of the pose",
     "swapped_channels": "pulling one cable by hand and watching its load cell and encoder",
     "pose_mismatch": "measuring that pose again",
     "cable_sag": "simulating with the model dsm or exact",

@@ -54,10 +54,12 @@ def shortcuts(campaign: Campaign) -> list[Correction]:
         found.append(Correction("cable_sag", "the simulation leaves out the weight of the cables", better))
     if campaign.model == "static" and campaign.robot_frequencies.hertz.size:
         better = replace(campaign, model="dsm")
-        found.append(Correction("cable_dynamics", "the simulation leaves out the cables' own vibration", better))
+        found.append(
+            Correction("cable_dynamics", "the simulation leaves out the vibration of the cables themselves", better)
+        )
     if campaign.assembly == "thesis" and campaign.robot_frequencies.hertz.size:
         better = replace(campaign, assembly="consistent")
-        why = "the simulation leaves out the work of the cable forces on the rotating attachment"
+        why = "the simulation leaves out the geometric stiffness of the rotating attachments"
         found.append(Correction("attachment_geometric_stiffness", why, better))
     return found
 
@@ -71,14 +73,15 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
     whole = range(-1, m)
     for which in whole if np.isfinite(states.tension).any() else ():
         for unit, factor in TENSION_UNITS.items():
-            for size, wrong in ((factor, unit), (1.0 / factor, f"N taken for {unit}")):
+            ways = ((factor, f"are not in N but in {unit}"), (1.0 / factor, f"were converted from {unit}, though in N"))
+            for size, wrong in ways:
                 scale = np.ones(m)
                 scale[slice(None) if which < 0 else which] = size
                 who = "the tensions" if which < 0 else f"the tensions of cable {which + 1}"
                 new = _with(campaign, tension=states.tension * scale, tension_sigma=states.tension_sigma)
                 count = int(np.isfinite(states.tension[:, scale != 1.0]).sum())
                 stretch = count * math.log(size)
-                said = f"{who} are not in N but in {wrong}"
+                said = f"{who} {wrong}"
                 yield Correction("unit_error", said, new, log_stretch=stretch, parameters={"factor": size})
     for unit, factor in LENGTH_UNITS.items():
         for what in ("length", "position"):
@@ -86,11 +89,11 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
             stretch = int(np.isfinite(getattr(states, what)).sum()) * math.log(factor)
             said = f"the {what}s are in {unit}"
             yield Correction("unit_error", said, new, log_stretch=stretch, parameters={"factor": factor})
-    turned = ((np.degrees(1.0), "rad"), (np.radians(1.0), "deg written as if rad"))
-    for factor, unit in turned if _several_tilted(states) else ():
+    turned = ((np.degrees(1.0), "are in rad"), (np.radians(1.0), "were converted from rad, though in deg"))
+    for factor, wrong in turned if _several_tilted(states) else ():
         new = _with(campaign, angles=states.angles * factor)
         stretch = int(np.isfinite(states.angles).sum()) * math.log(factor)
-        said = f"the pose angles are in {unit}"
+        said = f"the pose angles {wrong}"
         yield Correction("unit_error", said, new, log_stretch=stretch, parameters={"factor": factor})
     for factor, unit in ((0.45359237, "lb"), (1.0 / 9.80665, "N")) if np.any(states.payload) else ():
         new = _with(campaign, payload=states.payload * factor)
@@ -139,7 +142,7 @@ def _swaps(campaign: Campaign) -> Iterator[Correction]:
             new = _with(
                 campaign, **{what: values[:, order], f"{what}_sigma": getattr(states, f"{what}_sigma")[:, order]}
             )
-            says = f"the {what} channels of cables {i + 1} and {j + 1} are exchanged"
+            says = f"the {what} channels of cables {i + 1} and {j + 1} are swapped"
             yield Correction("swapped_channels", says, new, parameters={"first": i + 1, "second": j + 1})
 
 
@@ -150,11 +153,11 @@ def _exchanged_poses(campaign: Campaign) -> Iterator[Correction]:
         order = np.arange(len(states.names))
         order[rows] = np.roll(rows, step)
         new = _with(campaign, position=states.position[order], angles=states.angles[order])
-        says = f"the poses of the static states are shifted by {'one' if step > 0 else 'minus one'} row"
+        says = f"the poses of the static states are entered one row too {'early' if step > 0 else 'late'}"
         yield Correction("pose_mismatch", says, new, parameters={"rows": step})
     for i, j in list(combinations(rows.tolist(), 2))[:PAIRS_OF_STATES]:
         order = np.arange(len(states.names))
         order[[i, j]] = j, i
         new = _with(campaign, position=states.position[order], angles=states.angles[order])
-        says = f"the poses of cases {states.names[i]} and {states.names[j]} are exchanged"
+        says = f"the poses of cases {states.names[i]} and {states.names[j]} are swapped"
         yield Correction("pose_mismatch", says, new, parameters={"first": i + 1, "second": j + 1})

@@ -1,4 +1,4 @@
-"""Laws outside the library, told by the channel through which they act.
+"""Laws outside the library, identified by the quantity through which they act.
 
 Whatever happens to a robot acts through a force on the platform, the place of its weight, or an error of a reading
 (tension, length, pose) that depends on something known: position, tilt, payload, tension, length, direction of the last
@@ -42,7 +42,7 @@ def laws(local: Local) -> list[Law]:
     return [law for law in found if law.columns.size and np.abs(law.columns).max() > 0.0]
 
 
-OUTSIDE = Cause(UNKNOWN, "a law that the library does not know", (), lambda arrays, theta: arrays)
+OUTSIDE = Cause(UNKNOWN, "a law outside the library", (), lambda arrays, theta: arrays)
 
 
 def patterns(found: list[Law]) -> tuple[Pattern, ...]:
@@ -119,7 +119,7 @@ def _of_force_and_place(parts: _Parts) -> Iterator[Law]:
 
 def _of_tensions(parts: _Parts) -> Iterator[Law]:
     effect, pull = parts.typical * parts.tension, parts.pull
-    whole, words = pull + 1.0, "the load cells: a law other than gain and zero"
+    whole, words = pull + 1.0, "an error of the load cells other than gain and zero"
     m = pull.shape[1]
     yield Law("tension", words, np.stack([np.einsum("srm,sm->sr", effect, pull**p) for p in (2, 3)], axis=-1))
     yield Law("tension", words, np.concatenate([effect * pull[:, None, :] ** p for p in (2, 3)], axis=-1))
@@ -134,7 +134,7 @@ def _of_tensions(parts: _Parts) -> Iterator[Law]:
 
 
 def _signed(channel: str, who: str, effect: np.ndarray, approach: np.ndarray) -> Iterator[Law]:
-    words, signed = f"{who}: an error with the sign of the last motion", effect * approach[:, None, :]
+    words, signed = f"an error of {who} with the sign of the last motion", effect * approach[:, None, :]
     yield Law(channel, words, signed.sum(axis=-1, keepdims=True))
     yield Law(channel, words, signed)
 
@@ -142,11 +142,11 @@ def _signed(channel: str, who: str, effect: np.ndarray, approach: np.ndarray) ->
 def _of_lengths(parts: _Parts) -> Iterator[Law]:
     effect, value = _LENGTH * parts.length, parts.lengths
     centred = (value - value.mean()) / max(float(value.std()), 1e-3)
-    words = "the lengths: a law other than scale and zero"
+    words = "an error of the cable lengths other than scale and zero"
     yield Law("length", words, np.stack([np.einsum("srm,sm->sr", effect, centred**p) for p in (2, 3)], axis=-1))
     yield Law("length", words, np.concatenate([effect * centred[:, None, :] ** p for p in (2, 3)], axis=-1))
     if len(np.unique(value[:, 0])) >= _LEAST_LENGTHS:
-        words = "the lengths: an error that repeats along the cable"
+        words = "a periodic error along the cable length"
         longest = 0.5 * max(float(np.ptp(value)), 0.4)
         for period in np.geomspace(_SHORTEST_PERIOD, longest, _PERIODS):
             angle = 2.0 * np.pi * value[:, None, :] / period
@@ -154,10 +154,10 @@ def _of_lengths(parts: _Parts) -> Iterator[Law]:
             yield Law("length_periodic", words, np.stack([wave.sum(axis=-1) for wave in waves], axis=-1))
             yield Law("length_periodic", words, np.concatenate(waves, axis=-1))
     if np.any(parts.approach):
-        yield from _signed("length_direction", "the lengths", effect, parts.approach)
+        yield from _signed("length_direction", "the cable lengths", effect, parts.approach)
 
 
 def _of_poses(parts: _Parts) -> Iterator[Law]:
-    words, x = "the tracker: an error that changes with the pose", parts.position
+    words, x = "an error of the tracker that changes with the pose", parts.position
     for features in (x, parts.turn, np.stack([(x[:, :2] ** 2).sum(axis=1)], axis=1)):
         yield Law("pose", words, _POSE * _law(parts.pose, features))

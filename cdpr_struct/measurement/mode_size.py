@@ -2,7 +2,7 @@
 
 The residue of an accelerance holds the modal constant, the product of the mode's motion at sensor and force over its
 modal mass. Times the platform's mass, at the same place and along the same axis, that is the share of the mode's
-kinetic energy that lies in this motion of the platform (docs/diagnosis.md, Signals).
+kinetic energy that lies in this motion of the platform (docs/diagnosis.md, Recordings become frequencies).
 """
 
 import numpy as np

@@ -84,7 +84,7 @@ def held_against(item: Identified, robot: Robot, model: str) -> Identified:
     seen = translation_share(modes, record, robot.platform.mass + record.payload)
     own = np.flatnonzero([kind == MODE for kind in kinds])
     if not len(own):
-        note = "no mode stands out of the noise"
+        note = "no mode above the noise"
     elif not np.isfinite(record.position).all():
         note = "no pose: give pose columns, or a case that another file describes"
     elif len(robot.cables) < 6 and not np.isfinite(record.lengths).all():
@@ -131,11 +131,11 @@ def _reason(
     if seen:
         return ""
     if partner[i] < 0:
-        return "no partner in the model"
+        return "no matching mode in the model"
     share = float(state.modes.platform_energy[partner[i]])
     if share < VISIBLE:
         return f"a mode of the cables ({share:.0%} of its energy in the platform)"
-    return "" if own_size else "too small for its partner in the model"
+    return "" if own_size else "much smaller than the matching mode of the model"
 
 
 def partners(modes: Modes, state: StateModes, record: SignalRecord) -> np.ndarray:

@@ -82,7 +82,7 @@ def _invisible(numbers: Numbers, gram: np.ndarray) -> dict[str, str]:
     for name, patterns in numbers.patterns.items():
         every = np.hstack([numbers.pattern(name, pattern) for pattern in patterns])
         if (every * (gram @ every)).sum(axis=0).max() < _VISIBLE**2:
-            found[name] = "at its typical size it hides in noise and tolerances"
+            found[name] = "at its typical size it is masked by noise and tolerances"
     return found
 
 

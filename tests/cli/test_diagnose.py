@@ -189,7 +189,7 @@ def test_extended_robot_says_how_far_to_trust_it(shaken, capsys):
     text = "\n".join(head)
     assert "status: class; probability" in text
     assert " | ".join(result["verdict"]["class"][0]) in text
-    assert "WARNING: these data do not tell" in text
+    assert "WARNING: these data do not distinguish" in text
     for command in (["inverse"], ["modes", "--count", "3"]):
         assert run([*command, str(out / "extended_robot.toml"), "--json"]) == 0
     capsys.readouterr()

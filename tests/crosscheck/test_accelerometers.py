@@ -1,8 +1,10 @@
 """Sizes of FRFs, with the FEM as truth: a wrong gain is found with its value, the right one gives nothing."""
 
 import pytest
+from matplotlib.figure import Figure
 
 from cdpr_struct.diagnosis.diagnosing import diagnosed
+from cdpr_struct.reports.figures.diagnose import draw_residuals
 from tests.crosscheck.frf_campaign import Shaken, fem_campaign
 
 GAIN = 1.15
@@ -15,6 +17,7 @@ def test_a_wrong_gain_is_named_with_its_value(tmp_path):
     gain = said.sizes[0].parameters["gain"]
     assert abs(gain["value"] - GAIN) < 1.96 * gain["sigma"]
     assert gain["sigma"] < 0.05
+    draw_residuals(Figure(), said)
 
 
 @pytest.mark.slow

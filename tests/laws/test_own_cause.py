@@ -12,7 +12,7 @@ from cdpr_struct.reports.diagnose.result import result_json
 from cdpr_struct.robot.robot_file import load_robot
 from tests.laws.written_campaigns import noisy, plan_of, written
 
-PAGE = Path(__file__).parents[2] / "docs" / "diagnosis.md"
+PAGE = Path(__file__).parents[2] / "docs" / "own_cause.md"
 WARMER = 40.0  # [K]
 
 
@@ -20,8 +20,8 @@ WARMER = 40.0  # [K]
 def own():
     """The names that the printed script defines; its cause is taken out of the library again."""
     before, names = dict(LIBRARY), {"__name__": "own_cause"}
-    section = PAGE.read_text("utf-8").split("## A cause of your own")[1]
-    exec(re.search(r"```python\n(.*?)```", section, re.S)[1], names)
+    page = PAGE.read_text("utf-8")
+    exec(re.search(r"```python\n(.*?)```", page, re.S)[1], names)
     yield names
     LIBRARY.clear()
     LIBRARY.update(before)

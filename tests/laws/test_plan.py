@@ -205,7 +205,7 @@ def test_what_a_person_would_do_is_found(gains):
     friction = of(gains, "again, approached from the other side")["load_cell_gain", "pulley_friction"]
     assert friction.before < 1.0
     assert friction.after > 5.0
-    tracked = of(gains, "laser tracker on the frame anchors")["frame_anchor_position", "tracker_frame"]
+    tracked = of(gains, "survey the frame anchors")["frame_anchor_position", "tracker_frame"]
     assert tracked.after > tracked.before + 3.0
 
 

@@ -61,7 +61,8 @@ def test_an_absurd_sigma_is_doubted(clean, name, value, word):
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "words"), [("anchor_m", 0.5, "is it in m?"), ("axial_stiffness", 2.0, "is it a share of it?")]
+    ("name", "value", "words"),
+    [("anchor_m", 0.5, "is it in m?"), ("axial_stiffness", 2.0, "is it relative to the value?")],
 )
 def test_an_absurd_tolerance_is_doubted(clean, name, value, words):
     text, *_ = warnings(replace(clean, tolerances=replace(clean.tolerances, **{name: value})))

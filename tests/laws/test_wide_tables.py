@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from cdpr_struct.measurement.campaign_file import load_campaign
-from cdpr_struct.reports.diagnose.mending import changed_columns
+from cdpr_struct.reports.diagnose.corrected_columns import changed_columns
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "table-4-4"
 POSE = ["case", "x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"]

@@ -11,7 +11,7 @@ from cdpr_struct.hypotheses.handling import Correction
 from cdpr_struct.hypotheses.hypothesis import Part
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas
-from cdpr_struct.reports.diagnose.mending import changed_columns, corrected
+from cdpr_struct.reports.diagnose.corrected_columns import changed_columns, corrected
 from cdpr_struct.reports.diagnose.words import described
 from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.robot_file import load_robot
@@ -42,20 +42,20 @@ def said(clean):
 def test_a_single_number_keeps_its_sign_and_says_what_it_means(said, size):
     text = said("unstrained_length_offset", "all alike", [size])
     assert f"by {size:+.2g} m (all alike" in text
-    assert "in the mean" not in text
+    assert "on average" not in text
     assert "paid out = encoder length + this" in text
 
 
 def test_numbers_of_each_cable_are_a_mean(said):
     text = said("load_cell_bias", "each its own", [3.0, -3.0] * 4)
-    assert text == "the load cells' zero is off, by 3 N in the mean (each its own)"
+    assert text == "the zeros of the load cells are off by 3 N on average (each its own)"
 
 
 @pytest.mark.parametrize(
     ("name", "label", "values", "words"),
     [
         ("gravity_tilt", "", [0.003, -0.004], "out of level by 0.005 rad"),
-        ("frame_anchor_position", "each its own", [0.002, 0.0, 0.0] * 8, "off, by 0.002 m in the mean"),
+        ("frame_anchor_position", "each its own", [0.002, 0.0, 0.0] * 8, "off by 0.002 m on average"),
         ("tracker_frame", "shifted and turned", [0.003, 0.0, 0.004, 0.0, 0.002, 0.0], "by 0.005 m and 0.002 rad"),
     ],
 )
@@ -66,7 +66,7 @@ def test_vectors_are_told_by_their_length(said, name, label, values, words):
 def test_ratios_of_each_axis_are_told_by_their_range(said):
     """An inertia 56 % too small about one axis is no 112 %."""
     text = said("platform_inertia", "each its own", np.log([0.965, 1.557, 0.93]))
-    assert text.endswith("is 111.8 % of what was entered (each its own, from 93.0 % to 155.7 %)")
+    assert text.endswith("is 111.8 % of the entered value (each its own, from 93.0 % to 155.7 %)")
 
 
 def test_a_ratio_near_one_keeps_its_digits(said):
@@ -80,7 +80,7 @@ def test_a_unit_error_names_column_file_and_factor(clean):
     entered = replace(clean, sheets=(sheet,))
     better = replace(entered, states=replace(entered.states, length=1e-3 * entered.states.length))
     wrong = Correction("unit_error", "the lengths are in mm", better, parameters={"factor": 1e-3})
-    assert corrected(entered, wrong) == "the lengths are in mm (mend column length_m of day1.csv: times 0.001)"
+    assert corrected(entered, wrong) == "the lengths are in mm (correct column length_m of day1.csv: times 0.001)"
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,8 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
+from cdpr_struct.diagnosis.left_out import KINDS
+from cdpr_struct.reports.figures.diagnose import ROW_NAMES
 from cdpr_struct.reports.figures.limits import label_groups, number_ranges
 from cdpr_struct.reports.figures.mode_stacks import densest_window, stack_levels
 from cdpr_struct.reports.figures.robot_geometry import robot_geometry
@@ -93,3 +95,8 @@ def test_plain_number(value, text):
 
 def _svg(name, files, cable_report):
     return ElementTree.fromstring({**files, **cable_report}[name])
+
+
+def test_every_kind_of_residual_has_a_name_in_the_figure():
+    """Campaigns with modal constants of FRFs could not be drawn without theirs."""
+    assert set(ROW_NAMES) == set(KINDS)

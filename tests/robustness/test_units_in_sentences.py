@@ -16,7 +16,7 @@ EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "table-4-4"
 @pytest.mark.parametrize(
     ("campaign", "data", "newton", "words"),
     [
-        ("level.toml", "level.csv", 9.80665, "The tensions are not in N but in kgf (mend column tension_N of"),
+        ("level.toml", "level.csv", 9.80665, "The tensions are not in N but in kgf (correct column tension_N of"),
         pytest.param(
             "campaign.toml", "states.csv", 4.4482216, "he tensions are not in N but in lbf", marks=pytest.mark.slow
         ),

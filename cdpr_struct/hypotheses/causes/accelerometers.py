@@ -50,7 +50,7 @@ CAUSES = (
         (Parameter("sensor_mass", "kg", _MASS, positive=True),),
         _mass,
         seen_in=("CF", "RF", "FA"),
-        sentence="sensors or a shaker of {value} kg hung on the platform while vibration was measured",
+        sentence="sensors or a shaker of {value} kg were on the platform while vibration was measured",
         needs=_frequencies,
         separated_by="weighing the sensors; reading the tensions with them on the platform",
         extension="sensor_mass",

@@ -19,7 +19,7 @@ CAUSE = Cause(
     (),
     _nothing,
     seen_in=("NS",),
-    sentence="the cables pull against each other differently from the simulation, by {rms} {unit} in the mean",
+    sentence="the internal force differs from that of the simulation by {rms} {unit} on average",
     separated_by="reading the encoders; measuring the anchors",
 )
 REASON = "needs tensions of a redundant robot at states without encoder lengths"

@@ -51,7 +51,7 @@ def testable(seen: Seen, checked: Mapping[str, float]) -> tuple[list[Cause], dic
     installed()
     found, hidden = [], {}
     for name, cause in LIBRARY.items():
-        reason = cause.needs(seen) or ("" if set(cause.seen_in) & seen.kinds else "not seen in these kinds of data")
+        reason = cause.needs(seen) or ("" if set(cause.seen_in) & seen.kinds else "no effect on these kinds of data")
         if reason:
             hidden[name] = reason
         else:

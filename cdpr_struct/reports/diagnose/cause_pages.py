@@ -14,7 +14,7 @@ BLOCKS = {
 
 
 _CARRIED = {"": "of the robot as a whole", "state": "of one state"} | dict.fromkeys(
-    ("cable", "mast", "axis"), "per {} (all alike, one alone, or each its own)"
+    ("cable", "mast", "axis"), "per {} (equal for all, one alone, or each different)"
 )
 """Whose the parameters of a cause are, by its carrier."""
 
@@ -40,14 +40,14 @@ def internal_force_page() -> str:
 
 
 _DAMPING = "log-uniform over four decades, up to a damping ratio of 0.3"
-_DECAYS = "two amplitudes or more and four modes or more; free decays rather than FRFs"
+_DECAYS = "two or more amplitudes and four or more modes; free decays rather than FRFs"
 _FILED = (
-    f"none; a corrected copy of the data, whose prior odds against the data as filed are exp(-{PRICE:g}) over the "
-    "number of such corrections"
+    f"none; a corrected copy of the data; its prior odds against the data as recorded are exp(-{PRICE:g}) divided by "
+    "the number of such corrections"
 )
 BESIDE = {
-    "unit_error": ("A column is in another unit", _FILED, "every column with a unit", "asking who filed it"),
-    "sign_error": ("A coordinate of the pose has the wrong sign", _FILED, "poses", "asking who filed it"),
+    "unit_error": ("A column is in another unit", _FILED, "every column with a unit", "asking who recorded the data"),
+    "sign_error": ("A coordinate of the pose has the wrong sign", _FILED, "poses", "asking who recorded the data"),
     "swapped_channels": (
         "Load cells or encoders of two cables are exchanged", _FILED, "tensions and lengths",
         "pulling one cable by hand",
@@ -57,15 +57,15 @@ BESIDE = {
         "every kind of data", "another model",
     ),
     "cable_dynamics": (
-        "The simulation under test leaves out the cables' own vibration", "none; model `static` against `dsm`",
+        "The simulation under test leaves out the vibration of the cables", "none; model `static` against `dsm`",
         "robot frequencies", "another model",
     ),
     "attachment_geometric_stiffness": (
-        "The simulation under test leaves out the work of the cable forces on the rotating attachments",
+        "The simulation under test leaves out the geometric stiffness of the rotating attachments",
         "none; assembly `thesis` against `consistent`", "robot frequencies", "another assembly",
     ),
     "viscous_damping": (
-        "Damping proportional to velocity, of the medium at rest (not the entered ratio) or in the cables' material",
+        "Damping proportional to velocity, of the surrounding medium (other than entered) or in the cable material",
         f"damping_ratio_factor (ratio), or stiffness_time (s); {_DAMPING}",
         "damping ratios of FRFs and decays", _DECAYS,
     ),

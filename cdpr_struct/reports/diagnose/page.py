@@ -18,12 +18,12 @@ from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 from cdpr_struct.robot.robot_writing import robot_toml
 
 _METHOD = (
-    "Measured pose and tensions are put into the model; what is left of wrench balance, cable lengths and frequencies "
-    "is judged against sensor noise and tolerances together. Noise is a mixture of scales: a reading may be an "
-    "outlier, and each kind of sensor may scatter more or less than stated. Which peak is which mode is summed over. "
-    "Every cause of the library is fitted with a prior on its size; the evidence counts how well it predicts and how "
-    "many numbers it needed. The verdict is the answer of least expected loss. Held-out states were predicted from "
-    "fits to all the others."
+    "The model is evaluated at the measured pose and tensions. The residuals of wrench balance, cable lengths and "
+    "frequencies are compared with sensor noise and tolerances together. The noise model is a mixture of scales: a "
+    "reading may be an outlier, and each kind of sensor may scatter more or less than stated. The likelihood sums over "
+    "all assignments of peaks to modes. Every cause of the library is fitted with a prior on its size; the evidence "
+    "weighs the quality of the fit against the number of parameters. The verdict has the least expected loss. "
+    "Held-out states were predicted from fits to all other states."
 )
 
 
@@ -48,20 +48,22 @@ def plates(found: Diagnosis, result: Mapping[str, Any]) -> list[Plate]:
             "residuals",
             "What the simulation gets wrong",
             svg("residuals", figures.RESIDUAL_SIZE, lambda f: figures.draw_residuals(f, found)),
-            "Each point is one residual, simulated minus measured at the measured state, in its own standard deviation "
-            "under noise and tolerances. Look for points outside the shaded band of +-2 sigma, and for several inside "
-            "it that go together: one alone says nothing there. Faint lines part the states, whose names stand above "
-            "where there is room; values of all points: residuals.csv.",
+            "Each point is one residual, simulated minus measured at the measured state, divided by its standard "
+            "deviation under noise and tolerances. Look for points outside the shaded band of +-2 sigma, and for "
+            "several points inside it with the same trend; a single point inside it means nothing. Faint lines "
+            "separate the states, named above where there is room. Values of all points: residuals.csv.",
         )
     ]
     if result["candidates"]:
         drawn = svg("evidence", figures.EVIDENCE_SIZE, lambda f: figures.draw_evidence(f, result))
-        said = "See which bar is longest, and which end within three nats of it (a factor of twenty in probability): "
-        said += "these the data hardly tell apart. Nats: the logarithm of how much likelier a cause makes the data."
+        said = "Look for the longest bar, and for those within 3 nats of it (a factor of 20 in probability): the data "
+        said += "hardly distinguish these causes. Nats: log Bayes factor against the nominal model, prior included."
         shown.append(Plate("evidence", "Which cause explains it", drawn, said))
     drawn = svg("probabilities", figures.PROBABILITY_SIZE, lambda f: figures.draw_probabilities(f, result))
-    said = "Posterior probabilities of the likeliest sets of causes; blue: those that the verdict speaks of. See "
-    said += "whether one stands out or several share the probability. Unknown: laws that the library does not know."
+    said = (
+        "Posterior probabilities of the likeliest sets of causes; blue: those named in the verdict. Look whether one "
+    )
+    said += "dominates or several share the probability. Unknown: laws outside the library."
     shown.append(Plate("probabilities", "How probable each answer is", drawn, said))
     return shown + signal_plates(found.damped, found.campaign.identified)
 
@@ -77,17 +79,17 @@ def robot_comments(result: Mapping[str, Any]) -> list[str]:
     ]
     if any(len(names) > 1 for names in said["class"]):
         lines.append(
-            "WARNING: these data do not tell the causes of a class; of each only the likeliest is in this file."
+            "WARNING: these data do not distinguish the causes of a class; this file holds the likeliest of each class."
         )
     if said["status"] == "class" and not gain["confirmed"] and gain["ratio"] is not None:
-        lines.append("WARNING: not confirmed by anything that was left out of the fit; do not rely on it.")
+        lines.append("WARNING: not confirmed by held-out states; do not rely on it.")
     return lines
 
 
 def _without_place(found: Diagnosis) -> list[str]:
     """A line for causes that no robot file can hold: they are of single states."""
     names = [size.part.cause.name for size in found.sizes if size.part.cause.carrier == "state"]
-    lines = [f"Not in this file, which has no place for it: {', '.join(names)}."] if names else []
+    lines = [f"Not in this file, because robot files have no field for it: {', '.join(names)}."] if names else []
     return lines + (["Not in this file: the drift of the load cells."] if found.drift else [])
 
 
@@ -118,11 +120,11 @@ def _facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
     ]
     gain = result["gain"]
     if gain["confirmed"]:
-        said = f"smaller error where it was not fitted ({gain['counted']} of {gain['of']} readings, those that the "
-        facts.append((f"{gain['ratio']:.1f}×", f"{said}cause concerns)"))
+        said = f"smaller error in held-out states ({gain['counted']} of {gain['of']} readings, those affected by the "
+        facts.append((f"{gain['ratio']:.1f}×", f"{said}cause)"))
         if gain["generic_fudge_ratio"] is not None:
             fudge = f"{gain['generic_fudge_ratio']:.1f}×"
-            facts.append((fudge, "the same by a generic fit of common EA and cell gain, all readings"))
+            facts.append((fudge, "the same for a generic fit of one common EA and one cell gain, over all readings"))
     return facts
 
 
@@ -145,7 +147,7 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
 
 
 def _residuals_csv(found: Diagnosis) -> str:
-    """Residuals as entered and with the causes, kind by kind as in docs/diagnosis.md; rows are counted in each."""
+    """Residuals as entered and with the causes, one kind of row after another; rows are numbered within each kind."""
     rows, after = found.recorded, found.residuals
     counted: defaultdict[tuple[str, int], Iterator[int]] = defaultdict(lambda: count(1))
     factor = np.array([KINDS[kind][1] for kind in rows.kind])

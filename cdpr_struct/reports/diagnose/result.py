@@ -11,7 +11,7 @@ from cdpr_struct.diagnosis.diagnosis import Candidate, Diagnosis, Tried
 from cdpr_struct.diagnosis.left_out import LeftOut
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.reports.diagnose import signals
-from cdpr_struct.reports.diagnose.mending import corrected
+from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.sentences import finite, sentence
 from cdpr_struct.reports.diagnose.words import doubt, place, recommendation
 
@@ -86,7 +86,7 @@ def _next(found: Diagnosis) -> list[str]:
     again = [one for one in found.recommendations if one.purpose == "repeat"]
     shown = [one for one in found.recommendations if one not in again[MOST_REPEATED:]]
     more = len(again) - MOST_REPEATED
-    return [*map(recommendation, shown), *([f"read again {more} more readings"] if more > 0 else [])]
+    return [*map(recommendation, shown), *([f"measure {more} more contradicting readings again"] if more > 0 else [])]
 
 
 def likeliest(found: Diagnosis) -> list[str]:
@@ -115,7 +115,7 @@ def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
     A cause without a size, or less likely than none, is left out unless the verdict leaves it open. Corrections that
     are not believed stand last.
     """
-    mended = [_of_correction(found, one) for one in found.tried if one.correction is found.correction]
+    believed = [_of_correction(found, one) for one in found.tried if one.correction is found.correction]
     others = [
         _of_correction(found, one) for one in found.tried if one.correction is not found.correction and one.gain > 0.0
     ]
@@ -123,7 +123,7 @@ def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
     shown.sort(key=lambda one: one.best is not found.chosen)
     laws = [] if found.damped is None or not found.damped.finding.causes else list(found.damped.finding.fits)
     fitted = [row for one in shown for row in _of_candidate(found, one)]
-    known = [*fitted, *mended] if found.decision.status == UNKNOWN else [*mended, *fitted]
+    known = [*fitted, *believed] if found.decision.status == UNKNOWN else [*believed, *fitted]
     return [
         *known, *others, *map(signals.law_row, laws[: signals.MOST_ROWS]),
     ]  # fmt: skip

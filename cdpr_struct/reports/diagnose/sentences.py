@@ -4,7 +4,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
 from cdpr_struct.hypotheses.laws import UNKNOWN
-from cdpr_struct.reports.diagnose.mending import corrected
+from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.signals import damping_sentence
 from cdpr_struct.reports.diagnose.words import described, listed, place, plain, reading
 
@@ -33,22 +33,22 @@ def sentence(found: Diagnosis) -> str:
 
 
 def agreement(found: Diagnosis) -> str:
-    """Where nothing is significant: of peaks without a mode for certain it says nothing."""
+    """Where nothing is significant; peaks that cannot be assigned to a mode are reported as no evidence."""
     p = f"(p = {found.p_value:.2g})."
     wrong = [one.kind for one in found.noise if 2 * one.outliers > one.readings]
     if wrong:
         return (
-            f"No cause stands out {p} But most of the {listed(wrong)} readings contradict the simulation by far more "
-            "than their sigmas: they neither agree nor disagree with any cause."
+            f"No cause is significant {p} However, most of the {listed(wrong)} readings differ from the simulation by "
+            "far more than their sigmas and count as outliers, so they are no evidence for or against any cause."
         )
     uncertain, count = found.peaks.uncertain, found.peaks.count
     if not uncertain:
         rest = "the other measurements" if found.set_aside else "measurements"
         return f"Nothing significant: simulation and {rest} agree within their uncertainty {p}"
     some = ", ".join(f"{peak.hertz:g}" for peak in uncertain[:6]) + (", ..." if len(uncertain) > 6 else "")
-    text = f"Nothing significant {p} But {len(uncertain)} of {count} robot frequencies ({some} Hz)"
-    text += " cannot be given to a mode for certain, so that they neither agree nor disagree."
-    return text + (" The rest agrees within its uncertainty." if len(uncertain) < count else "")
+    text = f"Nothing significant {p} However, {len(uncertain)} of {count} robot frequencies ({some} Hz) cannot be"
+    text += " assigned to a mode with certainty, which is no evidence for or against the simulation."
+    return text + (" The other readings agree within their uncertainty." if len(uncertain) < count else "")
 
 
 def _named(found: Diagnosis) -> list[str]:
@@ -57,15 +57,15 @@ def _named(found: Diagnosis) -> list[str]:
     own = [names for names in found.decision.classes if not _of_correction(found, names)]
     if any(len(names) > LARGEST_CLASS for names in own):
         lead = [f"{said[:1].upper()}{said[1:]}." for said in parts]
-        left = " and, beside them, ".join(_many(names) for names in own)
-        return [*lead, f"Something is wrong in {place(found.location)}; these data leave open {left}."]
+        left = " and, in addition, ".join(_many(names) for names in own)
+        return [*lead, f"There is a significant error in {place(found.location)}. Possible causes: {left}."]
     for size in found.sizes:
         names = next((n for n in own if size.part.cause.name in n), ())
         lead_of = "best candidate of its class: " if len(names) > 1 else "" if found.confirmed else "best candidate: "
         parts.append(lead_of + described(size))
     text = "; ".join(parts)
     said = [f"{text[:1].upper()}{text[1:]}."]
-    said += [f"These data do not tell {listed(names)} apart." for names in found.decision.classes if len(names) > 1]
+    said += [f"These data do not distinguish {listed(names)}." for names in found.decision.classes if len(names) > 1]
     return [*said, _other_corrections(found), _standing(found)]
 
 
@@ -79,7 +79,7 @@ def _other_corrections(found: Diagnosis) -> str:
         for one in others
         if one.correction.cause == found.correction.cause and one.gain > own.gain - _NEAR
     ]
-    return f"Nearly as likely is that {' or that '.join(near[:_MOST])}." if near else ""
+    return f"Nearly as likely: {'; or '.join(near[:_MOST])}." if near else ""
 
 
 def _of_correction(found: Diagnosis, names: tuple[str, ...]) -> bool:
@@ -94,15 +94,15 @@ def _many(names: tuple[str, ...]) -> str:
 def _standing(found: Diagnosis) -> str:
     """What the chosen causes account for, and whether what was left out agrees."""
     if not found.sizes:
-        return "The rest then agrees within its uncertainty."
+        return "With this correction all readings agree within their uncertainty."
     chosen = next((one for one in found.candidates if one.best is found.chosen), None)
     share = 0.0 if chosen is None else 100.0 * chosen.explained
     said = [f"This accounts for {share:.0f} % of the error beyond noise."] if share >= 0.5 else []
     left = found.left_out
     if left is None:
-        said.append("With a single state nothing can be left out to confirm it.")
+        said.append("A single state leaves no held-out data to confirm it.")
     elif not found.confirmed:
-        said.append("It hangs on one state: nothing that was left out confirms it.")
+        said.append("It rests on one part of the data; held-out data do not confirm it.")
     else:
         ratio = left.ratio(left.concerned)
         fall = f"falls by a factor of {ratio:.1f}" if ratio > _BETTER else "is no smaller"
@@ -112,19 +112,19 @@ def _standing(found: Diagnosis) -> str:
 
 def _unknown(found: Diagnosis) -> list[str]:
     """What no cause explains: where it is, what comes nearest, through what it acts."""
-    parts = [f"Something is wrong in {place(found.location)}, and no cause in the library explains it."]
+    parts = [f"There is a significant error in {place(found.location)}, and no cause in the library explains it."]
     if found.correction is not None:
-        parts.append(f"That {found.correction.sentence} would explain a part, and does not suffice.")
+        parts.append(f"A correction of the data ({found.correction.sentence}) accounts for part of it only.")
     best = next((one for one in found.candidates if one.has_size), None)
     if best is not None:
-        parts.append(f"The best candidate, {listed(best.names, 'with')}, leaves a structured remainder.")
+        parts.append(f"The best candidate, {listed(best.names, 'with')}, leaves residuals beyond noise.")
     law, gain = found.outside
     if law and gain > 0.0:
-        parts.append(f"It looks like {law}.")
+        parts.append(f"The best description of the error is {law}.")
     if any(one.factor > _FAR for one in found.noise):
         parts.append(
-            "The scatter is far larger than any wear or slip leaves: see whether the campaign names the robot that was "
-            "measured, and whether all files use its axes and units."
+            "The scatter is far larger than wear or slip can cause. Check that the campaign names the robot that was "
+            "measured, and that all files use its axes and units."
         )
     return parts
 
@@ -135,7 +135,7 @@ def _peaks(found: Diagnosis) -> str:
     if found.decision.status == "adequate" or not none:
         return ""
     some = ", ".join(f"{peak.hertz:g}" for peak in none[:_MOST]) + (", ..." if len(none) > _MOST else "")
-    return f"{len(none)} of {found.peaks.count} robot frequencies are no mode of the model ({some} Hz)."
+    return f"{len(none)} of {found.peaks.count} robot frequencies match no mode of the model ({some} Hz)."
 
 
 def _aside(found: Diagnosis) -> str:
@@ -145,13 +145,14 @@ def _aside(found: Diagnosis) -> str:
         return ""
     places = [f"{reading(row.kind, row.case, row.cable)} (off by {row.sigmas:.0f} sigma)" for row in rows[:_MOST]]
     more = f"; {len(rows) - _MOST} more" if len(rows) > _MOST else ""
-    return f"{'Contradicts' if len(rows) == 1 else 'Contradict'} all other readings: {'; '.join(places)}{more}."
+    lead = "One reading contradicts all others" if len(rows) == 1 else f"{len(rows)} readings contradict all others"
+    return f"{lead}: {'; '.join(places)}{more}."
 
 
 def _drift(found: Diagnosis) -> str:
     if not found.drift:
         return ""
-    return f"The zeros of the load cells drift, by {found.drift:.2g} N (rms over the cells) during the campaign."
+    return f"The zeros of the load cells drift by {found.drift:.2g} N (rms over the cells) during the campaign."
 
 
 def _damping(found: Diagnosis) -> str:

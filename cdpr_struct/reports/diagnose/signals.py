@@ -68,7 +68,10 @@ def law_row(fit: LawFit) -> dict[str, Any]:
 
 def silent(item: Identified) -> str:
     """Why a record adds no frequency."""
-    why = item.note or f"{len(item.modes)} peaks, none of them clear and the robot's own (see the table of peaks)"
+    why = (
+        item.note
+        or f"none of its {len(item.modes)} peaks is both clear and a mode of the robot (see the table of peaks)"
+    )
     return f"{item.record.kind} {item.record.case} adds no frequency: {why.rstrip('.')}."
 
 
@@ -94,10 +97,11 @@ def damping_sentence(finding: DampingFinding) -> str:
     )
     words = listed(best.causes)
     if finding.status == "unknown":
-        return f"The damping is not the entered one, and no law fits it; the best, {words}, leaves more than noise."
+        lead = "The damping differs from the entered one, and no law fits it"
+        return f"{lead}; the best law, {words}, leaves residuals beyond noise."
     if finding.status == "class":
-        return f"The damping is not the entered one; these data do not tell {listed(finding.causes)} apart."
-    return f"The damping is that of {words}: {sizes}."
+        return f"The damping differs from the entered one; these data do not distinguish {listed(finding.causes)}."
+    return f"The damping follows the law of {words}: {sizes}."
 
 
 def signal_plates(found: Damped | None, entered: tuple[Identified, ...]) -> list[Plate]:
@@ -109,9 +113,9 @@ def signal_plates(found: Damped | None, entered: tuple[Identified, ...]) -> list
                 "damping",
                 "Damping ratio over amplitude",
                 svg("damping", figures.DAMPING_SIZE, lambda f: figures.draw_damping(f, found.finding.rows)),
-                "One line per mode and record, one point per window of the decay, or one for the whole where that says "
-                "more; bars are two sigma, dashes what the entered law gives. Level lines mean viscous or "
-                "structural damping; lines that rise towards small amplitudes mean friction.",
+                "One line per mode and record, one point per window of the decay, or one for the whole record where "
+                "that is more accurate. Bars: two sigma; dashes: the entered law. Level lines indicate viscous or "
+                "structural damping, lines that rise towards small amplitudes indicate friction.",
             )
         )
     return plates
@@ -122,11 +126,10 @@ def _plate(name: str, item: Identified) -> Plate:
         name,
         f"Peaks in {item.record.case} ({plain(item.record.kind)})",
         svg(name, figures.SPECTRUM_SIZE, lambda f: figures.draw_spectrum(f, item)),
-        "Measured spectrum. Blue dots: peaks that joined the campaign as robot frequencies; orange rings: peaks that "
-        "did not, being combination tones of a motion that is not small, weak, or without partner; triangles: peaks "
-        "to which no mode was fitted, as where several lie closer than their widths. Upright lines: the model's modes, "
-        "black where the platform moves. See whether each black line has a blue dot on it, and to which side it "
-        "misses.",
+        "Measured spectrum. Blue dots: peaks used as robot frequencies. Orange rings: peaks not used, because they are "
+        "weak, have no matching mode, or are combination tones of a large motion. Triangles: peaks without a fitted "
+        "mode, for example where several lie closer than their widths. Vertical lines: modes of the model, black where "
+        "the platform moves. Compare each black line with the nearest blue dot: the distance is the frequency error.",
     )
 
 
@@ -142,5 +145,5 @@ def signal_table(result: Mapping[str, Any]) -> HtmlTable | None:
         for m in signal["modes"]
     ]  # fmt: skip
     notes = [[s["case"], "", "", "", s["note"]] for s in result["signals"] if s["note"]]
-    head = ["case", "frequency [Hz]", "damping ratio [%]", "model [Hz]", "what became of it"]
+    head = ["case", "frequency [Hz]", "damping ratio [%]", "model [Hz]", "result"]
     return HtmlTable("Peaks identified in the signals", head, rows + notes) if rows + notes else None

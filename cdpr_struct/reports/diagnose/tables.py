@@ -12,12 +12,12 @@ Row = Mapping[str, Any]
 
 
 def standing(result: Row) -> list[str]:
-    """Status, probability and p-value in one line, then each class that is not told apart."""
+    """Status, probability and p-value in one line, then each class of several causes."""
     said = result["verdict"]
     lines = [f"status: {said['status']}; probability {percentage(said['probability'])}; p = {result['p_value']:.2g}"]
     lines += [f"class: {' | '.join(names)}" for names in said["class"] if len(names) > 1]
     if said["status"] == "class" and len(lines) == 1:
-        lines.append("a class, not a name: nothing that was left out confirms it")
+        lines.append("reported as a class: held-out states do not confirm the cause")
     return lines
 
 
@@ -88,8 +88,8 @@ def candidates(rows: Sequence[Row], most: int, sizes: int) -> HtmlTable | None:
     note = "Evidence: log Bayes factor against the nominal model, prior included (3 nats = a factor of 20). "
     note += "Explained: share of the excess chi-squared removed by the cause."
     if any(row.get("description") for row in rows):
-        note += " Evidence of a correction is against the data as filed; that of causes against the corrected data."
-    columns = ["cause", "evidence [nats]", "explains [%]", "size"]
+        note += " Evidence of a correction is against the data as recorded; that of causes against the corrected data."
+    columns = ["cause", "evidence [nats]", "explained [%]", "size"]
     return HtmlTable("Candidates", columns, shown, note) if shown else None
 
 
@@ -143,10 +143,10 @@ def left_out(gain: Row) -> HtmlTable | None:
     ]  # fmt: skip
     together = [gain["heldout_rms_before"], gain["heldout_rms_after"], gain["ratio"]]
     rows.append(["all of these", f"{gain['counted']} of {gain['of']}", *(f"{v:.2f}" for v in together)])
-    note = "Counted are the readings that the causes, fitted to the rest, change by more than one sigma. "
-    note += "Sigma is evaluated with the noise that was found; chi2/n uses the stated one."
+    note = "Counted: readings that the causes, fitted to the other states, change by more than one sigma. "
+    note += "Sigmas here include the estimated noise factors; chi2/n uses the stated sigmas."
     if not gain["confirmed"]:
-        note += " This does not confirm the causes, so nothing is claimed from it."
+        note += " Held-out states do not confirm the causes, so no gain is claimed."
     title = f"Each {gain['left_out']} predicted from the others, rms error in sigmas"
     return HtmlTable(title, ["kind", "counted", "before", "after", "times smaller"], rows, note)
 
@@ -158,9 +158,11 @@ def noise(rows: Sequence[Row], all_of_them: bool = True) -> HtmlTable | None:
         [row["kind"].replace("_", " "), f"{row['factor']:.2f}", str(row["outliers"]), str(row["readings"])]
         for row in shown
     ]
-    note = "Factor: estimated scatter over the stated sigma, outliers apart. Outlier: five or more times that scatter."
+    note = (
+        "Factor: estimated scatter over the stated sigma, without outliers. Outlier: five or more times that scatter."
+    )
     columns = ["sensor", "factor on sigma", "outliers", "of readings"]
-    return HtmlTable("Noise of the sensors", columns, cells, note) if cells else None
+    return HtmlTable("Sensor noise", columns, cells, note) if cells else None
 
 
 def set_aside(rows: Sequence[Row]) -> HtmlTable | None:
@@ -170,7 +172,9 @@ def set_aside(rows: Sequence[Row]) -> HtmlTable | None:
          figure(row["off_sigmas"]), figure(row["log_evidence_gain"])]
         for row in rows
     ]  # fmt: skip
-    note = "Down-weighted, not left out. Evidence: what their being wrong adds to the log evidence."
+    note = (
+        "These readings are down-weighted, not removed. Evidence: increase of the log evidence if the reading is wrong."
+    )
     columns = ["reading", "case", "cable", "off by [sigma]", "evidence [nats]"]
     return HtmlTable("Readings that contradict all others", columns, cells, note) if cells else None
 
@@ -178,14 +182,14 @@ def set_aside(rows: Sequence[Row]) -> HtmlTable | None:
 def next_steps(text: str) -> HtmlTable | None:
     """What to measure next, one proposal a row."""
     rows = [[f"{i}. {step}"] for i, step in enumerate(filter(None, text.split("; ")), start=1)]
-    note = "Nats: expected evidence between the two, if either is the true one; three are a factor of twenty."
+    note = "Nats: expected log evidence between the two causes, whichever is true (3 nats = a factor of 20)."
     return HtmlTable("To measure next", ["proposal"], rows, note if "nats" in text else "") if rows else None
 
 
 def sigmas(rows: Sequence[Row]) -> HtmlTable | None:
     """Every sigma that was used and where it is from."""
     cells = [[s["kind"], s["file"], s["sigma"], s["words"], s["source"]] for s in rows]
-    note = "One sigma of each reading. A state that several files name has the pose sigmas of the first."
+    note = "One sigma of each reading. A state named in several files has the pose sigmas of the first file."
     columns = ["kind", "file", "sigma", "size", "source"]
     return HtmlTable("Sigmas of the sensors", columns, cells, note) if cells else None
 
@@ -209,7 +213,7 @@ def not_shown(result: Row) -> HtmlTable:
 def detectable(result: Row) -> HtmlTable:
     """The smallest sizes that would be found."""
     sizes = [[n.replace("_", " "), f"{v['value']:.3g}", v["unit"]] for n, v in result["minimum_detectable"].items()]
-    return HtmlTable("Smallest size found 4 times out of 5", ["cause", "size", "unit"], sizes)
+    return HtmlTable("Smallest detectable size (found in 4 of 5 cases)", ["cause", "size", "unit"], sizes)
 
 
 def tolerances(result: Row) -> HtmlTable:

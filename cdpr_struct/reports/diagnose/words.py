@@ -33,7 +33,7 @@ def described(size: WholeSize) -> str:
         "parts": _by_unit(pattern, value),
     }  # fmt: skip
     text = cause.sentence.format(**words)
-    text = text.replace(" in the mean", "") if single else text
+    text = text.replace(" on average", "") if single else text
     notes = [pattern.label, cause.sign if single else ""]
     if "{percent}" in cause.sentence and not single:
         notes.append(f"from {_per_cent(float(np.exp(value.min())))} to {_per_cent(float(np.exp(value.max())))}")
@@ -67,9 +67,9 @@ def place(where: Location | None) -> str:
 
 
 def recommendation(one: Recommendation) -> str:
-    """What to measure next, one sentence without full stop."""
+    """What to measure next, without full stop."""
     if one.purpose == "repeat":
-        return f"read again {reading(one.kind, one.case, one.cable)}"
+        return f"measure {reading(one.kind, one.case, one.cable)} again"
     nats = "" if one.nats is None else f", expected {one.nats:.0f} nats"
     why = {
         "tell_apart": "tests", "confirm": "confirms or refutes", "find": "tests",
@@ -86,7 +86,7 @@ def doubt(one: Doubt) -> str:
             f"scatter is {one.words} times the stated sigma). Check the unit and size of the stated sigmas."
         )
     if one.about == "tolerance":
-        asked = f"in {one.unit}" if one.unit else "a share of it"
+        asked = f"in {one.unit}" if one.unit else "relative to the value"
         return f"the tolerance {one.name}, {one.words}, is very {size}: is it {asked}?"
     return f"sigma.{one.name} of {one.file}, {one.words}, is very {size}: is it in {one.unit}?"
 

@@ -19,14 +19,18 @@ _BARS, _MOST_NAMES, _LETTERS, _ANSWERS = 10, 30, 18, 6
 _NARROW = 0.3  # of the width: two blocks together on which their names would touch
 _TENS = tuple(10.0**n for n in range(1, 16))
 _TICKS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, *_TENS[1:])
-_WORDS = {"EQ": "wrench balance", "CO": "lengths", "CF": "cable frequencies", "RF": "robot frequencies"}
+ROW_NAMES = {
+    "EQ": "wrench balance", "CO": "lengths", "CF": "cable frequencies", "RF": "robot frequencies",
+    "FA": "modal constants",
+}  # fmt: skip
+"""Of each kind of residuals."""
 
 
 def draw_residuals(figure: Figure, found: Diagnosis) -> None:
     """Each row that holds a reading, in its own sigma, as entered and with the causes found, kind by kind."""
     axes = figure.subplots()
     rows, after = found.recorded, found.residuals
-    order = np.argsort([list(_WORDS).index(kind) for kind in rows.kind], kind="stable")
+    order = np.argsort([list(ROW_NAMES).index(kind) for kind in rows.kind], kind="stable")
     before = (rows.before / rows.sigma)[order]
     axes.axhspan(-2.0, 2.0, color="#f4f7f5", linewidth=0)
     axes.plot(np.arange(len(before)), before, ".", color=ORANGE, markersize=7, label="as entered")
@@ -74,12 +78,12 @@ def _name_kinds(axes: Axes, kinds: np.ndarray) -> None:
     place = np.arange(len(kinds))
     for edge in np.flatnonzero(kinds[1:] != kinds[:-1]) + 0.5:
         axes.axvline(edge, color=GREY, linewidth=0.6)
-    present = [kind for kind in _WORDS if (kinds == kind).any()]
+    present = [kind for kind in ROW_NAMES if (kinds == kind).any()]
     share = [float((kinds == kind).mean()) for kind in present]
     low = [False]
     for left, right in pairwise(share):
         low.append(left + right < _NARROW and not low[-1])
-    words = ["\n" * below + _WORDS[kind] for below, kind in zip(low, present, strict=True)]
+    words = ["\n" * below + ROW_NAMES[kind] for below, kind in zip(low, present, strict=True)]
     axes.set_xticks([float(place[kinds == kind].mean()) for kind in present], words)
     axes.tick_params(axis="x", length=0)
 

@@ -87,8 +87,8 @@ def confusion_caption(result: Mapping[str, Any]) -> str:
     worst, (cause, rival) = min(pairs, key=lambda p: p[0])
     return (
         "Expected log evidence for the true cause (row) against another one (column), at twice the smallest detectable "
-        f"size. Dark: the data would hardly tell the two apart. Below {NAMED:g} nats, a factor of 20 in probability, "
-        "the verdict is a class of causes and not one; empty cells have that and more. Worst: "
+        f"size. Dark: the data hardly distinguish the two. Below {NAMED:g} nats, a factor of 20 in probability, the "
+        "verdict is a class of causes; empty cells are at or above this value. Worst: "
         f"{cause.replace('_', ' ')} taken for {rival.replace('_', ' ')}, {worst:.2g} nats."
     )
 
@@ -120,9 +120,9 @@ def draw_gains(figure: Figure, result: Mapping[str, Any]) -> None:
 def gain_caption(result: Mapping[str, Any]) -> str:
     """What to see in the figure."""
     best, hidden = result["next"][0], len(result["next"]) - GAINS_SHOWN
-    more = f" {hidden} more measurements of less gain are in next.csv." if hidden > 0 else ""
+    more = f" {hidden} measurements with a smaller gain are in next.csv." if hidden > 0 else ""
     return (
-        "What one more measurement is expected to add to the evidence over all confused pairs, each pair counted up to "
-        "5 nats; beside the bar, how many pairs it helps. "
+        "Expected gain of log evidence from one more measurement, summed over all confused pairs, at most 5 nats each. "
+        "In brackets: the number of pairs that gain. "
         f"Best: {best['measurement']}, {best['gain_nats']:.1f} nats.{more}"
     )

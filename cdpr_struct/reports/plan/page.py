@@ -87,11 +87,11 @@ def _page(result: Mapping[str, Any], plates: list[Plate]) -> Page:
 
 _NOTES = (
     "Smallest detectable size: found with a probability of 0.8 at a false alarm rate of 0.001, against noise and the "
-    "tolerances of the campaign. Of a cause with several parameters it is their root mean square.",
-    "Nats: natural logarithm of how much likelier one cause makes the data than another; 3 nats are a factor of 20. "
-    "Pairs are judged at twice the smallest detectable size, the rival free to take any plausible size.",
-    "Gains are those of a simulated measurement with the stated accuracy, added to the campaign; model and noise are "
-    "linear about the nominal robot. Measurements of one kind compete, and only the best of each is listed.",
+    "tolerances of the campaign. For a cause with several parameters it is their root mean square.",
+    "Nats: expected log Bayes factor between two causes; 3 nats are a factor of 20. The true cause has twice its "
+    "smallest detectable size, the other one any plausible size.",
+    "A gain is that of one simulated measurement with the stated accuracy, added to the campaign; the model is "
+    "linearised about the nominal robot. Only the best measurement of each kind is listed.",
 )
 
 
@@ -123,15 +123,15 @@ def _html_tables(result: Mapping[str, Any]) -> list[HtmlTable]:
     hidden = [[_words(cause), why] for cause, why in sorted(result["not_testable"].items())]
     tables = (
         HtmlTable(
-            "Smallest size found 4 times out of 5", ["cause", "size", "unit", "pattern"], sizes,
-            "Units differ, so sizes do not compare across rows. Relative: of the value in the robot file.",
+            "Smallest detectable size (found in 4 of 5 cases)", ["cause", "size", "unit", "pattern"], sizes,
+            "Units differ, so sizes in different rows cannot be compared. Relative: to the value in the robot file.",
             prose=frozenset({2, 3}),
         ),
-        HtmlTable("Would be confused", ["true cause", "taken for", "evidence between them [nats]"], pairs,
+        HtmlTable("Causes that would be confused", ["true cause", "taken for", "evidence between them [nats]"], pairs,
                   prose=frozenset({1})),
-        HtmlTable("Next measurements", ["measurement", "gain [nats]", "pair that it helps most [nats]"], gains,
+        HtmlTable("Next measurements", ["measurement", "gain [nats]", "pair that gains most [nats]"], gains,
                   prose=frozenset({2})),
-        HtmlTable("Would not be found with this campaign", ["cause", "why"], hidden, prose=frozenset({1})),
+        HtmlTable("Causes that this campaign would not find", ["cause", "why"], hidden, prose=frozenset({1})),
     )  # fmt: skip
     return [table for table in tables if table.rows]
 

@@ -16,14 +16,16 @@ def plan_text(result: Mapping[str, Any]) -> str:
         for row in result["detectable"]
     ]  # fmt: skip
     pairs = [[a, b] for a, b in result["confusable"]]
-    blocks = [plain_table("Smallest size found 4 times out of 5", ["cause", "size", "unit", "pattern"], sizes)]
+    blocks = [
+        plain_table("Smallest detectable size (found in 4 of 5 cases)", ["cause", "size", "unit", "pattern"], sizes)
+    ]
     if pairs:
-        blocks.append(plain_table("Would be taken for each other", ["cause", "for"], pairs))
+        blocks.append(plain_table("Causes that would be confused", ["true cause", "taken for"], pairs))
     hidden = [[cause, why] for cause, why in sorted(result["not_testable"].items())]
     if hidden:
-        blocks.append(plain_table("Would not be found with this campaign", ["cause", "why"], hidden))
+        blocks.append(plain_table("Causes that this campaign would not find", ["cause", "why"], hidden))
     if result["next"]:
-        head = "Would help (nats over all pairs, each counted up to 5; then those of the pair that it helps most)"
+        head = "Next measurements (gain over all confused pairs, at most 5 nats each; then the pair that gains most)"
         helps = [f"{row['gain_nats']:.1f} nats: {row['sentence']}" for row in result["next"][:SHOWN]]
         blocks.append("\n".join([head, *helps]))
     return paragraphs(*blocks)

@@ -7,11 +7,11 @@ from cdpr_struct.measurement.campaign import Campaign
 
 
 def corrected(entered: Campaign, correction: Correction) -> str:
-    """The correction in words, and what to mend in which file."""
-    return correction.sentence + _mend(entered, correction)
+    """The correction in words, with the columns and files to correct."""
+    return correction.sentence + _columns(entered, correction)
 
 
-def _mend(entered: Campaign, correction: Correction) -> str:
+def _columns(entered: Campaign, correction: Correction) -> str:
     """Columns that a correction changes, the files that hold them, and the factor if there is one."""
     places = []
     for sheet in entered.sheets:
@@ -21,7 +21,7 @@ def _mend(entered: Campaign, correction: Correction) -> str:
     if not places:
         return ""
     factor = correction.parameters.get("factor")
-    return f" (mend {', '.join(dict.fromkeys(places))}" + (f": times {factor:.4g})" if factor else ")")
+    return f" (correct {', '.join(dict.fromkeys(places))}" + (f": times {factor:.4g})" if factor else ")")
 
 
 def changed_columns(before: Campaign, after: Campaign, kind: str) -> set[str]:
