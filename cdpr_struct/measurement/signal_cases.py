@@ -1,6 +1,7 @@
 """Frequencies found in the signals of a campaign become robot frequencies of its states."""
 
 import numpy as np
+from joblib import Parallel, delayed
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign_cases import Gathering
@@ -8,9 +9,9 @@ from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.signal_records import SignalRecord
 from cdpr_struct.measurement.signal_states import held_against, own_modes, placed_records, platform_shape
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.side_by_side import side_by_side
 
 _SAME_POSE = 1e-6
+_FEW = 3  # records that are identified sooner than other processes have started
 
 
 def join_signals(gathering: Gathering, robot: Robot, model: str) -> tuple[Identified, ...]:
@@ -30,8 +31,8 @@ def join_signals(gathering: Gathering, robot: Robot, model: str) -> tuple[Identi
     for record, _ in placed:
         _check_pose(record, poses)
 
-    known = [thing for one in placed for thing in one]
-    alone = side_by_side(lambda one: own_modes(*one), placed, known)
+    cores = -1 if len(placed) > _FEW else 1
+    alone = Parallel(n_jobs=cores)(delayed(own_modes)(*one) for one in placed)
     found = [held_against(item, robot, model) for item in alone]
     for number, (item, (record, sigmas)) in enumerate(zip(found, placed, strict=True)):
         rows = [

@@ -9,7 +9,7 @@ ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "cdpr_struct"
 
 EVIDENCE = {"robot", "statics", "dynamics", "measurement", "observation", "inference", "association"}
-# What each room of the package may import from it, besides itself, `errors`, `side_by_side` and `generated`.
+# What each room of the package may import from it, besides itself, `errors` and `generated`.
 MAY_IMPORT = {
     "generated": set(),
     "robot": set(),
@@ -75,7 +75,7 @@ def files_of(room: str) -> list[Path]:
 
 @pytest.mark.parametrize("room", MAY_IMPORT)
 def test_rooms_import_only_what_lies_below(room):
-    allowed = MAY_IMPORT[room] | {room, "errors", "side_by_side", "generated"}
+    allowed = MAY_IMPORT[room] | {room, "errors", "generated"}
     for path in files_of(room):
         for name in imports_of(path):
             parts = name.split(".")
