@@ -64,9 +64,7 @@ class _Scan:
         said = self.screen.screened([(part @ pattern.basis) * pattern.prior for part in cause.columns])
         sizes = np.array(AMPLITUDES if pattern.positive[0] else [*AMPLITUDES, *(-a for a in AMPLITUDES)])
         theta = (sizes[:, None, None] * pattern.prior) @ pattern.basis.T
-        robots = (
-            cause.cause.apply(self.arrays, one[None]) for one in theta
-        )  # one by one: modes need room
+        robots = (cause.cause.apply(self.arrays, one[None]) for one in theta)  # one by one: modes need room
         gains = np.concatenate([self._of_peaks(robot) for robot in robots]) - self.level
         gains += sizes * said.score[0] - 0.5 * sizes**2 * said.gram[0, 0]
         found = []

@@ -1,6 +1,7 @@
 """Modes of the robot in measured states, and how their frequencies change with anything they depend on."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -8,7 +9,7 @@ from cdpr_struct.dynamics.cable_dynamics import CableModel, StaticCables, expand
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import RitzModes, ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
-from cdpr_struct.errors import CrowdedModesError
+from cdpr_struct.errors import CrowdedModesError, UnstableEquilibriumError
 from cdpr_struct.observation.cable_fields import fields_of_expansion, massless_fields
 from cdpr_struct.observation.dependence import BENDING, TIGHTENED, Dependence
 from cdpr_struct.observation.mode_gradient import CableGradient, cable_gradient, whole_gradient
@@ -64,6 +65,33 @@ def modes_at(
     gradient = whole_gradient(own, point.arrays.masts, shapes.platform, shapes.omega**2)
     kept = (shapes.omega < np.asarray(highest_omega)[:, None]) | (shapes.platform_energy > PLATFORM_SHARE)
     return _collected(shapes, now, gradient, kept & (shapes.omega < limit[:, None]), assembly)
+
+
+def of_states_apart(modes: Sequence[VibratingModes | None]) -> VibratingModes:
+    """Modes of several states from those of each alone; None for a state that has none.
+
+    Raises
+    ------
+    UnstableEquilibriumError : no state has any.
+    """
+    known = [one for one in modes if one is not None]
+    if not known:
+        raise UnstableEquilibriumError(
+            "the equilibrium is unstable in every state where robot frequencies were measured"
+        )
+    most, blank = max(one.mask.shape[1] for one in known), known[0]
+
+    def stacked(name: str) -> np.ndarray:
+        """Along states, padded along modes."""
+        parts = [getattr(one or blank, name) * (one is not None) for one in modes]
+        if name == "dependence":
+            return np.concatenate(parts)
+        axis = 2 if name == "gradient" else 1
+        missing = [[(0, (most - part.shape[k]) * (k == axis)) for k in range(part.ndim)] for part in parts]
+        return np.concatenate([np.pad(part, width) for part, width in zip(parts, missing, strict=True)])
+
+    arrays = {field.name: stacked(field.name) for field in fields(VibratingModes) if field.name != "assembly"}
+    return VibratingModes(**arrays, assembly=blank.assembly)
 
 
 def frequencies_at(

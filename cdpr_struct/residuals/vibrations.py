@@ -10,6 +10,7 @@ from cdpr_struct.association.doubles import detection_of_doubles
 from cdpr_struct.association.modes import robot_modes
 from cdpr_struct.association.peak_noise import PeakNoise
 from cdpr_struct.association.peaks import PeakList, PeakLists, padded
+from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import CrowdedModesError, UnstableEquilibriumError
@@ -18,7 +19,14 @@ from cdpr_struct.observation.cable_modes import CableModes, CableRows, cable_mod
 from cdpr_struct.observation.circumstances import Circumstances
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.observation.rest import rest
-from cdpr_struct.observation.robot_modes import BEYOND, VibratingModes, frequencies_at, modes_at, rates
+from cdpr_struct.observation.robot_modes import (
+    BEYOND,
+    VibratingModes,
+    frequencies_at,
+    modes_at,
+    of_states_apart,
+    rates,
+)
 from cdpr_struct.observation.vibrating import of_states, vibrating
 from cdpr_struct.residuals.modal_sizes import ModalSizes, measured_sizes
 from cdpr_struct.robot.robot_arrays import RobotArrays
@@ -49,11 +57,12 @@ class Vibrations:
         """The states with most peaks, and these alone."""
         if self.peaks is None:
             return self
-        some = np.sort(np.argsort(-self.peaks.count, kind="stable")[:most])
+        return self.only(self.peaks, np.sort(np.argsort(-self.peaks.count, kind="stable")[:most]))
+
+    def only(self, peaks: PeakLists, some: np.ndarray) -> "Vibrations":
+        """The peaks of some states alone."""
         none = CableRows(*(np.zeros(0, dtype=int),) * 4)
-        lists = {f.name: getattr(self.peaks, f.name)[some] for f in fields(self.peaks)} | {
-            "state": np.arange(len(some))
-        }
+        lists = {f.name: getattr(peaks, f.name)[some] for f in fields(peaks)} | {"state": np.arange(len(some))}
         blank = np.zeros(0)
         return Vibrations(self.states[some], none, blank, blank, PeakLists(**lists), self.highest[some], self.sizes)
 
@@ -97,8 +106,10 @@ class Vibrating:
         point = _point(states, measured, known, arrays, readings)
         robot = None
         if measured.peaks is not None:
-            massless = campaign.model == "static"
-            robot = modes_at(point, measured.highest, _assembly(campaign), "static" if massless else "exact")
+            try:
+                robot = _modes(campaign, point, measured)
+            except UnstableEquilibriumError:
+                robot = _of_stable(campaign, known, measured, measured.peaks, arrays, readings)
         return cls(states, measured, known, cable_modes_at(point, measured.rows), robot)
 
     @property
@@ -133,6 +144,27 @@ class Vibrating:
         if peaks is None or robot is None:
             return None
         return _association(peaks, robot.log_hertz, np.where(robot.mask, robot.share, -1.0))
+
+
+def _modes(campaign: Campaign, point: OperatingPoint, measured: Vibrations) -> VibratingModes:
+    model: CableModel = "static" if campaign.model == "static" else "exact"
+    return modes_at(point, measured.highest, _assembly(campaign), model)
+
+
+def _of_stable(
+    campaign: Campaign, known: Circumstances, measured: Vibrations, peaks: PeakLists, arrays: RobotArrays,
+    readings: Readings,
+) -> VibratingModes:  # fmt: skip
+    """State by state: an unstable one, as where a pose was filed wrongly, has no modes that a peak could belong to."""
+    found: list[VibratingModes | None] = []
+    for k in range(len(measured.states)):
+        alone = measured.only(peaks, np.array([k]))
+        point = _point(len(campaign.states.names), alone, known.at(np.array([k])), arrays, readings)
+        try:
+            found.append(_modes(campaign, point, alone))
+        except UnstableEquilibriumError:
+            found.append(None)
+    return of_states_apart(found)
 
 
 def _point(

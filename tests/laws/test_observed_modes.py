@@ -10,8 +10,9 @@ from cdpr_struct.dynamics.cable_dynamics import StaticCables, cable_dynamics, ex
 from cdpr_struct.dynamics.natural_frequencies import count_below
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
+from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.observation.cable_modes import CableRows, cable_modes_at, cable_rates
-from cdpr_struct.observation.robot_modes import modes_at, rates
+from cdpr_struct.observation.robot_modes import modes_at, of_states_apart, rates
 from cdpr_struct.robot.parameters import PARAMETERS
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
@@ -263,3 +264,34 @@ def symmetric() -> State:
     body = {"center_of_mass": np.zeros(3), "inertia": np.diag([1.0, 1.0, 1.5]), "masts": np.eye(8)}
     arrays = replace(arrays, frame_anchors=frame, platform_anchors=platform, **body)
     return State(arrays, np.array([0.0, 0.0, 1.3]), np.eye(3), np.repeat([500.0, 900.0], 4))
+
+
+def test_a_state_without_modes_stands_beside_others():
+    """Modes state by state are those of the batch; where a state has none, only the others' rates remain."""
+    robot = RobotArrays.of(load_robot("thesis-3-1"))
+    places = np.array([[0.0, 0.0, 1.0], [0.6, -0.4, 1.2]])
+    found = [inverse(robot, place, np.eye(3)) for place in places]
+    states = [State(robot, place, np.eye(3), f.tensions) for place, f in zip(places, found, strict=True)]
+    both = State(robot, places, np.stack([np.eye(3)] * 2), np.stack([f.tensions for f in found])).point()
+    highest = 2.0 * np.pi * np.array([6.0, 9.0])
+    batch = modes_at(both, highest)
+    alone = [
+        modes_at(State(robot, s.position[None], s.rotation[None], s.tension[None]).point(), highest[[k]])
+        for k, s in enumerate(states)
+    ]
+    joined = of_states_apart(alone)
+    for k, one in enumerate(alone):
+        count = one.mask[0].sum()
+        np.testing.assert_array_equal(joined.mask[k, : one.mask.shape[1]], one.mask[0])
+        assert joined.mask[k].sum() == count
+        np.testing.assert_array_equal(joined.gradient[k, :, : one.mask.shape[1]], one.gradient[0])
+    inside = [batch.log_hertz[k][batch.mask[k]] < np.log(highest[k] / (2.0 * np.pi)) for k in range(2)]
+    for k in range(2):
+        own = joined.log_hertz[k][joined.mask[k]]
+        own = own[own < np.log(highest[k] / (2.0 * np.pi))]
+        np.testing.assert_allclose(own, batch.log_hertz[k][batch.mask[k]][inside[k]], atol=1e-9)
+    half = of_states_apart([None, alone[1]])
+    assert not half.mask[0].any()
+    assert (rates(half, both, np.ones(1))[:, 0] == 0.0).all()
+    with pytest.raises(UnstableEquilibriumError, match="every state"):
+        of_states_apart([None, None])
