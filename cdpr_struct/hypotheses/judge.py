@@ -16,7 +16,7 @@ from cdpr_struct.residuals.linearised import Local, Point
 from cdpr_struct.residuals.recorded import Recorded
 
 PASSES = 3  # linearisations at most; the steps shrink by ten and more each
-WORTH = 0.1  # nats: by so much must another start be better to be followed
+WORTH = 0.1  # nats: a smaller difference is none; by so much must another start be better to be followed
 _SETTLED = 0.5  # sigmas: a point that moves less is where it was; what bends on so short a way is no tenth of a nat
 
 
