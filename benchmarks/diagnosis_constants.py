@@ -28,7 +28,10 @@ from benchmarks.markdown_page import put, table
 from cdpr_struct.diagnosis import diagnosing
 from cdpr_struct.diagnosis.damping_law import damping_finding
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
+from cdpr_struct.hypotheses import search
+from cdpr_struct.hypotheses.explain import Explained, explained
 from cdpr_struct.hypotheses.search import BUDGETS
+from cdpr_struct.hypotheses.significant import p_of_null
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.planning.campaign_plan import planned
@@ -39,9 +42,8 @@ from tests.laws.test_signal_modes import rows as damping_ratios
 
 PAGE = Path(__file__).parents[1] / "docs" / "diagnosis_constants.md"
 CAMPAIGNS = (
-    "messy-dev/c062", "messy-dev/c054", "dev/c037", "messy-dev/c001", "dev/c012", "messy-dev/c003", "dev/c009",
-    "messy-dev/c011", "dev/c016", "dev/c005", "dev/c031", "messy-dev/c007", "dev/c004", "peaks-dev/c009",
-    "messy-dev/c038", "dev/c027",
+    "messy-dev/c062", "messy-dev/c054", "messy-dev/c001", "messy-dev/c003", "messy-dev/c011", "messy-dev/c007",
+    "dev/c042", "dev/c052", "dev/c004", "peaks-dev/c009", "dev/c005", "dev/c019", "dev/c031", "dev/c016", "dev/c027",
 )  # fmt: skip
 PLANS = ("messy-dev/c003", "dev/c003", "dev/c009")
 DAMPING = {
@@ -65,12 +67,11 @@ class Found:
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """Something to diagnose; `after` does so with a search for causes that was done as is."""
+    """Something to diagnose, as is or with a constant times a factor."""
 
     group: str
     name: str
-    run: Callable[[], Found]
-    after: Callable[[], Found]
+    run: Callable[[Constant | None, float], Found]
 
 
 def _verdict(found: Diagnosis) -> str:
@@ -80,7 +81,7 @@ def _verdict(found: Diagnosis) -> str:
 
 def _beside(found: Diagnosis) -> str:
     left = found.left_out
-    gain = "" if left is None else f"gain {left.ratio(left.concerned):.1f}"
+    gain = "" if left is None or not left.concerned.any() else f"gain {left.ratio(left.concerned):.1f}"
     return f"{len(found.set_aside)} outliers {gain}"
 
 
@@ -94,45 +95,80 @@ def _is_right(found: Diagnosis, truth: dict[str, Any]) -> bool:
     return right_answer(answer, truth)
 
 
-def _diagnosed(load: Callable[[], Campaign], truth: dict[str, Any], searched: list[Any] | None = None) -> Found:
-    search = diagnosing.explained
+class _PValue(float):
+    """A p-value of the null model that knows what it was computed from."""
+
+    origin: tuple[Any, ...]
+
+
+def _remembered(*origin: Any) -> _PValue:
+    found = _PValue(p_of_null(*origin))
+    found.origin = origin
+    return found
+
+
+def _searched(campaign: Campaign) -> list[Explained]:
+    """The search for causes, whose p-values can be computed again."""
+    search.p_of_null = _remembered
+    try:
+        return explained(campaign, BUDGETS["small"], lambda _: None)
+    finally:
+        search.p_of_null = p_of_null
+
+
+def _diagnosed(campaign: Campaign, truth: dict[str, Any], searched: list[Explained] | None = None) -> Found:
+    """From the start, or from a search on."""
     if searched is not None:
-        searched = searched or search(load(), BUDGETS["small"], lambda _: None)
+        for one in searched:
+            assert isinstance(one.search.p_value, _PValue)
+            one.search.p_value = _remembered(*one.search.p_value.origin)
         diagnosing.explained = lambda *_: searched  # type: ignore[assignment]
     try:
-        found = diagnosing.diagnosed(load())
+        found = diagnosing.diagnosed(campaign)
     finally:
-        diagnosing.explained = search
+        diagnosing.explained = explained
     return Found(_verdict(found), _is_right(found, truth), _beside(found))
 
 
 def _blind(place: Path, name: str) -> Case:
-    """One of `tests.blind`, with its truth; the search is done once, before any constant is changed."""
-    group, case = name.split("/")
-    file = place / group / "campaigns" / case / "campaign.toml"
-    truth = opened_truth(case, file.parents[1], place / f"{group}-sealed")
-    load = partial(load_campaign, str(file))
-    kept: list[Any] = []
+    """One of `tests.blind`, with its truth; it is searched once, before any constant is changed."""
+    group, number = name.split("/")
+    file = place / group / "campaigns" / number / "campaign.toml"
+    truth = opened_truth(number, file.parents[1], place / f"{group}-sealed")
+    campaign = load_campaign(str(file))
+    kept: list[list[Explained]] = []
 
-    def after() -> Found:
-        return _diagnosed(load, truth, kept)
-
-    def run() -> Found:
+    def run(constant: Constant | None, factor: float) -> Found:
         if not kept:
-            kept.extend(diagnosing.explained(load(), BUDGETS["small"], lambda _: None))
-            return after()
-        return _diagnosed(load, truth)
+            kept.append(_searched(campaign))
+        if constant is None:
+            return _diagnosed(campaign, truth, kept[0])
+        acts, before = constant.acts_by, None if constant.acts_by is None else constant.acts_by(campaign)
+        with changed(constant, factor):
+            beside = constant.beside or (acts is not None and acts(campaign) == before)
+            return _diagnosed(campaign, truth, kept[0] if beside else None)
 
-    return Case("verdicts", name, run, after)
+    return Case("verdicts", name, run)
+
+
+def _simple(group: str, name: str, diagnose: Callable[[], Found]) -> Case:
+    """Diagnosed from the start each time."""
+
+    def run(constant: Constant | None, factor: float) -> Found:
+        if constant is None:
+            return diagnose()
+        with changed(constant, factor):
+            return diagnose()
+
+    return Case(group, name, run)
 
 
 def _plan(place: Path, name: str) -> Found:
     group, case = name.split("/")
     found = planned(load_campaign(str(place / group / "campaigns" / case / "campaign.toml")))
-    first = " ".join(found.gains[0].measurement.family) if found.gains else "nothing"
-    hidden = " ".join(sorted(found.not_testable))
+    first = ["".join(gain.measurement.family) for gain in found.gains[:5]]
     pairs = sorted((c.cause, c.taken_for) for c in found.confusable)
-    return Found(f"{first}; not testable: {hidden}", None, str(pairs))
+    return Found(", ".join(first), None, f"{pairs} {sorted(found.not_testable)}")
 
 
 def _damping(law: str, seed: int, strong: float) -> Found:
@@ -155,16 +191,13 @@ def _frf(gain: float) -> Found:
 def cases(place: Path, only: list[str]) -> Iterator[Case]:
     """Everything to be diagnosed, quick ones first."""
     for law, seed, strong in product(DAMPING, SEEDS, STRONG):
-        run = partial(_damping, law, seed, strong)
-        yield Case("damping", f"{law} {seed} x {strong:g}", run, run)
+        yield _simple("damping", f"{law} {seed} x {strong:g}", partial(_damping, law, seed, strong))
     for name in PLANS:
-        planning = partial(_plan, place, name)
-        yield Case("plans", name, planning, planning)
+        yield _simple("plans", name, partial(_plan, place, name))
+    for name, gain in GAINS.items():
+        yield _simple("frf", name, partial(_frf, gain))
     for name in only or CAMPAIGNS:
         yield _blind(place, name)
-    for name, gain in GAINS.items():
-        shaken = partial(_frf, gain)
-        yield Case("frf", name, shaken, shaken)
 
 
 def measure(place: Path, only: list[str], log: Path) -> None:
@@ -175,11 +208,9 @@ def measure(place: Path, only: list[str], log: Path) -> None:
         left = [(c, f) for c, f in todo if (_key(case), c.key, f) not in done]
         if not left and (_key(case), "", 1.0) in done:
             continue
-        _keep(log, case, "", 1.0, case.run())
+        _keep(log, case, "", 1.0, case.run(None, 1.0))
         for constant, factor in left:
-            with changed(constant, factor):
-                found = case.after() if constant.beside else case.run()
-            _keep(log, case, constant.key, factor, found)
+            _keep(log, case, constant.key, factor, case.run(constant, factor))
 
 
 def _key(case: Case) -> str:

@@ -10,6 +10,11 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.hypotheses.detectable import noncentrality
+from cdpr_struct.hypotheses.handling import corrections
+from cdpr_struct.hypotheses.laws import laws
+from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.residuals.linearised import Local, Point
+from cdpr_struct.residuals.recorded import recorded
 
 STUDY = "a study of simulated campaigns"
 CONVENTION = "convention"
@@ -37,13 +42,27 @@ def _odds(value: float, factor: float) -> float:
     return odds / (1.0 + odds)
 
 
+def _commanded(campaign: Campaign) -> Any:
+    return recorded(campaign).sent.known.tolist()
+
+
+def _corrected(campaign: Campaign) -> Any:
+    return [one.sentence for one in corrections(campaign)]
+
+
+def _laws(campaign: Campaign) -> Any:
+    data = recorded(campaign)
+    return [(law.words, law.columns.shape) for law in laws(Local.about(data, Point.entered(data)))]
+
+
 @dataclass(frozen=True, slots=True)
 class Constant:
     """A hand-set constant.
 
     room, file, name : where it stands;  words : what it is;  origin : where its value comes from
     tried   : what shows its influence: "verdicts", "damping", "frf", "plans", or "" for nothing at hand
-    beside  : whether it is used only after the search for causes
+    beside  : whether it is used only after the search for causes, p-value of the null model included
+    acts_by : the part of a campaign through which it acts: where a change leaves that as it is, so it does the verdict
     scaled  : value and factor to the value tried;  follows : constants that are computed from it, and how
     """
 
@@ -54,6 +73,7 @@ class Constant:
     origin: str
     tried: str = "verdicts"
     beside: bool = False
+    acts_by: Callable[[Campaign], Any] | None = None
     scaled: Callable[[Any, float], Any] = times
     follows: tuple[Follower, ...] = ()
 
@@ -85,7 +105,7 @@ HAND_SET: Sequence[Constant] = (
     Constant("residuals", "assembled", "FLOOR", "model error of balance [N], lengths [m], ln frequency and ln modal "
              "constant", "measured against the FEM"),
     Constant("residuals", "commanded_lengths", "_TAUT", "tension over weight from which a commanded length tells of "
-             "tension", CHOICE),
+             "tension", CHOICE, acts_by=_commanded),
     Constant("residuals", "modal_sizes", "_LEAST", "share of a mode's largest modal constant below which a channel is "
              "left out", CHOICE, tried="frf"),
     Constant("residuals", "modal_sizes", "_APART", "distance of two modes, in sums of their damping ratios, below "
@@ -93,18 +113,20 @@ HAND_SET: Sequence[Constant] = (
     Constant("hypotheses", "hypothesis", "SCALES", "sizes of a cause in sigmas of its prior, equally likely", STUDY,
              follows=(("cdpr_struct.planning.separations", "WIDE", lambda s: float(np.exp(np.log(s).mean()))),)),
     Constant("hypotheses", "hypothesis", "PRICE", "prior log odds against a cause [nat]: one in twenty", STUDY),
-    Constant("hypotheses", "detectable", "FALSE_ALARMS", "p-value below which a single test speaks", CONVENTION),
+    Constant("hypotheses", "detectable", "FALSE_ALARMS", "p-value below which a single test speaks", CONVENTION,
+             beside=True),
     Constant("hypotheses", "detectable", "POWER", "probability of finding a change of the smallest detectable size; "
-             "its odds are scaled", CONVENTION, scaled=_odds),
+             "its odds are scaled", CONVENTION, scaled=_odds, beside=True),
     Constant("hypotheses", "detectable", "NAMED", "log Bayes factor from which a damping law is named, and up to which "
              "a plan counts evidence [nat]", CHOICE, tried="damping"),
     Constant("hypotheses", "significant", "SIGNIFICANT", "p-value of the null model below which something is wrong",
              "nulls of simulated campaigns", beside=True),
     Constant("hypotheses", "significant", "_OUTSIDE", "log weight of all laws outside the library, against one cause, "
-             "in that p-value [nat]", CHOICE),
+             "in that p-value [nat]", CHOICE, beside=True),
     Constant("hypotheses", "handling", "_TILTED", "share of the largest angle above which a pose counts as tilted",
-             CHOICE),
-    Constant("hypotheses", "laws", "_LEAST_LENGTHS", "different lengths of a cable that periodic errors need", CHOICE),
+             CHOICE, acts_by=_corrected),
+    Constant("hypotheses", "laws", "_LEAST_LENGTHS", "different lengths of a cable that periodic errors need", CHOICE,
+             acts_by=_laws),
     Constant("diagnosis", "diagnosing", "KEEPS", "log evidence that a cause must keep without the block of data it "
              "needs most [nat]", CHOICE, beside=True),
     Constant("diagnosis", "diagnosing", "_LEAST", "probability of any cause below which a significant error is left to "

@@ -20,7 +20,7 @@ class Loss:
     @property
     def nats_of_a_class(self) -> float:
         """Log odds [nat] within which a rival belongs into a class: its name costs less than leaving it out."""
-        return math.log(self.wrong_name / self.too_wide)
+        return math.log(self.wrong_name / self.too_wide - 1.0)
 
     @property
     def least_said(self) -> float:
