@@ -17,9 +17,10 @@ from cdpr_struct.robot.robot_arrays import plus
 
 UNKNOWN = "unknown"
 """Name of every hypothesis that no cause of the library explains."""
-_FORCE, _PLACE, _LENGTH = 4.0, 4e-3, 8e-4  # prior sizes [N], [m], [m] at the scale 1, all coefficients together
-_TENSION = 0.008  # of the mean tension
-_POSE = 2.0  # sigmas of the tracker
+_PRIOR = 0.4  # of the typical sizes below, at the scale 1: all coefficients of a law together
+_FORCE, _PLACE, _LENGTH = 10.0, 0.01, 2e-3  # typical sizes [N], [m], [m]
+_TENSION = 0.02  # of the mean tension
+_POSE = 5.0  # sigmas of the tracker
 _PERIODS = 24  # of errors that repeat along the cable, between
 _SHORTEST_PERIOD = 0.15  # m, and half the range of lengths: a small drum's turn
 _LEAST_LENGTHS = 8  # lengths of a cable: fewer hold no period
@@ -53,7 +54,7 @@ def patterns(found: list[Law]) -> tuple[Pattern, ...]:
         basis = np.zeros((total, d))
         basis[start : start + d] = np.eye(d)
         start += d
-        named = tuple(Parameter(f"{law.channel}_{i}", "1", 1.0 / np.sqrt(d)) for i in range(d))
+        named = tuple(Parameter(f"{law.channel}_{i}", "1", _PRIOR / np.sqrt(d)) for i in range(d))
         rows.append(Pattern(law.words, basis, named, 1.0 / (len(set(channels)) * channels.count(law.channel))))
     return tuple(rows)
 
