@@ -28,8 +28,6 @@ from cdpr_struct.association.poisson_process import poisson_matching
 from cdpr_struct.inference.soft_rows import SoftExpectation
 
 Rule = Literal["one_to_one", "exact", "poisson"]
-WRONG_STATE = 0.02
-"""Prior probability [-] that a whole list was recorded at another pose than stated: one list in fifty."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,8 +69,8 @@ class Association:
         ----------
         shape_factor : (L, J, M) ln of how much better the measured shape fits the mode than it fits clutter [nats]; 0
             where no shape was measured.
-        wrong_state : prior probability that a whole list is of another pose; 0 in the first steps of a fit, then
-            WRONG_STATE: earlier it may swallow a large but true shift of a harmonic series.
+        wrong_state : prior probability that a whole list is of another pose; 0 in the first steps of a fit at least:
+            it may swallow a large but true shift of a harmonic series.
         rule : how the sum over assignments is taken; `exact` is one_to_one with small blocks summed exactly.
         """
         self.peaks, self.modes, self.clutter = peaks, modes, clutter

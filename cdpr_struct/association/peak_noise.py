@@ -12,13 +12,13 @@ import numpy as np
 from scipy.special import digamma, gammaln
 
 from cdpr_struct.association.peaks import KINDS
+from cdpr_struct.inference import scale_mixture
+from cdpr_struct.inference.scale_mixture import TAU_DEGREES
 
-SCALES = np.array([1.0, 2.0, 5.0, 15.0])
-"""kappa [-]: as stated, twice, five and fifteen times the stated sd; coarse, since the mixture fills in between."""
-PSEUDO_COUNTS = np.array([30.0, 0.3, 0.3, 0.3])
-"""Prior counts of the scales [peaks]: 3 % outliers, all sizes alike, with the weight of thirty peaks."""
-TAU_DEGREES = 4.0
-"""Weight of the prior that stated sds are right, tau = 1 [peaks]."""
+SCALES = scale_mixture.KAPPA[:-1]
+"""kappa [-] of the readings, but for the largest: a peak that far off is another mode's, or none's."""
+PSEUDO_COUNTS = scale_mixture.PSEUDO_COUNTS[:-1]
+"""Prior counts of these scales [peaks]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

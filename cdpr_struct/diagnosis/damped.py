@@ -9,6 +9,7 @@ from cdpr_struct.diagnosis.damping_rows import damping_rows, left_out
 from cdpr_struct.diagnosis.decision import Decision
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.measurement.identified import Identified
+from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.measurement.signal_states import held_against
 from cdpr_struct.robot.robot import Robot
 
@@ -48,12 +49,13 @@ class Damped:
         return Decision(self.finding.status, classes, probability)
 
 
-def damped(campaign: Campaign, robot: Robot | None) -> Damped | None:
+def damped(campaign: Campaign, robot: Robot | None, loss: Loss | None = None) -> Damped | None:
     """None without signals. `robot` : with its causes, whose modes are damped otherwise; None as entered."""
     if not campaign.identified:
         return None
     identified = campaign.identified
     if robot is not None:
         identified = tuple(held_against(item, robot, campaign.model) for item in identified)
-    finding = damping_finding(damping_rows(identified), campaign.tolerances.damping)
+    costs = campaign.loss if loss is None else loss
+    finding = damping_finding(damping_rows(identified), campaign.tolerances.damping, costs)
     return Damped(identified, finding, tuple(left_out(identified)))

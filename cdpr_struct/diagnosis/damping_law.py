@@ -11,8 +11,10 @@ import numpy as np
 from scipy.stats import chi2
 
 from cdpr_struct.diagnosis.damping_rows import DampingRows
+from cdpr_struct.hypotheses.detectable import FALSE_ALARMS, NAMED
+from cdpr_struct.measurement.loss import Loss
 
-NAMED, SAME_CLASS, ADEQUATE = 5.0, 3.0, 1e-3
+_USUAL = Loss()
 SCATTER = "the damping ratios scatter by more than their sigmas under every law"
 MODEL_SHARE = 0.15  # of a mode's damping: how well the model knows its energies and angles
 _POINTS, _DECADES = {1: 4001, 2: 601}, 4.0  # of the prior, level in the logarithm of the size
@@ -53,20 +55,21 @@ class DampingFinding:
     reason: str
 
 
-def damping_finding(rows: DampingRows, tolerance: float) -> DampingFinding:
+def damping_finding(rows: DampingRows, tolerance: float, loss: Loss = _USUAL) -> DampingFinding:
     """Compare the laws on measured damping ratios; `tolerance` is the entered ratio's, relative."""
+    same_class = loss.nats_of_a_class
     if len(rows) < 2:
         return DampingFinding("not testable", (), (), rows, "needs free decays or FRFs with two clear modes or windows")
     covariance = _covariance(rows, tolerance)
     p_null = float(chi2.sf(_square(rows, covariance, rows.entered), len(rows)))
     fits = sorted((_fit(rows, covariance, laws) for laws in _hypotheses(rows)), key=lambda f: -f.gain)
     best = fits[0]
-    if best.gain < NAMED and max(p_null, best.p_adequate) >= ADEQUATE:
+    if best.gain < NAMED and max(p_null, best.p_adequate) >= FALSE_ALARMS:
         return DampingFinding("adequate", (), tuple(fits), rows, "")
-    if best.p_adequate < ADEQUATE:
+    if best.p_adequate < FALSE_ALARMS:
         sure = best.gain >= NAMED and _fit(rows, covariance * _scatter(best, len(rows)), best.laws).gain >= NAMED
         return DampingFinding("unknown" if sure else "not testable", (), tuple(fits), rows, "" if sure else SCATTER)
-    near = list(dict.fromkeys(f.causes for f in fits if f.gain > best.gain - SAME_CLASS and len(f.causes) == 1))
+    near = list(dict.fromkeys(f.causes for f in fits if f.gain > best.gain - same_class and len(f.causes) == 1))
     if len(best.causes) == 2 and not near:
         return DampingFinding("named", best.causes, tuple(fits), rows, "")
     names = tuple(dict.fromkeys(name for causes in near for name in causes))

@@ -15,6 +15,7 @@ from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.measurement.loss import Loss
 
 Classes = tuple[tuple[str, ...], ...]
+_LIKELIEST = 8  # sets of causes that answers are begun from
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +58,7 @@ def _right(status: str, classes: Classes, beliefs: Sequence[Belief]) -> float:
 
 def _beginnings(beliefs: Sequence[Belief], without_size: AbstractSet[str]) -> Iterable[Classes]:
     """Every likely set of causes named, every likely cause alone, and of two sets as large either cause of each."""
-    ranked = sorted(beliefs, key=lambda one: -one.probability)[:8]
+    ranked = sorted(beliefs, key=lambda one: -one.probability)[:_LIKELIEST]
     hidden = {UNKNOWN, *without_size}
     known = [one.names for one in ranked if one.names and not hidden & set(one.names)]
     alone = {(name,) for names in known for name in names}

@@ -29,7 +29,6 @@ from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.robot.robot import Robot
 
 KEEPS = 1.0  # nats that a cause must keep without the block of data that it needs most: else it explains that block
-HANGS = 0.6  # largest probability that is said of a cause that does not
 TOO_SMALL = "in these data it is masked by noise and tolerances at any size"
 _LEAST = 0.03  # probability that anything is wrong, below which outliers explain what is significant
 _MOSTLY, _OPEN = 0.5, 4  # of it an unknown law must hold so much to be spoken of; else so many causes are left open
@@ -53,10 +52,11 @@ def diagnosed(
     told = {id(one): stories.candidates(one) for one in found}
     beliefs = believed(found)
     hidden = stories.without_size(found, list(told.values()))
-    decision = _decided(beliefs, campaign.loss if loss is None else loss, hidden, stories.p_value(found))
+    loss = campaign.loss if loss is None else loss
+    decision = _decided(beliefs, loss, hidden, stories.p_value(found))
     story = stories.believed_data(found, decision)
     progress("predicting what was left out")
-    answer = _Said.of(campaign, story, decision)
+    answer = _Said.of(campaign, story, decision, loss)
     return _assembled(found, beliefs, answer, told[id(story)])
 
 
@@ -94,15 +94,16 @@ class _Said:
     damped: Damped | None
 
     @classmethod
-    def of(cls, campaign: Campaign, story: Explained, decision: Decision) -> "_Said":
+    def of(cls, campaign: Campaign, story: Explained, decision: Decision, loss: Loss) -> "_Said":
         data, where = story.search.data, story.search.where
         null, chosen = stories.null_of(story).best, stories.chosen_of(story, decision)
         left = left_out(data, where, chosen) if decision.classes else None
         confirmed = left is None or bool((left.kept >= KEEPS).all())
         sizes = tuple(whole_sizes(data, story.search.seen, chosen))
         robot = _extended(story, decision, sizes)
-        said = decision if confirmed else Decision("class", decision.classes, min(decision.probability, HANGS))
-        by_signals = damped(campaign, robot)
+        doubtful = Decision("class", decision.classes, min(decision.probability, loss.least_said))
+        by_signals = damped(campaign, robot, loss)
+        said = decision if confirmed else doubtful
         return cls(campaign, story, said, null, chosen, sizes, left, confirmed, robot, by_signals)
 
     @property

@@ -12,6 +12,7 @@ from cdpr_struct.residuals.layout import Layout, Shelf
 from cdpr_struct.residuals.recorded import Recorded
 
 _NONE = (-1, -1, -1)
+_CONCERNED = 0.1  # share of the rows that are concerned at least: those that change most
 KINDS = ("EQ", "CO", "CF", "RF", "FA")
 """Wrench balance, cable lengths, cable frequencies, robot frequencies, modal constants."""
 
@@ -36,7 +37,7 @@ class LeftOut:
     def concerned(self) -> np.ndarray:
         """(n,) where the causes, fitted to other data, change a prediction by over one sigma (a tenth at least)."""
         change = np.abs(self.before - self.after) / self.sigma
-        return change > min(1.0, float(np.quantile(change, 0.9)))
+        return change > min(1.0, float(np.quantile(change, 1.0 - _CONCERNED)))
 
     def rms(self, rows: np.ndarray) -> tuple[float, float]:
         """Root mean squares before and after, in sigmas, of some rows."""

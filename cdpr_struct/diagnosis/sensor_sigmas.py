@@ -6,14 +6,13 @@ from typing import Any
 import numpy as np
 from scipy.stats import chi2, f
 
+from cdpr_struct.hypotheses.detectable import FALSE_ALARMS
 from cdpr_struct.hypotheses.judge import Judged
-from cdpr_struct.inference.scale_mixture import KAPPA, TAU_DEGREES
+from cdpr_struct.inference.scale_mixture import TAU_DEGREES
 from cdpr_struct.measurement.campaign import SIGNALS, Campaign, Sheet
 
 SENSORS = ("position", "rotation", "tension", "length", "cable_frequency", "frf")
 """Names of the kinds of sensors, in the order of their numbers."""
-_TOO_SMALL = 1e-3  # probability of errors so small, below which sigmas are doubted
-_OUTLIER = 5.0  # times the usual size: the second of the factors that mean a wrong reading
 _UNIT = {
     "tension_N": "N", "position_m": "m", "rotation_deg": "deg", "length_m": "m", "frequency_hz": "Hz",
     "acceleration": "m/s^2",
@@ -83,14 +82,14 @@ class NoiseOfKind:
 def noise_of_kinds(found: Judged) -> list[NoiseOfKind]:
     """Of each kind of sensor that was read."""
     groups, noise, rows = found.model.readings, found.fit.noise, []
-    odd = noise.responsibility[:, KAPPA >= _OUTLIER].sum(axis=1) > 0.5  # more likely than not
     for kind, members in enumerate(groups.members > 0.0):
         count = int(groups.size[members].sum())
         if count:
             factor = float(noise.tau[kind])
             square = max(factor**2 * (TAU_DEGREES + count) - TAU_DEGREES, 0.0)
             large, small = float(f.sf(square / count, count, TAU_DEGREES)), float(chi2.cdf(square, count))
-            rows.append(NoiseOfKind(SENSORS[kind], factor, count, int(groups.size[members & odd].sum()), large, small))
+            odd = int(groups.size[members & noise.outlying].sum())
+            rows.append(NoiseOfKind(SENSORS[kind], factor, count, odd, large, small))
     return rows
 
 
@@ -135,7 +134,7 @@ def doubts(campaign: Campaign, noise: list[NoiseOfKind]) -> list[Doubt]:
         if value > most:
             rows.append(Doubt("tolerance", name, "", f"{value:g}", tolerance_unit(name), True))
     for one in noise:
-        if one.p_small < _TOO_SMALL:
+        if one.p_small < FALSE_ALARMS:
             rows.append(Doubt("errors", one.kind, "", f"{one.factor:.2g}", "", False, one.p_small))
     return rows
 

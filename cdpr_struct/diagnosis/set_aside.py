@@ -10,15 +10,11 @@ from cdpr_struct.inference.scale_mixture import KAPPA
 from cdpr_struct.residuals.layout import Layout, Shelf
 from cdpr_struct.residuals.recorded import Recorded
 
-_OUTLIER = 5.0  # times the usual size of the noise: smaller ones are bad luck
-_SURE = 0.5  # probability from which a reading is set aside
-
 
 def set_aside(data: Recorded, where: Layout, found: Judged) -> list[SetAside]:
     """The readings set aside, worst first."""
     noise = found.fit.noise
-    odd = noise.responsibility[:, KAPPA >= _OUTLIER].sum(axis=1) > _SURE
-    odd &= np.isnan(where.groups.fixed_variance)
+    odd = noise.outlying & np.isnan(where.groups.fixed_variance)
     rows = []
     for shelf, mean in zip(where.shelves, found.fit.noise_mean, strict=False):  # modal constants come last
         for group, kind, state, cable, value in _readings(data, shelf, mean):

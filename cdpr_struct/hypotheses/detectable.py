@@ -6,6 +6,9 @@ from scipy.optimize import brentq
 from scipy.stats import chi2, ncx2
 
 FALSE_ALARMS, POWER = 1e-3, 0.8
+"""Of a single test: p-value below which it speaks, and the probability that it finds a change of the smallest size."""
+NAMED = 5.0
+"""Log Bayes factor [nat] from which a cause is said to be there."""
 _MOST = 400.0
 
 

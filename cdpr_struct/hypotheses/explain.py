@@ -15,8 +15,6 @@ from cdpr_struct.hypotheses.search import Answer, Budget, Search
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.residuals.recorded import recorded
 
-_BEHIND = 12.0  # nats by which corrected data without a cause may lie behind the best, and be looked into all the same
-
 
 @dataclass(frozen=True, slots=True)
 class Belief:
@@ -66,7 +64,7 @@ def _corrected(campaign: Campaign, first: Explained, budget: Budget) -> list[Exp
     for correction in [*promising(first.search.data, corrections(campaign)), *shortcuts(campaign)]:
         data = recorded(correction.campaign)
         null = judged(data, first.search.where, Hypothesis())
-        if null.log_evidence + correction.log_prior + correction.log_stretch > best - _BEHIND:
+        if null.log_evidence + correction.log_prior + correction.log_stretch > best - budget.near:
             found.append(_searched(correction.campaign, correction, budget))
             best = max(best, found[-1].answers[0].score + found[-1].price)
     return found

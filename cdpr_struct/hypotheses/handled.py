@@ -1,7 +1,7 @@
 """Which corrections of the data are worth judging? Those that leave least of what every state says against itself.
 
 Each state's residual is held against its readings and the tolerances; a state that is wrong for another reason costs
-only so much, as it does under Student's distribution.
+only so much, as it does under Student's distribution of as many degrees of freedom as stated sigmas are worth.
 """
 
 from collections.abc import Sequence
@@ -11,6 +11,7 @@ import numpy as np
 
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.hypotheses.handling import Correction
+from cdpr_struct.inference.scale_mixture import TAU_DEGREES
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.observation.rest import static_residuals
@@ -18,7 +19,6 @@ from cdpr_struct.residuals.linearised import Local, Point
 from cdpr_struct.residuals.recorded import Recorded
 
 _MOST = 4  # corrections that are judged
-_DEGREES = 4.0  # of freedom, Student's: how surely a state is right that contradicts the others
 
 
 def promising(data: Recorded, found: Sequence[Correction]) -> list[Correction]:
@@ -50,7 +50,7 @@ def _costs(data: Recorded, covariance: np.ndarray, campaigns: Sequence[Campaign]
             r[i] = static_residuals(data.arrays, readings[i], known, data.radius)
     root = np.linalg.inv(np.linalg.cholesky(covariance))
     square = ((root @ r[..., None]) ** 2).sum(axis=(-2, -1))
-    return np.asarray(0.5 * (_DEGREES + r.shape[-1]) * np.log1p(square / _DEGREES).sum(axis=-1))
+    return np.asarray(0.5 * (TAU_DEGREES + r.shape[-1]) * np.log1p(square / TAU_DEGREES).sum(axis=-1))
 
 
 def _readings(data: Recorded, campaign: Campaign) -> Readings:

@@ -18,7 +18,7 @@ from cdpr_struct.residuals.recorded import Recorded
 
 PASSES = 5  # linearisations at most; near the data the steps shrink by ten and more each
 _STEPS = (1.0, 0.4, 0.1)  # of the way to the likeliest point, as long as that leads nowhere
-WORTH = 0.1  # nats: by so much must another start be better to be followed
+WORTH = 0.1  # nats: a smaller difference is none; by so much must another start be better to be followed
 _NEAR = 3.0  # sigmas: so far the model is straight, and a step that is no shorter only assigns peaks anew
 _SETTLED = 0.5  # sigmas: a point that moves less is where it was; what bends on so short a way is no tenth of a nat
 

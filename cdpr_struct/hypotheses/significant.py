@@ -13,6 +13,7 @@ from scipy.special import gammaln, hyp0f1, ive, logsumexp
 
 from cdpr_struct.hypotheses.alternatives import Offered
 from cdpr_struct.hypotheses.detectable import noncentrality
+from cdpr_struct.hypotheses.hypothesis import SCALES
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.inference.screening import Screen
@@ -21,8 +22,6 @@ SIGNIFICANT = 0.04
 """p-value below which something is said to be wrong: so many sound campaigns in a hundred are looked into in vain."""
 _OUTSIDE = -2.0  # ln prior of the laws outside the library together, beside that of one cause
 _SEED, _DRAWS = 20240229, 1000
-_LARGEST = 16.0  # prior sigmas that a cause may have: directions that do not show even so are left out
-_SHOWN = 1.0  # sigmas by which the largest occurrence must show in a direction
 _LARGE = 100.0  # argument beyond which a Bessel function is scaled
 
 
@@ -68,7 +67,7 @@ def _of_patterns(cause: Offered, gram: np.ndarray, scores: np.ndarray) -> Iterat
     for pattern in cause.patterns:
         basis = pattern.basis * pattern.prior
         values, vectors = np.linalg.eigh(basis.T @ gram @ basis)
-        shown = _LARGEST**2 * values > _SHOWN**2
+        shown = SCALES[-1] ** 2 * values > 1.0  # by a sigma, where it is as large as is considered
         if not shown.any():
             continue
         along = (vectors[:, shown].T @ (basis.T @ scores)) / np.sqrt(values[shown])[:, None]

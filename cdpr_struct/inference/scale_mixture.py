@@ -22,6 +22,8 @@ KAPPA = np.array([1.0, 2.0, 5.0, 15.0, 60.0])
 PSEUDO_COUNTS = np.array([30.0, 0.3, 0.3, 0.3, 0.3])
 # Readings' worth of prior knowledge that stated sigmas are right (tau = 1).
 TAU_DEGREES = 4.0
+# Factor from which a reading is wrong rather than unlucky.
+OUTLIER = 5.0
 # Rounds of kappa and tau against each other per update; they are cheap beside the Gaussian part.
 ROUNDS = 3
 
@@ -140,6 +142,11 @@ class NoiseState:
         certain = np.zeros((len(groups.kind), len(KAPPA)))
         certain[:, 0] = 1.0
         return cls.of(groups, certain, np.ones(groups.kinds))
+
+    @property
+    def outlying(self) -> np.ndarray:
+        """(G,) bool, groups that are more likely than not outliers."""
+        return np.asarray(self.responsibility[:, KAPPA >= OUTLIER].sum(axis=1) > 0.5)
 
     def weight(self, readings: GroupedReadings) -> np.ndarray:
         """(kinds, 5) expected pi."""

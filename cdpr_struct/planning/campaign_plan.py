@@ -7,16 +7,16 @@ import numpy as np
 
 from cdpr_struct.diagnosis.detectable_sizes import plainest, smallest
 from cdpr_struct.hypotheses.causes.library import testable
+from cdpr_struct.hypotheses.judge import WORTH
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.planning.candidates import at_the_robot, checks
 from cdpr_struct.planning.information import Numbers, expected_evidence, of_causes
 from cdpr_struct.planning.planned_rows import PlannedRows
 from cdpr_struct.planning.separations import WIDE, Gain, Separator, Sized
 from cdpr_struct.residuals.recorded import Recorded, recorded
 
-SAME = 3.0  # nats: expected evidence below which two causes are one class, a factor of 20
-_WORTH = 0.1  # nats below which a measurement is not listed
 _VISIBLE = 2.0  # sigmas by which the typical size of some pattern of a cause changes the data, or it hides in noise
 _FRICTION = "pulley_friction"
 
@@ -70,7 +70,7 @@ def planned(campaign: Campaign, progress: Callable[[str], None] = lambda name: N
     if data.campaign is not campaign and _FRICTION in numbers.causes:
         hidden[_FRICTION] = "needs a column approach (+1 or -1)"
     progress("comparing causes")
-    pairs = confusions(numbers, gram)
+    pairs = confusions(numbers, gram, campaign.loss)
     progress("trying further measurements")
     gains = _gains(data, numbers, information, pairs)
     return Plan(_sizes(numbers, gram, hidden), pairs, gains, hidden)
@@ -103,8 +103,8 @@ def _one_sided(campaign: Campaign) -> Campaign:
     return replace(campaign, states=replace(campaign.states, approach=np.ones_like(approach)))
 
 
-def confusions(numbers: Numbers, gram: np.ndarray) -> list[Confusion]:
-    """Pairs with less than `SAME` nats against each other at twice the detectable size of the first, worst first."""
+def confusions(numbers: Numbers, gram: np.ndarray, loss: Loss) -> list[Confusion]:
+    """Pairs that a diagnosis would report as one class, at twice the detectable size of the first, worst first."""
     sized = {name: Sized.detectable(numbers, name, gram) for name in numbers.causes}
     sized = {name: own for name, own in sized.items() if float((own.effect * (gram @ own.effect)).sum()) > 1.0}
     found = [
@@ -113,7 +113,7 @@ def confusions(numbers: Numbers, gram: np.ndarray) -> list[Confusion]:
         for rival in sized
         if cause != rival
     ]
-    return sorted((c for c in found if c.nats < SAME), key=lambda c: (c.nats, c.cause, c.taken_for))
+    return sorted((c for c in found if c.nats < loss.nats_of_a_class), key=lambda c: (c.nats, c.cause, c.taken_for))
 
 
 def _gains(data: Recorded, numbers: Numbers, information: np.ndarray, pairs: list[Confusion]) -> list[Gain]:
@@ -133,4 +133,4 @@ def _gains(data: Recorded, numbers: Numbers, information: np.ndarray, pairs: lis
     best: dict[tuple[str, str], Gain] = {}
     for gain in sorted(found, key=lambda g: -g.nats):
         best.setdefault(gain.measurement.family, gain)
-    return [gain for gain in best.values() if gain.nats > _WORTH]
+    return [gain for gain in best.values() if gain.nats > WORTH]

@@ -7,16 +7,16 @@ import numpy as np
 
 from cdpr_struct.generated.platform import rotation
 from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.observation.readings import LEAST_TENSION
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 
-ASIDE, RAISED = 0.15, 0.25  # of the frame's width, of the height below the frame anchors: steps to another pose
+STEP = 0.15  # of the frame's width, and of the platform's mass: a step to another pose, or of a payload
+RAISED, STEP_LOAD = 2.0 * STEP, 2.0 * STEP  # of the height below the frame anchors, of the platform's mass
+PAYLOADS, LOCKED = (STEP, 2.0 * STEP, 3.0 * STEP), (0.0, STEP, 2.0 * STEP)  # of a series, and at locked lengths
 TILT = np.radians(10.0)
-STEP_LOAD = 0.25  # of the platform's mass
-PAYLOADS, LOCKED = (0.15, 0.3, 0.45), (0.0, 0.15, 0.3)  # likewise, of a series, and of one at locked lengths
 AXES = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
 CORNERS = ((1, 1, 1), (-1, -1, 1), (1, -1, -1), (-1, 1, -1), (0, 0, 1), (0, 0, -1))
-_LEAST = 0.02  # of the platform's weight: tension that every cable must have
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,7 +41,7 @@ def moved(campaign: Campaign, home: Place, directions: Sequence[Sequence[int]]) 
     """Home shifted by a step along each axis times (-1, 0 or 1)."""
     anchors = campaign.robot.frame_anchors
     width, above = np.ptp(anchors, axis=0), abs(float(anchors[:, 2].mean() - home.position[2]))
-    steps = np.array([ASIDE * width[0], ASIDE * width[1], RAISED * above])
+    steps = np.array([STEP * width[0], STEP * width[1], RAISED * above])
     return [Place(home.position + steps * np.array(way), home.angles, 0.0) for way in directions]
 
 
@@ -64,8 +64,7 @@ def held(campaign: Campaign, places: Sequence[Place]) -> tuple[np.ndarray, Inver
         robot, np.array([p.position for p in places]), turn, campaign.cable_model, lower_bound=campaign.lower_bound,
         allow_unheld=True,
     )  # fmt: skip
-    weight = campaign.robot.platform.mass * campaign.robot.gravity
-    return found.held & (found.tensions.min(axis=-1) > _LEAST * weight), found
+    return found.held & (found.tensions.min(axis=-1) > LEAST_TENSION), found
 
 
 def angles_of(turn: np.ndarray) -> np.ndarray:

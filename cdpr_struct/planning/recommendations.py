@@ -12,19 +12,17 @@ import numpy as np
 
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
 from cdpr_struct.hypotheses.causes.cause import Pattern
+from cdpr_struct.hypotheses.detectable import NAMED
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.hypotheses.search import Answer
 from cdpr_struct.planning.candidates import at_the_robot, checks
 from cdpr_struct.planning.information import Numbers
 from cdpr_struct.planning.measurements import SERIES, Measurement
 from cdpr_struct.planning.planned_rows import information_of
-from cdpr_struct.planning.separations import ENOUGH, WIDE, Pair, Separation, Separator, Sized, separations
+from cdpr_struct.planning.separations import WIDE, Pair, Separation, Separator, Sized, separations
 from cdpr_struct.residuals.assembled import stacked
 from cdpr_struct.residuals.linearised import Local
 
-NEAR = 10.0  # nats from a named cause within which its next rival is worth telling apart
-LIKELY = 5.0  # nats from the best candidate of an unknown
-APART = 2.0  # nats below which a measurement does not tell a pair apart
 MOST = 5  # causes of one question
 _KINDS = {"locked": "loaded_pose", "cable_frequencies": "cable_frequency", "robot_frequencies": "robot_frequency"}
 
@@ -74,7 +72,7 @@ def recommendations(found: Diagnosis, most: int = 3) -> tuple[Recommendation, ..
     possible += [(what, more) for what, more in at_the_robot(data, numbers) if what.kind in lacking]
     said: list[Recommendation] = []
     for question in asked:
-        own = _answer(question, numbers, information, possible, most)
+        own = _answer(question, numbers, information, possible, most, data.campaign.loss.nats_of_a_class)
         said += [one for one in own if all(one.what is not other.what for other in said)]
     return tuple(said[:most])
 
@@ -87,7 +85,7 @@ def questions(found: Diagnosis) -> list[Question]:
     if found.decision.status == UNKNOWN:
         none = next(a.score for a in found.explained.answers if not a.names)
         single = [a for a in answers if len(a.names) == 1]
-        near = [a for a in single if a.score > max(single[0].score - LIKELY, none)]
+        near = [a for a in single if a.score > max(single[0].score - NAMED, none)]
         asked = [Question(_sized(near[:MOST], ()), {})]
     else:
         asked = [_of_class(found, i, answers) for i in range(len(found.chosen.hypothesis.parts))]
@@ -104,7 +102,7 @@ def _of_class(found: Diagnosis, i: int, answers: Sequence[Answer]) -> Question:
     named = next((names for names in found.decision.classes if name in names), (name,))
     rivals = [a for a in same if a is not own and set(a.names) - set(rest) <= set(named)]
     if len(named) == 1:
-        rivals = [a for a in same if a is not own and a.score > own.score - NEAR][:1]
+        rivals = [a for a in same if a is not own and a.score > own.score - found.explained.search.budget.near][:1]
     beside = {part.cause.name: part.pattern for j, part in enumerate(parts) if j != i}
     return Question(_sized([own, *rivals][:MOST], rest), beside)
 
@@ -144,9 +142,9 @@ def _without(information: np.ndarray, own: slice) -> np.ndarray:
 
 def _answer(
     question: Question, numbers: Numbers, information: np.ndarray,
-    possible: Sequence[tuple[Measurement, np.ndarray]], most: int,
+    possible: Sequence[tuple[Measurement, np.ndarray]], most: int, apart: float,
 ) -> list[Recommendation]:  # fmt: skip
-    """The best measurement, then others for the pairs that it leaves open."""
+    """The best measurement, then others for the pairs that it leaves open; of those that add `apart` nats at least."""
     sized = {name: Sized.fitted(numbers, name, *own) for name, own in question.sized.items()}
     others = [WIDE * numbers.pattern(name, pattern) for name, pattern in question.beside.items()]
     ways = [*question.pairs, *((b, a) for a, b in question.pairs)]
@@ -154,7 +152,7 @@ def _answer(
     before = separator.nats()
     after = np.array([separator.nats(more) for _, more in possible]).reshape((len(possible), len(ways)))
     added = (after - before).reshape((len(possible), 2, -1)).min(axis=1)
-    worth = np.where(added >= APART, np.minimum(added, ENOUGH), 0.0)
+    worth = np.where(added >= apart, np.minimum(added, NAMED), 0.0)
     aside = np.array([what.kind == "check" for what, _ in possible])
     said: list[Recommendation] = []
     left = np.ones(len(question.pairs), dtype=bool)

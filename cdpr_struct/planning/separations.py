@@ -7,12 +7,12 @@ import numpy as np
 
 from cdpr_struct.diagnosis.detectable_sizes import plainest
 from cdpr_struct.hypotheses.causes.cause import Pattern
-from cdpr_struct.hypotheses.detectable import noncentrality
+from cdpr_struct.hypotheses.detectable import NAMED, noncentrality
+from cdpr_struct.hypotheses.hypothesis import SCALES
 from cdpr_struct.planning.information import Numbers, expected_evidence, of_causes
 from cdpr_struct.planning.measurements import Measurement
 
-WIDE = 2.5  # prior sigmas that a rival's size may have, and a cause's at most
-ENOUGH = 5.0  # nats of a pair beyond which more are worth nothing: a cause is named then
+WIDE = float(np.exp(np.log(SCALES).mean()))  # prior sigmas that a rival's size may have, and a cause's at most
 
 Pair = tuple[str, str]
 
@@ -55,7 +55,7 @@ class Separation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Gain:
-    """A measurement and what it is worth: nats over all pairs, each counted up to `ENOUGH`; pairs, best first."""
+    """A measurement and what it is worth: nats over all pairs, each counted up to `NAMED`; pairs, best first."""
 
     measurement: Measurement
     nats: float
@@ -86,7 +86,7 @@ class Separator:
     def gain(self, measurement: Measurement, more: np.ndarray, before: np.ndarray) -> Gain:
         """What a measurement is worth."""
         after = self.nats(more)
-        useful = np.minimum(after, ENOUGH) - np.minimum(before, ENOUGH)
+        useful = np.minimum(after, NAMED) - np.minimum(before, NAMED)
         order = np.argsort(before - after, kind="stable")
         rows = separations([self.pairs[i] for i in order], before[order], after[order])
         return Gain(measurement, float(np.maximum(useful, 0.0).sum()), rows)

@@ -19,7 +19,6 @@ MISSED = np.repeat([5e-3, 5e-3], 3)
 SIGMA = 2e-4  # m, of a commanded length: the distribution is straight within this over the poses that may be meant
 _STEP = 1e-4  # [m, rad]
 _REACH = 2e-3  # [m, rad]: so far may the commanded pose be from the measured one
-_MOST_BEND = 3e-4  # [m]: beyond, another cable is at its lower bound there, and the command says little
 _TAUT = 3.0  # times the weight of a cable: below this tension its length says little of its tension
 
 
@@ -58,7 +57,8 @@ def commanded(campaign: Campaign, position: np.ndarray, rotation: np.ndarray) ->
         for k, near in zip(own, _around(plain, load, position[own], rotation[own]), strict=True):
             null = null_space(robot, position[k], rotation[k])
             taut = near.tensions > _TAUT * robot.linear_density * robot.gravity * near.lengths
-            if taut.all() and np.abs(null.T @ near.bend).max() < _MOST_BEND:
+            # where they bend more, another cable is at its lower bound nearby, and the command says little
+            if taut.all() and np.abs(null.T @ near.bend).max() < SIGMA:
                 left, _, right = np.linalg.svd(null @ null.T @ reference, full_matrices=False)
                 found.lengths[k], found.slope[k] = near.lengths, near.slope
                 found.internal[k] = near.rate[:, None] * (left @ right) * np.sqrt(m)
@@ -69,7 +69,7 @@ def commanded(campaign: Campaign, position: np.ndarray, rotation: np.ndarray) ->
 class _Near:
     """At a pose: lengths, tensions and change of length a newton (m,), and how the lengths change with the pose.
 
-    slope (m, 6) : per metre and radian;  bend (m, 6) : by how much they bend within `_REACH`
+    slope (m, 6) : per metre and radian;  bend (m, 6) : by how much they are off a straight line within `_REACH`
     """
 
     lengths: np.ndarray
@@ -87,7 +87,7 @@ def _around(campaign: Campaign, payload: float, position: np.ndarray, rotation: 
     rates, found = _length_rate(solution.cables), []
     for lengths, tensions, rate in zip(solution.lengths, solution.tensions, rates, strict=True):
         middle, up, down, far, back = lengths[:1], *np.split(lengths[1:], 4)
-        slope, bend = (up - down).T / (2.0 * _STEP), (far + back - 2.0 * middle).T
+        slope, bend = (up - down).T / (2.0 * _STEP), 0.5 * (far + back - 2.0 * middle).T
         found.append(_Near(lengths[0], tensions[0], rate[0], slope, bend))
     return found
 

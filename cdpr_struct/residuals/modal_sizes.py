@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.association.doubles import MERGED_WITHIN
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.mode_size import modal_constants, ways
@@ -17,7 +18,7 @@ NOISE = 0.05  # of a modal constant: what repeated modal tests scatter by
 MODEL = 0.05  # of it, shared by the channels of a mode: by mass and inertia within their tolerances
 _FLOOR = 0.02  # of the largest constant of the mode in the same unit
 _LEAST = 0.1  # of it: a channel with less is near a node of the mode
-_APART = (0.01, 2.0)  # of ln f, and sums of damping ratios: nearer modes are fitted into each other
+_APART = 2.0  # sums of damping ratios: nearer modes are fitted into each other
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,7 +82,7 @@ def _apart(item: Identified, i: int) -> bool:
     """Whether no other mode of the record is near mode i."""
     modes, others = item.modes, np.arange(len(item.modes)) != i
     gap = np.abs(np.log(modes.hertz / modes.hertz[i]))
-    near = gap < np.maximum(_APART[0], _APART[1] * (modes.damping + modes.damping[i]))
+    near = gap < np.maximum(MERGED_WITHIN, _APART * (modes.damping + modes.damping[i]))
     return not bool((near & others).any())
 
 

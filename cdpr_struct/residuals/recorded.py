@@ -24,6 +24,8 @@ POSITION, ROTATION, TENSION, LENGTH, CABLE_FREQUENCY, MODAL_SIZE = range(6)
 """Kinds of sensors: what shares a size of its noise."""
 _UNREAD_LENGTH = 1.0  # m, one sigma of a length that nobody read: nothing is known of it
 _UNREAD_POSE = (1.0, 0.5)  # m, rad, of a pose that nobody read
+_FEWEST = 10  # readings that show a step of rounding: once in 2^10 times are all even multiples of half of it
+_NEAR = 0.2  # of the platform's arm: farther away, locked lengths have led to another equilibrium
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -108,7 +110,7 @@ def _rounded(tension: np.ndarray, sigma: np.ndarray) -> np.ndarray:
 
 def _step(values: np.ndarray) -> float:
     """The largest step of 1, 2 or 5 times a power of ten of which all values are multiples; 0 if there is none."""
-    if values.size < 10:
+    if values.size < _FEWEST:
         return 0.0
     for step in (50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01):
         if np.abs(values / step - np.round(values / step)).max() < 1e-6 * np.abs(values / step).max():
@@ -154,7 +156,7 @@ def _tensions(campaign: Campaign, there: RobotArrays, readings: Readings, known:
         index = np.flatnonzero(locked)
         place, turn = readings.position[index], readings.rotation[index]
         rest_ = forward(there.take(index), readings.length[index], place, turn, known.model)
-        near = rest_.converged & (np.linalg.norm(rest_.position - place, axis=-1) < 0.2 * arm_scale(there))
+        near = rest_.converged & (np.linalg.norm(rest_.position - place, axis=-1) < _NEAR * arm_scale(there))
         found = found.copy()
         found[index[near]] = rest_.tensions[near]
     return found

@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from cdpr_struct.association.association import Association
-from cdpr_struct.association.detection import clutter, robot_detection
+from cdpr_struct.association.detection import SHARE_INVISIBLE, clutter, robot_detection
 from cdpr_struct.association.doubles import detection_of_doubles
 from cdpr_struct.association.modes import robot_modes
 from cdpr_struct.association.peak_noise import PeakNoise
@@ -33,7 +33,6 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _BELOW = 0.7  # of the lowest peak: where somebody who picked it began to look
 _ABOVE = 1.02  # of the highest: the list ends there, and modes beyond were not looked for
-_SHOWN = 0.08  # share of the kinetic energy in the platform from which a mode shows there
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -135,7 +134,7 @@ class Vibrating:
         gain = gain[:, 0] if gain.ndim > 2 else gain.reshape((-1, len(sizes)))
         row = np.searchsorted(self.measured.states, sizes.state)
         apart = np.abs(robot.log_hertz[row] - sizes.log_hertz[:, None])
-        near = np.where(robot.mask[row] & (robot.share[row] > _SHOWN), apart, np.inf).argmin(axis=1)
+        near = np.where(robot.mask[row] & (robot.share[row] > SHARE_INVISIBLE), apart, np.inf).argmin(axis=1)
         return np.asarray(gain + sizes.of_modes(robot.platform[row, near]))
 
     def association(self) -> Association | None:

@@ -1,5 +1,6 @@
 """The answer of least expected loss, by hand."""
 
+import numpy as np
 import pytest
 
 from cdpr_struct.diagnosis.decision import Loss, decided, fits
@@ -136,3 +137,13 @@ def test_a_cause_stands_for_one_class_only():
 def test_losses_that_would_turn_an_answer_around_are_refused(given):
     with pytest.raises(ValueError, match="wrong_name > unknown > too_wide > 0"):
         Loss(*given)
+
+
+@pytest.mark.parametrize("loss", [LOSS, Loss(wrong_name=50.0, too_wide=2.0, unknown=10.0)])
+@pytest.mark.parametrize("side", [0.99, 1.01])
+def test_limits_of_the_loss_are_those_of_a_decision(loss, side):
+    rival = 1.0 / (1.0 + np.exp(side * loss.nats_of_a_class))
+    said = decided(beliefs((1.0 - rival, "a"), (rival, "b")), loss)
+    assert said.status == ("class" if side < 1.0 else "named")
+    sure = side * loss.least_said
+    assert decided(beliefs((sure, "a"), (1.0 - sure, UNKNOWN)), loss).status == (UNKNOWN if side < 1.0 else "named")

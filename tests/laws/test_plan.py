@@ -14,6 +14,7 @@ from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.inference.screening import Screen
 from cdpr_struct.measurement.campaign import CableFrequencies, Campaign, RobotFrequencies, States, Tolerances
+from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.planning.campaign_plan import confusions, planned
 from cdpr_struct.planning.candidates import at_the_center_of, at_the_robot, checks
 from cdpr_struct.planning.checks import CHECKS, Check, check_rows
@@ -170,8 +171,8 @@ def test_the_order_of_states_and_causes_changes_nothing(data, rows, numbers):
     other = recorded(replace(campaign, states=states))
     backwards = numbers_of(other, backwards=True)
     again = PlannedRows.of(other, backwards, {}).information()
-    first = confusions(numbers, of_causes(rows.information(), numbers.tolerances))
-    second = confusions(backwards, of_causes(again, backwards.tolerances))
+    first = confusions(numbers, of_causes(rows.information(), numbers.tolerances), Loss())
+    second = confusions(backwards, of_causes(again, backwards.tolerances), Loss())
     assert len(first) > 3
     assert {(c.cause, c.taken_for) for c in first} == {(c.cause, c.taken_for) for c in second}
     nats = {(c.cause, c.taken_for): c.nats for c in second}

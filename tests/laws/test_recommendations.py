@@ -11,8 +11,9 @@ from cdpr_struct.hypotheses.causes.library import LIBRARY
 from cdpr_struct.hypotheses.hypothesis import Hypothesis, Part
 from cdpr_struct.hypotheses.judge import judged
 from cdpr_struct.hypotheses.search import BUDGETS, Answer, Search
+from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.planning import recommendations as following
-from cdpr_struct.planning.recommendations import APART, Question, questions, recommendations
+from cdpr_struct.planning.recommendations import Question, questions, recommendations
 from cdpr_struct.reports.plan.measurements import recommendations_text
 from cdpr_struct.residuals.recorded import recorded
 from tests.laws.test_plan import clean_campaign
@@ -71,7 +72,7 @@ def test_the_scales_are_recommended_for_a_class_of_masses(found):
     assert first.kind == "check"
     assert first.what.check in MASSES
     assert first.separates == MASSES
-    assert first.gain_nats > APART
+    assert first.gain_nats > Loss().nats_of_a_class
     assert recommendations_text(said).startswith("weigh the ")
     assert "expected to separate platform mass from joint mass by" in recommendations_text(said)
 
@@ -98,5 +99,7 @@ def test_what_a_measurement_adds_grows_with_the_square_of_the_effect(found):
     numbers, information = following._at_hand(found, [asked])
     data = found.explained.search.data
     possible = [one for one in following.checks(data, numbers) if one[0].check == "joint_mass"]
-    (whole,), (part,) = (following._answer(q, numbers, information, possible, 1) for q in (asked, half))
+    (whole,), (part,) = (
+        following._answer(q, numbers, information, possible, 1, Loss().nats_of_a_class) for q in (asked, half)
+    )
     assert part.gain_nats == pytest.approx(0.25 * whole.gain_nats, rel=0.02)

@@ -11,6 +11,7 @@ from cdpr_struct.diagnosis.damping_law import damping_finding
 from cdpr_struct.diagnosis.damping_rows import _laws, damping_rows, left_out
 from cdpr_struct.measurement.campaign import Sigmas, Tolerances
 from cdpr_struct.measurement.identified import Identified
+from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.measurement.modal_estimate import Modes
 from cdpr_struct.measurement.peak_kinds import MODE
 from cdpr_struct.measurement.signal_records import SignalRecord
@@ -124,7 +125,7 @@ def test_losses_in_the_cables_are_still_found():
 def test_ratios_are_compared_with_those_of_the_fitted_robot():
     """Where EA is named wrong, damping ratios are expected of the robot with the right one."""
     judged = tuple(held_against(shaken(STIFFER, number), ROBOT, "exact") for number in range(3))
-    campaign = SimpleNamespace(identified=judged, model="exact", tolerances=Tolerances())
+    campaign = SimpleNamespace(identified=judged, model="exact", tolerances=Tolerances(), loss=Loss())
     off = []
     for robot in (STIFFER, None):
         rows = damped(campaign, robot).finding.rows

@@ -7,6 +7,9 @@ import numpy as np
 
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
+A_MINUTE = 1.0 / 60.0
+"""[h] Readings of a shorter time show nothing that grows with time: creep counts its decades after the first minute."""
+
 
 @dataclass(frozen=True, slots=True)
 class Parameter:

@@ -2,10 +2,8 @@
 
 import numpy as np
 
-from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen
+from cdpr_struct.hypotheses.causes.cause import A_MINUTE, Cause, Parameter, Seen
 from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
-
-_LEAST_HOURS = 0.01  # half a minute: a slip is counted by the hour
 
 
 def _gain(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
@@ -33,7 +31,7 @@ def _approach(seen: Seen) -> str:
 
 
 def _times(seen: Seen) -> str:
-    return "" if seen.hours > _LEAST_HOURS else "needs time_s"
+    return "" if seen.hours > A_MINUTE else "needs time_s"
 
 
 CAUSES = (

@@ -2,11 +2,9 @@
 
 import numpy as np
 
-from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen
+from cdpr_struct.hypotheses.causes.cause import A_MINUTE, Cause, Parameter, Seen
 from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
 from cdpr_struct.statics.masts import carriers
-
-_LEAST_HOURS = 0.05  # three minutes: creep is counted in decades of time after the first
 
 
 def _axial(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
@@ -34,7 +32,7 @@ def _creep(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
 
 
 def _times(seen: Seen) -> str:
-    return "" if seen.hours > _LEAST_HOURS else "needs time_s over some minutes"
+    return "" if seen.hours > A_MINUTE else "needs time_s over some minutes"
 
 
 CAUSES = (
