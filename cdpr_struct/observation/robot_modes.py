@@ -22,7 +22,7 @@ _STATIC_ORDER = 16  # of Gauss points along massless cables
 class VibratingModes:
     """Up to M modes of the robot in each of F states, ascending; where `mask` is False there is none, all else is 0.
 
-    log_hertz (F, M) : ln f [Hz];  share (F, M) : of the kinetic energy in the platform
+    log_hertz (F, M) : ln f [Hz];  share (F, M) : of the kinetic energy in the platform without its internal mass
     platform (F, M, 6) : motion of the platform in modes of unit modal mass, world axes
     dependence (F, n) : what they depend on, `Dependence.vector`;  gradient (F, n, M) : of ln f by it
     """
@@ -52,22 +52,23 @@ def modes_at(
     limit = BEYOND * np.asarray(highest_omega, dtype=float)
     now = Dependence.of(point, assembly)
     if model == "static":
-        shapes = ritz_modes(point, StaticCables(point).expansion(0.0), 6, assembly)
+        inner = int(point.arrays.has_internal_mass)
+        shapes = ritz_modes(point, StaticCables(point).expansion(0.0), 6 + inner, assembly)
         own = _massless_gradient(point, shapes, now.cables)
         limit = np.full_like(limit, np.inf)
     elif model == "exact":
         shapes, own = _catenary_modes(point, float(limit.max()), assembly, now.cables)
     else:
         raise ValueError(f"model must be 'exact' or 'static', got {model!r}")
-    gradient = whole_gradient(own, point.arrays.masts, shapes.platform, shapes.omega**2)
-    kept = (shapes.omega < np.asarray(highest_omega)[:, None]) | (shapes.platform_energy > PLATFORM_SHARE)
+    gradient = whole_gradient(own, point.arrays.masts, shapes)
+    kept = (shapes.omega < np.asarray(highest_omega)[:, None]) | (shapes.rigid_energy > PLATFORM_SHARE)
     return _collected(shapes, now, gradient, kept & (shapes.omega < limit[:, None]), assembly)
 
 
 def frequencies_at(
     point: OperatingPoint, highest_omega: float, assembly: Assembly = "consistent"
 ) -> tuple[np.ndarray, np.ndarray]:
-    """ln f [Hz] and share of the kinetic energy in the platform, both (..., M), of the modes below highest_omega
+    """ln f [Hz] and share of the kinetic energy as in `VibratingModes`, both (..., M), of the modes below highest_omega
     [rad/s] in states (...) of exact catenaries; to six digits, without their gradients. Beyond them f is infinite.
 
     Raises
@@ -77,10 +78,9 @@ def frequencies_at(
     order = polynomial_order(point, highest_omega, rough=True)
     expansion = expand_catenaries_at(point, order).reduced(highest_omega)
     below = int((expansion.omega_squared < highest_omega**2).sum(axis=(-2, -1)).max())
-    count = below + 6 + 3 * point.arrays.cable_count * point.arrays.has_masts
-    shapes = ritz_modes(point, expansion, count, assembly)
+    shapes = ritz_modes(point, expansion, below + _beyond_cables(point), assembly)
     kept = shapes.omega < highest_omega
-    return np.where(kept, np.log(shapes.omega / (2.0 * np.pi)), np.inf), np.where(kept, shapes.platform_energy, 0.0)
+    return np.where(kept, np.log(shapes.omega / (2.0 * np.pi)), np.inf), np.where(kept, shapes.rigid_energy, 0.0)
 
 
 def rates(modes: VibratingModes, points: OperatingPoint, steps: np.ndarray) -> np.ndarray:
@@ -101,8 +101,7 @@ def _catenary_modes(
     order = polynomial_order(point, highest, rough=smooth)
     expansion = expand_catenaries_at(point, order).reduced(highest)
     below = (expansion.omega_squared < highest**2).sum(axis=(-2, -1)).max()
-    count = int(below) + 6 + 3 * point.arrays.cable_count * point.arrays.has_masts  # no mode more, by Wittrick's count
-    shapes = ritz_modes(point, expansion, count, assembly)
+    shapes = ritz_modes(point, expansion, int(below) + _beyond_cables(point), assembly)
     shapes = _first(shapes, max(1, int((shapes.omega < highest).sum(axis=-1).max())))
     turn, squared = shapes.platform[..., 3:], shapes.omega**2
     fields = fields_of_expansion(point, order, expansion, shapes.end, shapes.modal, shapes.mast)
@@ -112,6 +111,12 @@ def _catenary_modes(
     static = fields_of_expansion(point, order, expansion, shapes.end, 0.0 * shapes.modal, shapes.mast).at_rest
     bent = cable_gradient(cables, static, 0.0 * squared, turn)
     return shapes, own.plus(bent, -1.0).plus(_massless_gradient(point, shapes, cables))  # K(0) knows no bending
+
+
+def _beyond_cables(point: OperatingPoint) -> int:
+    """By how many the robot's modes below a frequency exceed those of its clamped cables at most: Wittrick's count."""
+    arrays = point.arrays
+    return 6 + 3 * arrays.cable_count * int(arrays.has_masts) + int(arrays.has_internal_mass)
 
 
 def _massless_gradient(point: OperatingPoint, shapes: RitzModes, cables: np.ndarray) -> CableGradient:
@@ -128,7 +133,7 @@ def _massless_gradient(point: OperatingPoint, shapes: RitzModes, cables: np.ndar
 
 def _first(shapes: RitzModes, count: int) -> RitzModes:
     some = slice(0, count)
-    modes = {f: getattr(shapes, f) for f in ("platform", "end", "mast", "modal")}
+    modes = {f: getattr(shapes, f) for f in ("platform", "end", "mast", "modal", "internal")}
     lead = shapes.omega.ndim - 1
     cut = {name: value[(slice(None),) * lead + (some,)] for name, value in modes.items()}
     return replace(shapes, omega=shapes.omega[..., some], **cut)
@@ -149,7 +154,7 @@ def _collected(
 
     log_hertz = np.log(shapes.omega / (2.0 * np.pi))
     return VibratingModes(
-        chosen(log_hertz), chosen(shapes.platform_energy), chosen(shapes.platform, -2), mask, now.vector,
+        chosen(log_hertz), chosen(shapes.rigid_energy), chosen(shapes.platform, -2), mask, now.vector,
         chosen(gradient), assembly,
     )  # fmt: skip
 

@@ -177,11 +177,10 @@ def _whole(point: OperatingPoint) -> OperatingPoint:
     shape = np.broadcast_shapes(point.position.shape[:-1], point.cables.length.shape[:-1], point.arrays.batch_shape)
     cables = {f.name: getattr(point.cables, f.name) for f in fields(point.cables)}
     full = {n: np.broadcast_to(v, shape + v.shape[-(1 + (n in ("offset", "heading"))) :]) for n, v in cables.items()}
-    arrays = replace(
-        point.arrays, mass=np.broadcast_to(point.arrays.mass, shape),
-        center_of_mass=np.broadcast_to(point.arrays.center_of_mass, (*shape, 3)),
-        inertia=np.broadcast_to(point.arrays.inertia, (*shape, 3, 3)),
-    )  # fmt: skip
+    lengths = {"center_of_mass": (3,), "inertia": (3, 3), "internal_direction": (3,)}
+    names = ("mass", "center_of_mass", "inertia", "internal_mass", "internal_frequency", "internal_direction")
+    body = {n: np.broadcast_to(getattr(point.arrays, n), shape + lengths.get(n, ())) for n in names}
+    arrays = replace(point.arrays, **body)
     place, turn = np.broadcast_to(point.position, (*shape, 3)), np.broadcast_to(point.rotation, (*shape, 3, 3))
     return OperatingPoint(arrays, place, turn, type(point.cables)(**full))
 

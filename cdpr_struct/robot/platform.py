@@ -39,6 +39,11 @@ class Platform:
         mass, center, inertia = joined_masses(np.asarray(self.mass), self.center_of_mass, self.inertia, masses, points)
         return Platform(float(mass), center, 0.5 * (inertia + inertia.T))
 
+    def moved_mass(self, direction: np.ndarray) -> float:
+        """Apparent mass [kg] of the free platform at its origin along a unit vector (3,) of its frame."""
+        turning = np.cross(self.center_of_mass, direction)
+        return float(1.0 / (1.0 / self.mass + turning @ np.linalg.solve(self.inertia, turning)))
+
     def with_mass(self, mass: float) -> "Platform":
         """Platform of another mass [kg], with the same centre of mass and inertia."""
         return replace(self, mass=mass)
