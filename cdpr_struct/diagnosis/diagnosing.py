@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from cdpr_struct.diagnosis import stories
+from cdpr_struct.diagnosis.added_modes import least_evidence
 from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
 from cdpr_struct.diagnosis.decision import Decision, decided
 from cdpr_struct.diagnosis.detectable_sizes import minimum_detectable
@@ -89,6 +90,7 @@ class _Said:
     chosen: Judged
     sizes: tuple[WholeSize, ...]
     left: LeftOut | None
+    added: float | None
     confirmed: bool
     robot: Robot | None
     damped: Damped | None
@@ -98,12 +100,13 @@ class _Said:
         data, where = story.search.data, story.search.where
         null, chosen = stories.null_of(story).best, stories.chosen_of(story, decision)
         left = left_out(data, where, chosen) if decision.classes else None
-        confirmed = left is None or bool((left.kept >= KEEPS).all())
+        added = least_evidence(data, where, chosen) if decision.classes else None
+        confirmed = (left is None or bool((left.kept >= KEEPS).all())) and (added is None or added >= KEEPS)
         sizes = tuple(whole_sizes(data, story.search.seen, chosen))
         robot = _extended(story, decision, sizes)
         said = decision if confirmed else Decision("class", decision.classes, min(decision.probability, HANGS))
         by_signals = damped(campaign, robot)
-        return cls(campaign, story, said, null, chosen, sizes, left, confirmed, robot, by_signals)
+        return cls(campaign, story, said, null, chosen, sizes, left, added, confirmed, robot, by_signals)
 
     @property
     def whole(self) -> Decision:
@@ -129,7 +132,7 @@ def _assembled(
     story, null, chosen, campaign = said.story, said.null, said.chosen, said.campaign
     data, search, recorded = story.search.data, story.search, stories.as_recorded(found)
     least = minimum_detectable(search, null)
-    unseen = {cause.name: TOO_SMALL for cause in search.causes if cause.name not in least}
+    unseen = {cause.name: TOO_SMALL for cause in search.causes if not (cause.name in least or cause.tuned)}
     noise, aside = noise_of_kinds(chosen), tuple(set_aside(data, search.where, chosen))
     advice = recommended(said.decision, said.confirmed, _likeliest(rows))
     return Diagnosis(
@@ -140,8 +143,8 @@ def _assembled(
         peaks=Peaks(peak_count(data), tuple(uncertain_peaks(data, chosen))), noise=tuple(noise),
         errors=tuple(errors_of_kinds(recorded)), location=said.location,
         recorded=_rows(recorded, stories.null_of(recorded).best), residuals=_rows(story, chosen), left_out=said.left,
-        generic=None if said.left is None else generic_ratio(search, null, chosen), confirmed=said.confirmed,
-        extended=said.robot, damped=said.damped, recommendations=(*advice, *_again(aside)),
+        generic=None if said.left is None else generic_ratio(search, null, chosen), added=said.added,
+        confirmed=said.confirmed, extended=said.robot, damped=said.damped, recommendations=(*advice, *_again(aside)),
         sigmas=tuple(sigmas_used(campaign)), doubts=tuple(doubts(campaign, noise)),
         not_testable=search.hidden | unseen | ({} if campaign.identified else NEEDS_SIGNALS), minimum_detectable=least,
     )  # fmt: skip

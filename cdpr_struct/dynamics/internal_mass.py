@@ -20,9 +20,14 @@ def internal_coupling(robot: RobotArrays, rotation: np.ndarray) -> np.ndarray:
     return np.concatenate([along, np.zeros_like(along)], axis=-1)
 
 
+def internal_omega(robot: RobotArrays) -> np.ndarray:
+    """omega_i (...) of the mount with the platform held [rad/s]."""
+    return np.asarray(2.0 * np.pi * robot.internal_frequency)
+
+
 def internal_squared(robot: RobotArrays) -> np.ndarray:
-    """omega_i^2 (...) of the mount with the platform held [rad^2/s^2]."""
-    return np.asarray((2.0 * np.pi * robot.internal_frequency) ** 2)
+    """omega_i^2 (...) [rad^2/s^2]."""
+    return np.asarray(internal_omega(robot) ** 2)
 
 
 def internal_reaction(robot: RobotArrays, rotation: np.ndarray, omega_squared: np.ndarray) -> np.ndarray:

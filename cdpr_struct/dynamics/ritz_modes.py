@@ -41,18 +41,10 @@ class RitzModes:
     @property
     def platform_energy(self) -> np.ndarray:
         """(..., k) share of the kinetic energy in the platform, its internal mass included [-]."""
-        carried = np.einsum("...ki,...i->...k", self.platform, self.internal_coupling)
-        return self._as_one_body + (2.0 * carried + self.internal) * self.internal
-
-    @property
-    def rigid_energy(self) -> np.ndarray:
-        """(..., k) share of the kinetic energy in the platform less its internal mass [-]: what sensors on it see."""
-        carried = np.einsum("...ki,...i->...k", self.platform, self.internal_coupling)
-        return self._as_one_body - carried**2
-
-    @property
-    def _as_one_body(self) -> np.ndarray:
-        return np.einsum("...ki,...ij,...kj->...k", self.platform, self.platform_mass, self.platform, optimize=True)
+        moved, mass = self.platform, self.platform_mass
+        rigid = np.einsum("...ki,...ij,...kj->...k", moved, mass, moved, optimize=True)
+        carried = np.einsum("...ki,...i->...k", moved, self.internal_coupling)
+        return np.asarray(rigid + (2.0 * carried + self.internal) * self.internal)
 
     @property
     def cable_energy(self) -> np.ndarray:
@@ -116,7 +108,7 @@ def _internal(point: OperatingPoint, lead: tuple[int, ...]) -> tuple[np.ndarray,
     coupling = np.broadcast_to(internal_coupling(robot, point.rotation), (*lead, 6))
     if not robot.has_internal_mass:
         return coupling, None
-    there = robot.internal_mass > 0.0
+    there = (robot.internal_mass > 0.0) & (robot.internal_frequency > 0.0)
     slow = np.where(there, 1.0, 0.0) / np.sqrt(np.where(there, internal_squared(robot), 1.0))
     return coupling, np.broadcast_to(slow, lead)
 

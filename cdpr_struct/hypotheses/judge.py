@@ -25,7 +25,7 @@ class Judged:
     """A hypothesis with its evidence: fitted numbers, and the linear model about the point they were found from.
 
     lists : peaks of the robot as they were assigned, None without any
-    moved : by how many sigmas the likeliest numbers lie from that point, at most
+    moved : by how many sigmas the likeliest numbers lie from that point, at most; of what bends sooner, see `straight`
     """
 
     hypothesis: Hypothesis
@@ -160,7 +160,8 @@ def _of_model(
     found = fit(model, noise, lists, assigned, hypothesis.positive(point))
     there = noise_of_states(data, where, found.noise_mean)
     by_noise = np.abs(there - point.noise)[data.read].max(initial=0.0)
-    moved = max(float(np.abs(found.z_mean - np.concatenate(point.z)).max()), float(by_noise))
+    by_numbers = np.abs(found.z_mean - np.concatenate(point.z)) / hypothesis.straight(point)
+    moved = max(float(by_numbers.max()), float(by_noise))
     return Judged(hypothesis, point, model, lists, found, moved)
 
 

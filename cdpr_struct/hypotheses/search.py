@@ -139,7 +139,7 @@ class Search:
                 continue  # about its point the robot has other modes than about that of the menu
             for noise in [base.fit.noise, *([rich] if rich is not None else [])]:
                 bound = base.log_evidence if noise is base.fit.noise else bound_at(base.model, noise, base.fit.soft)
-                for row in gains(menu, base, noise):
+                for row in (one for one in gains(menu, base, noise) if not one.cause.tuned):  # those are begun
                     score = bound + base.hypothesis.log_prior + row.total
                     if row.cause.name not in best or score > best[row.cause.name].score:
                         best[row.cause.name] = _Screened(score, row, base, noise)

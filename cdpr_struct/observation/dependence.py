@@ -2,7 +2,7 @@
 
 Per cable: tension vector at the frame end, weight, EA, unstrained length, density, stiffening by bending, EI, mass at
 mid-cable, compliance of the frame end, lever arm. Per mast its compliance. Of the platform: mass matrix and the
-stiffness of weight, lever arms and hose; of its internal mass the coupling (`internal_coupling`) and omega^2.
+stiffness of weight, lever arms and hose; of its internal mass the coupling (`internal_coupling`) and omega.
 """
 
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import frame_give
-from cdpr_struct.dynamics.internal_mass import internal_coupling, internal_squared
+from cdpr_struct.dynamics.internal_mass import internal_coupling, internal_omega
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, geometric_stiffness, platform_mass_matrix
 from cdpr_struct.dynamics.stiff_cable import slenderness
@@ -29,7 +29,7 @@ class Dependence:
 
     cables : (..., m, CABLE_COLUMNS), in the order of the constants above
     masts  : (..., n) compliances [m/N];  mass, stiffness : (..., 6, 6) of the platform without cables, world axes
-    internal : (..., 7) coupling (6) [kg^(1/2)] and omega^2 [rad^2/s^2] of an internal mass
+    internal : (..., 7) coupling (6) [kg^(1/2)] and omega [rad/s] of an internal mass
     """
 
     cables: np.ndarray
@@ -46,7 +46,7 @@ class Dependence:
         stiffness = np.zeros((*np.broadcast_shapes(held.shape, turned.shape)[:-2], 6, 6))
         stiffness[..., :3, :3], stiffness[..., 3:, 3:] = held, turned
         mass = platform_mass_matrix(arrays, point.rotation)
-        internal = _joined(internal_coupling(arrays, point.rotation), internal_squared(arrays)[..., None])
+        internal = _joined(internal_coupling(arrays, point.rotation), internal_omega(arrays)[..., None])
         masts = of_each_mast(arrays.masts, arrays.frame_compliance)
         return cls(cable_dependence(point), masts, mass, stiffness, internal)
 

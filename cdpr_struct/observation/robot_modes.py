@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import CableModel, StaticCables, expand_catenaries_at, polynomial_order
+from cdpr_struct.dynamics.internal_mass import internal_omega
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import RitzModes, ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
@@ -22,7 +23,7 @@ _STATIC_ORDER = 16  # of Gauss points along massless cables
 class VibratingModes:
     """Up to M modes of the robot in each of F states, ascending; where `mask` is False there is none, all else is 0.
 
-    log_hertz (F, M) : ln f [Hz];  share (F, M) : of the kinetic energy in the platform without its internal mass
+    log_hertz (F, M) : ln f [Hz];  share (F, M) : of the kinetic energy in the platform, its internal mass included
     platform (F, M, 6) : motion of the platform in modes of unit modal mass, world axes
     dependence (F, n) : what they depend on, `Dependence.vector`;  gradient (F, n, M) : of ln f by it
     """
@@ -60,8 +61,8 @@ def modes_at(
         shapes, own = _catenary_modes(point, float(limit.max()), assembly, now.cables)
     else:
         raise ValueError(f"model must be 'exact' or 'static', got {model!r}")
-    gradient = whole_gradient(own, point.arrays.masts, shapes)
-    kept = (shapes.omega < np.asarray(highest_omega)[:, None]) | (shapes.rigid_energy > PLATFORM_SHARE)
+    gradient = whole_gradient(own, point.arrays.masts, shapes, internal_omega(point.arrays))
+    kept = (shapes.omega < np.asarray(highest_omega)[:, None]) | (shapes.platform_energy > PLATFORM_SHARE)
     return _collected(shapes, now, gradient, kept & (shapes.omega < limit[:, None]), assembly)
 
 
@@ -80,7 +81,7 @@ def frequencies_at(
     below = int((expansion.omega_squared < highest_omega**2).sum(axis=(-2, -1)).max())
     shapes = ritz_modes(point, expansion, below + _beyond_cables(point), assembly)
     kept = shapes.omega < highest_omega
-    return np.where(kept, np.log(shapes.omega / (2.0 * np.pi)), np.inf), np.where(kept, shapes.rigid_energy, 0.0)
+    return np.where(kept, np.log(shapes.omega / (2.0 * np.pi)), np.inf), np.where(kept, shapes.platform_energy, 0.0)
 
 
 def rates(modes: VibratingModes, points: OperatingPoint, steps: np.ndarray) -> np.ndarray:
@@ -154,7 +155,7 @@ def _collected(
 
     log_hertz = np.log(shapes.omega / (2.0 * np.pi))
     return VibratingModes(
-        chosen(log_hertz), chosen(shapes.rigid_energy), chosen(shapes.platform, -2), mask, now.vector,
+        chosen(log_hertz), chosen(shapes.platform_energy), chosen(shapes.platform, -2), mask, now.vector,
         chosen(gradient), assembly,
     )  # fmt: skip
 

@@ -49,13 +49,20 @@ class Vibrations:
         """The states with most peaks, and these alone."""
         if self.peaks is None:
             return self
-        some = np.sort(np.argsort(-self.peaks.count, kind="stable")[:most])
+        return self.peaks_in(np.sort(np.argsort(-self.peaks.count, kind="stable")[:most]))
+
+    def peaks_in(self, some: np.ndarray) -> "Vibrations":
+        """The peaks in some of the F states, by number, and nothing else."""
+        if self.peaks is None:
+            return self
         none = CableRows(*(np.zeros(0, dtype=int),) * 4)
         lists = {f.name: getattr(self.peaks, f.name)[some] for f in fields(self.peaks)} | {
             "state": np.arange(len(some))
         }
         blank = np.zeros(0)
-        return Vibrations(self.states[some], none, blank, blank, PeakLists(**lists), self.highest[some], self.sizes)
+        return Vibrations(
+            self.states[some], none, blank, blank, PeakLists(**lists), self.highest[some], self.sizes.none
+        )
 
 
 def vibrations(campaign: Campaign) -> Vibrations | None:

@@ -99,11 +99,13 @@ def _standing(found: Diagnosis) -> str:
     share = 0.0 if chosen is None else 100.0 * chosen.explained
     said = [f"This accounts for {share:.0f} % of the error beyond noise."] if share >= 0.5 else []
     left = found.left_out
-    if left is None:
+    if not found.confirmed:
+        return " ".join([*said, "It hangs on one state: nothing that was left out confirms it."])
+    if found.added is not None:
+        said.append(f"Without the peaks of any one state the evidence for the mode is still {found.added:.0f} nats.")
+    elif left is None:
         said.append("With a single state nothing can be left out to confirm it.")
-    elif not found.confirmed:
-        said.append("It hangs on one state: nothing that was left out confirms it.")
-    else:
+    if left is not None:
         ratio = left.ratio(left.concerned)
         fall = f"falls by a factor of {ratio:.1f}" if ratio > _BETTER else "is no smaller"
         said.append(f"In held-out states the prediction error of the affected readings {fall}.")
