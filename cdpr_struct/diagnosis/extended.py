@@ -13,7 +13,8 @@ from cdpr_struct.robot.robot_from_arrays import robot_from_arrays
 
 
 def extended_robot(data: Recorded, sizes: Sequence[WholeSize], causes: Sequence[str]) -> Robot:
-    """The campaign's robot with causes put in, no tolerances; what belongs to single states is no part of a robot.
+    """The campaign's robot with causes put in, no tolerances; what belongs to single states or sits in the data
+    alone is no part of a robot.
 
     causes : names for the file, those of corrected data among them
     """
@@ -28,6 +29,6 @@ def extended_arrays(data: Recorded, sizes: Sequence[WholeSize]) -> RobotArrays:
         data.arrays, hose_center=data.known.center, reference_tension=np.asarray(float(data.known.mean_tension))
     )
     for size in sizes:
-        if size.part.cause.carrier != "state":
+        if size.part.cause.carrier != "state" and not size.part.cause.outside:
             arrays = size.part.cause.apply(arrays, (size.part.pattern.basis @ size.mean)[None])
     return arrays

@@ -91,7 +91,7 @@ class _Scan:
         """
         found = []
         for i, pattern in enumerate(cause.patterns):
-            rows = self._sizes(pattern, places) if len(pattern.prior) == _MOUNT else np.zeros((0, _MOUNT))
+            rows = self._sizes(pattern, places)
             for some in np.array_split(rows, 1 + len(rows) // _BLOCK) if len(rows) else []:
                 theta = ((some * pattern.prior) @ pattern.basis.T)[:, None, :]
                 gains = self._of_peaks(cause.cause.apply(self.arrays, theta)) - self.level
@@ -100,14 +100,15 @@ class _Scan:
         return [*best, *(wide for one in best[:1] for wide in _widened(cause, one))]
 
     def _sizes(self, pattern: Pattern, places: Sequence[float]) -> np.ndarray:
-        """(n, 2) masses and frequencies to be tried, in prior sigmas."""
-        mass, rows = float(np.max(self.arrays.mass)), [np.zeros((0, _MOUNT))]
-        for size in AMPLITUDES:
-            share = (size * pattern.prior[0]) ** 2 / mass
+        """(n, d) frequencies, and masses along one axis if the pattern has any, to be tried, in prior sigmas."""
+        d, total = len(pattern.prior), float(np.max(self.arrays.mass))
+        rows = [np.zeros((0, d))]
+        for size in AMPLITUDES if d == _MOUNT else [0.0] if d == 1 else []:
+            share = (size * pattern.prior[0]) ** 2 / total
             if share < _HEAVY:
                 steps = np.exp(np.arange(0.5 * np.log(1.0 - share) - _BEYOND, _BEYOND, _FINE))
-                hertz = np.outer(places, steps).ravel() / pattern.prior[1]
-                rows.append(np.stack([np.full(len(hertz), size), hertz], axis=1))
+                hertz = np.outer(places, steps).ravel() / pattern.prior[-1]
+                rows.append(np.stack([np.full(len(hertz), size), hertz], axis=1)[:, -d:])
         return np.concatenate(rows)
 
     def _of_peaks(self, arrays: RobotArrays) -> np.ndarray:

@@ -115,18 +115,29 @@ def written(folder, seed, mass=0.0, hertz=0.0, inertia=1.0, missed=()):
 
 
 def test_a_mode_inside_the_platform_is_found(tmp_path):
-    """6 kg of 118.5 on a spring, off the origin and along no axis, which no robot file can say: named all the same."""
-    campaign, inner = written(tmp_path, seed=3, mass=6.0, hertz=7.8)
+    """6 kg of 118.5 on a spring: so light a part moves no other mode enough to be told from a line of the mains."""
+    campaign, _ = written(tmp_path, seed=3, mass=6.0, hertz=7.8)
     said = diagnosed(campaign)
-    assert said.decision.classes == (("flexible_platform",),)
+    assert any("flexible_platform" in names for names in said.decision.classes)
+    assert {name for names in said.decision.classes for name in names} <= {"flexible_platform", "steady_disturbance"}
+
+
+def test_a_heavier_part_has_its_size_and_its_mode_in_the_extended_robot(tmp_path):
+    """Off the origin and along no axis, which no robot file can say. Its mode changes with the pose as the FEM's does;
+    all of it may be off by 2 %, two sigmas of what the tolerance of EA (2 %) leaves of a frequency."""
+    campaign, inner = written(tmp_path, seed=6, mass=10.0, hertz=5.0)
+    said = diagnosed(campaign)
     (tmp_path / "extended.toml").write_text(robot_toml(said.extended, "extended"))
     robot = load_robot(tmp_path / "extended.toml")
-    assert robot.extensions.internal_mass < 3.0 * 6.0
-    for pose, hertz in zip(POSES, inner, strict=True):
+    assert robot.extensions.internal_mass == pytest.approx(10.0, rel=0.5)
+    found = []
+    for pose in POSES:
         point = OperatingPoint(robot, pose, np.eye(3), inverse(robot, pose, np.eye(3)).cables)
         modes = certified_modes(point, "exact", MODES)
-        own = modes.frequencies.hertz[(modes.shapes.internal**2).argmax()]
-        assert own == pytest.approx(hertz, rel=3.0 * NOISE["hertz"])
+        found.append(modes.frequencies.hertz[(modes.shapes.internal**2).argmax()])
+    apart = np.log(found / inner)
+    assert np.abs(apart).max() < 0.02
+    assert np.ptp(apart) < 0.5 * np.ptp(np.log(inner))
 
 
 def test_a_rigid_platform_is_adequate(tmp_path):

@@ -64,6 +64,19 @@ def test_a_rigid_platform_has_none():
     assert all(NAME not in names for names in diagnosed(campaign(0.0)).decision.classes)
 
 
+def test_a_line_of_the_mains_is_called_so_or_a_part_that_weighs_nothing():
+    """Its frequency is the same at all poses; the extended robot has none of it."""
+    rigid = campaign(0.0)
+    peaks, lines = rigid.robot_frequencies, 5.63 * np.array([1.001, 0.999, 1.0005])
+    hertz = np.concatenate([peaks.hertz, lines])
+    more = RobotFrequencies(np.concatenate([peaks.state, SHAKEN]), hertz, SIGMA_HERTZ * hertz)
+    said = diagnosed(replace(rigid, robot_frequencies=more))
+    assert any("steady_disturbance" in names for names in said.decision.classes)
+    assert not {name for names in said.decision.classes for name in names} - {NAME, "steady_disturbance"}
+    assert said.candidates[0].names == ("steady_disturbance",)
+    assert said.extended.extensions.active == ()
+
+
 def test_the_extended_robot_is_written_read_back_and_right(tmp_path):
     path = tmp_path / "extended.toml"
     path.write_text(robot_toml(found().extended, "extended"))

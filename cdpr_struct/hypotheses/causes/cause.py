@@ -100,6 +100,7 @@ class Cause:
     alike     : probability that all carriers have the same, 0 if that cannot be
     shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
     seen_in   : kinds of rows it shows in;  needs : why these data cannot show it, or ""
+    outside   : whether it sits in the data alone: the extended robot does not have it
     becomes   : causes that it is where some of its parameters are zero
     sentence  : for a person, with {value} and {unit} of the first parameter;  sign : what a number above zero means
     separated_by : measurements that tell it from its rivals;  extension : what of the extended robot holds it
@@ -114,6 +115,7 @@ class Cause:
     shapes: tuple[tuple[str, slice | list[int], float], ...] = ()
     seen_in: tuple[str, ...] = ()
     needs: Callable[[Seen], str] = always
+    outside: bool = False
     becomes: tuple[str, ...] = ()
     sentence: str = ""
     sign: str = ""

@@ -9,6 +9,7 @@ from cdpr_struct.robot.platform import moved_mass
 from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
 
 _XYZ = ("x", "y", "z")
+_NOTHING = 1e-10  # of the platform's mass: mode frequencies keep ten digits
 _MOST = 0.8  # of what the platform moves along a direction: so much of it may sit on a mount
 
 
@@ -49,6 +50,12 @@ def _flexible(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
         arrays, internal_mass=np.minimum(length**2, most), internal_frequency=np.maximum(theta[..., 3], 0.0),
         internal_direction=direction,
     )  # fmt: skip
+
+
+def _line(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    """A part on a mount that weighs nothing: its frequency is the same in every state, and no other mode feels it."""
+    hertz = np.maximum(theta[..., 0], 0.0)
+    return replace(arrays, internal_mass=np.where(hertz > 0.0, _NOTHING * arrays.mass, 0.0), internal_frequency=hertz)
 
 
 def _flexes(seen: Seen) -> str:
@@ -139,5 +146,17 @@ CAUSES = (
         sentence="a part of the platform moves on an elastic mount, {parts} with the platform held",
         separated_by="shaking with accelerometers on the platform and on the part; clamping the part",
         extension="internal_mass",
+        becomes=("steady_disturbance",),
+    ),
+    Cause(
+        "steady_disturbance",
+        "a disturbance of constant frequency, such as the mains, a fan or a pump, among the robot's peaks",
+        (Parameter("disturbance_frequency", "Hz", 1.0, positive=True, in_band=True),),
+        _line,
+        seen_in=("RF",),
+        needs=_flexes,
+        sentence="a disturbance of {value} Hz at all poses, which is no mode of the robot, is among its peaks",
+        separated_by="recording without excitation, and with fans, pumps and drives switched off",
+        outside=True,
     ),
 )
