@@ -10,7 +10,7 @@ from cdpr_struct.diagnosis.diagnosing import Diagnosis, diagnosed
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.hypotheses.causes import library
 from cdpr_struct.hypotheses.hypothesis import Hypothesis, Part
-from cdpr_struct.hypotheses.judge import begun, judged
+from cdpr_struct.hypotheses.judge import WORTH, begun, judged
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.measurement.campaign import Campaign, RobotFrequencies
 from cdpr_struct.residuals.layout import layout
@@ -91,7 +91,7 @@ def test_the_extended_robot_is_written_read_back_and_right(tmp_path):
 
 
 def test_evidence_does_not_depend_on_the_start():
-    """From either side of the numbers that were found, by more than any mode is wide."""
+    """From both sides of the numbers that are found."""
     data = recorded(campaign(KILOGRAMS))
     where = layout(data)
     null = judged(data, where, Hypothesis())
@@ -100,9 +100,9 @@ def test_evidence_does_not_depend_on_the_start():
     part = Part(cause, cause.patterns(seen_in(data))[0], 2.0)
     values = [
         begun(data, where, null, Hypothesis((part,)), np.array([root, hertz]) / part.term.sigma).log_evidence
-        for root, hertz in ((1.6, 4.95), (1.9, 5.05))
+        for root, hertz in ((1.5, 4.9), (1.9, 5.05), (2.0, 5.1))
     ]
-    assert values[0] == pytest.approx(values[1], abs=0.1)
+    assert np.ptp(values) < WORTH  # nats: another start is not followed for less
     assert values[0] > null.log_evidence + 10.0
 
 
