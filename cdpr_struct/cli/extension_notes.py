@@ -11,6 +11,7 @@ _VIBRATION = "this concerns vibration only"
 _NO_BENDING = "this cable model has none; --model exact does"
 _AT_REST = ("inverse", "forward", "pose-error")
 _CABLES_ONLY = ("bending_stiffness", "added_mass")
+_INTERNAL = "internal_mass"
 _ELASTIC = ("series_compliance", "frame_compliance", "nonlinearity")
 
 
@@ -40,6 +41,8 @@ def _why_idle(name: str, command: str, model: str) -> str:
         return ""
     if name in SENSORS:
         return _READINGS
+    if name == _INTERNAL:
+        return _why_rigid(command, model)
     if command == "distribute":
         return "forces are distributed with EA as entered" if name == "nonlinearity" else ""
     if name not in _CABLES_ONLY:
@@ -55,11 +58,24 @@ def _why_idle(name: str, command: str, model: str) -> str:
     return _NO_BENDING if model in ("static", "dsm") else ""
 
 
+def _why_rigid(command: str, model: str) -> str:
+    """Why the platform is rigid in a command although a part of it sits on an elastic mount."""
+    if command in (*_AT_REST, "distribute"):
+        return _VIBRATION
+    if command == "audit":
+        return "the printed limits know nothing of it"
+    if command == "verify":
+        return "the referee's platform is rigid, so it is left out on both sides"
+    return "the referee's platform is rigid; --model exact does" if model == "fem" else ""
+
+
 def _particulars(command: str, model: str) -> dict[str, str]:
     """What is to be known about extensions that act."""
     said = {"tilt": "tilt turns the weight of the platform; that of the cables stays vertical."}
     if command in ("frf", "transient", "modes", "map", "distribute"):
         said["added_mass"] = "added_mass takes part in vibration; its weight does not bend the cable."
+    if command in ("frf", "transient"):
+        said[_INTERNAL] = "The mount of internal_mass has no damping of its own."
     if command == "frf":
         said["frame_compliance"] = "Points of cables are shaken and watched as if their masts stood still."
     if command == "pose-error":

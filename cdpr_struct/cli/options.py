@@ -151,7 +151,11 @@ def read_robot(
     if mass is not None and not 0.0 < mass < float("inf"):
         raise InputError("--mass", "", mass, "give a mass in kg above zero")
     read_bounds(lower_bound, upper_bound)
-    robot = load_robot(name).with_load(payload, mass)
+    entered = load_robot(name)
+    try:
+        robot = entered.with_load(payload, mass)
+    except ValueError as error:
+        raise InputError("--mass", "", mass, str(error)) from error
     try:
         return robot.with_force_limits(lower_bound, upper_bound)
     except ValueError as error:

@@ -8,8 +8,8 @@ from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.masts import carriers, of_each_mast
 
-NOT_IN_FEM = ("bending_stiffness", "added_mass")
-"""Extensions that the referee does not have: its bars neither bend nor carry masses."""
+NOT_IN_FEM = ("bending_stiffness", "added_mass", "internal_mass")
+"""Extensions that the referee does not have: its bars neither bend nor carry masses, its platform is rigid."""
 
 
 def to_fem(robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None = None) -> fem.RobotData:

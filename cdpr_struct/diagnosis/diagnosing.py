@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from cdpr_struct.diagnosis import stories
+from cdpr_struct.diagnosis.added_modes import least_evidence
 from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
 from cdpr_struct.diagnosis.decision import Decision, decided
 from cdpr_struct.diagnosis.detectable_sizes import minimum_detectable
@@ -61,21 +62,23 @@ def diagnosed(
 
 
 def _decided(beliefs: Sequence[Belief], loss: Loss, hidden: set[str], p_value: float) -> Decision:
-    """Where something is significant, not that all is well: what is least wrong of the rest, less sure."""
-    decision = decided(beliefs, loss, hidden)
+    """All is well if nothing is significant, and only then: else what is least wrong of the rest, less sure."""
     wrong = [one for one in beliefs if one.names]
     share = sum(one.probability for one in wrong)
-    if decision.status != "adequate" or p_value >= SIGNIFICANT or share < _LEAST:
+    if p_value >= SIGNIFICANT:
+        return Decision("adequate", (), min(1.0, max(0.0, 1.0 - share)))
+    decision = decided(beliefs, loss, hidden)
+    if decision.status != "adequate" or share < _LEAST:
         return decision
     rest = decided([Belief(one.names, one.probability / share) for one in wrong], loss, hidden)
-    if rest.status == "adequate":
-        return decision
-    if rest.status == UNKNOWN and rest.probability < _MOSTLY:
-        alone = sorted((one for one in wrong if len(one.names) == 1), key=lambda one: -one.probability)
-        names = [one.names[0] for one in alone if not {UNKNOWN, *hidden} & set(one.names)][:_OPEN]
-        held = sum(one.probability for one in wrong if set(names) & set(one.names))
-        return Decision("class", (tuple(names),), held) if names else decision
-    return Decision(rest.status, rest.classes, rest.probability * share)
+    if rest.status not in ("adequate", UNKNOWN):
+        return Decision(rest.status, rest.classes, rest.probability * share)
+    alone = sorted((one for one in wrong if len(one.names) == 1), key=lambda one: -one.probability)
+    names = [one.names[0] for one in alone if not {UNKNOWN, *hidden} & set(one.names)][:_OPEN]
+    if not names or (rest.status == UNKNOWN and rest.probability > _MOSTLY):
+        return Decision(UNKNOWN, (), share)
+    held = sum(one.probability for one in wrong if set(names) & set(one.names))
+    return Decision("class", (tuple(names),), held)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,6 +92,7 @@ class _Said:
     chosen: Judged
     sizes: tuple[WholeSize, ...]
     left: LeftOut | None
+    added: float | None
     confirmed: bool
     robot: Robot | None
     damped: Damped | None
@@ -98,13 +102,14 @@ class _Said:
         data, where = story.search.data, story.search.where
         null, chosen = stories.null_of(story).best, stories.chosen_of(story, decision)
         left = left_out(data, where, chosen) if decision.classes else None
-        confirmed = left is None or bool((left.kept >= KEEPS).all())
+        added = least_evidence(data, where, chosen) if decision.classes else None
+        confirmed = (left is None or bool((left.kept >= KEEPS).all())) and (added is None or added >= KEEPS)
         sizes = tuple(whole_sizes(data, story.search.seen, chosen))
         robot = _extended(story, decision, sizes)
         doubtful = Decision("class", decision.classes, min(decision.probability, loss.least_said))
         by_signals = damped(campaign, robot, loss)
         said = decision if confirmed else doubtful
-        return cls(campaign, story, said, null, chosen, sizes, left, confirmed, robot, by_signals)
+        return cls(campaign, story, said, null, chosen, sizes, left, added, confirmed, robot, by_signals)
 
     @property
     def whole(self) -> Decision:
@@ -130,7 +135,7 @@ def _assembled(
     story, null, chosen, campaign = said.story, said.null, said.chosen, said.campaign
     data, search, recorded = story.search.data, story.search, stories.as_recorded(found)
     least = minimum_detectable(search, null)
-    unseen = {cause.name: TOO_SMALL for cause in search.causes if cause.name not in least}
+    unseen = {cause.name: TOO_SMALL for cause in search.causes if not (cause.name in least or cause.tuned)}
     noise, aside = noise_of_kinds(chosen), tuple(set_aside(data, search.where, chosen))
     advice = recommended(said.decision, said.confirmed, _likeliest(rows))
     return Diagnosis(
@@ -141,8 +146,8 @@ def _assembled(
         peaks=Peaks(peak_count(data), tuple(uncertain_peaks(data, chosen))), noise=tuple(noise),
         errors=tuple(errors_of_kinds(recorded)), location=said.location,
         recorded=_rows(recorded, stories.null_of(recorded).best), residuals=_rows(story, chosen), left_out=said.left,
-        generic=None if said.left is None else generic_ratio(search, null, chosen), confirmed=said.confirmed,
-        extended=said.robot, damped=said.damped, recommendations=(*advice, *_again(aside)),
+        generic=None if said.left is None else generic_ratio(search, null, chosen), added=said.added,
+        confirmed=said.confirmed, extended=said.robot, damped=said.damped, recommendations=(*advice, *_again(aside)),
         sigmas=tuple(sigmas_used(campaign)), doubts=tuple(doubts(campaign, noise)),
         not_testable=search.hidden | unseen | ({} if campaign.identified else NEEDS_SIGNALS), minimum_detectable=least,
     )  # fmt: skip

@@ -125,6 +125,7 @@ class Diagnosis:
     recorded, residuals : rows with their sigmas under the null, of the data as recorded, and as believed with causes
     left_out : predictions of states that were not fitted, None where nothing is chosen or can be left out
     generic : how many times smaller a common EA and load cell gain make the error of all rows left out, None likewise
+    added : log evidence that added modes keep without the peaks of the state that they need most [nat], or None
     confirmed : whether no chosen cause hangs on one state
     extended : the robot with the chosen causes, None where none is chosen
     damped : what signals say of the damping, None without signals
@@ -152,6 +153,7 @@ class Diagnosis:
     recorded: LeftOut
     residuals: LeftOut
     left_out: LeftOut | None
+    added: float | None
     generic: float | None
     confirmed: bool
     extended: Robot | None

@@ -13,7 +13,8 @@ from cdpr_struct.robot.robot_from_arrays import robot_from_arrays
 
 
 def extended_robot(data: Recorded, sizes: Sequence[WholeSize], causes: Sequence[str]) -> Robot:
-    """The campaign's robot with causes put in, no tolerances; what belongs to single states is no part of a robot.
+    """The campaign's robot with causes put in, no tolerances; what belongs to single states or sits in the data
+    alone is no part of a robot.
 
     causes : names for the file, those of corrected data among them
     """

@@ -1,7 +1,7 @@
 """Does a chosen model predict blocks of data that it was not fitted to? Linear about the fit, sizes of noise kept."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -50,13 +50,19 @@ class LeftOut:
 
 
 def left_out(data: Recorded, where: Layout, found: Judged) -> LeftOut | None:
-    """Each block predicted from the fit to all the others; None with a single block or without causes."""
+    """Each block predicted from the fit to all the others; None with a single block or without causes.
+
+    What adds a mode stays as it was fitted, before and after: without it there is nothing that could be off. See
+    `added_modes`.
+    """
     sizes = [len(part.pattern.prior) for part in found.hypothesis.parts]
     first = found.model.parameters - sum(sizes)
-    sums = BlockSums.of(found.model, found.fit.noise, found.fit.soft, first)
-    if not sizes or len(sums.gram) < 2:
+    sums = _beside_modes(BlockSums.of(found.model, found.fit.noise, found.fit.soft, first), found)
+    places = [first + own for own in np.split(np.arange(sum(sizes)), np.cumsum(sizes)[:-1])]
+    parts = zip(found.hypothesis.parts, places, strict=False)
+    causes = [own for part, own in parts if not part.cause.tuned]
+    if not causes or len(sums.gram) < 2:
         return None
-    causes = [first + own for own in np.split(np.arange(sum(sizes)), np.cumsum(sizes)[:-1])]
     after = _predictions(sums, np.concatenate(causes))
     kept = np.array([min(_gain(sums, own, k) for k in range(len(sums.gram))) for own in causes])
     labels = _labels(data, where, 0 if found.lists is None else found.lists.shift.shape[1])
@@ -69,13 +75,27 @@ def left_out(data: Recorded, where: Layout, found: Judged) -> LeftOut | None:
 def rows_of(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> LeftOut:
     """Residuals of a fit as they stand and less its causes, nothing left out; sigmas at given sizes of the noise."""
     first = found.model.parameters - sum(len(part.pattern.prior) for part in found.hypothesis.parts)
-    sums = BlockSums.of(found.model, noise, found.fit.soft, first)
+    sums = _beside_modes(BlockSums.of(found.model, noise, found.fit.soft, first), found)
     labels = _labels(data, where, 0 if found.lists is None else found.lists.shift.shape[1])
     read = (labels[0] >= 0) & np.isfinite(sums.sigma)
     kinds = np.array(KINDS, dtype=object)[labels[0][read]]
-    after = sums.residual - sums.columns[:, first:] @ found.fit.z_mean[first:]
+    after = sums.residual - sums.columns[:, first:] @ found.fit.z_mean[first:]  # columns of added modes are zero
     before, after, sigma = (values[read] for values in (sums.residual, after, sums.sigma))
     return LeftOut(kinds, labels[1][read], labels[2][read], before, after, sigma, np.zeros(0))
+
+
+def _beside_modes(sums: BlockSums, found: Judged) -> BlockSums:
+    """The same with the numbers of added modes held as they were fitted."""
+    held = [np.full(len(part.pattern.prior), part.cause.tuned) for part in found.hypothesis.parts]
+    if not any(own.any() for own in held):
+        return sums
+    fixed = np.zeros(found.model.parameters, dtype=bool)
+    fixed[-sum(map(len, held)) :] = np.concatenate(held)
+    shift, free = np.where(fixed, found.fit.z_mean, 0.0), ~fixed
+    return replace(
+        sums, residual=sums.residual - sums.columns @ shift, columns=sums.columns * free,
+        score=(sums.score - sums.gram @ shift) * free, gram=sums.gram * (free[:, None] & free),
+    )  # fmt: skip
 
 
 def _predictions(sums: BlockSums, causes: np.ndarray) -> np.ndarray:

@@ -47,7 +47,7 @@ class WholeSize:
 
 
 def whole_sizes(data: Recorded, seen: Seen, found: Judged) -> list[WholeSize]:
-    """Of each cause of a hypothesis; laws outside the model have no parameters and are left out."""
+    """Of each cause of a hypothesis; laws outside the model have no parameters, and those and lines are left out."""
     arrays, mean, covariance = found.point.robot(data), found.fit.z_mean, found.fit.z_covariance
     tolerance, start = found.point.terms[0], len(mean) - sum(len(p.pattern.prior) for p in found.hypothesis.parts)
     rows = []
@@ -58,7 +58,7 @@ def whole_sizes(data: Recorded, seen: Seen, found: Judged) -> list[WholeSize]:
         start += d
         if part.law is None:
             own[:, : len(tolerance.sigma)] += _shares(seen, arrays, tolerance, part)
-        if part.cause.name != UNKNOWN:
+        if part.cause.name != UNKNOWN and not part.cause.outside:
             rows.append(WholeSize(part, own @ mean, own @ covariance @ own.T))
     return rows
 

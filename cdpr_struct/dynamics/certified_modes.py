@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import CableDynamics, CableModel, cable_dynamics
+from cdpr_struct.dynamics.internal_mass import internal_squared
 from cdpr_struct.dynamics.natural_frequencies import NaturalFrequencies, bisect_count, count_below
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import RitzModes, ritz_modes
@@ -38,7 +39,7 @@ def certified_modes(
     Raises
     ------
     UnstableEquilibriumError : a small motion of the platform would grow.
-    CdprError : the model has fewer modes (massless cables: six).
+    CdprError : the model has fewer modes (massless cables: six, seven with an internal mass).
     """
     cables, shapes = _enough_modes(point, model, count, assembly)
     return CertifiedModes(certified(point, cables, shapes, assembly), shapes, cables)
@@ -84,9 +85,13 @@ def _expected_highest(point: OperatingPoint, model: CableModel, count: int) -> f
 
 
 def _corrected(point: OperatingPoint, cables: CableDynamics, shapes: RitzModes, assembly: Assembly) -> np.ndarray:
-    """One step of Newton's method on shape^T D(omega^2) shape, whose slope is minus the unit modal mass."""
+    """One step of Newton's method on shape^T D(omega^2) shape, whose slope is minus the unit modal mass.
+
+    The motion of an internal mass is an unknown of its own in it.
+    """
     squared = shapes.omega**2
     stiffness = platform_dynamic_stiffness(point, cables, squared[:, None], assembly)
     residual = np.einsum("ki,kij,kj->k", shapes.platform, stiffness, shapes.platform)
+    residual += internal_squared(point.arrays) * shapes.internal**2
     step = residual - squared * shapes.platform_energy
     return np.sqrt(np.where(np.abs(step) < 1e-5 * squared, squared + step, squared))

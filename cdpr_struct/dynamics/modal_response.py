@@ -60,7 +60,7 @@ def modal_response(
     certified_hertz : (c,) the robot's first eigenfrequencies [Hz]; they replace those of the modal expansion, which
                       are upper bounds
     """
-    every = 6 + 3 * point.arrays.cable_count + cables.expansion(highest).omega_squared.size  # with masts
+    every = 7 + 3 * point.arrays.cable_count + cables.expansion(highest).omega_squared.size  # masts, internal mass
     basis = modal_basis(point, cables, damping, every, highest, assembly)
     omega = basis.omega.copy()
     known = min(len(certified_hertz), len(omega))

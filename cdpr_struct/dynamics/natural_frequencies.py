@@ -1,7 +1,8 @@
 """Every natural frequency of the robot, with a count that proves that none is missing.
 
 Wittrick and Williams: the number of natural frequencies below omega is the number of those of the clamped cables
-plus the number of negative eigenvalues of the platform's dynamic stiffness, and of the masts' if they give way.
+plus the number of negative eigenvalues of the platform's dynamic stiffness, and of the masts' if they give way, plus
+the mount of an internal mass if its frequency is below.
 Bisection on this count isolates each frequency, whatever its multiplicity; a scan for determinant minima cannot.
 """
 
@@ -10,9 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import CableDynamics
+from cdpr_struct.dynamics.internal_mass import internal_count, with_internal_mass
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     Assembly,
+    inertia_of_platform,
     platform_dynamic_stiffness,
     platform_mass_matrix,
     platform_static_stiffness,
@@ -53,13 +56,13 @@ def count_below(
     """Number of natural frequencies of the robot below each omega (k,) [rad/s] at one pose."""
     omega = np.asarray(omega, dtype=float)[..., None]
     stiffness = platform_dynamic_stiffness(point, cables, omega**2, assembly)
-    dynamic = stiffness - (omega**2)[..., None] * platform_mass_matrix(point.arrays, point.rotation)
+    dynamic = stiffness - inertia_of_platform(point, omega[..., 0] ** 2)
     negative = (np.linalg.eigvalsh(dynamic) < 0.0).sum(axis=-1)
     robot = point.arrays
     if robot.has_masts:
         ends, moving = cables.stiffness(omega**2), cables.mast_stiffness(omega**2)
         negative = negative + negative_junctions(ends, robot.masts, robot.frame_compliance, moving)
-    return negative + cables.clamped_count(omega).sum(axis=-1)
+    return negative + cables.clamped_count(omega).sum(axis=-1) + internal_count(robot, omega[..., 0] ** 2)
 
 
 def natural_frequencies(
@@ -72,7 +75,7 @@ def natural_frequencies(
     Raises
     ------
     UnstableEquilibriumError : the lowest "frequencies" are not real.
-    CdprError : the model has fewer than `count` frequencies (massless cables: six).
+    CdprError : the model has fewer than `count` frequencies (massless cables: six, seven with an internal mass).
     """
     if int(count_below(point, cables, np.array([1e-6]), assembly)[0]) > 0:
         raise UnstableEquilibriumError("the equilibrium is unstable: the platform's stiffness has negative eigenvalues")
@@ -107,8 +110,10 @@ def highest_omega(point: OperatingPoint, cables: CableDynamics, count: int, asse
 
 
 def static_frequencies(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
-    """Six frequencies [Hz] of the platform on massless cables (K_static); nan where the stiffness is negative."""
-    mass = platform_mass_matrix(point.arrays, point.rotation)
+    """Six frequencies [Hz] of the platform on massless cables (K_static), seven with an internal mass; nan where the
+    stiffness is negative."""
+    rigid = platform_static_stiffness(point, assembly), platform_mass_matrix(point.arrays, point.rotation)
+    stiffness, mass = with_internal_mass(point.arrays, point.rotation, *rigid)
     lower = np.linalg.inv(np.linalg.cholesky(mass))
-    squared = np.linalg.eigvalsh(lower @ platform_static_stiffness(point, assembly) @ lower.T)
+    squared = np.linalg.eigvalsh(lower @ stiffness @ lower.T)
     return np.sqrt(np.where(squared > 0.0, squared, np.nan)) / (2.0 * np.pi)

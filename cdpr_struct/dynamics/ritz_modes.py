@@ -1,9 +1,11 @@
-"""The robot's modes as an ordinary eigenproblem: platform motion and the clamped cables' modal coordinates."""
+"""The robot's modes as an ordinary eigenproblem: platform motion, the clamped cables' modal coordinates, and that of
+an internal mass."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.dynamics.internal_mass import internal_coupling, internal_squared
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, assemble, attachment, platform_mass_matrix
@@ -20,7 +22,9 @@ class RitzModes:
     end           : (..., k, m, 3) motion of the cables' platform ends against their masts, local axes of `expansion`
     mast          : (..., k, m, 3) motion of the cables' masts, local axes; zero where masts stand still
     modal         : (..., k, m, p) coordinates of the clamped cables' modes
-    platform_mass : (..., 6, 6) world axes;  to_cable : (..., m, 3, 6) platform motion to `end`
+    internal      : (..., k) motion of an internal mass against the platform, times the root of the mass; zero without
+    platform_mass : (..., 6, 6) world axes;  internal_coupling : (..., 6) see `internal_mass`
+    to_cable      : (..., m, 3, 6) platform motion to `end`
     """
 
     omega: np.ndarray
@@ -28,14 +32,19 @@ class RitzModes:
     end: np.ndarray
     mast: np.ndarray
     modal: np.ndarray
+    internal: np.ndarray
     platform_mass: np.ndarray
+    internal_coupling: np.ndarray
     to_cable: np.ndarray
     expansion: ModalExpansion
 
     @property
     def platform_energy(self) -> np.ndarray:
-        """(..., k) share of the kinetic energy [-]."""
-        return np.einsum("...ki,...ij,...kj->...k", self.platform, self.platform_mass, self.platform, optimize=True)
+        """(..., k) share of the kinetic energy in the platform, its internal mass included [-]."""
+        moved, mass = self.platform, self.platform_mass
+        rigid = np.einsum("...ki,...ij,...kj->...k", moved, mass, moved, optimize=True)
+        carried = np.einsum("...ki,...i->...k", moved, self.internal_coupling)
+        return np.asarray(rigid + (2.0 * carried + self.internal) * self.internal)
 
     @property
     def cable_energy(self) -> np.ndarray:
@@ -73,14 +82,46 @@ def ritz_modes(
     mass[..., :, :n] = mass[..., :, :n] @ turn
     mass[..., n:, :] *= stretch[..., :, None]
     mass[..., :, n:] *= stretch[..., None, :]
+    coupling, slow = _internal(point, mass.shape[:-2])
+    if slow is not None:
+        mass = _with_internal(mass, turn, coupling, slow)
     periods, vectors = np.linalg.eigh(mass)
     omega = 1.0 / np.sqrt(periods[..., : -count - 1 : -1])
     vectors = vectors[..., : -count - 1 : -1] * omega[..., None, :]
     moved = np.swapaxes(turn @ vectors[..., :n, :], -1, -2)
-    modal = np.swapaxes(stretch[..., None] * vectors[..., n:, :], -1, -2)
+    inner = n + stretch.shape[-1]
+    modal = np.swapaxes(stretch[..., None] * vectors[..., n:inner, :], -1, -2)
+    internal = np.zeros(omega.shape) if slow is None else slow[..., None] * vectors[..., inner, :]
     modal = modal.reshape((*omega.shape, *expansion.omega_squared.shape[-2:]))
     end, mast = (np.einsum("...mai,...ki->...kma", motion, moved) for motion in (to_cable, to_mast))
-    return RitzModes(omega, moved[..., :6], end, mast, modal, platform_mass, to_cable[..., :6], expansion)
+    return RitzModes(
+        omega, moved[..., :6], end, mast, modal, internal, platform_mass, coupling, to_cable[..., :6], expansion
+    )
+
+
+def _internal(point: OperatingPoint, lead: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray | None]:
+    """Coupling (..., 6) of the internal mass, and 1 / omega_i (...) of its mount, None if no robot has one.
+
+    Where some robots of a batch have none, 1 / omega_i is zero: a mode of infinite frequency.
+    """
+    robot = point.arrays
+    coupling = np.broadcast_to(internal_coupling(robot, point.rotation), (*lead, 6))
+    if not robot.has_internal_mass:
+        return coupling, None
+    there = (robot.internal_mass > 0.0) & (robot.internal_frequency > 0.0)
+    slow = np.where(there, 1.0, 0.0) / np.sqrt(np.where(there, internal_squared(robot), 1.0))
+    return coupling, np.broadcast_to(slow, lead)
+
+
+def _with_internal(mass: np.ndarray, turn: np.ndarray, coupling: np.ndarray, slow: np.ndarray) -> np.ndarray:
+    """The mass matrix with a row and a column for the internal mass, in the coordinate of unit stiffness."""
+    n, count = turn.shape[-1], mass.shape[-1]
+    wide = np.zeros((*mass.shape[:-2], count + 1, count + 1))
+    wide[..., :count, :count] = mass
+    row = slow[..., None] * np.einsum("...ij,...i->...j", turn[..., :6, :], coupling)
+    wide[..., count, :n] = wide[..., :n, count] = row
+    wide[..., count, count] = slow**2
+    return wide
 
 
 def _with_masts(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:

@@ -5,6 +5,7 @@ from typing import Literal
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import CableDynamics
+from cdpr_struct.dynamics.internal_mass import internal_reaction
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.generated import platform as generated
 from cdpr_struct.robot.robot import Robot
@@ -27,6 +28,18 @@ def platform_mass_matrix(robot: Robot | RobotArrays, rotation: np.ndarray) -> np
         *(inertia[..., i, i] for i in range(3)),
         *(inertia[..., i, j] for i, j in ((0, 1), (0, 2), (1, 2))),
     )
+
+
+def inertia_of_platform(point: OperatingPoint, omega_squared: np.ndarray) -> np.ndarray:
+    """(..., 6, 6) what the platform's inertia takes from its stiffness, omega^2 M, with an internal mass on its mount.
+
+    omega_squared : (...) [rad^2/s^2]
+    """
+    squared = np.asarray(omega_squared)
+    rigid = squared[..., None, None] * platform_mass_matrix(point.arrays, point.rotation)
+    if not point.arrays.has_internal_mass:
+        return np.asarray(rigid)
+    return np.asarray(rigid + internal_reaction(point.arrays, point.rotation, squared))
 
 
 def assemble(

@@ -13,6 +13,7 @@ from numpy.polynomial import chebyshev
 
 from cdpr_struct.dynamics.cable_dynamics import CableDynamics, ClosedFormCables
 from cdpr_struct.dynamics.damping import DampingLaw
+from cdpr_struct.dynamics.internal_mass import internal_reaction
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     Assembly,
@@ -49,6 +50,14 @@ def dynamic_stiffness(
     -------
     (f, 6, 6) complex, symmetric, world axes, moments about the platform origin [N/m, N, N m].
     """
+    matrices = _of_rigid_platform(point, cables, law, omega, assembly)
+    return matrices - internal_reaction(point.arrays, point.rotation, omega**2)
+
+
+def _of_rigid_platform(
+    point: OperatingPoint, cables: CableDynamics, law: DampingLaw, omega: np.ndarray, assembly: Assembly
+) -> np.ndarray:
+    """The same with an internal mass held fast, so that cables have all the poles."""
     matrices = np.empty((len(omega), 6, 6), dtype=complex)
     for start in range(0, len(omega), _BLOCK):
         part = omega[start : start + _BLOCK]
@@ -82,8 +91,8 @@ class SweptStiffness:
                 left[part] = False
         left |= omega <= self.low
         if left.any():
-            matrices[left] = dynamic_stiffness(self.point, self.cables, self.law, omega[left], self.assembly)
-        return matrices
+            matrices[left] = _of_rigid_platform(self.point, self.cables, self.law, omega[left], self.assembly)
+        return matrices - internal_reaction(self.point.arrays, self.point.rotation, omega**2)
 
 
 def swept_stiffness(
@@ -233,7 +242,7 @@ def _at_nodes(
 ) -> np.ndarray:
     """(f, 21) full matrices. The closed form is evaluated as such: its modal expansion is only a truncated series."""
     if isinstance(cables, ClosedFormCables):
-        return dynamic_stiffness(point, cables, law, omega, assembly)[:, *_UPPER]
+        return _of_rigid_platform(point, cables, law, omega, assembly)[:, *_UPPER]
     rigid = assemble(point, np.zeros((len(poles.static), 3, 3)), assembly)[_UPPER]
     mass = platform_mass_matrix(point.arrays, point.rotation)[_UPPER]
     inertia = law.inertia(omega[:, None], poles.first_frequency)

@@ -9,6 +9,7 @@ from dataclasses import fields, replace
 
 import numpy as np
 
+from cdpr_struct.association.detection import SHARE_INVISIBLE
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.hypotheses.handling import Correction
 from cdpr_struct.inference.scale_mixture import TAU_DEGREES
@@ -17,16 +18,19 @@ from cdpr_struct.observation.readings import Readings
 from cdpr_struct.observation.rest import static_residuals
 from cdpr_struct.residuals.linearised import Local, Point
 from cdpr_struct.residuals.recorded import Recorded
+from cdpr_struct.residuals.vibrations import Vibrating
 
 _MOST = 4  # corrections that are judged
 
 
 def promising(data: Recorded, found: Sequence[Correction]) -> list[Correction]:
     """The likeliest corrections, of those that are likelier than the data as they are."""
-    covariance = _covariance(data, Local.about(data, Point.entered(data)))
+    local = Local.about(data, Point.entered(data))
+    covariance = _covariance(data, local)
     now = _costs(data, covariance, [data.campaign])[0]
     prices = np.array([-one.log_prior - one.log_stretch for one in found])
     costs = _costs(data, covariance, [one.campaign for one in found]) + prices
+    costs += np.array([_of_frequencies(local, one.campaign) for one in found])
     order = np.argsort(costs, kind="stable")
     return [found[i] for i in order[:_MOST] if costs[i] < now]
 
@@ -51,6 +55,28 @@ def _costs(data: Recorded, covariance: np.ndarray, campaigns: Sequence[Campaign]
     root = np.linalg.inv(np.linalg.cholesky(covariance))
     square = ((root @ r[..., None]) ** 2).sum(axis=(-2, -1))
     return np.asarray(0.5 * (TAU_DEGREES + r.shape[-1]) * np.log1p(square / TAU_DEGREES).sum(axis=-1))
+
+
+def _of_frequencies(local: Local, campaign: Campaign) -> float:
+    """Change of minus ln of the density of frequencies, each Student's about its mode; a peak's is the nearest."""
+    own = local.data.campaign
+    if local.vibrating is None or (
+        campaign.cable_frequencies is own.cable_frequencies and campaign.robot_frequencies is own.robot_frequencies
+    ):
+        return 0.0
+    return _apart(local.vibrating, campaign) - _apart(local.vibrating, own)
+
+
+def _apart(vibrating: Vibrating, campaign: Campaign) -> float:
+    rows, peaks, robot = campaign.cable_frequencies, campaign.robot_frequencies, vibrating.robot
+    far = [np.log(rows.hertz) - vibrating.cables.log_hertz]
+    if robot is not None:
+        state = np.searchsorted(vibrating.measured.states, peaks.state)
+        modes = np.where(robot.mask & (robot.share > SHARE_INVISIBLE), robot.log_hertz, np.inf)
+        far.append(np.abs(np.log(peaks.hertz)[:, None] - modes[state]).min(axis=1, initial=1.0))
+    sigma = np.concatenate([rows.sigma / rows.hertz, peaks.sigma / peaks.hertz])[: sum(map(len, far))]
+    square = (np.concatenate(far) / sigma) ** 2
+    return float(0.5 * (TAU_DEGREES + 1.0) * np.log1p(square / TAU_DEGREES).sum())
 
 
 def _readings(data: Recorded, campaign: Campaign) -> Readings:

@@ -11,6 +11,7 @@ from cdpr_struct.residuals.recorded import Recorded
 
 SCALES = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
 """Of a cause's prior sigma, equally likely: how large an error is when it occurs is known to an order of magnitude."""
+_TUNED = 0.005  # of a cause that adds a mode, whose frequency moves it past others
 PRICE = 3.0  # nats that a cause costs before it is found: one campaign in twenty has a given one
 
 
@@ -53,8 +54,8 @@ class Hypothesis:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the causes."""
-        return tuple(part.cause.name for part in self.parts)
+        """Of what is wrong with the simulation; a line in the peaks, like a drift, is wrong with the data alone."""
+        return tuple(part.cause.name for part in self.parts if not part.cause.outside)
 
     @property
     def log_prior(self) -> float:
@@ -77,6 +78,12 @@ class Hypothesis:
         own = [part.pattern.positive for part in self.parts]
         count = sum(len(term.sigma) for term in point.terms) - sum(len(mask) for mask in own)
         return np.concatenate([np.zeros(count, dtype=bool), *own])
+
+    def straight(self, point: Point) -> np.ndarray:
+        """(t,) sigmas by which each number of a point with these terms may move before the model bends."""
+        own = [np.full(len(part.pattern.prior), _TUNED if part.cause.tuned else 1.0) for part in self.parts]
+        count = sum(len(term.sigma) for term in point.terms) - sum(len(values) for values in own)
+        return np.concatenate([np.ones(count), *own])
 
 
 def drift_term(data: Recorded, amplitude: float) -> Term:

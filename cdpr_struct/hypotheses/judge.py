@@ -20,6 +20,7 @@ PASSES = 5  # linearisations at most; near the data the steps shrink by ten and 
 _STEPS = (1.0, 0.4, 0.1)  # of the way to the likeliest point, as long as that leads nowhere
 WORTH = 0.1  # nats: a smaller difference is none; by so much must another start be better to be followed
 _NEAR = 3.0  # sigmas: so far the model is straight, and a step that is no shorter only assigns peaks anew
+_STILL = 0.01  # sigmas: so near its point the evidence of a hypothesis has converged
 _SETTLED = 0.5  # sigmas: a point that moves less is where it was; what bends on so short a way is no tenth of a nat
 
 
@@ -28,7 +29,7 @@ class Judged:
     """A hypothesis with its evidence: fitted numbers, and the linear model about the point they were found from.
 
     lists : peaks of the robot as they were assigned, None without any
-    moved : by how many sigmas the likeliest numbers lie from that point, at most
+    moved : by how many sigmas the likeliest numbers lie from that point, at most; of what bends sooner, see `straight`
     """
 
     hypothesis: Hypothesis
@@ -153,6 +154,26 @@ def _nearer(data: Recorded, where: Layout, found: Judged) -> Judged | None:
     return None
 
 
+def converged(data: Recorded, where: Layout, found: Judged) -> Judged:
+    """Linearised about its likeliest point until the evidence stays: modes that nearly coincide bend to the last."""
+    for _ in range(PASSES):
+        if found.moved < _STILL:
+            break
+        before, there = found, found.likeliest(data, where)
+        if not _possible(data, there):
+            break
+        try:
+            other = _fitted(data, where, found.hypothesis, there, found.fit.noise, found)
+        except (CdprError, np.linalg.LinAlgError):
+            break
+        if other.moved > max(found.moved, _NEAR):
+            break
+        found = other
+        if abs(found.log_evidence - before.log_evidence) < WORTH:
+            break
+    return found
+
+
 def _possible(data: Recorded, point: Point) -> bool:
     """Whether all cables are tight and have a length, and the platform has a mass."""
     readings, arrays = point.readings(data), point.robot(data)
@@ -191,7 +212,8 @@ def _of_model(
     found = fit(model, noise, lists, assigned, hypothesis.positive(point))
     there = noise_of_states(data, where, found.noise_mean)
     by_noise = np.abs(there - point.noise)[data.read].max(initial=0.0)
-    moved = max(float(np.abs(found.z_mean - np.concatenate(point.z)).max()), float(by_noise))
+    by_numbers = np.abs(found.z_mean - np.concatenate(point.z)) / hypothesis.straight(point)
+    moved = max(float(by_numbers.max()), float(by_noise))
     return Judged(hypothesis, point, model, lists, found, moved)
 
 

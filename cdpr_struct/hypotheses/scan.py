@@ -10,9 +10,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.hypotheses.alternatives import Offered
+from cdpr_struct.hypotheses.causes.cause import Pattern
 from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES, Part
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.screening import Screen
+from cdpr_struct.residuals.assembled import Lists
 from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.residuals.vibrations import log_likelihoods
 from cdpr_struct.robot.robot_arrays import RobotArrays
@@ -23,12 +25,17 @@ _STATES = 6  # those with most peaks: enough to see what stands out
 _SPREAD = 0.01  # of ln f: what half a step between amplitudes does to a mode
 _OF_A_CAUSE = 2  # amplitudes: the grid may put the best one on either side
 _LEFT = 2.0  # peaks that belong to no mode, expected: with fewer there is nothing to put right
+_STEADY = 1.0  # peaks that belong to no mode, expected near one frequency: from there a mode is looked for
+_NEAR, _PLACES = 0.03, 2  # of ln f: so near, and at so many frequencies
+_FINE, _BEYOND = 0.012, 0.025  # of ln f: steps of a mount's frequency, and how far beyond its bounds they go
+_MOUNT, _BLOCK = 2, 32  # numbers of a part that moves along one axis; robots solved at once
+_HEAVY = 0.5  # of the platform's mass: more is not tried
 _ALONE = "cable"  # first word of patterns that are not tried: statics see a single cable
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Beginning:
-    """A cause at an amplitude theta (1,), and how much ln of evidence times prior it seems to bring."""
+    """A cause at amplitudes z (d,) of its prior, and how much ln of evidence times prior it seems to bring."""
 
     part: Part
     z: np.ndarray
@@ -36,17 +43,22 @@ class Beginning:
 
 
 def beginnings(data: Recorded, menu: Sequence[Offered], about: Judged, most: int) -> list[Beginning]:
-    """The best large changes beside a judged hypothesis; none where its modes explain the peaks."""
+    """The best large changes beside a judged one, and parts on mounts; none where its modes explain the peaks."""
     if about.lists is None or about.lists.left < _LEFT or data.campaign.model == "static":
         return []
     scan = _Scan(data, about)
     best: list[Beginning] = []
+    mounted: list[Beginning] = []
+    places = _steady_places(about.lists)
     for cause in menu:
+        if cause.cause.tuned:
+            mounted += scan.tuned(cause, places)
+            continue
         singles = [i for i, p in enumerate(cause.patterns) if p.basis.shape[1] == 1 and not p.label.startswith(_ALONE)]
         if not cause.laws and "RF" in cause.cause.seen_in and singles:
             found = sorted((b for i in singles for b in scan.of(cause, i)), key=lambda one: -one.gain)
             best += [one for one in found[:_OF_A_CAUSE] if one.gain > -_COARSE]
-    return sorted(best, key=lambda one: -one.gain)[:most]
+    return [*sorted(best, key=lambda one: -one.gain)[:most], *mounted]
 
 
 class _Scan:
@@ -69,11 +81,36 @@ class _Scan:
         gains += sizes * said.score[0] - 0.5 * sizes**2 * said.gram[0, 0]
         found = []
         for size, gain in zip(sizes, gains, strict=True):
-            scale = min(SCALES, key=lambda s: abs(np.log(abs(size) / s)))
-            part = cause.part(i, scale)
-            whole = float(gain) - 0.5 * (size / scale) ** 2 + part.log_weight - PRICE
-            found.append(Beginning(part, np.array([size / scale]), whole))
+            found.append(_beginning(cause, i, np.array([size]), float(gain)))
         return found
+
+    def tuned(self, cause: Offered, places: Sequence[float]) -> list[Beginning]:
+        """The best of a part on a mount whose mode is at one of these frequencies [Hz], and the same in wider patterns.
+
+        The mount's own frequency is between that and the one it has where the platform is free: lower by the root of
+        one less the part's share of the mass.
+        """
+        found = []
+        for i, pattern in enumerate(cause.patterns):
+            rows = self._sizes(pattern, places)
+            for some in np.array_split(rows, 1 + len(rows) // _BLOCK) if len(rows) else []:
+                theta = ((some * pattern.prior) @ pattern.basis.T)[:, None, :]
+                gains = self._of_peaks(cause.cause.apply(self.arrays, theta)) - self.level
+                found += [_beginning(cause, i, row, float(gain)) for row, gain in zip(some, gains, strict=True)]
+        best = sorted(found, key=lambda one: -one.gain)[:_OF_A_CAUSE]
+        return [*best, *(wide for one in best[:1] for wide in _widened(cause, one))]
+
+    def _sizes(self, pattern: Pattern, places: Sequence[float]) -> np.ndarray:
+        """(n, d) frequencies, and masses along one axis if the pattern has any, to be tried, in prior sigmas."""
+        d, total = len(pattern.prior), float(np.max(self.arrays.mass))
+        rows = [np.zeros((0, d))]
+        for size in AMPLITUDES if d == _MOUNT else [0.0] if d == 1 else []:
+            share = (size * pattern.prior[0]) ** 2 / total
+            if share < _HEAVY:
+                steps = np.exp(np.arange(0.5 * np.log(1.0 - share) - _BEYOND, _BEYOND, _FINE))
+                hertz = np.outer(places, steps).ravel() / pattern.prior[-1]
+                rows.append(np.stack([np.full(len(hertz), size), hertz], axis=1)[:, -d:])
+        return np.concatenate(rows)
 
     def _of_peaks(self, arrays: RobotArrays) -> np.ndarray:
         data, lists = self.data, self.about.lists
@@ -81,3 +118,41 @@ class _Scan:
             return np.zeros(1)
         noise, measured = lists.association.noise, data.vibrations.richest(_STATES)
         return log_likelihoods(data.campaign, data.known, measured, arrays, self.readings, _SPREAD**2, noise)
+
+
+def _beginning(cause: Offered, i: int, sizes: np.ndarray, gain: float) -> Beginning:
+    """A pattern at sizes (d,) in prior sigmas of the scale one, at the scale nearest to the first."""
+    scale = min(SCALES, key=lambda s: abs(np.log(abs(sizes[0]) / s)))
+    part, z = cause.part(i, scale), sizes / scale
+    return Beginning(part, z, gain - 0.5 * float(z @ z) + part.log_weight - PRICE)
+
+
+def _widened(cause: Offered, one: Beginning) -> list[Beginning]:
+    """The same in patterns of more numbers, of which others are zero."""
+    theta0 = one.part.pattern.basis @ (one.part.term.sigma * one.z)
+    found: list[Beginning] = []
+    for i, pattern in enumerate(cause.patterns):
+        if len(pattern.prior) > len(one.z):
+            part = cause.part(i, one.part.scale)
+            z = np.linalg.pinv(pattern.basis) @ theta0 / part.term.sigma
+            found.append(Beginning(part, z, one.gain + part.log_weight - one.part.log_weight))
+    return found
+
+
+def _steady_places(lists: Lists) -> list[float]:
+    """Frequencies [Hz] near which most peaks belong to no mode, whatever the state."""
+    peaks, last = lists.association.peaks, lists.association.assignment
+    if last is None:
+        return []
+    log = peaks.ln_frequency[peaks.present]
+    none = np.clip(1.0 - last.matching.pair.sum(axis=-1), 0.0, 1.0)[peaks.present]
+    found: list[float] = []
+    while len(found) < _PLACES and none.size:
+        near = (np.abs(log[:, None] - log) < _NEAR) * none
+        k = int(near.sum(axis=1).argmax())
+        if near[k].sum() < _STEADY:
+            break
+        found.append(float(np.exp((near[k] @ log) / near[k].sum())))
+        kept = near[k] == 0.0
+        log, none = log[kept], none[kept]
+    return found

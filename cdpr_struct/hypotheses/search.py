@@ -16,7 +16,7 @@ from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.drift import AMPLITUDES
 from cdpr_struct.hypotheses.causes.library import testable
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
-from cdpr_struct.hypotheses.judge import Judged, again, begun, extended, judged
+from cdpr_struct.hypotheses.judge import Judged, again, begun, converged, extended, judged
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.hypotheses.scan import beginnings
 from cdpr_struct.hypotheses.seen import seen_in
@@ -32,7 +32,8 @@ _AGAIN = 6  # hypotheses that are fitted from another one's noise
 
 @dataclass(frozen=True, slots=True)
 class Budget:
-    """Causes fitted at least, nats from the best within which all are, beginnings of pairs, pairs of each fitted.
+    """Causes fitted at least, nats from the best within which all are, beginnings of pairs, pairs of each fitted; nats
+    from the best within which evidence converges, and of how many hypotheses at most.
 
     near : in the closed form, which errs by some nats where effects are large
     """
@@ -43,9 +44,11 @@ class Budget:
     hopeless: float = 30.0
     beginnings: int = 3
     pairs: int = 3
+    sure: float = 8.0
+    converged: int = 8
 
 
-BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 60.0, 5, 6)}
+BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 60.0, 5, 6, 14.0, 24)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -102,6 +105,7 @@ class Search:
         for first in [one for one in singles[: self.budget.beginnings] if one.score > least]:
             self._pairs(first)
             self._transfer(2)
+        self._converge()
         return self.answers()
 
     def answers(self) -> list[Answer]:
@@ -139,7 +143,7 @@ class Search:
                 continue  # about its point the robot has other modes than about that of the menu
             for noise in [base.fit.noise, *([rich] if rich is not None else [])]:
                 bound = base.log_evidence if noise is base.fit.noise else bound_at(base.model, noise, base.fit.soft)
-                for row in gains(menu, base, noise):
+                for row in (one for one in gains(menu, base, noise) if not one.cause.tuned):  # those are begun
                     score = bound + base.hypothesis.log_prior + row.total
                     if row.cause.name not in best or score > best[row.cause.name].score:
                         best[row.cause.name] = _Screened(score, row, base, noise)
@@ -176,9 +180,17 @@ class Search:
                 if one.hypothesis.key != other.hypothesis.key:
                     self.keep(again(self.data, self.where, self.found[one.hypothesis.key], other.fit.noise))
 
+    def _converge(self) -> None:
+        """The likeliest hypotheses, and nothing wrong, linearised again until their evidence stays."""
+        ranked = self._ranked()
+        near = [one for one in ranked if one.score > ranked[0].score - self.budget.sure]
+        for one in {one.hypothesis.key: one for one in [*near[: self.budget.converged], self._ranked(0)[0]]}.values():
+            self.found[one.hypothesis.key] = converged(self.data, self.where, one)
+
     def _pairs(self, first: Judged) -> None:
         """A second cause beside one, where that may come near the best."""
-        left = [cause for cause in self.causes if cause.name not in first.hypothesis.names]
+        present = {part.cause.name for part in first.hypothesis.parts}
+        left = [cause for cause in self.causes if cause.name not in present]
         menu = offered(self.data, self.where, self.seen, left, first)
         rows = self._screened(menu, [first], None)[: self.budget.pairs]
         self._fit_best(menu, rows, 0, self._ranked()[0].score - self.budget.pair_near)

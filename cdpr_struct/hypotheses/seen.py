@@ -26,6 +26,8 @@ def seen_in(data: Recorded) -> Seen:
         hours=float(np.ptp(data.known.hours)),
         cable_modes=len(set(campaign.cable_frequencies.mode.tolist())),
         states=states.names,
+        highest=float(campaign.robot_frequencies.hertz.max(initial=0.0)),
+        internal=data.arrays.has_internal_mass,
         groups={
             "cable": {str(i): f"cable {i}" for i in range(1, m + 1)},
             "mast": _masts(campaign.robot.frame_anchors),

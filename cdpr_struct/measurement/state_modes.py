@@ -56,7 +56,8 @@ def state_modes(
     omega = 2.0 * np.pi * highest * _MARGIN
     name: Literal["static", "exact"] = "static" if model == "static" else "exact"
     cables = cable_dynamics(point, name, omega)
-    count = 6 if name == "static" else int(count_below(point, cables, np.array([omega]), "consistent")[0])
+    most = 6 + point.arrays.has_internal_mass
+    count = most if name == "static" else int(count_below(point, cables, np.array([omega]), "consistent")[0])
     if count == 0:
         raise CdprError(f"the model has no mode below {highest * _MARGIN:.3g} Hz at this state")
     modes = ritz_modes(point, cables.expansion(omega), min(count, _MOST), "consistent")

@@ -2,7 +2,7 @@
 
 Per cable: tension vector at the frame end, weight, EA, unstrained length, density, stiffening by bending, EI, mass at
 mid-cable, compliance of the frame end, lever arm. Per mast its compliance. Of the platform: mass matrix and the
-stiffness of weight, lever arms and hose.
+stiffness of weight, lever arms and hose; of its internal mass the coupling (`internal_coupling`) and omega.
 """
 
 from dataclasses import dataclass
@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import frame_give
+from cdpr_struct.dynamics.internal_mass import internal_coupling, internal_omega
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, geometric_stiffness, platform_mass_matrix
 from cdpr_struct.dynamics.stiff_cable import slenderness
@@ -28,12 +29,14 @@ class Dependence:
 
     cables : (..., m, CABLE_COLUMNS), in the order of the constants above
     masts  : (..., n) compliances [m/N];  mass, stiffness : (..., 6, 6) of the platform without cables, world axes
+    internal : (..., 7) coupling (6) [kg^(1/2)] and omega [rad/s] of an internal mass
     """
 
     cables: np.ndarray
     masts: np.ndarray
     mass: np.ndarray
     stiffness: np.ndarray
+    internal: np.ndarray
 
     @classmethod
     def of(cls, point: OperatingPoint, assembly: Assembly) -> "Dependence":
@@ -43,12 +46,14 @@ class Dependence:
         stiffness = np.zeros((*np.broadcast_shapes(held.shape, turned.shape)[:-2], 6, 6))
         stiffness[..., :3, :3], stiffness[..., 3:, 3:] = held, turned
         mass = platform_mass_matrix(arrays, point.rotation)
-        return cls(cable_dependence(point), of_each_mast(arrays.masts, arrays.frame_compliance), mass, stiffness)
+        internal = _joined(internal_coupling(arrays, point.rotation), internal_omega(arrays)[..., None])
+        masts = of_each_mast(arrays.masts, arrays.frame_compliance)
+        return cls(cable_dependence(point), masts, mass, stiffness, internal)
 
     @property
     def vector(self) -> np.ndarray:
         """(..., n) all of it."""
-        parts = [(self.cables, 2), (self.masts, 1), (self.mass, 2), (self.stiffness, 2)]
+        parts = [(self.cables, 2), (self.masts, 1), (self.mass, 2), (self.stiffness, 2), (self.internal, 1)]
         lead = np.broadcast_shapes(*(part.shape[: part.ndim - axes] for part, axes in parts))
         flat = [np.broadcast_to(p, lead + p.shape[p.ndim - axes :]).reshape((*lead, -1)) for p, axes in parts]
         return np.concatenate(flat, axis=-1)
@@ -66,7 +71,11 @@ def cable_dependence(point: OperatingPoint) -> np.ndarray:
         arrays.added_mass,
     )  # fmt: skip
     arms = arrays.platform_anchors @ np.swapaxes(point.rotation, -1, -2)
-    parts = [cables.force_at_frame, *(value[..., None] for value in singles), frame_compliance(point), arms]
+    return _joined(cables.force_at_frame, *(value[..., None] for value in singles), frame_compliance(point), arms)
+
+
+def _joined(*parts: np.ndarray) -> np.ndarray:
+    """Arrays (..., n) behind each other along their last axis; the others broadcast."""
     shape = np.broadcast_shapes(*(part.shape[:-1] for part in parts))
     return np.concatenate([np.broadcast_to(p, (*shape, p.shape[-1])) for p in parts], axis=-1)
 

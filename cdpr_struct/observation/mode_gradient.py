@@ -3,13 +3,14 @@
 Of a mode of unit modal mass, d(omega^2) = dQ, with Q = displacement^T (stiffness - omega^2 mass) displacement. Each
 cable's field is held as a function of the fraction of its length; a ramp follows its lever arm. A frame end that gives
 way by C under its reaction g changes Q by -g' dC g, also where nothing gave way before: a mast does so under the
-reactions of all its cables.
+reactions of all its cables. An internal mass adds -2 omega^2 (c . v) y + (omega_i^2 - omega^2) y^2, y its motion.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.dynamics.ritz_modes import RitzModes
 from cdpr_struct.observation.cable_fields import CableFields
 from cdpr_struct.observation.dependence import (
     ARM,
@@ -68,14 +69,17 @@ def cable_gradient(
     return CableGradient(result, reaction)
 
 
-def whole_gradient(own: CableGradient, masts: np.ndarray, platform: np.ndarray, squared: np.ndarray) -> np.ndarray:
-    """(..., n, k) gradient by `Dependence.vector`; platform (..., k, 6), masts (m, m) of `RobotArrays`."""
+def whole_gradient(own: CableGradient, masts: np.ndarray, modes: RitzModes, mount: np.ndarray) -> np.ndarray:
+    """(..., n, k) gradient by `Dependence.vector`; masts (m, m) of `RobotArrays`, mount (...) omega_i [rad/s]."""
+    platform, squared = modes.platform, modes.omega**2
     columns = np.moveaxis(own.columns, -2, -1)
     cables = columns.reshape((*columns.shape[:-3], -1, columns.shape[-1]))
     pulled = np.einsum("mq,...mka->...qka", carriers(masts), own.reaction)
     twice = (platform[..., :, None] * platform[..., None, :]).reshape((*platform.shape[:-1], 36))
     body = np.swapaxes(np.concatenate([-squared[..., None] * twice, twice], axis=-1), -1, -2)
-    return np.concatenate([cables, -(pulled**2).sum(axis=-1), body], axis=-2)
+    by_coupling = (-2.0 * squared * modes.internal)[..., None] * platform
+    inner = np.concatenate([by_coupling, (2.0 * mount[..., None] * modes.internal**2)[..., None]], axis=-1)
+    return np.concatenate([cables, -(pulled**2).sum(axis=-1), body, np.swapaxes(inner, -1, -2)], axis=-2)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import CableModel, StaticCables, expand_catenaries_at, polynomial_order
+from cdpr_struct.dynamics.internal_mass import internal_omega
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import RitzModes, ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
@@ -25,7 +26,7 @@ _STATIC_ORDER = 16  # of Gauss points along massless cables
 class VibratingModes:
     """Up to M modes of the robot in each of F states, ascending; where `mask` is False there is none, all else is 0.
 
-    log_hertz (F, M) : ln f [Hz];  share (F, M) : of the kinetic energy in the platform
+    log_hertz (F, M) : ln f [Hz];  share (F, M) : of the kinetic energy in the platform, its internal mass included
     platform (F, M, 6) : motion of the platform in modes of unit modal mass, world axes
     dependence (F, n) : what they depend on, `Dependence.vector`;  gradient (F, n, M) : of ln f by it
     """
@@ -55,14 +56,15 @@ def modes_at(
     limit = BEYOND * np.asarray(highest_omega, dtype=float)
     now = Dependence.of(point, assembly)
     if model == "static":
-        shapes = ritz_modes(point, StaticCables(point).expansion(0.0), 6, assembly)
+        inner = int(point.arrays.has_internal_mass)
+        shapes = ritz_modes(point, StaticCables(point).expansion(0.0), 6 + inner, assembly)
         own = _massless_gradient(point, shapes, now.cables)
         limit = np.full_like(limit, np.inf)
     elif model == "exact":
         shapes, own = _catenary_modes(point, float(limit.max()), assembly, now.cables)
     else:
         raise ValueError(f"model must be 'exact' or 'static', got {model!r}")
-    gradient = whole_gradient(own, point.arrays.masts, shapes.platform, shapes.omega**2)
+    gradient = whole_gradient(own, point.arrays.masts, shapes, internal_omega(point.arrays))
     kept = (shapes.omega < np.asarray(highest_omega)[:, None]) | (shapes.platform_energy > PLATFORM_SHARE)
     return _collected(shapes, now, gradient, kept & (shapes.omega < limit[:, None]), assembly)
 
@@ -97,7 +99,7 @@ def of_states_apart(modes: Sequence[VibratingModes | None]) -> VibratingModes:
 def frequencies_at(
     point: OperatingPoint, highest_omega: float, assembly: Assembly = "consistent"
 ) -> tuple[np.ndarray, np.ndarray]:
-    """ln f [Hz] and share of the kinetic energy in the platform, both (..., M), of the modes below highest_omega
+    """ln f [Hz] and share of the kinetic energy as in `VibratingModes`, both (..., M), of the modes below highest_omega
     [rad/s] in states (...) of exact catenaries; to six digits, without their gradients. Beyond them f is infinite.
 
     Raises
@@ -110,8 +112,7 @@ def frequencies_at(
         raise CrowdedModesError(f"a cable has some {order // 2} modes below {highest_omega / (2.0 * np.pi):.4g} Hz")
     expansion = expand_catenaries_at(point, order).reduced(highest_omega)
     below = int((expansion.omega_squared < highest_omega**2).sum(axis=(-2, -1)).max())
-    count = below + 6 + 3 * point.arrays.cable_count * point.arrays.has_masts
-    shapes = ritz_modes(point, expansion, count, assembly)
+    shapes = ritz_modes(point, expansion, below + _beyond_cables(point), assembly)
     kept = shapes.omega < highest_omega
     return np.where(kept, np.log(shapes.omega / (2.0 * np.pi)), np.inf), np.where(kept, shapes.platform_energy, 0.0)
 
@@ -134,8 +135,7 @@ def _catenary_modes(
     order = polynomial_order(point, highest, rough=smooth)
     expansion = expand_catenaries_at(point, order).reduced(highest)
     below = (expansion.omega_squared < highest**2).sum(axis=(-2, -1)).max()
-    count = int(below) + 6 + 3 * point.arrays.cable_count * point.arrays.has_masts  # no mode more, by Wittrick's count
-    shapes = ritz_modes(point, expansion, count, assembly)
+    shapes = ritz_modes(point, expansion, int(below) + _beyond_cables(point), assembly)
     shapes = _first(shapes, max(1, int((shapes.omega < highest).sum(axis=-1).max())))
     turn, squared = shapes.platform[..., 3:], shapes.omega**2
     fields = fields_of_expansion(point, order, expansion, shapes.end, shapes.modal, shapes.mast)
@@ -145,6 +145,12 @@ def _catenary_modes(
     static = fields_of_expansion(point, order, expansion, shapes.end, 0.0 * shapes.modal, shapes.mast).at_rest
     bent = cable_gradient(cables, static, 0.0 * squared, turn)
     return shapes, own.plus(bent, -1.0).plus(_massless_gradient(point, shapes, cables))  # K(0) knows no bending
+
+
+def _beyond_cables(point: OperatingPoint) -> int:
+    """By how many the robot's modes below a frequency exceed those of its clamped cables at most: Wittrick's count."""
+    arrays = point.arrays
+    return 6 + 3 * arrays.cable_count * int(arrays.has_masts) + int(arrays.has_internal_mass)
 
 
 def _massless_gradient(point: OperatingPoint, shapes: RitzModes, cables: np.ndarray) -> CableGradient:
@@ -161,7 +167,7 @@ def _massless_gradient(point: OperatingPoint, shapes: RitzModes, cables: np.ndar
 
 def _first(shapes: RitzModes, count: int) -> RitzModes:
     some = slice(0, count)
-    modes = {f: getattr(shapes, f) for f in ("platform", "end", "mast", "modal")}
+    modes = {f: getattr(shapes, f) for f in ("platform", "end", "mast", "modal", "internal")}
     lead = shapes.omega.ndim - 1
     cut = {name: value[(slice(None),) * lead + (some,)] for name, value in modes.items()}
     return replace(shapes, omega=shapes.omega[..., some], **cut)

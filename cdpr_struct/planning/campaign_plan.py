@@ -46,6 +46,7 @@ class Plan:
     not_testable: dict[str, str]
 
 
+_NO_PEAK = "shows as a peak of its own, whose place no plan knows"
 STEPS = 3
 """Calls of `progress` in `planned`."""
 
@@ -63,6 +64,8 @@ def planned(campaign: Campaign, progress: Callable[[str], None] = lambda name: N
     data = recorded(_one_sided(campaign))
     seen = seen_in(data)
     causes, hidden = testable(seen, campaign.checked)
+    hidden |= {cause.name: _NO_PEAK for cause in causes if cause.tuned}
+    causes = [cause for cause in causes if not cause.tuned]
     numbers = Numbers.of(data.cables, causes, seen)
     information = PlannedRows.of(data, numbers, {}).information()
     gram = of_causes(information, numbers.tolerances)

@@ -5,7 +5,7 @@ frequency. A, the modal constant, is the product of the mode's motion at sensor 
 Modal Testing, 2000, 2.7): in the model the product of its platform motions, of unit modal mass.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -42,6 +42,11 @@ class ModalSizes:
 
     def __len__(self) -> int:
         return len(self.log)
+
+    @property
+    def none(self) -> "ModalSizes":
+        """No constants."""
+        return ModalSizes(*(getattr(self, f.name)[:0] for f in fields(self)))
 
     @property
     def by_state(self) -> np.ndarray:

@@ -56,14 +56,19 @@ class Vibrations:
         """The states with most peaks, and these alone."""
         if self.peaks is None:
             return self
-        return self.only(self.peaks, np.sort(np.argsort(-self.peaks.count, kind="stable")[:most]))
+        return self.peaks_in(np.sort(np.argsort(-self.peaks.count, kind="stable")[:most]))
 
-    def only(self, peaks: PeakLists, some: np.ndarray) -> "Vibrations":
-        """The peaks of some states alone."""
+    def peaks_in(self, some: np.ndarray) -> "Vibrations":
+        """The peaks in some of the F states, by number, and nothing else."""
+        if self.peaks is None:
+            return self
         none = CableRows(*(np.zeros(0, dtype=int),) * 4)
-        lists = {f.name: getattr(peaks, f.name)[some] for f in fields(peaks)} | {"state": np.arange(len(some))}
+        some_of = {f.name: getattr(self.peaks, f.name)[some] for f in fields(self.peaks)}
+        lists = some_of | {"state": np.arange(len(some))}
         blank = np.zeros(0)
-        return Vibrations(self.states[some], none, blank, blank, PeakLists(**lists), self.highest[some], self.sizes)
+        return Vibrations(
+            self.states[some], none, blank, blank, PeakLists(**lists), self.highest[some], self.sizes.none
+        )
 
 
 def vibrations(campaign: Campaign) -> Vibrations | None:
@@ -108,7 +113,7 @@ class Vibrating:
             try:
                 robot = _modes(campaign, point, measured)
             except UnstableEquilibriumError:
-                robot = _of_stable(campaign, known, measured, measured.peaks, arrays, readings)
+                robot = _of_stable(campaign, known, measured, arrays, readings)
         return cls(states, measured, known, cable_modes_at(point, measured.rows), robot)
 
     @property
@@ -151,13 +156,12 @@ def _modes(campaign: Campaign, point: OperatingPoint, measured: Vibrations) -> V
 
 
 def _of_stable(
-    campaign: Campaign, known: Circumstances, measured: Vibrations, peaks: PeakLists, arrays: RobotArrays,
-    readings: Readings,
-) -> VibratingModes:  # fmt: skip
+    campaign: Campaign, known: Circumstances, measured: Vibrations, arrays: RobotArrays, readings: Readings
+) -> VibratingModes:
     """State by state: an unstable one, as where a pose was filed wrongly, has no modes that a peak could belong to."""
     found: list[VibratingModes | None] = []
     for k in range(len(measured.states)):
-        alone = measured.only(peaks, np.array([k]))
+        alone = measured.peaks_in(np.array([k]))
         point = _point(len(campaign.states.names), alone, known.at(np.array([k])), arrays, readings)
         try:
             found.append(_modes(campaign, point, alone))
@@ -208,11 +212,10 @@ def _whole(point: OperatingPoint) -> OperatingPoint:
     shape = np.broadcast_shapes(point.position.shape[:-1], point.cables.length.shape[:-1], point.arrays.batch_shape)
     cables = {f.name: getattr(point.cables, f.name) for f in fields(point.cables)}
     full = {n: np.broadcast_to(v, shape + v.shape[-(1 + (n in ("offset", "heading"))) :]) for n, v in cables.items()}
-    arrays = replace(
-        point.arrays, mass=np.broadcast_to(point.arrays.mass, shape),
-        center_of_mass=np.broadcast_to(point.arrays.center_of_mass, (*shape, 3)),
-        inertia=np.broadcast_to(point.arrays.inertia, (*shape, 3, 3)),
-    )  # fmt: skip
+    lengths = {"center_of_mass": (3,), "inertia": (3, 3), "internal_direction": (3,)}
+    names = ("mass", "center_of_mass", "inertia", "internal_mass", "internal_frequency", "internal_direction")
+    body = {n: np.broadcast_to(getattr(point.arrays, n), shape + lengths.get(n, ())) for n in names}
+    arrays = replace(point.arrays, **body)
     place, turn = np.broadcast_to(point.position, (*shape, 3)), np.broadcast_to(point.rotation, (*shape, 3, 3))
     return OperatingPoint(arrays, place, turn, type(point.cables)(**full))
 

@@ -11,14 +11,15 @@ from cdpr_struct.robot.arrays import frozen_array
 from cdpr_struct.robot.parameters import AUXILIARY, EXTENSIONS
 
 MAST = 0.2  # frame anchors nearer to each other in plan than this share of the frame's width sit on one mast
+_ROUNDING = 1e-15  # a vector whose length is one but for this is left as it is: files are read as they were written
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Extensions:
     """Extensions of a robot with m cables, SI; `EXTENSIONS` says what each field means and what its neutral value is.
 
-    Per-cable fields are (m,), force and hose_center (3,), tilt (2,), tracker and accelerometer_gain (6,), the others
-    single numbers.
+    Per-cable fields are (m,), force, hose_center and internal_direction (3,; the last is normalised at birth),
+    tilt (2,), tracker and accelerometer_gain (6,), the others single numbers.
     causes : names of the diagnosed causes that they stand for
     """
 
@@ -42,6 +43,9 @@ class Extensions:
     slip: np.ndarray
     accelerometer_gain: np.ndarray
     sensor_mass: float
+    internal_mass: float
+    internal_frequency: float
+    internal_direction: np.ndarray
     causes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -52,6 +56,12 @@ class Extensions:
             if (value < key.least).any() or (value <= key.above).any() or (value > key.most).any():
                 raise ValueError(f"Extensions.{name} must be in {key.unit}{key.range}, got {value.tolist()}")
             object.__setattr__(self, name, value if shape else float(value))
+        length = float(np.linalg.norm(self.internal_direction))
+        if length == 0.0:
+            raise ValueError("Extensions.internal_direction must not be the zero vector")
+        if abs(length - 1.0) > _ROUNDING:
+            unit = frozen_array(self.internal_direction / length, (3,), "Extensions.internal_direction")
+            object.__setattr__(self, "internal_direction", unit)
 
     @classmethod
     def of(

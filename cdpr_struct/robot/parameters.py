@@ -16,7 +16,7 @@ class Parameter:
     unit    : SI
     meaning : half a sentence
     place   : table and key of a robot file, "[]" where each cable has its own; "" if it follows from others
-    neutral : value without effect; None where a robot has none
+    neutral : value without effect, of all entries or of each; None where a robot has none
     least, above, most : bounds
     """
 
@@ -24,7 +24,7 @@ class Parameter:
     unit: str
     meaning: str
     place: str
-    neutral: float | None = None
+    neutral: float | tuple[float, ...] | None = None
     least: float = -np.inf
     above: float = -np.inf
     most: float = np.inf
@@ -64,7 +64,9 @@ def _of_cables(unit: str, meaning: str, place: str, neutral: float | None = None
     return Parameter((CABLES,), unit, meaning, place, neutral, **bounds)
 
 
-def _extra(shape: tuple[int | str, ...], neutral: float, unit: str, meaning: str, **bounds: float) -> Parameter:
+def _extra(
+    shape: tuple[int | str, ...], neutral: float | tuple[float, ...], unit: str, meaning: str, **bounds: float
+) -> Parameter:
     return Parameter(shape, unit, meaning, "extensions", neutral, **bounds)
 
 
@@ -111,10 +113,19 @@ EXTENSIONS: dict[str, Parameter] = {
     "accelerometer_gain": _extra((6,), 1.0, "1", "accelerometer reading = gain * acceleration, x to rz", above=0.0),
     "sensor_mass": _extra((), 0.0, "kg", "on the platform origin while vibration is measured, not when tensions are",
                           least=0.0),
+    "internal_mass": _extra((), 0.0, "kg", "of the platform's mass, what sits at its origin on an elastic mount",
+                            least=0.0),
+    "internal_frequency": _extra((), 0.0, "Hz", "of internal_mass on its mount, the platform held", least=0.0),
+    "internal_direction": _extra((3,), (0.0, 0.0, 1.0), "1", "unit vector along which internal_mass moves, platform"),
 }  # fmt: skip
 """Those that the table [extensions] of a robot file holds under their own names."""
 PARAMETERS: dict[str, Parameter] = {**_RULES, **EXTENSIONS}
 SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain", "sensor_mass")
 """Act only where readings are compared: they describe sensors, or need the time of a reading."""
-AUXILIARY = {"hose_center": "hose", "reference_tension": "nonlinearity"}
+AUXILIARY = {
+    "hose_center": "hose",
+    "reference_tension": "nonlinearity",
+    "internal_frequency": "internal_mass",
+    "internal_direction": "internal_mass",
+}
 """Mean something only with the other parameter."""

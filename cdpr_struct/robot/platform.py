@@ -39,6 +39,10 @@ class Platform:
         mass, center, inertia = joined_masses(np.asarray(self.mass), self.center_of_mass, self.inertia, masses, points)
         return Platform(float(mass), center, 0.5 * (inertia + inertia.T))
 
+    def moved_mass(self, direction: np.ndarray) -> float:
+        """Apparent mass [kg] of the free platform at its origin along a unit vector (3,) of its frame."""
+        return float(moved_mass(np.asarray(self.mass), self.center_of_mass, self.inertia, direction))
+
     def with_mass(self, mass: float) -> "Platform":
         """Platform of another mass [kg], with the same centre of mass and inertia."""
         return replace(self, mass=mass)
@@ -57,6 +61,13 @@ def joined_masses(
     own, arms = center - common, points - common[..., None, :]
     added = mass[..., None, None] * _about(own) + (masses[..., None, None] * _about(arms)).sum(axis=-3)
     return total, common, inertia + added
+
+
+def moved_mass(mass: np.ndarray, center: np.ndarray, inertia: np.ndarray, direction: np.ndarray) -> np.ndarray:
+    """(...) apparent mass [kg] at the origin along unit vectors (..., 3) of free bodies, as in `joined_masses`."""
+    turning = np.cross(center, direction)
+    turned = np.linalg.solve(inertia, turning[..., None])[..., 0]
+    return np.asarray(1.0 / (1.0 / mass + (turning * turned).sum(axis=-1)))
 
 
 def _about(arm: np.ndarray) -> np.ndarray:

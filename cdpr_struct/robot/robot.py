@@ -50,6 +50,8 @@ class Robot:
             object.__setattr__(self, "extensions", Extensions.of(m, causes=causes))
         if len(self.extensions.slip) != m:
             raise ValueError(f"Robot.extensions must be for {m} cables, got {len(self.extensions.slip)}")
+        if fault := internal_mass_fault(self.platform, self.extensions):
+            raise ValueError(fault)
 
     @property
     def axial_stiffness(self) -> np.ndarray:
@@ -123,3 +125,18 @@ def gravity_wrench(robot: Robot, rotation: np.ndarray) -> np.ndarray:
     center = np.einsum("...ij,j->...i", rotation, robot.platform.center_of_mass)
     force = np.broadcast_to([0.0, 0.0, -robot.platform.mass * robot.gravity], center.shape)
     return np.concatenate([force, np.cross(center, force)], axis=-1)
+
+
+def internal_mass_fault(platform: Platform, more: Extensions) -> str:
+    """What is wrong with the internal mass, "" if nothing: it has a mount, and a rigid body is left without it."""
+    if more.internal_mass == 0.0:
+        return ""
+    if more.internal_frequency == 0.0:
+        return f"internal_mass = {more.internal_mass:g} kg needs internal_frequency, in Hz, above 0"
+    most = platform.moved_mass(more.internal_direction)
+    if more.internal_mass < most:
+        return ""
+    return (
+        f"internal_mass = {more.internal_mass:g} kg must be a part of the platform's mass: below {most:.4g} kg, "
+        "which its mass, centre of mass and inertia move along internal_direction at its origin"
+    )

@@ -36,6 +36,7 @@ class RobotArrays:
     nonlinearity    : (...) k with reference_tension (...) [N]
     cell_gain, cell_bias, friction, slip : (..., m);  tracker, accelerometer_gain : (..., 6)
     creep, sensor_mass : (...)
+    internal_mass, internal_frequency : (...) [kg], [Hz];  internal_direction : (..., 3) unit, platform frame
     """
 
     platform_anchors: np.ndarray
@@ -72,6 +73,9 @@ class RobotArrays:
     slip: np.ndarray = field(default_factory=PARAMETERS["slip"].without_effect)
     accelerometer_gain: np.ndarray = field(default_factory=PARAMETERS["accelerometer_gain"].without_effect)
     sensor_mass: np.ndarray = field(default_factory=PARAMETERS["sensor_mass"].without_effect)
+    internal_mass: np.ndarray = field(default_factory=PARAMETERS["internal_mass"].without_effect)
+    internal_frequency: np.ndarray = field(default_factory=PARAMETERS["internal_frequency"].without_effect)
+    internal_direction: np.ndarray = field(default_factory=PARAMETERS["internal_direction"].without_effect)
 
     @classmethod
     def of(cls, robot: "Robot | RobotArrays", mass: np.ndarray | float | None = None) -> "RobotArrays":
@@ -121,6 +125,11 @@ class RobotArrays:
     def has_masts(self) -> bool:
         """Whether masts give way."""
         return bool(self.frame_compliance.any())
+
+    @property
+    def has_internal_mass(self) -> bool:
+        """Whether a part of the platform sits on an elastic mount."""
+        return bool(self.internal_mass.any())
 
     @property
     def has_force_limits(self) -> bool:

@@ -15,7 +15,7 @@ from cdpr_struct.robot.extensions import Extensions, divided_mast
 from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
-from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot import Robot, internal_mass_fault
 
 LARGEST, SMALLEST = 1e12, 1e-12  # of any number; beyond them squares and products leave what can be computed
 Number = Annotated[float, Field(strict=True, ge=-LARGEST, le=LARGEST)]
@@ -150,18 +150,21 @@ def _build(table: RobotTable, source: str) -> Robot:
     cables = tuple(_cable(table.cable, entry, source, i) for i, entry in enumerate(table.cables, start=1))
     pulleys = tuple(_pulley(entry, source, i) for i, entry in enumerate(table.cables, start=1))
     home = _home(table.home_pose, source)
+    platform, more = _with_joints(_platform(table.platform, source), table, source), _extensions(table, source)
+    if fault := internal_mass_fault(platform, more):
+        raise InputError(source, "extensions.internal_mass", more.internal_mass, fault)
     try:
         return Robot(
             name=table.name,
             description=table.description,
             gravity=table.gravity,
             home=home,
-            platform=_with_joints(_platform(table.platform, source), table, source),
+            platform=platform,
             cables=cables,
             platform_anchors=np.array([e.platform_anchor for e in table.cables]),
             frame_anchors=np.array([e.frame_anchor for e in table.cables]),
             pulleys=pulleys,
-            extensions=_extensions(table, source),
+            extensions=more,
         )
     except InputError:
         raise

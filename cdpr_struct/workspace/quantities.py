@@ -9,8 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.dynamics.internal_mass import with_internal_mass
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.statics.slack_cables import slack_count
@@ -105,8 +107,11 @@ def stiffnesses(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Co
 
 def _first_frequency(robot: Robot, rotation: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
     """(k,) first frequency of the platform on springs of stiffness (k, 6, 6) [Hz]; nan where it is not stable."""
-    inverse_root = np.linalg.inv(np.linalg.cholesky(platform_mass_matrix(robot, rotation)))
-    squared = np.linalg.eigvalsh(inverse_root @ stiffness @ inverse_root.T)[:, 0]
+    stiffness, mass = with_internal_mass(
+        RobotArrays.of(robot), rotation, stiffness, platform_mass_matrix(robot, rotation)
+    )
+    inverse_root = np.linalg.inv(np.linalg.cholesky(mass))
+    squared = np.linalg.eigvalsh(inverse_root @ stiffness @ np.swapaxes(inverse_root, -1, -2))[:, 0]
     return np.sqrt(np.where(squared > 0.0, squared, np.nan)) / (2.0 * np.pi)
 
 

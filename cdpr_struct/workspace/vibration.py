@@ -3,6 +3,7 @@
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import expand_catenaries_at
+from cdpr_struct.dynamics.internal_mass import with_internal_mass
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_static_stiffness
@@ -58,17 +59,18 @@ def _at_rest(point: OperatingPoint) -> list[np.ndarray]:
     full = expand_catenaries_at(point, _ORDER)
     first = np.sqrt(full.omega_squared[..., 0])
     modes = ritz_modes(point, full.reduced(_HALF_WAVES * float(first.max()), factor=1.2), _MODES)
-    massless, shape = _first_static_mode(point, modes.platform_mass)
-    alike = np.einsum("nki,ni->nk", modes.platform @ modes.platform_mass, shape) ** 2
+    rigid = platform_static_stiffness(point), modes.platform_mass
+    stiffness, mass = with_internal_mass(point.arrays, point.rotation, *rigid)
+    massless, shape = _first_static_mode(stiffness, mass)
+    moved = np.concatenate([modes.platform, modes.internal[..., None]], axis=-1)[..., : mass.shape[-1]]
+    alike = np.einsum("nki,ni->nk", moved @ mass, shape) ** 2
     of_platform = np.take_along_axis(modes.omega, alike.argmax(axis=-1)[:, None], axis=-1)[:, 0]
     return [values / (2.0 * np.pi) for values in (modes.omega[:, 0], of_platform, massless, *first.T)]
 
 
-def _first_static_mode(point: OperatingPoint, mass: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """omega (n,) [rad/s] (nan where unstable) and shape (n, 6) of the platform's first mode on massless cables."""
+def _first_static_mode(stiffness: np.ndarray, mass: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """omega (n,) [rad/s] (nan where unstable) and shape (n, d) of the first mode of matrices (n, d, d)."""
     inverse_root = np.linalg.inv(np.linalg.cholesky(mass))
-    squared, vectors = np.linalg.eigh(
-        inverse_root @ platform_static_stiffness(point) @ np.swapaxes(inverse_root, -1, -2)
-    )
+    squared, vectors = np.linalg.eigh(inverse_root @ stiffness @ np.swapaxes(inverse_root, -1, -2))
     omega = np.sqrt(np.where(squared[:, 0] > 0.0, squared[:, 0], np.nan))
     return omega, np.einsum("nij,ni->nj", inverse_root, vectors[..., 0])

@@ -82,6 +82,9 @@ def test_forward_and_inverse_speak_of_the_same_lengths(tmp_path, capsys):
         ("tilt = [0.1, nan]", "give 2 numbers in square brackets"),
         ("length_scale = 0.0", "above 0"),
         ("joint_mass = -1.0", "give one mass in kg, zero or more"),
+        ("internal_mass = 3.0", "internal_mass = 3 kg needs internal_frequency, in Hz, above 0"),
+        ("internal_mass = 300.0\ninternal_frequency = 5.0", "must be a part of the platform's mass: below 60 kg"),
+        ("internal_direction = [0.0, 0.0, 0.0]", "give 3 numbers in square brackets"),
         ("causes = 3", "give a list of names"),
     ],
 )
@@ -94,6 +97,29 @@ def test_unusable_extensions_are_refused_in_one_sentence(line, complaint, tmp_pa
     assert "extensions." in said
     assert complaint in said
     assert len(said.strip().splitlines()) == 1
+
+
+INNER = {"internal_mass": 3.0, "internal_frequency": 6.0, "internal_direction": [0.0, 0.6, 0.8]}
+RIGID = {
+    "inverse": "this concerns vibration only",
+    "audit": "the printed limits know nothing of it",
+    "verify": "the referee's platform is rigid, so it is left out on both sides",
+}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_knows_a_part_on_a_mount_or_says_why_not(command, tmp_path, capsys):
+    assert run([command, robot_file(tmp_path, INNER), *COMMANDS[command], "--json"]) in (0, 1)
+    said = json.loads(capsys.readouterr().out)["extensions"]
+    if command in ("modes", "frf", "transient", "map"):
+        assert said["acting"] == ["internal_mass"]
+    else:
+        assert said["idle"] == {"internal_mass": RIGID.get(command, RIGID["inverse"])}
+
+
+def test_a_mass_below_that_of_the_part_on_the_mount_is_refused(tmp_path, capsys):
+    assert run(["modes", robot_file(tmp_path, INNER), "--mass", "2"]) == 2
+    assert "--mass: got 2.0; internal_mass = 3 kg must be a part" in capsys.readouterr().err
 
 
 def test_joints_become_part_of_the_platform(tmp_path):

@@ -1,4 +1,4 @@
-"""A mode inside the platform, in the FEM: a mass on a spring, of which the model under test knows nothing."""
+"""A mode inside the platform, in the FEM: a mass on a spring, of which the robot that is entered knows nothing."""
 
 from dataclasses import replace
 
@@ -9,9 +9,12 @@ from scipy.sparse import block_array, csc_array
 
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.diagnosis.diagnosing import diagnosed
+from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.measurement.campaign_file import load_campaign
+from cdpr_struct.reports.diagnose.sentences import sentence
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.robot_writing import robot_toml
 from cdpr_struct.statics.inverse_kinematics import inverse
 from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
 from fem_reference.rigid_platform import platform_mass_matrix, point_motion
@@ -112,19 +115,30 @@ def written(folder, seed, mass=0.0, hertz=0.0, inertia=1.0, missed=()):
     return load_campaign(folder / "campaign.toml"), np.array(inner)
 
 
-@pytest.mark.xfail(strict=True, reason="no cause stands for a mode inside the platform")
-def test_a_mode_inside_the_platform_is_found(tmp_path):
-    """6 kg of 118.5 on a spring."""
+def test_a_light_part_is_told_from_no_line_of_the_mains(tmp_path):
+    """6 kg of 118.5 on a spring move no other mode enough: the peaks are spoken of, and nothing is named."""
     campaign, _ = written(tmp_path, seed=3, mass=6.0, hertz=7.8)
     said = diagnosed(campaign)
-    assert any("flexible_platform" in names for names in said.decision.classes)
+    assert said.decision.status != "named"
+    assert "or a light part of the platform on an elastic mount" in sentence(said)
 
 
-def test_a_mode_inside_the_platform_is_called_no_single_cause(tmp_path):
-    """Its peaks are no mode of the model; nothing that the library knows is named for them with confidence."""
-    campaign, _ = written(tmp_path, seed=3, mass=6.0, hertz=7.8)
+def test_a_heavy_part_is_named_and_its_mode_is_in_the_extended_robot(tmp_path):
+    """A quarter of the platform, off its origin and along no axis, which no robot file can say: so it is found too light,
+    but its mode changes with the pose as the FEM's does, and lies within 3 % of it."""
+    campaign, inner = written(tmp_path, seed=6, mass=30.0, hertz=5.0)
     said = diagnosed(campaign)
-    assert said.decision.status != "named" or said.decision.probability < 0.9
+    assert said.decision.classes == (("flexible_platform",),)
+    (tmp_path / "extended.toml").write_text(robot_toml(said.extended, "extended"))
+    robot = load_robot(tmp_path / "extended.toml")
+    found = []
+    for pose in POSES:
+        point = OperatingPoint(robot, pose, np.eye(3), inverse(robot, pose, np.eye(3)).cables)
+        modes = certified_modes(point, "exact", MODES)
+        found.append(modes.frequencies.hertz[(modes.shapes.internal**2).argmax()])
+    apart = np.log(found / inner)
+    assert np.abs(apart).max() < 0.02
+    assert np.ptp(apart) < 0.5 * np.ptp(np.log(inner))
 
 
 def test_a_rigid_platform_is_adequate(tmp_path):

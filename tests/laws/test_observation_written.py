@@ -7,7 +7,7 @@ import pytest
 
 from cdpr_struct.residuals.linearised import Local, Point
 from cdpr_struct.residuals.recorded import recorded
-from cdpr_struct.robot.extensions import EXTENSIONS
+from cdpr_struct.robot.parameters import AUXILIARY, EXTENSIONS
 from cdpr_struct.robot.robot_file import load_robot
 from tests.laws.written_campaigns import extended, mast_values, on_pulleys, plan_of, written
 
@@ -42,7 +42,11 @@ def fields_of(robot) -> dict[str, dict]:
         "slip": {"slip": 2e-3 * (VARIED - 0.6)},
         "accelerometer_gain": {"accelerometer_gain": [1.1, 0.9, 1.0, 1.0, 1.2, 1.0]},
         "sensor_mass": {"sensor_mass": 1.5},
-    }
+        "internal_mass": {
+            "internal_mass": 0.05 * robot.platform.mass, "internal_frequency": 7.0,
+            "internal_direction": [0.6, 0.0, 0.8],
+        },
+    }  # fmt: skip
 
 
 def all_together(robot) -> dict:
@@ -63,7 +67,7 @@ OF_READINGS = (
     "slip",
     "accelerometer_gain",
 )
-ALONE = [name for name in EXTENSIONS if name not in ("hose_center", "reference_tension", "sensor_mass")]
+ALONE = [name for name in EXTENSIONS if name not in AUXILIARY and name != "sensor_mass"]
 
 
 def seen(campaign) -> Local:

@@ -102,10 +102,15 @@ EXTENDED = {
     "pulley_radius": 0.05, "series_compliance": 5e-7, "frame_compliance": 3e-7, "bending_stiffness": 2.0,
     "added_mass": 0.02, "hose": 500.0, "center_of_mass": np.array([0.05, -0.02, 0.08]),
 }  # fmt: skip
+INTERNAL = {
+    "internal_mass": 5.0, "internal_frequency": 6.0, "internal_direction": np.array([0.0, 0.6, 0.8]),
+    "center_of_mass": np.array([0.05, -0.02, 0.08]),
+}  # fmt: skip
 STATES: dict[str, Callable[[], State]] = {
     "six cables": lambda: state_of("six-cable-4mm"),
     "everything gives way": lambda: state_of("thesis-3-1", **EXTENDED),
     "cogiro on pulleys": lambda: state_of("cogiro", pulley_radius=0.05),
+    "a tool on a mount": lambda: state_of("cogiro", **INTERNAL),
 }
 READINGS = ("position", "rotation", "tension")
 ACTING = tuple(n for n in PARAMETERS if n not in IDLE and n != "masts")
@@ -156,6 +161,7 @@ def skipped(state: State) -> set[str]:
     arrays = state.arrays
     none = set() if arrays.bending_stiffness.any() else {"bending_stiffness"}
     none |= set() if arrays.has_pulleys else {"pulley_axis", "pulley_radius"}
+    none |= set() if arrays.has_internal_mass else {"internal_mass", "internal_frequency", "internal_direction"}
     return none | (set() if arrays.center_of_mass.any() else {"tilt"})
 
 
@@ -165,14 +171,14 @@ def first_string(point: OperatingPoint) -> float:
 
 
 @pytest.mark.parametrize("assembly", ["consistent", "thesis"])
-@pytest.mark.parametrize("case", ["six cables", "everything gives way"])
-def test_rates_on_massless_cables_are_derivatives_too(case, assembly):
+@pytest.mark.parametrize(("case", "count"), [("six cables", 6), ("everything gives way", 6), ("a tool on a mount", 7)])
+def test_rates_on_massless_cables_are_derivatives_too(case, count, assembly):
     state = STATES[case]()
     modes = modes_at(single(state), np.array([1.0]), assembly, "static")
-    assert modes.mask.sum() == 6
+    assert modes.mask.sum() == count
 
     def log_omega(points: OperatingPoint) -> np.ndarray:
-        return np.log(ritz_modes(points, StaticCables(points).expansion(0.0), 6, assembly).omega)
+        return np.log(ritz_modes(points, StaticCables(points).expansion(0.0), count, assembly).omega)
 
     for name in READINGS + tuple(n for n in ACTING if n not in skipped(state) | {"added_mass", "bending_stiffness"}):
         expected, step = derivative(state, name, log_omega)

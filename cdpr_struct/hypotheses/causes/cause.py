@@ -19,6 +19,7 @@ class Parameter:
     squared : theta is the root of what is reported
     positive : theta below zero means nothing
     prior   : one sigma of theta
+    in_band : a frequency, its prior in the highest one that was measured of the robot; no check bounds it
     """
 
     name: str
@@ -27,11 +28,13 @@ class Parameter:
     ratio: bool = False
     squared: bool = False
     positive: bool = False
+    in_band: bool = False
 
     def shown(self, theta: float, sigma: float) -> dict[str, float | str]:
         """Value, sigma and unit as they are reported."""
         if self.squared:
-            return {"value": theta * abs(theta), "sigma": 2.0 * abs(theta) * sigma, "unit": self.unit}
+            spread = float(np.hypot(2.0 * theta * sigma, np.sqrt(2.0) * sigma**2))
+            return {"value": theta * abs(theta), "sigma": spread, "unit": self.unit}
         value = float(np.exp(theta)) if self.ratio else float(theta)
         return {"value": value, "sigma": float(sigma * value if self.ratio else sigma), "unit": self.unit}
 
@@ -58,6 +61,11 @@ class Pattern:
         """(d,) bool: theta below zero means nothing."""
         return np.array([p.positive for p in self.parameters])
 
+    @property
+    def in_band(self) -> np.ndarray:
+        """(d,) bool: frequencies in the measured band."""
+        return np.array([p.in_band for p in self.parameters])
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Seen:
@@ -65,6 +73,7 @@ class Seen:
 
     kinds : of rows, as in `seen_in`;  tensions, lengths : whether any was read;  approach : whether directions are
     known;  hours : that the readings span;  cable_modes : how many different modes of a cable;  states : names
+    highest : frequency measured of the robot [Hz], 0 without;  internal : whether the robot has an internal mass
     groups : endings and words of what carries parameters of its own, by carrier ("cable", "mast", "axis", "state")
     """
 
@@ -76,6 +85,8 @@ class Seen:
     cable_modes: int
     states: tuple[str, ...]
     groups: Mapping[str, Mapping[str, str]]
+    highest: float = 0.0
+    internal: bool = False
 
 
 def always(seen: Seen) -> str:
@@ -92,6 +103,7 @@ class Cause:
     alike     : probability that all carriers have the same, 0 if that cannot be
     shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
     seen_in   : kinds of rows it shows in;  needs : why these data cannot show it, or ""
+    outside   : whether it sits in the data alone: the extended robot does not have it
     becomes   : causes that it is where some of its parameters are zero
     sentence  : for a person, with {value} and {unit} of the first parameter;  sign : what a number above zero means
     separated_by : measurements that tell it from its rivals;  extension : what of the extended robot holds it
@@ -103,15 +115,21 @@ class Cause:
     apply: Callable[[RobotArrays, np.ndarray], RobotArrays]
     carrier: str = ""
     alike: float = 0.4
-    shapes: tuple[tuple[str, slice, float], ...] = ()
+    shapes: tuple[tuple[str, slice | list[int], float], ...] = ()
     seen_in: tuple[str, ...] = ()
     needs: Callable[[Seen], str] = always
+    outside: bool = False
     becomes: tuple[str, ...] = ()
     sentence: str = ""
     sign: str = ""
     separated_by: str = ""
     extension: str = ""
     known: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def tuned(self) -> bool:
+        """Whether one of the parameters is a frequency: a mode more, which does nothing to first order from zero."""
+        return any(p.in_band for p in self.parameters)
 
     def basic(self, seen: Seen) -> tuple[Parameter, ...]:
         """Basic parameters of the cause for this campaign."""
@@ -125,7 +143,7 @@ class Cause:
         basic, axes = self.basic(seen), len(self.parameters)
         every = np.eye(len(basic))
         if self.shapes:
-            return [Pattern(label, every[:, own], basic[own], weight) for label, own, weight in self.shapes]
+            return [_of_some(label, every, basic, own, weight) for label, own, weight in self.shapes]
         parts = [slice(axes * i, axes * (i + 1)) for i in range(len(basic) // axes)]
         if len(parts) < 2:
             return [Pattern("", every, self.parameters, 1.0)]
@@ -141,6 +159,17 @@ class Cause:
             same = np.tile(np.eye(axes), (len(parts), 1))
             found.append(Pattern("all alike", same, self.parameters, self.alike))
         return [*found, Pattern("each its own", every, basic, 0.5 * (1.0 - self.alike))]
+
+
+def _of_some(
+    label: str, every: np.ndarray, basic: tuple[Parameter, ...], own: slice | list[int], weight: float
+) -> Pattern:
+    """Some of the basic parameters; several roots together are a vector, whose parts may be negative."""
+    places = np.arange(len(basic))[own].tolist()
+    some = [basic[i] for i in places]
+    vector = sum(p.squared for p in some) > 1
+    free = tuple(replace(p, positive=p.positive and not (vector and p.squared)) for p in some)
+    return Pattern(label, every[:, places], free, weight)
 
 
 def by_carrier(theta: np.ndarray, axes: int) -> np.ndarray:

@@ -7,7 +7,7 @@ from importlib.metadata import entry_points
 
 from cdpr_struct.errors import InputError, known_names
 from cdpr_struct.hypotheses.causes import accelerometers, cables, geometry, platform, sensors, stiffness
-from cdpr_struct.hypotheses.causes.cause import Cause, Seen
+from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen
 
 FAMILIES = (stiffness, geometry, platform, cables, sensors, accelerometers)
 LIBRARY: dict[str, Cause] = {cause.name: cause for family in FAMILIES for cause in family.CAUSES}
@@ -55,10 +55,16 @@ def testable(seen: Seen, checked: Mapping[str, float]) -> tuple[list[Cause], dic
         if reason:
             hidden[name] = reason
         else:
-            found.append(_bounded(cause, checked.get(name, math.inf)))
+            found.append(_bounded(cause, checked.get(name, math.inf), seen))
     return found, hidden
 
 
-def _bounded(cause: Cause, sigma: float) -> Cause:
-    parameters = [replace(p, prior=min(p.prior, math.sqrt(sigma) if p.squared else sigma)) for p in cause.parameters]
-    return replace(cause, parameters=tuple(parameters))
+def _bounded(cause: Cause, sigma: float, seen: Seen) -> Cause:
+    return replace(cause, parameters=tuple(_within(p, sigma, seen) for p in cause.parameters))
+
+
+def _within(p: Parameter, sigma: float, seen: Seen) -> Parameter:
+    """The parameter with the prior that it has in this campaign."""
+    if p.in_band:
+        return replace(p, prior=p.prior * seen.highest)
+    return replace(p, prior=min(p.prior, math.sqrt(sigma) if p.squared else sigma))

@@ -1,11 +1,16 @@
 """What hangs on the cables."""
 
+from dataclasses import replace
+
 import numpy as np
 
-from cdpr_struct.hypotheses.causes.cause import Cause, Parameter
+from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen
+from cdpr_struct.robot.platform import moved_mass
 from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
 
 _XYZ = ("x", "y", "z")
+_NOTHING = 1e-10  # of the platform's mass: mode frequencies keep ten digits
+_MOST = 0.8  # of what the platform moves along a direction: so much of it may sit on a mount
 
 
 def _mass(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
@@ -32,6 +37,29 @@ def _force(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
 def _hose(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
     """Stiffness about the campaign's mean position, and the force there: nobody knows where a hose is at rest."""
     return plus(arrays, hose=theta[..., 0], force=theta[..., 1:])
+
+
+def _flexible(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    """Roots of the internal mass along x, y and z, and the frequency of its mount."""
+    root = theta[..., :3]
+    length = np.linalg.norm(root, axis=-1)
+    there = length > 0.0
+    direction = np.where(there[..., None], root / np.where(there, length, 1.0)[..., None], arrays.internal_direction)
+    most = _MOST * moved_mass(arrays.mass, arrays.center_of_mass, arrays.inertia, direction)
+    return replace(
+        arrays, internal_mass=np.minimum(length**2, most), internal_frequency=np.maximum(theta[..., 3], 0.0),
+        internal_direction=direction,
+    )  # fmt: skip
+
+
+def _line(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    """A part on a mount that weighs nothing: its frequency is the same in every state, and no other mode feels it."""
+    hertz = np.maximum(theta[..., 0], 0.0)
+    return replace(arrays, internal_mass=np.where(hertz > 0.0, _NOTHING * arrays.mass, 0.0), internal_frequency=hertz)
+
+
+def _flexes(seen: Seen) -> str:
+    return "the robot file has an internal mass already" if seen.internal else ""
 
 
 CAUSES = (
@@ -100,5 +128,35 @@ CAUSES = (
         separated_by="removing the hose; poses farther apart",
         extension="hose",
         becomes=("external_force",),
+    ),
+    Cause(
+        "flexible_platform",
+        "a mode inside the platform: a part of it, such as a gripper or a tool, on an elastic mount",
+        (
+            *(Parameter(f"internal_mass_{a}", "kg", 1.0, squared=True, positive=True) for a in _XYZ),
+            Parameter("internal_frequency", "Hz", 1.0, positive=True, in_band=True),
+        ),
+        _flexible,
+        shapes=(
+            *((f"along {a} of the platform", [i, 3], 0.2) for i, a in enumerate(_XYZ)),
+            ("in some direction", [0, 1, 2, 3], 0.4),
+        ),
+        seen_in=("RF",),
+        needs=_flexes,
+        sentence="a part of the platform moves on an elastic mount, {parts} with the platform held",
+        separated_by="shaking with accelerometers on the platform and on the part; clamping the part",
+        extension="internal_mass",
+        becomes=("steady_disturbance",),
+    ),
+    Cause(
+        "steady_disturbance",
+        "a disturbance of constant frequency, such as the mains, a fan or a pump, among the robot's peaks",
+        (Parameter("disturbance_frequency", "Hz", 1.0, positive=True, in_band=True),),
+        _line,
+        seen_in=("RF",),
+        needs=_flexes,
+        sentence="a disturbance of {value} Hz at all poses, which is no mode of the robot, is among its peaks",
+        separated_by="recording without excitation, and with fans, pumps and drives switched off",
+        outside=True,
     ),
 )

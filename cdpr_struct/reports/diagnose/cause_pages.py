@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from cdpr_struct.hypotheses.causes import internal_force
-from cdpr_struct.hypotheses.causes.cause import Cause
+from cdpr_struct.hypotheses.causes.cause import Cause, Parameter
 from cdpr_struct.hypotheses.causes.library import LIBRARY
 from cdpr_struct.hypotheses.hypothesis import PRICE
 
@@ -22,7 +22,8 @@ _CARRIED = {"": "of the robot as a whole", "state": "of one state"} | dict.fromk
 def cause_page(cause: Cause) -> str:
     """One cause as Markdown."""
     kind = _CARRIED[cause.carrier].format(cause.carrier)
-    rows = [f"| {p.name} | {'ratio' if p.ratio else p.unit} | {p.prior:g} |" for p in cause.parameters]
+    kind += "; " + ", ".join(label for label, _, _ in cause.shapes) if cause.tuned else ""
+    rows = [f"| {p.name} | {'ratio' if p.ratio else p.unit} | {_prior(p)} |" for p in cause.parameters]
     lines = [
         f"# {cause.name}", "", f"{cause.title[:1].upper()}{cause.title[1:]}. Parameters are {kind}.", "",
         "| parameter | unit | prior, one sigma (of the logarithm for ratios) |", "|---|---|---|", *rows, "",
@@ -31,6 +32,13 @@ def cause_page(cause: Cause) -> str:
         "Generated from the library: `python -m cdpr_struct.reports.diagnose.cause_pages`.", "",
     ]  # fmt: skip
     return "\n".join(lines)
+
+
+def _prior(parameter: Parameter) -> str:
+    """One sigma, in the parameter's own unit."""
+    if parameter.in_band:
+        return f"{parameter.prior:g} times the highest measured robot frequency"
+    return f"{parameter.prior:g}"
 
 
 def internal_force_page() -> str:

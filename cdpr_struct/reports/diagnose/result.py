@@ -161,7 +161,7 @@ def _gain(found: Diagnosis) -> dict[str, Any]:
     left = found.left_out
     if left is None:
         return {"heldout_rms_before": None, "heldout_rms_after": None, "ratio": None, "per_kind": {}, "transfer": {},
-                "confirmed": False, "left_out": ""}  # fmt: skip
+                "confirmed": False, "left_out": "", "added_mode_nats": found.added}  # fmt: skip
     rows, every = left.concerned, np.ones(len(left.kind), dtype=bool)
     before, after = left.rms(rows)
     return {
@@ -169,6 +169,7 @@ def _gain(found: Diagnosis) -> dict[str, Any]:
         "unit": "standard deviations under the null, of the readings that the causes change by more than one",
         "ratio_of_all": left.ratio(every), "per_kind": _by_kind(left), "counted": int(rows.sum()), "of": len(rows),
         "left_out": "state", "confirmed": found.confirmed, "generic_fudge_ratio": found.generic, "transfer": {},
+        "added_mode_nats": found.added,
     }  # fmt: skip
 
 

@@ -26,10 +26,22 @@ def sentence(found: Diagnosis) -> str:
         parts = _unknown(found)
     else:
         parts = _named(found)
-    parts += [_peaks(found), _aside(found), _drift(found)]
+    parts += [_peaks(found), _line(found), _aside(found), _drift(found)]
     if not found.by_damping:
         parts.append(_damping(found))
     return " ".join(filter(None, parts))
+
+
+def _line(found: Diagnosis) -> str:
+    """A line of constant frequency among the peaks."""
+    for part, z in zip(found.chosen.hypothesis.parts, found.chosen.sizes, strict=True):
+        if part.cause.outside:
+            hertz = float(z[0] * part.term.sigma[0])
+            return (
+                f"Peaks near {hertz:.3g} Hz at all poses belong to no mode of the robot: a disturbance of constant "
+                "frequency, or a light part of the platform on an elastic mount."
+            )
+    return ""
 
 
 def agreement(found: Diagnosis) -> str:
@@ -99,11 +111,13 @@ def _standing(found: Diagnosis) -> str:
     share = 0.0 if chosen is None else 100.0 * chosen.explained
     said = [f"This accounts for {share:.0f} % of the error beyond noise."] if share >= 0.5 else []
     left = found.left_out
-    if left is None:
+    if not found.confirmed:
+        return " ".join([*said, "It rests on one part of the data; held-out data do not confirm it."])
+    if found.added is not None:
+        said.append(f"Without the peaks of any one state the evidence for the mode is still {found.added:.0f} nats.")
+    elif left is None:
         said.append("A single state leaves no held-out data to confirm it.")
-    elif not found.confirmed:
-        said.append("It rests on one part of the data; held-out data do not confirm it.")
-    else:
+    if left is not None:
         ratio = left.ratio(left.concerned)
         fall = f"falls by a factor of {ratio:.1f}" if ratio > _BETTER else "is no smaller"
         said.append(f"In held-out states the prediction error of the affected readings {fall}.")

@@ -94,7 +94,9 @@ def doubt(one: Doubt) -> str:
 def _by_unit(pattern: Pattern, value: np.ndarray) -> str:
     """Length of the vector that the numbers of each unit make, as "0.002 m and 0.001 rad"."""
     units = np.array([p.unit for p in pattern.parameters])
-    sizes = {str(unit): np.linalg.norm(value[units == unit]) for unit in dict.fromkeys(units.tolist())}
+    squared = {p.unit for p in pattern.parameters if p.squared}
+    roots = {str(unit): np.linalg.norm(value[units == unit]) for unit in dict.fromkeys(units.tolist())}
+    sizes = {unit: size**2 if unit in squared else size for unit, size in roots.items()}
     return " and ".join(f"{size:.2g} {unit}" for unit, size in sizes.items())
 
 
