@@ -1,0 +1,117 @@
+"""Modes of a pencil corrected for what lies beyond its first order in d, and counted.
+
+A mode v of the pencil with d_i belongs to the motion (v, X v) of kept and eliminated freedoms. The trial motions
+(v, X v + d_i Y v + d_i^2 Z v) of a few modes make an eigenproblem of that size, whose values are again upper bounds; near
+doubles stay together in it. A count proves them: with the remainder of the series in d bounded by the eliminated
+block's lowest frequency lambda_c, no more frequencies lie below lambda than
+
+    D - d N - d^2 C^T Y - ... - d^5 g / (g - d) Z^T Z,   d = lambda - sigma,   g = lambda_c - sigma,
+
+has negative eigenvalues; leads are eliminated cable by cable, so this is a 6 x 6 matrix a pose.
+"""
+
+import numpy as np
+
+from cdpr_struct.dynamics.condensed_cables import CondensedCables, Terms
+from cdpr_struct.dynamics.condensed_robot import Pencil, Platform
+from cdpr_struct.statics.small_systems import backward
+
+
+def corrected(
+    platform: Platform, cables: CondensedCables, own: Pencil, d: np.ndarray, vectors: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Squared frequencies (n, s), ascending, and their platform motions (n, 6, s) of unit modal mass.
+
+    d, vectors : (n, s), (n, k, s) of some modes of the pencil
+    """
+    platform_motion = backward(own.lower, np.moveaxis(vectors[:, :6], 0, -1))
+    terms = _in_modes(platform, cables, platform_motion, vectors)
+    stiffness, mass = _trial(d, terms)
+    inverse = np.linalg.inv(np.linalg.cholesky(mass))
+    values, turn = np.linalg.eigh(inverse @ stiffness @ np.swapaxes(inverse, 1, 2))
+    motion = np.moveaxis(platform_motion, -1, 0) @ np.swapaxes(inverse, 1, 2) @ turn
+    return own.shift[:, None] + values, motion
+
+
+def _in_modes(
+    platform: Platform, cables: CondensedCables, motion: np.ndarray, vectors: np.ndarray
+) -> list[np.ndarray]:
+    """(n, s, s) of C^T Y, Y^T Y, ... between modes whose platform moves by (6, s, n)."""
+    s, n = motion.shape[1:]
+    m, p = platform.motion.shape[2], cables.in_plane.leads
+    ends = np.stack([_end_motion(axis, motion) for axis in platform.motion])
+    leads = np.moveaxis(vectors[:, 6:].reshape(n, 2, p, m, s), (1, 2, 4, 3, 0), (0, 1, 2, 3, 4))
+    planes = (np.concatenate([leads[0], ends[:2]]), np.concatenate([leads[1], ends[2:]]))
+    whole = _rows(planes)
+    found = []
+    for power in range(2, len(cables.in_plane.of_power)):
+        parts = [_times(t.of_power[power], v) for t, v in zip((cables.in_plane, cables.out_of_plane), planes, strict=True)]
+        found.append(np.swapaxes(whole, 1, 2) @ _rows(parts))
+    return found
+
+
+def _end_motion(axis: np.ndarray, motion: np.ndarray) -> np.ndarray:
+    """(s, m, n) of cable ends along one axis (6, m, n)."""
+    return np.asarray(sum(axis[i] * motion[i][:, None] for i in range(6)))
+
+
+def _times(term: np.ndarray, modes: np.ndarray) -> np.ndarray:
+    """(r, s, m, n) of (r, r, m, n) and (r, s, m, n)."""
+    return np.stack([sum(term[i, j] * modes[j] for j in range(len(modes))) for i in range(len(modes))])
+
+
+def _rows(planes: "list[np.ndarray] | tuple[np.ndarray, ...]") -> np.ndarray:
+    """(n, rows, s) of parts (r, s, m, n)."""
+    both = np.concatenate(planes)
+    r, s, m, n = both.shape
+    return np.ascontiguousarray(np.moveaxis(both, (3, 0, 2, 1), (0, 1, 2, 3))).reshape(n, r * m, s)
+
+
+def _trial(d: np.ndarray, terms: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffness less sigma times mass, and mass (n, s, s), between the trial motions."""
+    row, column = d[:, :, None], d[:, None, :]
+    one, both = np.eye(d.shape[1]), row * column
+    two, three = terms[:2]
+    stiffness = one * row + both * two
+    mass = one + (row + column) * two + both * three
+    if len(terms) > 2:
+        four, five = terms[2:]
+        cross = both * (row + column)
+        stiffness = stiffness + cross * three + both**2 * four
+        mass = mass + (row**2 + column**2) * three + cross * four + both**2 * five
+    return stiffness, mass
+
+
+def most_below(platform: Platform, cables: CondensedCables, shift: np.ndarray, squared: np.ndarray) -> np.ndarray:
+    """(n,) no more than so many squared frequencies lie below `squared` (n,); a large number where none is proved."""
+    d, gap = squared - shift, cables.lowest - shift
+    left = gap - d
+    sure = (gap > 0.0) & (left > 0.0)
+    powers = _powers(d, len(cables.in_plane.of_power), np.where(sure, gap / np.where(sure, left, 1.0), 1.0))
+    count, ends = np.zeros(len(d), dtype=int), []
+    for terms in (cables.in_plane, cables.out_of_plane):
+        negative, end = _without_leads(terms, powers)
+        count += negative
+        ends.append(end)
+    stiffness = platform.of_ends(*ends) + platform.held - squared * platform.mass
+    whole = np.moveaxis(stiffness, -1, 0)
+    count += (np.linalg.eigvalsh(whole) < 0.0).sum(axis=1)
+    return np.where(sure & np.isfinite(whole).all(axis=(1, 2)), count, np.iinfo(int).max)
+
+
+def _powers(d: np.ndarray, count: int, last: np.ndarray) -> list[np.ndarray]:
+    """Factors (n,) of the terms: 1, -d, -d^2, ..., the last one times `last`."""
+    powers = [np.ones_like(d)] + [-(d**k) for k in range(1, count)]
+    return [*powers[:-1], powers[-1] * last]
+
+
+def _without_leads(terms: Terms, powers: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Negative pivots (n,) of the leads, and the ends' block (e, e, m, n) that is left without them."""
+    matrix = sum(factor * term for factor, term in zip(powers, terms.of_power, strict=True))
+    matrix = np.array(matrix)
+    negative = np.zeros(matrix.shape[-1], dtype=int)
+    for k in range(terms.leads):
+        negative += (matrix[k, k] < 0.0).sum(axis=0)
+        share = matrix[k, k + 1 :] / matrix[k, k]
+        matrix[k + 1 :, k + 1 :] -= share[:, None] * matrix[k, k + 1 :]
+    return negative, matrix[terms.leads :, terms.leads :]
