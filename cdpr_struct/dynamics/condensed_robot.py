@@ -86,8 +86,27 @@ class Pencil:
 
     @property
     def squared(self) -> np.ndarray:
-        """(n, k) sigma + d_i, ascending: above the squared frequencies; nan where the pencil is not one."""
-        return self.shift[:, None] + np.linalg.eigvalsh(self.matrix)
+        """(n, k) sigma + d_i, ascending: above the squared frequencies; nan where the cables have no such shift."""
+        matrix, known = self._finite
+        return np.where(known[:, None], self.shift[:, None] + np.linalg.eigvalsh(matrix), np.nan)
+
+    @property
+    def modes(self) -> tuple[np.ndarray, np.ndarray]:
+        """d_i (n, k), ascending, and vectors (n, k, k), columns of unit modal mass; of no pose where `squared` is nan."""
+        d, vectors = np.linalg.eigh(self._finite[0])
+        return d, vectors
+
+    def shares(self, vectors: np.ndarray, momentum: np.ndarray) -> np.ndarray:
+        """(n, k) squared products of momenta (n, 6) with the modes' platform motions."""
+        seen = forward(self.lower, np.moveaxis(momentum, 0, -1))
+        return np.asarray(np.einsum("in,nik->nk", seen, vectors[:, :6]) ** 2)
+
+    @property
+    def _finite(self) -> tuple[np.ndarray, np.ndarray]:
+        known = np.isfinite(self.matrix[:, :6, :6]).all(axis=(1, 2)) & (self.shift < self.lowest)
+        if known.all():
+            return self.matrix, known
+        return np.where(known[:, None, None], self.matrix, np.eye(self.matrix.shape[1])), known
 
     def enclosed(self, squared: np.ndarray) -> np.ndarray:
         """(n, ...) lower ends of the intervals whose upper ends are sigma + d_i; minus infinity where none is proved."""

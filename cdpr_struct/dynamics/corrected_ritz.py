@@ -27,7 +27,7 @@ def corrected(
     platform_motion = backward(own.lower, np.moveaxis(vectors[:, :6], 0, -1))
     terms = _in_modes(platform, cables, platform_motion, vectors)
     stiffness, mass = _trial(d, terms)
-    inverse = np.linalg.inv(np.linalg.cholesky(mass))
+    inverse = np.linalg.inv(np.linalg.cholesky(_positive(mass)))
     values, turn = np.linalg.eigh(inverse @ stiffness @ np.swapaxes(inverse, 1, 2))
     motion = np.moveaxis(platform_motion, -1, 0) @ np.swapaxes(inverse, 1, 2) @ turn
     return own.shift[:, None] + values, motion
@@ -82,27 +82,44 @@ def _trial(d: np.ndarray, terms: list[np.ndarray]) -> tuple[np.ndarray, np.ndarr
     return stiffness, mass
 
 
+def _positive(mass: np.ndarray) -> np.ndarray:
+    """The masses, and the unit matrix where rounding has left none; counts then refuse what comes of it."""
+    lowest = np.linalg.eigvalsh(mass)[:, 0] if np.isfinite(mass).all() else np.full(len(mass), -1.0)
+    good = lowest > 1e-12
+    return np.where(good[:, None, None], mass, np.eye(mass.shape[1]))
+
+
 def most_below(platform: Platform, cables: CondensedCables, shift: np.ndarray, squared: np.ndarray) -> np.ndarray:
     """(n,) no more than so many squared frequencies lie below `squared` (n,); a large number where none is proved."""
-    d, gap = squared - shift, cables.lowest - shift
-    left = gap - d
+    gap, left = cables.lowest - shift, cables.lowest - squared
     sure = (gap > 0.0) & (left > 0.0)
-    powers = _powers(d, len(cables.in_plane.of_power), np.where(sure, gap / np.where(sure, left, 1.0), 1.0))
-    count, ends = np.zeros(len(d), dtype=int), []
-    for terms in (cables.in_plane, cables.out_of_plane):
-        negative, end = _without_leads(terms, powers)
-        count += negative
-        ends.append(end)
-    stiffness = platform.of_ends(*ends) + platform.held - squared * platform.mass
-    whole = np.moveaxis(stiffness, -1, 0)
-    count += (np.linalg.eigvalsh(whole) < 0.0).sum(axis=1)
-    return np.where(sure & np.isfinite(whole).all(axis=(1, 2)), count, np.iinfo(int).max)
+    negative, counted = _negative(platform, cables, shift, squared, np.where(sure, gap / np.where(sure, left, 1.0), 1.0))
+    return np.where(sure & counted, negative, np.iinfo(int).max)
 
 
-def _powers(d: np.ndarray, count: int, last: np.ndarray) -> list[np.ndarray]:
-    """Factors (n,) of the terms: 1, -d, -d^2, ..., the last one times `last`."""
+def least_below(platform: Platform, cables: CondensedCables, shift: np.ndarray, squared: np.ndarray) -> np.ndarray:
+    """(n,) no fewer than so many squared frequencies lie below `squared` (n,): the series' remainder left out."""
+    sure = np.maximum(shift, squared) < cables.lowest
+    negative, counted = _negative(platform, cables, shift, squared, np.ones_like(shift))
+    return np.where(sure & counted, negative, 0)
+
+
+def _negative(
+    platform: Platform, cables: CondensedCables, shift: np.ndarray, squared: np.ndarray, last: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Negative eigenvalues (n,) at `squared`, the last term times `last`, and whether they are numbers at all (n,)."""
+    d, count = squared - shift, len(cables.in_plane.of_power)
     powers = [np.ones_like(d)] + [-(d**k) for k in range(1, count)]
-    return [*powers[:-1], powers[-1] * last]
+    powers[-1] = powers[-1] * last
+    negative, ends = np.zeros(len(d), dtype=int), []
+    for terms in (cables.in_plane, cables.out_of_plane):
+        of_leads, end = _without_leads(terms, powers)
+        negative += of_leads
+        ends.append(end)
+    whole = np.moveaxis(platform.of_ends(*ends) + platform.held - squared * platform.mass, -1, 0)
+    counted = np.isfinite(whole).all(axis=(1, 2))
+    own = np.linalg.eigvalsh(np.where(counted[:, None, None], whole, np.eye(6)))
+    return negative + (own < 0.0).sum(axis=1), counted
 
 
 def _without_leads(terms: Terms, powers: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
