@@ -23,6 +23,11 @@ _SHIFTS = 8
 _LEADS = (2, 3)
 _REACH = 0.6  # of the eliminated motions' lowest squared frequency: so far a shift may lie
 _SPARE = 4
+_PLATFORM_LEADS = ((2, 3), (6, 5))  # leads and highest power of the two attempts
+_FAR = 4.5  # massless over lowest string's squared frequency: beyond, the first attempt is not worth while
+_WINDOW = 8
+_NEAR = 0.1  # share of the lowest string in the shift towards the platform's mode
+_SEEN = 0.85  # of the eliminated motions' lowest squared frequency: so far modes are taken for known
 _LOW, _HIGH = 0.45, 0.55  # share of the first and of the last squared frequency in the shift
 
 
@@ -90,23 +95,29 @@ class Batch:
         return pencil(self.platform, condensed(self.cables, shift, string_functions(order), 1), shift)
 
 
-def first_mode(batch: Batch) -> Enclosed:
-    """Squared first frequency (n,) of stable poses."""
+def first_mode(batch: Batch, near: np.ndarray | None = None) -> Enclosed:
+    """Squared first frequency (n,) of stable poses; nan where it is not proved.
+
+    near : (n,) where to begin, nan for not known
+    """
     n = batch.cables.length.shape[1]
-    squared, low = np.full(n, np.nan), np.full(n, -np.inf)
-    todo, shift = np.arange(n), batch.lowest_string
+    squared, low = np.full(n, np.nan), np.full(n, np.nan)
+    start = batch.lowest_string
+    rough = near is None or not np.isfinite(near).all()
+    shift = start if rough else np.where(near > 0.0, near, 0.5 * start)
+    todo = np.arange(n)
     for count in range(_SHIFTS):
         part = batch if todo.size == n else batch.take(todo)
-        own = part.pencil(shift[todo], _ROUGH if count == 0 else batch.order)
+        own = part.pencil(shift[todo], _ROUGH if rough and count == 0 else batch.order)
         found = own.squared[:, 0]
-        squared[todo], low[todo] = found, own.enclosed(found)
+        below = own.enclosed(found)
+        proved = (found - below <= 2.0 * _FIRST_PROVED * found) & (not rough or count > 0)
+        squared[todo[proved]], low[todo[proved]] = found[proved], below[proved]
         shift[todo] = np.where(found > 0.0, found, 0.5 * shift[todo])
-        proved = (squared[todo] - low[todo] <= 2.0 * _FIRST_PROVED * squared[todo]) & (count > 0)
         todo = todo[~proved & np.isfinite(found)]
         if not todo.size:
             break
-    proved = squared - low <= 2.0 * _FIRST_PROVED * squared
-    return Enclosed(np.where(proved, squared, np.nan), np.where(proved, low, np.nan))
+    return Enclosed(squared, low)
 
 
 def lowest_modes(batch: Batch, count: int) -> Enclosed:
@@ -139,50 +150,66 @@ def _about(batch: Batch, shift: np.ndarray, count: int, leads: int) -> Enclosed:
     return Enclosed(np.where(proved, squared, np.nan), np.where(proved, low, np.nan))
 
 
-def platform_mode(batch: Batch, massless: np.ndarray, momentum: np.ndarray) -> np.ndarray:
-    """Squared frequency (n,) of the mode whose platform motion is most like a wanted one; nan where it is not proved.
+@dataclass(frozen=True, slots=True, eq=False)
+class PlatformMode:
+    """Squared frequency (n,) of the mode most like a motion of the platform, nan where it is not proved; and about the
+    squared first frequency (n,), nan where even that is not known."""
+
+    squared: np.ndarray
+    first: np.ndarray
+
+
+def platform_mode(batch: Batch, massless: np.ndarray, momentum: np.ndarray, among: int) -> PlatformMode:
+    """The mode, `among` so many first ones, whose platform motion is most like a wanted one.
 
     massless : (n,) squared frequency near which it is to be expected
     momentum : (n, 6) platform mass times that motion, of unit modal mass
     """
     n = len(massless)
-    found = np.full(n, np.nan)
-    todo = np.arange(n)
-    for leads in _LEADS:
-        if not todo.size:
-            break
-        found[todo] = _most_alike(batch.take(todo), massless[todo], momentum[todo], leads)
-        todo = todo[~np.isfinite(found[todo])]
-    return found
+    found, first = np.full(n, np.nan), np.full(n, np.nan)
+    far = massless > _FAR * batch.lowest_string
+    for leads, terms in _PLATFORM_LEADS:
+        todo = np.flatnonzero(~np.isfinite(found) & ~(far & (leads == _PLATFORM_LEADS[0][0])))
+        if todo.size:
+            part = batch if todo.size == n else batch.take(todo)
+            found[todo], first[todo] = _most_alike(part, (massless[todo], momentum[todo]), (leads, terms), among)
+    return PlatformMode(found, first)
 
 
-def _most_alike(batch: Batch, massless: np.ndarray, momentum: np.ndarray, leads: int) -> np.ndarray:
-    shift = np.minimum(_LOW * batch.lowest_string + _HIGH * massless, _REACH * (leads + 1) ** 2 * batch.lowest_string)
-    own = condensed(batch.cables, shift, string_functions(batch.order), leads, 5)
+def _most_alike(
+    batch: Batch, wanted: tuple[np.ndarray, np.ndarray], size: tuple[int, int], among: int
+) -> tuple[np.ndarray, np.ndarray]:
+    massless, momentum = wanted
+    leads, terms = size
+    string = batch.lowest_string
+    shift = np.minimum(_NEAR * string + (1.0 - _NEAR) * massless, (_REACH * (leads + 1)) ** 2 * string)
+    own = condensed(batch.cables, shift, string_functions(batch.order + 2 * (leads - 2)), leads, terms)
     small = pencil(batch.platform, own, shift)
     d, vectors = small.modes
-    chosen, sure = _window(small, d, vectors, momentum)
-    values = np.take_along_axis(d, chosen, axis=1)
-    squared, motion = corrected(
-        batch.platform, own, small, values, np.take_along_axis(vectors, chosen[:, None], axis=2)
-    )
-    best = (np.einsum("ni,nis->ns", momentum, motion) ** 2).argmax(axis=1)
-    rank = np.take_along_axis(chosen, best[:, None], axis=1)[:, 0]
-    found = np.take_along_axis(squared, best[:, None], axis=1)[:, 0]
+    chosen, sure = _window(small, (d, vectors), momentum, among)
+    values, shapes = np.take_along_axis(d, chosen, axis=1), np.take_along_axis(vectors, chosen[:, None], axis=2)
+    squared, motion = corrected(batch.platform, own, small, values, shapes)
+    best = (np.einsum("ni,nis->ns", momentum, motion) ** 2).argmax(axis=1)[:, None]
+    rank = np.take_along_axis(chosen, best, axis=1)[:, 0]
+    found = np.take_along_axis(squared, best, axis=1)[:, 0]
     above = least_below(batch.platform, own, shift, found * (1.0 + 2.0 * PROVED)) > rank
     below = most_below(batch.platform, own, shift, found * (1.0 - 2.0 * PROVED)) <= rank
-    return np.where(sure & above & below, found, np.nan)
+    known = shift < own.lowest
+    return np.where(sure & above & below, found, np.nan), np.where(known, shift + d[:, 0], np.nan)
 
 
 def _window(
-    small: Pencil, d: np.ndarray, vectors: np.ndarray, momentum: np.ndarray
+    small: Pencil, modes: tuple[np.ndarray, np.ndarray], momentum: np.ndarray, among: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Modes (n, s) around the most alike one, and whether no mode beyond the shift's reach can be more alike (n,)."""
+    """Modes (n, s) around the most alike one, and where it is known that no other of the first can be more alike (n,):
+    all of these lie within the shift's reach, or what lies beyond has less in common with the motion altogether."""
+    d, vectors = modes
     alike = small.shares(vectors, momentum)
-    best = alike.argmax(axis=1)
-    known = small.shift[:, None] + d < _REACH * small.lowest[:, None]
+    known = (small.shift[:, None] + d < _SEEN * small.lowest[:, None]) & (np.arange(d.shape[1]) < among)
+    best = np.where(known, alike, -1.0).argmax(axis=1)
     row = np.arange(len(best))
     rest = np.where(known, 0.0, alike).sum(axis=1)
-    size = min(12, d.shape[1])
+    size = min(_WINDOW, d.shape[1])
     start = np.clip(best - size // 2, 0, d.shape[1] - size)
-    return start[:, None] + np.arange(size), known[row, best] & (alike[row, best] > rest)
+    sure = (known.sum(axis=1) >= among) | (alike[row, best] > rest)
+    return start[:, None] + np.arange(size), known[row, best] & sure

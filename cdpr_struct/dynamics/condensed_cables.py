@@ -21,7 +21,7 @@ import numpy as np
 
 from cdpr_struct.dynamics.string_functions import StringFunctions
 from cdpr_struct.statics.cable_state import CableStates
-from cdpr_struct.statics.small_systems import backward, cholesky, forward
+from cdpr_struct.statics.small_systems import backward, cholesky, eliminate, forward, substituted_back
 
 HIGHEST_TERM = 5
 
@@ -79,14 +79,22 @@ class HangingCables:
 
     def densities(self, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """D_aa, D_an, D_nn and D_yy (q, m, n) [N] at nodes (q,)."""
-        cos, sin = self.direction
-        change = 0.5 * self.weight * self.length * nodes[:, None, None]
-        ahead, across = self.tension + sin * change, cos * change
+        ahead, across = self._pull(nodes)
         squared = ahead**2 + across**2
         tension = np.sqrt(squared)
         soft = tension / (1.0 + tension / self.stiff)
         excess = (self.stiff - soft) / squared
         return soft + excess * ahead**2, excess * ahead * across, soft + excess * across**2, soft
+
+    def out_of_plane(self, nodes: np.ndarray) -> np.ndarray:
+        """D_yy (q, m, n) [N] at nodes (q,)."""
+        tension = np.hypot(*self._pull(nodes))
+        return np.asarray(tension / (1.0 + tension / self.stiff))
+
+    def _pull(self, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        cos, sin = self.direction
+        change = 0.5 * self.weight * self.length * nodes[:, None, None]
+        return self.tension + sin * change, cos * change
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -179,9 +187,9 @@ def _gathered(blocks: list[np.ndarray], layout: _Layout, functions: StringFuncti
 def _terms(matrix: np.ndarray, layout: _Layout, cables: HangingCables, leads: int, highest: int) -> Terms:
     """Condensation of the upper triangle `matrix` (d, d, m, n), which is used up."""
     c = layout.eliminated
-    shares = _eliminate(matrix, c)
+    shares = eliminate(matrix, c)
     coupled = layout.mass[:c, c:, None, None]
-    followed = _substituted_back(shares, -matrix[:c, c:] / _pivots(matrix, c))
+    followed = substituted_back(shares, -matrix[:c, c:] / _pivots(matrix, c))
     carried = coupled + followed
     kept = np.triu(np.ones((len(matrix) - c,) * 2))[..., None, None] * matrix[c:, c:]
     own = kept + np.swapaxes(np.triu(np.ones(kept.shape[:2]), 1)[..., None, None] * kept, 0, 1)
@@ -202,33 +210,13 @@ def _pivots(matrix: np.ndarray, c: int) -> np.ndarray:
     return matrix[np.arange(c), np.arange(c)][:, None]
 
 
-def _eliminate(matrix: np.ndarray, c: int) -> list[np.ndarray]:
-    """Rows of the unit triangular factor (each (d - k - 1, m, n)); the Schur complement stays in `matrix`."""
-    shares = []
-    for k in range(c):
-        row = matrix[k, k + 1 :]
-        share = row / matrix[k, k]
-        for i in range(len(row)):
-            matrix[k + 1 + i, k + 1 + i :] -= share[i] * row[i:]
-        shares.append(share)
-    return shares
-
-
-def _substituted_back(shares: list[np.ndarray], right: np.ndarray) -> np.ndarray:
-    """Solution x (c, r, m, n) of L^T x = right, which is used up."""
-    for k in reversed(range(len(right))):
-        for i in range(k + 1, len(right)):
-            right[k] -= shares[k][i - k - 1] * right[i]
-    return right
-
-
 def _solved(shares: list[np.ndarray], pivots: np.ndarray, right: np.ndarray) -> np.ndarray:
     """A^-1 right (c, r, m, n)."""
     found = np.array(right)
     for k in range(len(found)):
         for i in range(k + 1, len(found)):
             found[i] -= shares[k][i - k - 1] * found[k]
-    return _substituted_back(shares, found / pivots)
+    return substituted_back(shares, found / pivots)
 
 
 def _product(left: np.ndarray, right: np.ndarray) -> np.ndarray:

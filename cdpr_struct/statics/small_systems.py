@@ -40,3 +40,27 @@ def backward(lower: np.ndarray, right: np.ndarray) -> np.ndarray:
             solved[i] -= lower[j, i].reshape(extra + lower.shape[2:]) * solved[j]
         solved[i] /= lower[i, i].reshape(extra + lower.shape[2:])
     return solved
+
+
+def eliminate(matrix: np.ndarray, count: int) -> list[np.ndarray]:
+    """Eliminate the first `count` unknowns of symmetric matrices (i, j, ...), of which the upper triangle is read.
+
+    Pivots and Schur complement stay in the upper triangle of `matrix`; returned are the rows of the unit triangular
+    factor behind each pivot.
+    """
+    shares = []
+    for k in range(count):
+        row = matrix[k, k + 1 :]
+        share = row / matrix[k, k]
+        for i in range(len(row)):
+            matrix[k + 1 + i, k + 1 + i :] -= share[i] * row[i:]
+        shares.append(share)
+    return shares
+
+
+def substituted_back(shares: list[np.ndarray], right: np.ndarray) -> np.ndarray:
+    """Solution x (i, r, ...) of L^T x = right, which is used up."""
+    for k in reversed(range(len(right))):
+        for i in range(k + 1, len(right)):
+            right[k] -= shares[k][i - k - 1] * right[i]
+    return right
