@@ -10,24 +10,20 @@ import numpy as np
 
 from cdpr_struct.dynamics.condensed_cables import HangingCables, condensed
 from cdpr_struct.dynamics.condensed_robot import Pencil, Platform, pencil
-from cdpr_struct.dynamics.corrected_ritz import corrected, least_below, most_below
+from cdpr_struct.dynamics.corrected_ritz import corrected, most_below
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.string_functions import string_functions
 from cdpr_struct.statics.slack_cables import hangs_slack
 
 PROVED = 1e-7  # relative width, of a frequency, that counts as its proof
+REACH = 0.6  # of the eliminated motions' lowest squared frequency: so far a shift may lie
 _FIRST_PROVED = 1e-9
 _SAGGING = 0.4  # w L / T beyond which cables take the higher order
 _ROUGH, _ORDER, _SAGGING_ORDER = 5, 8, 10
 _SHIFTS = 8
-_LEADS = (2, 3)
-_REACH = 0.6  # of the eliminated motions' lowest squared frequency: so far a shift may lie
+_MANY = ((2, 8), (3, 12), (6, 16))  # leads and order of the attempts at many modes
+_RESOLVED = 1.8  # half waves of the lowest string that order 8 resolves; one more for each two orders
 _SPARE = 4
-_PLATFORM_LEADS = ((2, 3), (6, 5))  # leads and highest power of the two attempts
-_FAR = 4.5  # massless over lowest string's squared frequency: beyond, the first attempt is not worth while
-_WINDOW = 8
-_NEAR = 0.1  # share of the lowest string in the shift towards the platform's mode
-_SEEN = 0.85  # of the eliminated motions' lowest squared frequency: so far modes are taken for known
 _LOW, _HIGH = 0.45, 0.55  # share of the first and of the last squared frequency in the shift
 
 
@@ -86,10 +82,14 @@ class Batch:
         return _ORDER if self.cables.sag_ratio.max(initial=0.0) < _SAGGING else _SAGGING_ORDER
 
     @property
+    def strings(self) -> np.ndarray:
+        """(m, n) squared first frequencies of uniform strings with the cables' tensions at mid-cable."""
+        return np.asarray((0.5 * np.pi) ** 2 * self.cables.tension / self.cables.per_squared)
+
+    @property
     def lowest_string(self) -> np.ndarray:
-        """(n,) squared first frequency of the lowest of the strings."""
-        string = (0.5 * np.pi) ** 2 * self.cables.tension / self.cables.per_squared
-        return np.asarray(string.min(axis=0))
+        """(n,) the lowest of them."""
+        return np.asarray(self.strings.min(axis=0))
 
     def pencil(self, shift: np.ndarray, order: int) -> Pencil:
         return pencil(self.platform, condensed(self.cables, shift, string_functions(order), 1), shift)
@@ -121,95 +121,37 @@ def first_mode(batch: Batch, near: np.ndarray | None = None) -> Enclosed:
 
 
 def lowest_modes(batch: Batch, count: int) -> Enclosed:
-    """Squared frequencies (n, count), ascending, of stable poses."""
-    first = batch.lowest_string
-    strings = np.sort((0.5 * np.pi) ** 2 * batch.cables.tension / batch.cables.per_squared, axis=0)
-    top = np.repeat(strings, 2, axis=0)[: max(count - 4, 1)][-1] if count <= 2 * len(strings) else 4.0 * first
-    found = _about(batch, _LOW * first + _HIGH * top, count, _LEADS[0])
-    for leads in _LEADS[1:]:
-        open_ = np.flatnonzero(~np.isfinite(found.squared).all(axis=1))
-        if not open_.size:
+    """Squared frequencies (n, count), ascending, of stable poses; nan where they are not proved.
+
+    One shift a pose serves most; where it does not, more leads, more polynomials and a shift by what is known by then.
+    """
+    n, strings = batch.cables.length.shape[1], np.sort(batch.strings, axis=0)
+    found = np.full((n, count), np.nan)
+    first, top = strings[0], np.repeat(strings, 2, axis=0)[min(count - 5, 2 * len(strings) - 1)]
+    for leads, order in _MANY:
+        todo = np.flatnonzero(~np.isfinite(found).all(axis=1))
+        if not todo.size:
             break
-        again = _about(batch.take(open_), first[open_] * 2.0, count, leads)
-        found.squared[open_], found.low[open_] = again.squared, again.low
-    return found
+        part = batch if todo.size == n else batch.take(todo)
+        shift = np.minimum(_LOW * first[todo] + _HIGH * top[todo], REACH * (leads + 1) ** 2 * strings[0, todo])
+        guess, proved = _about(part, shift, count, (leads, max(order, part.order)))
+        found[todo] = np.where(proved & ~np.isfinite(found[todo]), guess, found[todo])
+        first[todo], top[todo] = guess[:, 0], guess[:, -1]
+    return Enclosed(found, found * (1.0 - 2.0 * PROVED))
 
 
-def _about(batch: Batch, shift: np.ndarray, count: int, leads: int) -> Enclosed:
-    """The first `count` squared frequencies (n, count) from one shift; nan where they are not proved."""
-    own = condensed(batch.cables, shift, string_functions(batch.order), leads, 5)
+def _about(
+    batch: Batch, shift: np.ndarray, count: int, size: tuple[int, int]
+) -> tuple[np.ndarray, np.ndarray]:
+    """The first `count` squared frequencies (n, count) from one shift, and which are proved (n, count)."""
+    leads, order = size
+    own = condensed(batch.cables, shift, string_functions(order), leads, 5)
     small = pencil(batch.platform, own, shift)
     d, vectors = small.modes
     chosen = slice(0, count + _SPARE)
     squared, _ = corrected(batch.platform, own, small, d[:, chosen], vectors[:, :, chosen])
     squared = squared[:, :count]
     low = squared * (1.0 - 2.0 * PROVED)
-    proved = np.stack(
-        [most_below(batch.platform, own, shift, low[:, i]) <= i for i in range(count)], axis=1
-    )
-    return Enclosed(np.where(proved, squared, np.nan), np.where(proved, low, np.nan))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PlatformMode:
-    """Squared frequency (n,) of the mode most like a motion of the platform, nan where it is not proved; and about the
-    squared first frequency (n,), nan where even that is not known."""
-
-    squared: np.ndarray
-    first: np.ndarray
-
-
-def platform_mode(batch: Batch, massless: np.ndarray, momentum: np.ndarray, among: int) -> PlatformMode:
-    """The mode, `among` so many first ones, whose platform motion is most like a wanted one.
-
-    massless : (n,) squared frequency near which it is to be expected
-    momentum : (n, 6) platform mass times that motion, of unit modal mass
-    """
-    n = len(massless)
-    found, first = np.full(n, np.nan), np.full(n, np.nan)
-    far = massless > _FAR * batch.lowest_string
-    for leads, terms in _PLATFORM_LEADS:
-        todo = np.flatnonzero(~np.isfinite(found) & ~(far & (leads == _PLATFORM_LEADS[0][0])))
-        if todo.size:
-            part = batch if todo.size == n else batch.take(todo)
-            found[todo], first[todo] = _most_alike(part, (massless[todo], momentum[todo]), (leads, terms), among)
-    return PlatformMode(found, first)
-
-
-def _most_alike(
-    batch: Batch, wanted: tuple[np.ndarray, np.ndarray], size: tuple[int, int], among: int
-) -> tuple[np.ndarray, np.ndarray]:
-    massless, momentum = wanted
-    leads, terms = size
-    string = batch.lowest_string
-    shift = np.minimum(_NEAR * string + (1.0 - _NEAR) * massless, (_REACH * (leads + 1)) ** 2 * string)
-    own = condensed(batch.cables, shift, string_functions(batch.order + 2 * (leads - 2)), leads, terms)
-    small = pencil(batch.platform, own, shift)
-    d, vectors = small.modes
-    chosen, sure = _window(small, (d, vectors), momentum, among)
-    values, shapes = np.take_along_axis(d, chosen, axis=1), np.take_along_axis(vectors, chosen[:, None], axis=2)
-    squared, motion = corrected(batch.platform, own, small, values, shapes)
-    best = (np.einsum("ni,nis->ns", momentum, motion) ** 2).argmax(axis=1)[:, None]
-    rank = np.take_along_axis(chosen, best, axis=1)[:, 0]
-    found = np.take_along_axis(squared, best, axis=1)[:, 0]
-    above = least_below(batch.platform, own, shift, found * (1.0 + 2.0 * PROVED)) > rank
-    below = most_below(batch.platform, own, shift, found * (1.0 - 2.0 * PROVED)) <= rank
-    known = shift < own.lowest
-    return np.where(sure & above & below, found, np.nan), np.where(known, shift + d[:, 0], np.nan)
-
-
-def _window(
-    small: Pencil, modes: tuple[np.ndarray, np.ndarray], momentum: np.ndarray, among: int
-) -> tuple[np.ndarray, np.ndarray]:
-    """Modes (n, s) around the most alike one, and where it is known that no other of the first can be more alike (n,):
-    all of these lie within the shift's reach, or what lies beyond has less in common with the motion altogether."""
-    d, vectors = modes
-    alike = small.shares(vectors, momentum)
-    known = (small.shift[:, None] + d < _SEEN * small.lowest[:, None]) & (np.arange(d.shape[1]) < among)
-    best = np.where(known, alike, -1.0).argmax(axis=1)
-    row = np.arange(len(best))
-    rest = np.where(known, 0.0, alike).sum(axis=1)
-    size = min(_WINDOW, d.shape[1])
-    start = np.clip(best - size // 2, 0, d.shape[1] - size)
-    sure = (known.sum(axis=1) >= among) | (alike[row, best] > rest)
-    return start[:, None] + np.arange(size), known[row, best] & sure
+    few = [most_below(batch.platform, own, shift, low[:, i]) <= i for i in range(count)]
+    half_waves = np.sqrt(np.maximum(squared, 0.0) / batch.lowest_string[:, None])
+    return squared, np.stack(few, axis=1) & (half_waves <= 0.5 * (order - _ORDER) + _RESOLVED)

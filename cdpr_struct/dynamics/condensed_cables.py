@@ -147,7 +147,8 @@ def condensed(
     for components in ((0, 1), (2,)):
         layout = _layout(components, functions, leads)
         matrix = _gathered(blocks, layout, functions)
-        matrix -= own * layout.mass[..., None, None]
+        for i, j in zip(*np.nonzero(np.triu(layout.mass)), strict=True):
+            matrix[i, j] -= layout.mass[i, j] * own
         planes.append(_terms(matrix, layout, cables, leads, highest))
     return CondensedCables(planes[0], planes[1], _lowest(cables, densities, functions, leads))
 

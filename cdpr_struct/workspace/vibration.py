@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from cdpr_struct.dynamics.batched_modes import Batch, first_mode, fits, platform_mode
+from cdpr_struct.dynamics.batched_modes import Batch, first_mode, fits
 from cdpr_struct.dynamics.cable_dynamics import expand_catenaries_at
 from cdpr_struct.dynamics.lowest_clamped import lowest_clamped
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.platform_modes import platform_mode
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix, platform_static_stiffness
 from cdpr_struct.robot.robot import Robot

@@ -1,0 +1,84 @@
+"""Which mode of the robot is its platform's, at very many poses?"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.dynamics.batched_modes import PROVED, REACH, Batch
+from cdpr_struct.dynamics.condensed_cables import condensed
+from cdpr_struct.dynamics.condensed_robot import Pencil, pencil
+from cdpr_struct.dynamics.corrected_ritz import corrected, least_below, most_below
+from cdpr_struct.dynamics.string_functions import string_functions
+
+_ATTEMPTS = ((1, 5, 2.2), (2, 5, 4.5), (6, 5, np.inf))
+"""At the platform's mode: leads, highest power of d, and the largest ratio of the squared massless frequency to the
+lowest string's at which that is tried."""
+_WINDOW = 8
+_PAST = 1.05  # the shift towards the platform's mode, over the squared massless frequency
+_SEEN = 0.85  # of the eliminated motions' lowest squared frequency: so far modes are taken for known
+_LOW, _HIGH = 0.45, 0.55  # share of the first and of the last squared frequency in the shift
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlatformMode:
+    """Squared frequency (n,) of the mode most like a motion of the platform, nan where it is not proved; and about the
+    squared first frequency (n,), nan where even that is not known."""
+
+    squared: np.ndarray
+    first: np.ndarray
+
+
+def platform_mode(batch: Batch, massless: np.ndarray, momentum: np.ndarray, among: int) -> PlatformMode:
+    """The mode, `among` so many first ones, whose platform motion is most like a wanted one.
+
+    massless : (n,) squared frequency near which it is to be expected
+    momentum : (n, 6) platform mass times that motion, of unit modal mass
+    """
+    n = len(massless)
+    found, first = np.full(n, np.nan), np.full(n, np.nan)
+    ratio = massless / batch.lowest_string
+    for leads, terms, most in _ATTEMPTS:
+        todo = np.flatnonzero(~np.isfinite(found) & (ratio < most))
+        if todo.size:
+            part = batch if todo.size == n else batch.take(todo)
+            found[todo], first[todo] = _most_alike(part, (massless[todo], momentum[todo]), (leads, terms), among)
+    return PlatformMode(found, first)
+
+
+def _most_alike(
+    batch: Batch, wanted: tuple[np.ndarray, np.ndarray], size: tuple[int, int], among: int
+) -> tuple[np.ndarray, np.ndarray]:
+    massless, momentum = wanted
+    leads, terms = size
+    string = batch.lowest_string
+    shift = np.minimum(_PAST * massless, REACH * (leads + 1) ** 2 * string)
+    own = condensed(batch.cables, shift, string_functions(batch.order + 2 * max(leads - 2, 0)), leads, terms)
+    small = pencil(batch.platform, own, shift)
+    d, vectors = small.modes
+    chosen, sure = _window(small, (d, vectors), momentum, among)
+    values, shapes = np.take_along_axis(d, chosen, axis=1), np.take_along_axis(vectors, chosen[:, None], axis=2)
+    squared, motion = corrected(batch.platform, own, small, values, shapes)
+    best = (np.einsum("ni,nis->ns", momentum, motion) ** 2).argmax(axis=1)[:, None]
+    rank = np.take_along_axis(chosen, best, axis=1)[:, 0]
+    found = np.take_along_axis(squared, best, axis=1)[:, 0]
+    above = least_below(batch.platform, own, shift, found * (1.0 + 2.0 * PROVED)) > rank
+    below = most_below(batch.platform, own, shift, found * (1.0 - 2.0 * PROVED)) <= rank
+    known = shift < own.lowest
+    return np.where(sure & above & below, found, np.nan), np.where(known, shift + d[:, 0], np.nan)
+
+
+def _window(
+    small: Pencil, modes: tuple[np.ndarray, np.ndarray], momentum: np.ndarray, among: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Modes (n, s) around the most alike one, and where it is known that no other of the first can be more alike (n,):
+    all of these lie within the shift's reach, or what lies beyond has less in common with the motion altogether."""
+    d, vectors = modes
+    alike = small.shares(vectors, momentum)
+    known = (small.shift[:, None] + d < _SEEN * small.lowest[:, None]) & (np.arange(d.shape[1]) < among)
+    best = np.where(known, alike, -1.0).argmax(axis=1)
+    row = np.arange(len(best))
+    rest = np.where(known, 0.0, alike).sum(axis=1)
+    size = min(_WINDOW, d.shape[1])
+    start = np.clip(best - size // 2, 0, d.shape[1] - size)
+    sure = (known.sum(axis=1) >= among) | (alike[row, best] > rest)
+    return start[:, None] + np.arange(size), known[row, best] & sure
