@@ -23,10 +23,11 @@ def random_robot(rng: np.random.Generator, **changes: Any) -> Robot:
     size = rng.uniform(0.15, 0.7, 3)
     inner = around + rng.uniform(0.5, 1.2, m) * np.where(np.arange(m) % 2, 1.0, -1.0)
     platform = np.stack([size[0] * np.cos(inner), size[1] * np.sin(inner), rng.uniform(-size[2], size[2], m)], axis=1)
-    mass = 10.0 ** rng.uniform(0.7, 2.5)
+    density = 10.0 ** rng.uniform(-2.3, -0.7)
+    stiff = density * 10.0 ** rng.uniform(6.3, 7.3)
+    mass = min(10.0 ** rng.uniform(0.7, 2.5), stiff / 1000.0)
     lengths = size * rng.uniform(0.6, 1.2, 3)
     inertia = mass / 3.0 * np.diag(np.sum(lengths**2) - lengths**2)
-    density, stiff = 10.0 ** rng.uniform(-2.3, -0.7), 10.0 ** rng.uniform(4.5, 6.0)
     return Robot(
         name="random",
         platform=Platform(mass, rng.uniform(-0.05, 0.05, 3), inertia),

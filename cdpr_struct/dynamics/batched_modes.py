@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.dynamics.condensed_cables import HangingCables, condensed
+from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, HangingCables, condensed
 from cdpr_struct.dynamics.condensed_robot import Pencil, Platform, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, most_below
 from cdpr_struct.dynamics.operating_point import OperatingPoint
@@ -21,8 +21,8 @@ _FIRST_PROVED = 1e-9
 _SAGGING = 0.4  # w L / T beyond which cables take the higher order
 _ROUGH, _ORDER, _SAGGING_ORDER = 5, 8, 10
 _SHIFTS = 8
-_MANY = ((2, 8), (3, 12), (6, 16))  # leads and order of the attempts at many modes
-_RESOLVED = 1.8  # half waves of the lowest string that order 8 resolves; one more for each two orders
+_MANY = ((2, 10), (3, 12), (6, 16))  # leads and order of the attempts at many modes
+_RESOLVED = 6.2  # so much must the order exceed twice the half waves of the lowest string that it resolves
 _SPARE = 4
 _LOW, _HIGH = 0.45, 0.55  # share of the first and of the last squared frequency in the shift
 
@@ -145,7 +145,7 @@ def _about(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The first `count` squared frequencies (n, count) from one shift, and which are proved (n, count)."""
     leads, order = size
-    own = condensed(batch.cables, shift, string_functions(order), leads, 5)
+    own = condensed(batch.cables, shift, string_functions(order), leads, HIGHEST_TERM)
     small = pencil(batch.platform, own, shift)
     d, vectors = small.modes
     chosen = slice(0, count + _SPARE)
@@ -154,4 +154,4 @@ def _about(
     low = squared * (1.0 - 2.0 * PROVED)
     few = [most_below(batch.platform, own, shift, low[:, i]) <= i for i in range(count)]
     half_waves = np.sqrt(np.maximum(squared, 0.0) / batch.lowest_string[:, None])
-    return squared, np.stack(few, axis=1) & (half_waves <= 0.5 * (order - _ORDER) + _RESOLVED)
+    return squared, np.stack(few, axis=1) & (2.0 * half_waves <= order - _RESOLVED)

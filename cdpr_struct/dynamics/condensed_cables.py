@@ -24,6 +24,7 @@ from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.small_systems import backward, cholesky, eliminate, forward, substituted_back
 
 HIGHEST_TERM = 5
+_SHARES = (1.0, 0.7, 0.5)  # of the ratio of the string's functions: the r that are tried for the bound below
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -248,13 +249,14 @@ def _lowest(
 ) -> np.ndarray:
     """(n,) omega^2 below which no eliminated motion has a frequency.
 
-    With r the ratio of the squared frequencies of the first string functions eliminated across and along the chord,
-    D >= diag(r G, b) along and across if b = D_nn - D_an^2 / (D_aa - r G); then all have b times the string's or more.
+    For any r < D_aa / G, D >= diag(r G, b) along and across the chord with b = D_nn - D_an^2 / (D_aa - r G). Squared
+    frequencies are then no less than r G (b) times those of the string's functions eliminated along it (across it).
     """
     aa, an, nn, soft = densities
     first, across = functions.string[0], functions.string[leads]
-    ratio = across / first
-    rest = aa - ratio * soft
-    bound = np.where(rest > 0.0, nn - an**2 / np.where(rest > 0.0, rest, 1.0), 0.0).min(axis=0)
-    bound = np.minimum(bound, soft.min(axis=0))
-    return np.asarray((across * bound / cables.per_squared).min(axis=0))
+    most, least = 0.5 * (aa / soft).min(axis=0), soft.min(axis=0)
+    bounds = []
+    for ratio in (np.minimum(share * across / first, most) for share in _SHARES):
+        own = across * (nn - an**2 / (aa - ratio * soft)).min(axis=0)
+        bounds.append(np.minimum(own, np.minimum(ratio * first, across) * least))
+    return np.asarray((np.max(bounds, axis=0) / cables.per_squared).min(axis=0))

@@ -16,17 +16,21 @@ from cdpr_struct.dynamics.condensed_cables import CondensedCables, Terms
 from cdpr_struct.dynamics.condensed_robot import Pencil, Platform
 from cdpr_struct.statics.small_systems import backward
 
+_FARTHEST = 0.7  # of lambda_c - sigma: no trial motion is followed further than that
+
 
 def corrected(
     platform: Platform, cables: CondensedCables, own: Pencil, d: np.ndarray, vectors: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Squared frequencies (n, s), ascending, and their platform motions (n, 6, s) of unit modal mass.
 
+    cables : with terms up to the fifth power
     d, vectors : (n, s), (n, k, s) of some modes of the pencil
     """
     platform_motion = backward(own.lower, np.moveaxis(vectors[:, :6], 0, -1))
     terms = _in_modes(platform, cables, platform_motion, vectors)
-    stiffness, mass = _trial(d, terms)
+    far = _FARTHEST * np.maximum(own.lowest - own.shift, 0.0)[:, None]
+    stiffness, mass = _trial(d, np.clip(d, -far, far), terms)
     inverse = np.linalg.inv(np.linalg.cholesky(_positive(mass)))
     values, turn = np.linalg.eigh(inverse @ stiffness @ np.swapaxes(inverse, 1, 2))
     motion = np.moveaxis(platform_motion, -1, 0) @ np.swapaxes(inverse, 1, 2) @ turn
@@ -67,18 +71,13 @@ def _rows(planes: "list[np.ndarray] | tuple[np.ndarray, ...]") -> np.ndarray:
     return np.ascontiguousarray(np.moveaxis(both, (3, 0, 2, 1), (0, 1, 2, 3))).reshape(n, r * m, s)
 
 
-def _trial(d: np.ndarray, terms: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Stiffness less sigma times mass, and mass (n, s, s), between the trial motions."""
-    row, column = d[:, :, None], d[:, None, :]
-    one, both = np.eye(d.shape[1]), row * column
-    two, three = terms[:2]
-    stiffness = one * row + both * two
-    mass = one + (row + column) * two + both * three
-    if len(terms) > 2:
-        four, five = terms[2:]
-        cross = both * (row + column)
-        stiffness = stiffness + cross * three + both**2 * four
-        mass = mass + (row**2 + column**2) * three + cross * four + both**2 * five
+def _trial(d: np.ndarray, reach: np.ndarray, terms: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffness less sigma times mass, and mass (n, s, s), between trial motions with `reach` (n, s) for d in them."""
+    row, column = reach[:, :, None], reach[:, None, :]
+    one, both, cross = np.eye(d.shape[1]), row * column, row * column * (row + column)
+    two, three, four, five = terms
+    stiffness = one * d[:, :, None] + both * two + cross * three + both**2 * four
+    mass = one + (row + column) * two + (both + row**2 + column**2) * three + cross * four + both**2 * five
     return stiffness, mass
 
 

@@ -5,13 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.dynamics.batched_modes import PROVED, REACH, Batch
-from cdpr_struct.dynamics.condensed_cables import condensed
+from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, condensed
 from cdpr_struct.dynamics.condensed_robot import Pencil, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, least_below, most_below
 from cdpr_struct.dynamics.string_functions import string_functions
 
-_ATTEMPTS = ((1, 5, 2.2), (2, 5, 4.5), (6, 5, np.inf))
-"""At the platform's mode: leads, highest power of d, and the largest ratio of the squared massless frequency to the
+_ATTEMPTS = ((1, 2.2), (2, 4.5), (6, np.inf))
+"""At the platform's mode: leads, and the largest ratio of the squared massless frequency to the
 lowest string's at which that is tried."""
 _WINDOW = 8
 _PAST = 1.05  # the shift towards the platform's mode, over the squared massless frequency
@@ -37,22 +37,21 @@ def platform_mode(batch: Batch, massless: np.ndarray, momentum: np.ndarray, amon
     n = len(massless)
     found, first = np.full(n, np.nan), np.full(n, np.nan)
     ratio = massless / batch.lowest_string
-    for leads, terms, most in _ATTEMPTS:
+    for leads, most in _ATTEMPTS:
         todo = np.flatnonzero(~np.isfinite(found) & (ratio < most))
         if todo.size:
             part = batch if todo.size == n else batch.take(todo)
-            found[todo], first[todo] = _most_alike(part, (massless[todo], momentum[todo]), (leads, terms), among)
+            found[todo], first[todo] = _most_alike(part, (massless[todo], momentum[todo]), leads, among)
     return PlatformMode(found, first)
 
 
 def _most_alike(
-    batch: Batch, wanted: tuple[np.ndarray, np.ndarray], size: tuple[int, int], among: int
+    batch: Batch, wanted: tuple[np.ndarray, np.ndarray], leads: int, among: int
 ) -> tuple[np.ndarray, np.ndarray]:
     massless, momentum = wanted
-    leads, terms = size
     string = batch.lowest_string
     shift = np.minimum(_PAST * massless, REACH * (leads + 1) ** 2 * string)
-    own = condensed(batch.cables, shift, string_functions(batch.order + 2 * max(leads - 2, 0)), leads, terms)
+    own = condensed(batch.cables, shift, string_functions(max(batch.order, 2 * leads + 6)), leads, HIGHEST_TERM)
     small = pencil(batch.platform, own, shift)
     d, vectors = small.modes
     chosen, sure = _window(small, (d, vectors), momentum, among)

@@ -5,6 +5,7 @@ import numpy as np
 from cdpr_struct.dynamics.batched_modes import Batch, first_mode, fits
 from cdpr_struct.dynamics.cable_dynamics import expand_catenaries_at
 from cdpr_struct.dynamics.lowest_clamped import lowest_clamped
+from cdpr_struct.dynamics.many_poses import poses_of
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.platform_modes import platform_mode
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
@@ -42,7 +43,7 @@ def _of_chunk(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Colu
         point = _points(robot, positions, rotation, solution, held)
         massless, momentum = _first_static_mode(point)
         stable = np.flatnonzero(massless > 0.0)
-        found = _at_rest(_at(point, stable), massless[stable], momentum[stable])
+        found = _at_rest(poses_of(point, stable), massless[stable], momentum[stable])
         for name, values in found.items():
             columns[name][held[stable]] = np.sqrt(values) / (2.0 * np.pi)
     return {**columns, "slack_cables": slack_count(solution.cables, solution.held), "held": solution.held}
@@ -60,12 +61,6 @@ def _points(
     return OperatingPoint(robot, positions[chosen], np.broadcast_to(rotation, (len(chosen), 3, 3)), states)
 
 
-def _at(point: OperatingPoint, index: np.ndarray) -> OperatingPoint:
-    if index.size == len(point.position):
-        return point
-    return OperatingPoint(point.robot, point.position[index], point.rotation[index], point.cables.at(index))
-
-
 def _first_static_mode(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
     """omega^2 (n,) of the platform's first mode on massless cables, negative where it is unstable, and its momentum."""
     lower = np.linalg.cholesky(platform_mass_matrix(point.arrays, point.rotation[0]))
@@ -81,12 +76,12 @@ def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) 
     found["platform_massless_Hz"] = massless
     fast = np.flatnonzero(fits(point))
     if fast.size:
-        for name, values in _fast(_at(point, fast), massless[fast], momentum[fast]).items():
+        for name, values in _fast(poses_of(point, fast), massless[fast], momentum[fast]).items():
             found[name][fast] = values
     left = np.flatnonzero(~np.isfinite([found[name] for name in names]).all(axis=0))
     for start in range(0, left.size, _GENERAL_CHUNK):
         chosen = left[start : start + _GENERAL_CHUNK]
-        for name, values in _general(_at(point, chosen), momentum[chosen]).items():
+        for name, values in _general(poses_of(point, chosen), momentum[chosen]).items():
             found[name][chosen] = values
     return found
 
