@@ -40,7 +40,7 @@ def run(
     upper_bound: UpperBound = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
-    chunk: Annotated[int, typer.Option("--chunk", parser=whole_number, help="Poses a batch.")] = 256,
+    chunk: Annotated[int, typer.Option("--chunk", parser=whole_number, help="Poses a batch.")] = 512,
     *,
     output: Output,
 ) -> int:

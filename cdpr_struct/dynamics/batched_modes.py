@@ -74,12 +74,21 @@ class Batch:
         return cls(cables, Platform.of(point, cables))
 
     def take(self, index: np.ndarray) -> "Batch":
+        """Some poses; all of them as they are."""
+        if index.size == self.cables.length.shape[1]:
+            return self
         return Batch(self.cables.take(index), self.platform.take(index))
 
     @property
     def order(self) -> int:
         """Degree of the polynomials that serve all these cables."""
         return _ORDER if self.cables.sag_ratio.max(initial=0.0) < _SAGGING else _SAGGING_ORDER
+
+    @property
+    def groups(self) -> list[np.ndarray]:
+        """Poses by the order that they ask for: in a batch of one group, none depends on its company."""
+        heavy = self.cables.sag_ratio.max(axis=0, initial=0.0) >= _SAGGING
+        return [part for part in (np.flatnonzero(~heavy), np.flatnonzero(heavy)) if part.size]
 
     @property
     def strings(self) -> np.ndarray:
@@ -107,7 +116,7 @@ def first_mode(batch: Batch, near: np.ndarray | None = None) -> Enclosed:
     shift = start if rough else np.where(near > 0.0, near, 0.5 * start)
     todo = np.arange(n)
     for count in range(_SHIFTS):
-        part = batch if todo.size == n else batch.take(todo)
+        part = batch.take(todo)
         own = part.pencil(shift[todo], _ROUGH if rough and count == 0 else batch.order)
         found = own.squared[:, 0]
         below = own.enclosed(found)
@@ -132,7 +141,7 @@ def lowest_modes(batch: Batch, count: int) -> Enclosed:
         todo = np.flatnonzero(~np.isfinite(found).all(axis=1))
         if not todo.size:
             break
-        part = batch if todo.size == n else batch.take(todo)
+        part = batch.take(todo)
         shift = np.minimum(_LOW * first[todo] + _HIGH * top[todo], REACH * (leads + 1) ** 2 * strings[0, todo])
         guess, proved = _about(part, shift, count, (leads, max(order, part.order)))
         found[todo] = np.where(proved & ~np.isfinite(found[todo]), guess, found[todo])

@@ -24,6 +24,7 @@ from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.small_systems import backward, cholesky, eliminate, forward, substituted_back
 
 HIGHEST_TERM = 5
+quietly = np.errstate(all="ignore")  # numbers of poses at which a shift is out of reach are nonsense, and dropped
 _SHARES = (1.0, 0.7, 0.5)  # of the ratio of the string's functions: the r that are tried for the bound below
 
 
@@ -137,10 +138,11 @@ class CondensedCables:
     lowest: np.ndarray
 
 
+@quietly
 def condensed(
     cables: HangingCables, shift: np.ndarray, functions: StringFunctions, leads: int, highest: int = 1
 ) -> CondensedCables:
-    """Cables at omega^2 = shift (n,), terms up to the power `highest` of d. Needs shift < `lowest`."""
+    """Cables at omega^2 = shift (n,), terms up to the power `highest` of d; of no meaning where shift >= `lowest`."""
     densities = cables.densities(functions.nodes)
     blocks = [(functions.pairs @ d.reshape(len(d), -1)).reshape((-1, *cables.length.shape)) for d in densities]
     own = shift * cables.per_squared
@@ -193,8 +195,9 @@ def _terms(matrix: np.ndarray, layout: _Layout, cables: HangingCables, leads: in
     coupled = layout.mass[:c, c:, None, None]
     followed = substituted_back(shares, -matrix[:c, c:] / _pivots(matrix, c))
     carried = coupled + followed
-    kept = np.triu(np.ones((len(matrix) - c,) * 2))[..., None, None] * matrix[c:, c:]
-    own = kept + np.swapaxes(np.triu(np.ones(kept.shape[:2]), 1)[..., None, None] * kept, 0, 1)
+    own = matrix[c:, c:].copy()
+    for i in range(len(own)):
+        own[i + 1 :, i] = own[i, i + 1 :]
     mass = layout.mass[c:, c:, None, None] + _product(coupled, followed) + _product(followed, carried)
     found = [own, mass]
     solved = carried

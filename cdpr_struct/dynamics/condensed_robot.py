@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.dynamics.condensed_cables import CondensedCables, HangingCables, Terms
+from cdpr_struct.dynamics.condensed_cables import CondensedCables, HangingCables, Terms, quietly
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import geometric_stiffness, platform_mass_matrix
 from cdpr_struct.statics.small_systems import cholesky, forward
@@ -116,6 +116,7 @@ class Pencil:
         return np.where(proved, squared - d * d / np.where(proved, gap + d, 1.0), -np.inf)
 
 
+@quietly
 def pencil(platform: Platform, cables: CondensedCables, shift: np.ndarray) -> Pencil:
     """The robot's pencil at omega^2 = shift (n,)."""
     plane, across = cables.in_plane, cables.out_of_plane

@@ -12,13 +12,14 @@ has negative eigenvalues; leads are eliminated cable by cable, so this is a 6 x 
 
 import numpy as np
 
-from cdpr_struct.dynamics.condensed_cables import CondensedCables, Terms
+from cdpr_struct.dynamics.condensed_cables import CondensedCables, Terms, quietly
 from cdpr_struct.dynamics.condensed_robot import Pencil, Platform
 from cdpr_struct.statics.small_systems import backward
 
 _FARTHEST = 0.7  # of lambda_c - sigma: no trial motion is followed further than that
 
 
+@quietly
 def corrected(
     platform: Platform, cables: CondensedCables, own: Pencil, d: np.ndarray, vectors: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -103,6 +104,7 @@ def least_below(platform: Platform, cables: CondensedCables, shift: np.ndarray, 
     return np.where(sure & counted, negative, 0)
 
 
+@quietly
 def _negative(
     platform: Platform, cables: CondensedCables, shift: np.ndarray, squared: np.ndarray, last: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:

@@ -36,9 +36,11 @@ def lowest_frequencies(point: OperatingPoint, count: int) -> FrequenciesOfPoses:
     fast = stable[fits(poses_of(point, stable))]
     for start in range(0, fast.size, _CHUNK):
         own = fast[start : start + _CHUNK]
-        found = lowest_modes(Batch.of(poses_of(point, own)), count)
-        bracket[own] = np.sqrt(np.stack([found.low, found.squared], axis=-1)) / (2.0 * np.pi)
-        quick[own] = np.isfinite(found.squared).all(axis=1)
+        batch = Batch.of(poses_of(point, own))
+        for group in batch.groups:
+            found = lowest_modes(batch.take(group), count)
+            bracket[own[group]] = np.sqrt(np.stack([found.low, found.squared], axis=-1)) / (2.0 * np.pi)
+            quick[own[group]] = np.isfinite(found.squared).all(axis=1)
     for i in stable[~quick[stable]]:
         bracket[i] = certified_modes(poses_of(point, i), "exact", count).frequencies.bracket_hertz
     middle = np.where(quick[:, None], bracket[..., 1], bracket.mean(axis=-1))

@@ -40,7 +40,7 @@ def platform_mode(batch: Batch, massless: np.ndarray, momentum: np.ndarray, amon
     for leads, most in _ATTEMPTS:
         todo = np.flatnonzero(~np.isfinite(found) & (ratio < most))
         if todo.size:
-            part = batch if todo.size == n else batch.take(todo)
+            part = batch.take(todo)
             found[todo], first[todo] = _most_alike(part, (massless[todo], momentum[todo]), leads, among)
     return PlatformMode(found, first)
 

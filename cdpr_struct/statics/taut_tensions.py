@@ -11,7 +11,8 @@ norm's conditions (a 6 x 6 system a pose) for all tau, both from one evaluation.
 
 Bounds act as in an active-set method: cables that would pass one are fixed in it, one after the other, and freed once
 the cost wants them inside. What this leaves to `HoldingProblem.solve`: poses at which a cable hangs slack (tau < w L), the last
-step is not negligible or no set of bounds settles; pulleys, masts, fewer than six cables, batches too small to gain.
+step is not negligible or no set of bounds settles; pulleys, masts, fewer than six cables. A pose's answer does not depend
+on those it is computed with.
 """
 
 from dataclasses import dataclass
@@ -26,7 +27,6 @@ from cdpr_struct.statics.catenary_length import STEEPEST, force_z_curvature
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.small_systems import backward, cholesky, forward
 
-LEAST_BATCH = 10
 _ITERATIONS = 10
 _NEGLIGIBLE = 1e-13  # of the largest tension: the step after the last, as the last two foretell it
 _CHUNK = 512
@@ -51,22 +51,36 @@ class TautTensions:
     found: np.ndarray
     iterations: np.ndarray
 
+    def first(self, count: int) -> "TautTensions":
+        """The first poses."""
+        return self._part(slice(count))
+
+    def last(self, count: int) -> "TautTensions":
+        """The last poses."""
+        return self._part(slice(len(self.found) - count, None))
+
+    def _part(self, chosen: slice) -> "TautTensions":
+        states = CableStates(*(getattr(self.states, name)[chosen] for name in CableStates.__slots__))
+        return TautTensions(states, self.found[chosen], self.iterations[chosen])
+
 
 def suits(problem: HoldingProblem) -> bool:
-    """Whether it is worth a try for this batch."""
+    """Whether this batch may be tried."""
     arrays = problem.arrays
     plain = not (arrays.has_pulleys or arrays.has_masts)
-    large = len(problem.load) >= LEAST_BATCH and arrays.cable_count >= _EQUATIONS
-    return plain and large and isinstance(problem.model, SaggingModel)
+    return plain and arrays.cable_count >= _EQUATIONS and isinstance(problem.model, SaggingModel)
 
 
 def taut_tensions(problem: HoldingProblem) -> TautTensions:
     """Least-norm tensions of a batch that `suits`."""
+    count = len(problem.load)
+    if count == 1:  # twice: sums over vectors of one are rounded otherwise
+        return taut_tensions(problem.take(np.zeros(2, dtype=int))).first(1)
     parts = []
-    for start in range(0, len(problem.load), _CHUNK):
-        index = np.arange(start, min(start + _CHUNK, len(problem.load)))
+    for start in range(0, count, _CHUNK):
+        index = np.arange(min(start, count - 2), min(start + _CHUNK, count))
         with np.errstate(all="ignore"):
-            parts.append(_solve(problem.take(index)))
+            parts.append(_solve(problem.take(index)).last(min(_CHUNK, count - start)))
     names = CableStates.__slots__
     states = CableStates(*(np.concatenate([getattr(part.states, name) for part in parts]) for name in names))
     return TautTensions(
@@ -234,15 +248,16 @@ def _iterated(pose: _Geometry) -> tuple[np.ndarray, ...]:
     good, before, iterations = ~settled, np.zeros(len(settled)), np.zeros(len(settled), dtype=int)
     for count in range(1, _ITERATIONS + 1):
         pull = _closed(pose, tau, vertical, length)
-        vertical, length = vertical + pull.vertical, length + pull.length
+        moving = ~settled
+        vertical, length = vertical + moving * pull.vertical, length + moving * pull.length
         if count == 2:
             bend = force_z_curvature(pose.span, pose.rise, tau, pose.weight)
         program = _program(pose, pull, (tau, vertical, length), bend, dual)
         step, dual, after = _least_norm(pose, program, side)
-        step = np.maximum(step, -0.5 * tau)
+        step = np.where(moving, np.maximum(step, -0.5 * tau), 0.0)
         tau = tau + step
         vertical, length = vertical + pull.vertical_rate * step, length + pull.length_rate * step
-        iterations += ~settled
+        iterations += moving
         size = np.abs(step).max(axis=0)
         small = size * np.fmin(size / before, 1.0) <= _NEGLIGIBLE * tau.max(axis=0)
         settled = settled | (small & (after == side).all(axis=0))

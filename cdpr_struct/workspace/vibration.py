@@ -87,11 +87,16 @@ def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) 
 
 
 def _fast(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> Columns:
-    batch = Batch.of(point)
-    platform = platform_mode(batch, massless, momentum, AMONG)
-    cables = lowest_clamped(batch.cables, batch.order)
-    first = first_mode(batch, platform.first).squared
-    return {"first_Hz": first, "platform_Hz": platform.squared} | _of_cables(cables)
+    whole, found = Batch.of(point), {}
+    for group in whole.groups:
+        batch = whole.take(group)
+        platform = platform_mode(batch, massless[group], momentum[group], AMONG)
+        first = first_mode(batch, platform.first).squared
+        columns = {"first_Hz": first, "platform_Hz": platform.squared}
+        columns |= _of_cables(lowest_clamped(batch.cables, batch.order))
+        for name, values in columns.items():
+            found.setdefault(name, np.full(len(massless), np.nan))[group] = values
+    return found
 
 
 def _general(point: OperatingPoint, momentum: np.ndarray) -> Columns:

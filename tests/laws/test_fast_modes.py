@@ -199,6 +199,17 @@ def test_every_pose_has_its_frequencies():
     assert np.isnan(lowest_frequencies(replace(point, robot=falling), 3).hertz).all()
 
 
+def test_a_mapped_pose_does_not_depend_on_its_company():
+    """Beyond rounding: poses with heavy and with light sag, alone and together."""
+    robot = load_robot("thesis-3-1-8mm").with_load(mass=30.0)
+    positions = near_home(robot, 12)
+    whole = first_frequencies(robot, positions, LEVEL)
+    for part in (slice(0, 1), slice(5, 12)):
+        alone = first_frequencies(robot, positions[part], LEVEL)
+        for name in ("first_Hz", "platform_Hz", "cable_1_Hz"):
+            np.testing.assert_allclose(alone[name], whole[name][part], rtol=1e-12)
+
+
 def compare(seed: int, robots: int, poses: int) -> dict[str, float]:
     """Over random robots: shares of poses that fit and are proved, and the largest errors against certified modes."""
     rng = np.random.default_rng(seed)

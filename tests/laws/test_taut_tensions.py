@@ -14,7 +14,7 @@ from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.small_systems import backward, cholesky, forward
-from cdpr_struct.statics.taut_tensions import LEAST_BATCH, suits, taut_tensions
+from cdpr_struct.statics.taut_tensions import suits, taut_tensions
 
 LEVEL = np.eye(3)
 LEAST_FOUND = 0.9
@@ -105,13 +105,12 @@ def test_robots_of_a_batch_have_their_own_mass_and_wrench(monkeypatch):
 
 
 def test_what_does_not_fit_is_left_to_the_programs():
-    """Pulleys, masts, few cables, few poses, other models: by rule, not by failing."""
+    """Pulleys, masts, few cables, other models: by rule, not by failing."""
     robot = load_robot("thesis-3-1")
     positions = near_home(robot)
     assert suits(problem_at(robot, positions))
     assert not suits(problem_at(replace(robot, pulleys=(Pulley(0.05),) + (None,) * 7), positions))
     assert not suits(problem_at(with_extensions("thesis-3-1", frame_compliance=1e-5), positions))
-    assert not suits(problem_at(robot, positions[: LEAST_BATCH - 1]))
     assert not suits(replace(problem_at(robot, positions), model=cable_model("spring")))
     few = replace(robot, cables=robot.cables[:5], platform_anchors=robot.platform_anchors[:5],
                   frame_anchors=robot.frame_anchors[:5], pulleys=(), extensions=None)  # fmt: skip
@@ -126,6 +125,18 @@ def test_slack_cables_are_left_to_the_programs():
     assert inverse(bare, positions, LEVEL).held.all()
     weak = bare.with_force_limits(400.0, 500.0)
     assert not taut_tensions(problem_at(weak, positions)).found.any()
+
+
+@pytest.mark.parametrize("name", ["plain", "bounds act", "heavy cables"])
+def test_a_pose_does_not_depend_on_its_company(name):
+    """To the last digit: a map is the same in chunks of any size."""
+    robot = ROBOTS[name]()
+    positions = near_home(robot, 23)
+    whole = inverse(robot, positions, LEVEL)
+    for part in (slice(0, 1), slice(3, 5), slice(4, 23)):
+        alone = inverse(robot, positions[part], LEVEL)
+        assert (alone.tensions == whole.tensions[part]).all()
+        assert (alone.lengths == whole.lengths[part]).all()
 
 
 def test_small_systems_are_solved():
