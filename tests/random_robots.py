@@ -1,4 +1,4 @@
-"""Robots that no one designed: anchors near the corners of boxes, cables from light to heavy, platforms of all kinds."""
+"""Robots that no one designed: anchors around an ellipse, cables from light to heavy, platforms of all kinds."""
 
 from typing import Any
 

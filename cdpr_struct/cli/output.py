@@ -67,7 +67,10 @@ class Output:
         """The files; the page says how to repeat the run, and what the screen says beside the result."""
         from cdpr_struct.reports.html import completed
 
-        page = completed(files["report.html"], shlex.join(self.words), warnings_of(result), extensions_of(result))
+        bare = files["report.html"]
+        if not isinstance(bare, str | bytes):
+            raise TypeError("report.html must be whole, not in parts")
+        page = completed(bare, shlex.join(self.words), warnings_of(result), extensions_of(result))
         return {**files, "report.html": page}
 
 

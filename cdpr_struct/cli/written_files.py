@@ -113,7 +113,7 @@ def _own_digest(name: str, found: bytes) -> str:
 
 @contextmanager
 def _renamed_at_the_end(directory: Path) -> Iterator[Callable[[str, Content], str]]:
-    """Yields what writes a file under a temporary name and returns its digest; all are renamed at the end, or removed."""
+    """Yields what writes a file under a temporary name and returns its digest; all are renamed at the end."""
     temporary: dict[str, str] = {}
 
     def write(name: str, content: Content) -> str:

@@ -1,7 +1,7 @@
 """Lowest modes of the robot at very many poses, each with its proof.
 
-The fast path: pencils about frequency shifts near the modes that are wanted. It takes poses at which every cable is taut
-and runs from a fixed point to the platform; what does not fit, or is not proved, is the general solver's.
+The fast path: pencils about frequency shifts near the modes that are wanted. It takes poses at which every cable is
+taut and runs from a fixed point to the platform; what does not fit, or is not proved, is the general solver's.
 """
 
 from dataclasses import dataclass
@@ -111,9 +111,9 @@ def first_mode(batch: Batch, near: np.ndarray | None = None) -> Enclosed:
     """
     n = batch.cables.length.shape[1]
     squared, low = np.full(n, np.nan), np.full(n, np.nan)
-    start = batch.lowest_string
-    rough = near is None or not np.isfinite(near).all()
-    shift = start if rough else np.where(near > 0.0, near, 0.5 * start)
+    shift, rough = batch.lowest_string, near is None
+    if near is not None:
+        shift = np.where(np.isfinite(near), np.where(near > 0.0, near, 0.5 * shift), shift)
     todo = np.arange(n)
     for count in range(_SHIFTS):
         part = batch.take(todo)
@@ -149,9 +149,7 @@ def lowest_modes(batch: Batch, count: int) -> Enclosed:
     return Enclosed(found, found * (1.0 - 2.0 * PROVED))
 
 
-def _about(
-    batch: Batch, shift: np.ndarray, count: int, size: tuple[int, int]
-) -> tuple[np.ndarray, np.ndarray]:
+def _about(batch: Batch, shift: np.ndarray, count: int, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
     """The first `count` squared frequencies (n, count) from one shift, and which are proved (n, count)."""
     leads, order = size
     own = condensed(batch.cables, shift, string_functions(order), leads, HIGHEST_TERM)

@@ -57,7 +57,11 @@ class Platform:
     def of_ends(self, in_plane: np.ndarray, out_of_plane: np.ndarray) -> np.ndarray:
         """(6, 6, n), lower triangle, from end blocks (2, 2, m, n) and (1, 1, m, n)."""
         a, n, y = self.motion
-        moved = (in_plane[0, 0] * a + in_plane[0, 1] * n, in_plane[1, 0] * a + in_plane[1, 1] * n, out_of_plane[0, 0] * y)
+        moved = (
+            in_plane[0, 0] * a + in_plane[0, 1] * n,
+            in_plane[1, 0] * a + in_plane[1, 1] * n,
+            out_of_plane[0, 0] * y,
+        )
         total = np.zeros((6, 6, in_plane.shape[-1]))
         for i in range(6):
             for own, other in zip(self.motion, moved, strict=True):
@@ -92,7 +96,7 @@ class Pencil:
 
     @property
     def modes(self) -> tuple[np.ndarray, np.ndarray]:
-        """d_i (n, k), ascending, and vectors (n, k, k), columns of unit modal mass; of no pose where `squared` is nan."""
+        """d_i (n, k), ascending, and vectors (n, k, k), columns of unit modal mass; of no use beyond `lowest`."""
         d, vectors = np.linalg.eigh(self._finite[0])
         return d, vectors
 
@@ -109,7 +113,7 @@ class Pencil:
         return np.where(known[:, None, None], self.matrix, np.eye(self.matrix.shape[1])), known
 
     def enclosed(self, squared: np.ndarray) -> np.ndarray:
-        """(n, ...) lower ends of the intervals whose upper ends are sigma + d_i; minus infinity where none is proved."""
+        """(n, ...) lower ends of the intervals whose upper ends are sigma + d_i; minus infinity where not proved."""
         shape = (-1,) + (1,) * (squared.ndim - 1)
         d, gap = squared - self.shift.reshape(shape), (self.lowest - self.shift).reshape(shape)
         proved = (gap > 0.0) & (gap + d > 0.0)

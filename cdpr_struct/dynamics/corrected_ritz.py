@@ -1,8 +1,8 @@
 """Modes of a pencil corrected for what lies beyond its first order in d, and counted.
 
 A mode v of the pencil with d_i belongs to the motion (v, X v) of kept and eliminated freedoms. The trial motions
-(v, X v + d_i Y v + d_i^2 Z v) of a few modes make an eigenproblem of that size, whose values are again upper bounds; near
-doubles stay together in it. A count proves them: with the remainder of the series in d bounded by the eliminated
+(v, X v + d_i Y v + d_i^2 Z v) of a few modes make an eigenproblem of that size, whose values are again upper bounds;
+near doubles stay together in it. A count proves them: with the remainder of the series in d bounded by the eliminated
 block's lowest frequency lambda_c, no more frequencies lie below lambda than
 
     D - d N - d^2 C^T Y - ... - d^5 g / (g - d) Z^T Z,   d = lambda - sigma,   g = lambda_c - sigma,
@@ -38,9 +38,7 @@ def corrected(
     return own.shift[:, None] + values, motion
 
 
-def _in_modes(
-    platform: Platform, cables: CondensedCables, motion: np.ndarray, vectors: np.ndarray
-) -> list[np.ndarray]:
+def _in_modes(platform: Platform, cables: CondensedCables, motion: np.ndarray, vectors: np.ndarray) -> list[np.ndarray]:
     """(n, s, s) of C^T Y, Y^T Y, ... between modes whose platform moves by (6, s, n)."""
     s, n = motion.shape[1:]
     m, p = platform.motion.shape[2], cables.in_plane.leads
@@ -50,7 +48,9 @@ def _in_modes(
     whole = _rows(planes)
     found = []
     for power in range(2, len(cables.in_plane.of_power)):
-        parts = [_times(t.of_power[power], v) for t, v in zip((cables.in_plane, cables.out_of_plane), planes, strict=True)]
+        parts = [
+            _times(t.of_power[power], v) for t, v in zip((cables.in_plane, cables.out_of_plane), planes, strict=True)
+        ]
         found.append(np.swapaxes(whole, 1, 2) @ _rows(parts))
     return found
 
@@ -93,7 +93,9 @@ def most_below(platform: Platform, cables: CondensedCables, shift: np.ndarray, s
     """(n,) no more than so many squared frequencies lie below `squared` (n,); a large number where none is proved."""
     gap, left = cables.lowest - shift, cables.lowest - squared
     sure = (gap > 0.0) & (left > 0.0)
-    negative, counted = _negative(platform, cables, shift, squared, np.where(sure, gap / np.where(sure, left, 1.0), 1.0))
+    negative, counted = _negative(
+        platform, cables, shift, squared, np.where(sure, gap / np.where(sure, left, 1.0), 1.0)
+    )
     return np.where(sure & counted, negative, np.iinfo(int).max)
 
 

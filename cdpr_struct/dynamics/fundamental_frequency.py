@@ -1,8 +1,8 @@
 """The lowest natural frequency of each clamped cable, and the tension that brings it to a wanted value.
 
-Exact for the linearised elastic catenary (any sag and inclination, tension varying along the cable), for as many cables
-as there are in one go; it lies out of the cable's plane, as `lowest_clamped` shows. A cable on a pulley is taken as held
-where it leaves the pulley.
+Exact for the linearised elastic catenary (any sag and inclination, tension varying along the cable), for as many
+cables as there are in one go; it lies out of the cable's plane, as `lowest_clamped` shows. A cable on a pulley is taken
+as held where it leaves the pulley.
 """
 
 import numpy as np

@@ -1,8 +1,8 @@
 """What is the lowest natural frequency of hanging cables whose ends are both held?
 
 The equation of motion is (D u')' + mu omega^2 u = 0 with D = EA t t^T + G (1 - t t^T), t the tangent, T the tension and
-G = T / (1 + T / EA). Since G < EA, D - G is nowhere negative: no frequency in the plane lies below the lowest out of it,
-which is that of the string (G u')' + mu omega^2 u = 0.
+G = T / (1 + T / EA). Since G < EA, D - G is nowhere negative: no frequency in the plane lies below the lowest out of
+it, which is that of the string (G u')' + mu omega^2 u = 0.
 """
 
 import numpy as np

@@ -18,8 +18,8 @@ class FrequenciesOfPoses:
     """The first k natural frequencies at n poses, multiplicities repeated; nan where the platform is not stable.
 
     hertz         : (n, k) ascending
-    bracket_hertz : (n, k, 2) intervals that hold them. A quick one is proved for the cables as polynomials see them, which
-                    `hertz` exceeds by less than 2e-7 where no cable hangs slack
+    bracket_hertz : (n, k, 2) intervals that hold them. Quick ones are proved for the cables as polynomials see them:
+                    these frequencies lie less than 2e-7 above the catenary's
     quick         : (n,) bool, without the certified modes of that pose
     """
 

@@ -10,32 +10,30 @@ which lose no digits from taut to slack. One iteration takes a Newton step of (V
 norm's conditions (a 6 x 6 system a pose) for all tau, both from one evaluation.
 
 Bounds act as in an active-set method: cables that would pass one are fixed in it, one after the other, and freed once
-the cost wants them inside. What this leaves to `HoldingProblem.solve`: poses at which a cable hangs slack (tau < w L), the last
-step is not negligible or no set of bounds settles; pulleys, masts, fewer than six cables. A pose's answer does not depend
-on those it is computed with.
+the cost wants them inside. What this leaves to `HoldingProblem.solve`: poses at which a cable hangs slack
+(tau < w L), the last step is not negligible or no set of bounds settles; pulleys, masts, fewer than six cables. A
+pose's answer does not depend on those it is computed with.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.statics.bounded_steps import EQUATIONS, StepProgram, least_norm
 from cdpr_struct.statics.cable_models import SaggingModel
 from cdpr_struct.statics.cable_response import let_out
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span
 from cdpr_struct.statics.catenary import CableStatus
 from cdpr_struct.statics.catenary_length import STEEPEST, force_z_curvature
 from cdpr_struct.statics.holding_tensions import HoldingProblem
-from cdpr_struct.statics.small_systems import backward, cholesky, forward
 
 _ITERATIONS = 10
 _NEGLIGIBLE = 1e-13  # of the largest tension: the step after the last, as the last two foretell it
-_CHUNK = 512
+_CHUNK = 640
 _ROUNDING = 1e-12  # of the tension: how far beyond its bound one may lie
 _TAUTEST = 0.7  # of the weight of a straight cable: least chord tension to begin from
 _RISING = 0.05  # least growth of the platform tension with the chord tension at which bounds are linearised
-_PASSES = 6
-_EQUATIONS = 6
-_CLOSED = 1e-12  # of the length: what may be left of the end-point equations
+_CLOSED = 1e-7  # of the length: what the last step may close of the end-point equations; its square is left
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,36 +49,32 @@ class TautTensions:
     found: np.ndarray
     iterations: np.ndarray
 
-    def first(self, count: int) -> "TautTensions":
-        """The first poses."""
-        return self._part(slice(count))
-
-    def last(self, count: int) -> "TautTensions":
-        """The last poses."""
-        return self._part(slice(len(self.found) - count, None))
-
-    def _part(self, chosen: slice) -> "TautTensions":
-        states = CableStates(*(getattr(self.states, name)[chosen] for name in CableStates.__slots__))
-        return TautTensions(states, self.found[chosen], self.iterations[chosen])
+    @property
+    def first(self) -> "TautTensions":
+        """The first pose alone."""
+        states = CableStates(*(getattr(self.states, name)[:1] for name in CableStates.__slots__))
+        return TautTensions(states, self.found[:1], self.iterations[:1])
 
 
 def suits(problem: HoldingProblem) -> bool:
     """Whether this batch may be tried."""
     arrays = problem.arrays
     plain = not (arrays.has_pulleys or arrays.has_masts)
-    return plain and arrays.cable_count >= _EQUATIONS and isinstance(problem.model, SaggingModel)
+    enough = arrays.cable_count >= EQUATIONS and len(problem.load) > 0
+    return plain and enough and isinstance(problem.model, SaggingModel)
 
 
 def taut_tensions(problem: HoldingProblem) -> TautTensions:
     """Least-norm tensions of a batch that `suits`."""
     count = len(problem.load)
     if count == 1:  # twice: sums over vectors of one are rounded otherwise
-        return taut_tensions(problem.take(np.zeros(2, dtype=int))).first(1)
+        return taut_tensions(problem.take(np.zeros(2, dtype=int))).first
     parts = []
-    for start in range(0, count, _CHUNK):
-        index = np.arange(min(start, count - 2), min(start + _CHUNK, count))
+    for index in np.array_split(np.arange(count), -(-count // _CHUNK)):
         with np.errstate(all="ignore"):
-            parts.append(_solve(problem.take(index)).last(min(_CHUNK, count - start)))
+            parts.append(_solve(problem.take(index)))
+    if len(parts) == 1:
+        return parts[0]
     names = CableStates.__slots__
     states = CableStates(*(np.concatenate([getattr(part.states, name) for part in parts]) for name in names))
     return TautTensions(
@@ -146,19 +140,6 @@ def _geometry(problem: HoldingProblem) -> tuple[_Geometry, np.ndarray, np.ndarra
     return pose, offset, heading
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Program:
-    """Least h t^2 / 2 + g t with J t = -left and low <= t <= high: curvature h, gradient g, bounds (m, n), matrix J
-    (6, m, n), left (6, n)."""
-
-    curvature: np.ndarray
-    gradient: np.ndarray
-    matrix: np.ndarray
-    left: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
-
-
 def _closed(pose: _Geometry, tau: np.ndarray, vertical: np.ndarray, length: np.ndarray) -> _Pull:
     """One Newton step of the end-point equations, and the rates with tau, at (tau, V, L)."""
     cos = pose.span / pose.chord
@@ -187,52 +168,6 @@ def _closed(pose: _Geometry, tau: np.ndarray, vertical: np.ndarray, length: np.n
     )  # fmt: skip
 
 
-def _least_norm(pose: _Geometry, program: _Program, side: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Step (m, n), multipliers (6, n) and side (m, n) of the program's answer.
-
-    side : in which bound each cable is, -1, 0 or 1, to begin from. A pass frees the cable of each pose that pulls
-        hardest out of its bound, or fixes that which passes one furthest.
-    """
-    for _ in range(_PASSES):
-        step, dual = _between(program, side)
-        beyond = np.maximum(program.low - step, step - program.high)
-        pull = side * (program.gradient + program.curvature * step - (program.matrix * dual[:, None]).sum(axis=0))
-        wrong = np.where(side == 0, beyond, pull) > 0.0
-        if not wrong.any():
-            break
-        side = _exchanged(side, np.where(side == 0, -np.inf, pull), np.where(side == 0, beyond, 0.0), step < program.low)
-    return step, dual, side
-
-
-def _exchanged(side: np.ndarray, pull: np.ndarray, beyond: np.ndarray, below: np.ndarray) -> np.ndarray:
-    """Sides (m, n) with one cable a pose freed, or else one fixed in the bound that it passes: in place of the one that
-    presses least against its own where no more than six are free."""
-    side, pose = side.copy(), np.arange(side.shape[1])
-    freed, fixed = pull.argmax(axis=0), beyond.argmax(axis=0)
-    fixes = (pull[freed, pose] <= 0.0) & (beyond[fixed, pose] > 0.0)
-    full = (side != 0).sum(axis=0) >= len(side) - _EQUATIONS
-    frees = (pull[freed, pose] > 0.0) | (fixes & full & (side[freed, pose] != 0))
-    fixes &= ~full | frees
-    side[freed[frees], pose[frees]] = 0
-    side[fixed[fixes], pose[fixes]] = np.where(below[fixed[fixes], pose[fixes]], -1, 1)
-    return side
-
-
-def _between(program: _Program, side: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Step and multipliers with some cables in their bounds."""
-    free, bound = side == 0, np.where(side < 0, program.low, np.where(side > 0, program.high, 0.0))
-    weighted = program.matrix * (free / program.curvature)
-    count = len(program.left)
-    normal = np.zeros((count, count, program.left.shape[1]))
-    for i in range(count):
-        normal[i, : i + 1] = (weighted[i] * program.matrix[: i + 1]).sum(axis=1)
-    lower = cholesky(normal)
-    right = (weighted * program.gradient - program.matrix * bound).sum(axis=1) - program.left
-    dual = backward(lower, forward(lower, right))
-    step = ((program.matrix * dual[:, None]).sum(axis=0) - program.gradient) / program.curvature
-    return np.where(free, step, bound), dual
-
-
 def _solve(problem: HoldingProblem) -> TautTensions:
     pose, offset, heading = _geometry(problem)
     along, vertical, length, good, iterations = _iterated(pose)
@@ -243,17 +178,15 @@ def _solve(problem: HoldingProblem) -> TautTensions:
 def _iterated(pose: _Geometry) -> tuple[np.ndarray, ...]:
     """H, V, L (m, n); settled with all cables taut (n,) and iterations (n,)."""
     cos = pose.span / pose.chord
-    tau, vertical, length, side, settled = _start(pose, cos)
-    bend, dual = np.zeros_like(tau), np.zeros_like(pose.load)
-    good, before, iterations = ~settled, np.zeros(len(settled)), np.zeros(len(settled), dtype=int)
-    for count in range(1, _ITERATIONS + 1):
-        pull = _closed(pose, tau, vertical, length)
-        moving = ~settled
+    tau, vertical, length, side, settled, dual = _start(pose, cos)
+    bend = force_z_curvature(pose.span, pose.rise, tau, pose.weight)
+    good, error = ~settled, np.full_like(tau, np.inf)
+    before, iterations = np.zeros(len(settled)), np.zeros(len(settled), dtype=int)
+    for _ in range(_ITERATIONS):
+        pull, moving = _closed(pose, tau, vertical, length), ~settled
         vertical, length = vertical + moving * pull.vertical, length + moving * pull.length
-        if count == 2:
-            bend = force_z_curvature(pose.span, pose.rise, tau, pose.weight)
-        program = _program(pose, pull, (tau, vertical, length), bend, dual)
-        step, dual, after = _least_norm(pose, program, side)
+        error = np.where(moving, pull.length, error)
+        step, dual, after = least_norm(_program(pose, pull, (tau, vertical, length), bend, dual), side)
         step = np.where(moving, np.maximum(step, -0.5 * tau), 0.0)
         tau = tau + step
         vertical, length = vertical + pull.vertical_rate * step, length + pull.length_rate * step
@@ -264,27 +197,25 @@ def _iterated(pose: _Geometry) -> tuple[np.ndarray, ...]:
         before, side = size, after
         if settled.all():
             break
-    last = _closed(pose, tau, vertical, length)
-    vertical, length = vertical + last.vertical, length + last.length
-    closed = (np.abs(last.length) <= _CLOSED * length) & (tau >= pose.weight * length)
-    return tau * cos, vertical, length, settled & good & closed.all(axis=0), iterations
+    taut = (np.abs(error) <= _CLOSED * length) & (tau >= pose.weight * length)
+    return tau * cos, vertical, length, settled & good & taut.all(axis=0), iterations
 
 
 def _start(pose: _Geometry, cos: np.ndarray) -> tuple[np.ndarray, ...]:
     """tau, V, L of straight cables (m, n), parabolas in length, their bounds' sides, and where there are none (n,)."""
     ones, sin = np.ones_like(cos), pose.rise / pose.chord
     low = np.maximum(pose.low, _TAUTEST * pose.weight * pose.chord)
-    program = _Program(ones, np.zeros_like(cos), pose.columns(cos, sin), pose.load, low, np.maximum(pose.high, low))
-    tau, _, side = _least_norm(pose, program, np.zeros(cos.shape, dtype=int))
+    program = StepProgram(ones, np.zeros_like(cos), pose.columns(cos, sin), pose.load, low, np.maximum(pose.high, low))
+    tau, dual, side = least_norm(program, np.zeros(cos.shape, dtype=int))
     hopeless = ~np.isfinite(tau).all(axis=0)
     tau = np.where(hopeless, low, np.clip(tau, low, program.high))
     length = pose.chord / (1.0 + tau / pose.stiff) * (1.0 + (pose.weight * pose.span / tau) ** 2 / 24.0)
-    return tau, tau * sin, length, side, hopeless
+    return tau, tau * sin, length, side, hopeless, dual
 
 
 def _program(
     pose: _Geometry, pull: _Pull, cable: tuple[np.ndarray, np.ndarray, np.ndarray], bend: np.ndarray, dual: np.ndarray
-) -> _Program:
+) -> StepProgram:
     """The quadratic program around cables (tau, V, L) with closed end points, and multipliers (6, n)."""
     tau, vertical, length = cable
     cos = pose.span / pose.chord
@@ -297,14 +228,15 @@ def _program(
     tension = np.hypot(tau * cos, top)
     pace = tension / np.where(gradient > _RISING * tension, gradient, np.nan)
     low, high = ((bound - tension) * pace for bound in (pose.low, pose.high))
-    return _Program(curvature, gradient, pose.columns(cos, rate), left, low, high)
+    return StepProgram(curvature, gradient, pose.columns(cos, rate), left, low, high)
 
 
 def _inside(problem: HoldingProblem, states: CableStates) -> np.ndarray:
     """(n,) bool: within the bounds but for rounding."""
     pull = states.tension_at_platform
     margin = _ROUNDING * pull
-    return ((pull >= problem.low - margin) & (pull <= problem.high + margin)).all(axis=1)
+    inside = (pull >= problem.low - margin) & (pull <= problem.high + margin)
+    return np.asarray(inside.all(axis=1))
 
 
 def _states(
@@ -320,6 +252,4 @@ def _states(
     none, stiff = np.zeros(bottom.shape), pose.stiff.T
     passed = np.broadcast_to(let_out(problem.arrays, bottom, stiff), none.shape)
     status = np.full(none.shape, CableStatus.CONVERGED, dtype=int)
-    return CableStates(
-        *directions, length.T, none, along.T, (vertical + half).T, stiff, pose.weight.T, status, passed
-    )
+    return CableStates(*directions, length.T, none, along.T, (vertical + half).T, stiff, pose.weight.T, status, passed)

@@ -25,10 +25,10 @@ Columns = dict[str, np.ndarray]
 def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
     """First frequencies [Hz] of the robot, its platform (also on massless cables) and each cable; exact catenaries.
 
-    The platform's is that of the mode, of the first `AMONG`, whose platform motion is most like the platform's first mode
-    on massless cables: where cable modes come near, they share its energy. A cable's frequency is that with both ends
-    held. Minimum-norm tensions within the robot's force limits. nan where the platform is not held, or balanced but not
-    stable. slack_cables: number of cables that hang slack where it is held.
+    The platform's is that of the mode, of the first `AMONG`, whose platform motion is most like the platform's first
+    mode on massless cables: where cable modes come near, they share its energy. A cable's frequency is that with both
+    ends held. Minimum-norm tensions within the robot's force limits. nan where the platform is not held, or balanced
+    but not stable. slack_cables: number of cables that hang slack where it is held.
     """
     starts = range(0, max(len(positions), 1), _CHUNK)
     parts = [_of_chunk(robot, positions[start : start + _CHUNK], rotation) for start in starts]
@@ -82,12 +82,14 @@ def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) 
     for start in range(0, left.size, _GENERAL_CHUNK):
         chosen = left[start : start + _GENERAL_CHUNK]
         for name, values in _general(poses_of(point, chosen), momentum[chosen]).items():
-            found[name][chosen] = values
+            known = found[name][chosen]
+            found[name][chosen] = np.where(np.isfinite(known), known, values)
     return found
 
 
 def _fast(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> Columns:
-    whole, found = Batch.of(point), {}
+    whole = Batch.of(point)
+    found: Columns = {}
     for group in whole.groups:
         batch = whole.take(group)
         platform = platform_mode(batch, massless[group], momentum[group], AMONG)

@@ -70,7 +70,8 @@ def test_lowest_modes_are_the_certified_ones(name):
     assert largest_error(first.squared, exact[:, 0]) < FIRST
     assert (first.width <= 1e-9).all()
     assert largest_error(many.squared, exact) < MANY
-    assert (many.low <= exact * (1.0 + MANY)).all() and (exact <= many.squared * (1.0 + 1e-9)).all()
+    assert (many.low <= exact * (1.0 + MANY)).all()
+    assert (exact <= many.squared * (1.0 + 1e-9)).all()
 
 
 def test_cables_two_percent_heavier_are_told_apart():
@@ -97,7 +98,8 @@ def test_a_shift_encloses_every_frequency_below_the_eliminated_ones(share):
     below = exact < 0.8 * own.lowest[:, None]
     low = small.enclosed(squared)
     assert below[:, :6].all()
-    assert (exact <= squared * (1.0 + 1e-9)).all() and (low <= exact * (1.0 + 1e-9))[below].all()
+    assert (exact <= squared * (1.0 + 1e-9)).all()
+    assert (low <= exact * (1.0 + 1e-9))[below].all()
     overstated = replace(small, lowest=1e6 * small.lowest)  # twin
     assert not (overstated.enclosed(squared) <= exact * (1.0 + 1e-9))[below].all()
     for i in range(6):
@@ -137,7 +139,11 @@ def test_what_does_not_fit_is_the_general_solvers(name):
     assert reasons_against(point) == [name]
     assert not fits(point).any()
     mapped = first_frequencies(robot, near_home(robot, 2), LEVEL)["first_Hz"]
-    np.testing.assert_allclose(mapped, np.sqrt(certified_squared(point, 1)[:, 0]) / (2.0 * np.pi), rtol=KINKED if name == "masses at mid-cable" else FIRST)
+    np.testing.assert_allclose(
+        mapped,
+        np.sqrt(certified_squared(point, 1)[:, 0]) / (2.0 * np.pi),
+        rtol=KINKED if name == "masses at mid-cable" else FIRST,
+    )
 
 
 def test_parameters_of_their_own_do_not_fit():
@@ -169,7 +175,8 @@ def test_loads_stiffening_cables_and_sensors_fit(given):
 def test_slack_cables_do_not_fit():
     bare = load_robot("thesis-5").with_force_limits(0.0)
     point = at_rest(bare, near_home(bare, 3))
-    assert len(point.position) and not fits(point).any()
+    assert len(point.position)
+    assert not fits(point).any()
 
 
 @pytest.mark.parametrize("name", ROBOTS)
@@ -200,14 +207,15 @@ def test_every_pose_has_its_frequencies():
 
 
 def test_a_mapped_pose_does_not_depend_on_its_company():
-    """Beyond rounding: poses with heavy and with light sag, alone and together."""
+    """Poses with heavy and with light sag, alone and together; the general solver, which some platform modes come from,
+    drops what lies far above the highest string of its batch."""
     robot = load_robot("thesis-3-1-8mm").with_load(mass=30.0)
     positions = near_home(robot, 12)
     whole = first_frequencies(robot, positions, LEVEL)
     for part in (slice(0, 1), slice(5, 12)):
         alone = first_frequencies(robot, positions[part], LEVEL)
-        for name in ("first_Hz", "platform_Hz", "cable_1_Hz"):
-            np.testing.assert_allclose(alone[name], whole[name][part], rtol=1e-12)
+        for name, rounding in (("first_Hz", 1e-12), ("cable_1_Hz", 1e-12), ("platform_Hz", 1e-9)):
+            np.testing.assert_allclose(alone[name], whole[name][part], rtol=rounding)
 
 
 def compare(seed: int, robots: int, poses: int) -> dict[str, float]:
@@ -240,7 +248,8 @@ def compare(seed: int, robots: int, poses: int) -> dict[str, float]:
 def test_random_robots_agree_with_certified_modes():
     found = compare(7, robots=12, poses=6)
     assert found["stable"] >= 20
-    assert found["error"] < FIRST and found["many_error"] < MANY
+    assert found["error"] < FIRST
+    assert found["many_error"] < MANY
     assert found["proved"] > 0.95
 
 
@@ -248,5 +257,6 @@ def test_random_robots_agree_with_certified_modes():
 def test_random_robots_agree_with_certified_modes_at_ten_thousand_poses():
     found = compare(8, robots=100, poses=100)
     print(found)
-    assert found["error"] < FIRST and found["many_error"] < MANY
+    assert found["error"] < FIRST
+    assert found["many_error"] < MANY
     assert found["proved"] > 0.95

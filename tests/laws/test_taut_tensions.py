@@ -72,7 +72,8 @@ def test_many_poses_at_once_are_those_one_by_one(name, monkeypatch):
     robot = ROBOTS[name]()
     positions = near_home(robot)
     ours, theirs = inverse(robot, positions, LEVEL, allow_unheld=True), by_programs(monkeypatch, robot, positions)
-    assert (ours.status == theirs.status).all() and theirs.held.any()
+    assert (ours.status == theirs.status).all()
+    assert theirs.held.any()
     assert largest_gap(ours, theirs) < AGREES
     np.testing.assert_allclose(ours.lengths[theirs.held], theirs.lengths[theirs.held], rtol=AGREES)
     np.testing.assert_allclose(ours.residual_wrench[theirs.held], 0.0, atol=1e-8)
@@ -93,7 +94,8 @@ def test_taut_cables_are_found_without_programs(name):
     assert suits(problem)
     found, held = taut_tensions(problem).found, inverse(robot, near_home(robot), LEVEL, allow_unheld=True).held
     assert not (found & ~held).any()
-    assert found[held].mean() >= LEAST_FOUND and held.sum() >= 10
+    assert found[held].mean() >= LEAST_FOUND
+    assert held.sum() >= 10
 
 
 def test_robots_of_a_batch_have_their_own_mass_and_wrench(monkeypatch):
