@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, HangingCables, condensed
-from cdpr_struct.dynamics.condensed_robot import Pencil, Platform, pencil
+from cdpr_struct.dynamics.condensed_robot import Platform, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, most_below
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.string_functions import string_functions
@@ -24,6 +24,7 @@ _SHIFTS = 8
 _MANY = ((2, 10), (3, 12), (6, 16))  # leads and order of the attempts at many modes
 _RESOLVED = 6.2  # so much must the order exceed twice the half waves of the lowest string that it resolves
 _SPARE = 4
+_PIECE = 512
 _LOW, _HIGH = 0.45, 0.55  # share of the first and of the last squared frequency in the shift
 
 
@@ -59,6 +60,11 @@ def fits(point: OperatingPoint) -> np.ndarray:
     if reasons_against(point):
         return np.zeros(len(point.position), dtype=bool)
     return np.asarray(~hangs_slack(point.cables).any(axis=-1))
+
+
+def pieces(chosen: np.ndarray) -> list[np.ndarray]:
+    """Poses in as many parts as the processor's memory asks for."""
+    return np.array_split(chosen, -(-chosen.size // _PIECE)) if chosen.size else []
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,8 +106,12 @@ class Batch:
         """(n,) the lowest of them."""
         return np.asarray(self.strings.min(axis=0))
 
-    def pencil(self, shift: np.ndarray, order: int) -> Pencil:
-        return pencil(self.platform, condensed(self.cables, shift, string_functions(order), 1), shift)
+    def first(self, shift: np.ndarray, chosen: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
+        """The first value of the pencil of some poses, and the lower end of its interval; shift (n,) of all."""
+        part, own = self.take(chosen), shift[chosen]
+        small = pencil(part.platform, condensed(part.cables, own, string_functions(order), 1), own)
+        value = small.squared[:, 0]
+        return value, small.enclosed(value)
 
 
 def first_mode(batch: Batch, near: np.ndarray | None = None) -> Enclosed:
@@ -116,10 +126,10 @@ def first_mode(batch: Batch, near: np.ndarray | None = None) -> Enclosed:
         shift = np.where(np.isfinite(near), np.where(near > 0.0, near, 0.5 * shift), shift)
     todo = np.arange(n)
     for count in range(_SHIFTS):
-        part = batch.take(todo)
-        own = part.pencil(shift[todo], _ROUGH if rough and count == 0 else batch.order)
-        found = own.squared[:, 0]
-        below = own.enclosed(found)
+        order = _ROUGH if rough and count == 0 else batch.order
+        found, below = (
+            np.concatenate(parts) for parts in zip(*(batch.first(shift, own, order) for own in pieces(todo)))
+        )
         proved = (found - below <= 2.0 * _FIRST_PROVED * found) & (not rough or count > 0)
         squared[todo[proved]], low[todo[proved]] = found[proved], below[proved]
         shift[todo] = np.where(found > 0.0, found, 0.5 * shift[todo])

@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.dynamics.batched_modes import PROVED, REACH, Batch
+from cdpr_struct.dynamics.batched_modes import PROVED, REACH, Batch, pieces
 from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, condensed
 from cdpr_struct.dynamics.condensed_robot import Pencil, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, least_below, most_below
 from cdpr_struct.dynamics.string_functions import string_functions
 
-_ATTEMPTS = ((1, 2.5), (2, 4.5), (6, np.inf))
+_ATTEMPTS = ((1, 2.4), (2, 4.5), (3, 8.0), (6, np.inf))
 """At the platform's mode: leads, and the largest ratio of the squared massless frequency to the
 lowest string's at which that is tried."""
 _WINDOW = 8
@@ -39,9 +39,9 @@ def platform_mode(batch: Batch, massless: np.ndarray, momentum: np.ndarray, amon
     ratio = massless / batch.lowest_string
     for leads, most in _ATTEMPTS:
         todo = np.flatnonzero(~np.isfinite(found) & (ratio < most))
-        if todo.size:
-            part = batch.take(todo)
-            found[todo], first[todo] = _most_alike(part, (massless[todo], momentum[todo]), leads, among)
+        for own in pieces(todo):
+            wanted = massless[own], momentum[own]
+            found[own], first[own] = _most_alike(batch.take(own), wanted, leads, among)
     return PlatformMode(found, first)
 
 
@@ -51,7 +51,7 @@ def _most_alike(
     massless, momentum = wanted
     string = batch.lowest_string
     shift = np.minimum(_PAST * massless, REACH * (leads + 1) ** 2 * string)
-    own = condensed(batch.cables, shift, string_functions(max(batch.order, 2 * leads + 6)), leads, HIGHEST_TERM)
+    own = condensed(batch.cables, shift, string_functions(max(batch.order, 2 * leads + 5)), leads, HIGHEST_TERM)
     small = pencil(batch.platform, own, shift)
     d, vectors = small.modes
     chosen, sure = _window(small, (d, vectors), momentum, among)

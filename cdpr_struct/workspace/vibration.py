@@ -15,7 +15,7 @@ from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.slack_cables import slack_count
 
 AMONG = 60  # first modes of the robot, of which one is the platform's
-_CHUNK, _GENERAL_CHUNK = 512, 32  # poses at once
+_CHUNK, _GENERAL_CHUNK = 2048, 32  # poses at once
 _ORDER = 24
 _HALF_WAVES = 2.5
 
