@@ -63,21 +63,22 @@ def _most_alike(
     above = least_below(batch.platform, own, shift, found * (1.0 + 2.0 * PROVED)) > rank
     below = most_below(batch.platform, own, shift, found * (1.0 - 2.0 * PROVED)) <= rank
     known = shift < own.lowest
-    return np.where(sure & above & below, found, np.nan), np.where(known, shift + d[:, 0], np.nan)
+    return np.where(sure & above & below, found, np.nan), np.where(known, squared[:, 0], np.nan)
 
 
 def _window(
     small: Pencil, modes: tuple[np.ndarray, np.ndarray], momentum: np.ndarray, among: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Modes (n, s) around the most alike one, and where it is known that no other of the first can be more alike (n,):
-    all of these lie within the shift's reach, or what lies beyond has less in common with the motion altogether."""
+    """The first mode and those around the most alike one (n, s), and where no other can be more alike (n,): all that
+    count lie within the shift's reach, or those beyond it have less in common with the motion altogether."""
     d, vectors = modes
     alike = small.shares(vectors, momentum)
     known = (small.shift[:, None] + d < _SEEN * small.lowest[:, None]) & (np.arange(d.shape[1]) < among)
     best = np.where(known, alike, -1.0).argmax(axis=1)
     row = np.arange(len(best))
     rest = np.where(known, 0.0, alike).sum(axis=1)
-    size = min(_WINDOW, d.shape[1])
-    start = np.clip(best - size // 2, 0, d.shape[1] - size)
+    size = min(_WINDOW, d.shape[1]) - 1
+    start = np.clip(best - size // 2, 1, d.shape[1] - size)
+    chosen = np.concatenate([np.zeros((len(best), 1), dtype=int), start[:, None] + np.arange(size)], axis=1)
     sure = (known.sum(axis=1) >= among) | (alike[row, best] > rest)
-    return start[:, None] + np.arange(size), known[row, best] & sure
+    return chosen, known[row, best] & sure
