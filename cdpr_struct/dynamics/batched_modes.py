@@ -128,7 +128,8 @@ def first_mode(batch: Batch, near: np.ndarray | None = None) -> Enclosed:
     for count in range(_SHIFTS):
         order = _ROUGH if rough and count == 0 else batch.order
         found, below = (
-            np.concatenate(parts) for parts in zip(*(batch.first(shift, own, order) for own in pieces(todo)))
+            np.concatenate(parts)
+            for parts in zip(*(batch.first(shift, own, order) for own in pieces(todo)), strict=True)
         )
         proved = (found - below <= 2.0 * _FIRST_PROVED * found) & (not rough or count > 0)
         squared[todo[proved]], low[todo[proved]] = found[proved], below[proved]
