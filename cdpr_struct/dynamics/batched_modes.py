@@ -24,6 +24,7 @@ _SHIFTS = 8
 _MANY = ((2, 10), (3, 12), (6, 16))  # leads and order of the attempts at many modes
 _RESOLVED = 6.2  # so much must the order exceed twice the half waves of the lowest string that it resolves
 _SPARE = 4
+_HARMONICS = 5  # of each string, among which the highest mode is expected
 _PIECE = 512
 _LOW, _HIGH = 0.45, 0.55  # share of the first and of the last squared frequency in the shift
 
@@ -145,18 +146,18 @@ def lowest_modes(batch: Batch, count: int) -> Enclosed:
 
     One shift a pose serves most; where it does not, more leads, more polynomials and a shift by what is known by then.
     """
-    n, strings = batch.cables.length.shape[1], np.sort(batch.strings, axis=0)
+    n, lowest = batch.cables.length.shape[1], batch.lowest_string
     found = np.full((n, count), np.nan)
-    first, top = strings[0], np.repeat(strings, 2, axis=0)[min(count - 5, 2 * len(strings) - 1)]
+    harmonics = np.sort(np.concatenate([k**2 * batch.strings for k in range(1, _HARMONICS + 1)] * 2), axis=0)
+    first, top = lowest.copy(), harmonics[min(count, len(harmonics)) - 1].copy()
     for leads, order in _MANY:
-        todo = np.flatnonzero(~np.isfinite(found).all(axis=1))
-        if not todo.size:
-            break
-        part = batch.take(todo)
-        shift = np.minimum(_LOW * first[todo] + _HIGH * top[todo], REACH * (leads + 1) ** 2 * strings[0, todo])
-        guess, proved = _about(part, shift, count, (leads, max(order, part.order)))
-        found[todo] = np.where(proved & ~np.isfinite(found[todo]), guess, found[todo])
-        first[todo], top[todo] = guess[:, 0], guess[:, -1]
+        hopeless = (top > (0.5 * (order - _RESOLVED)) ** 2 * lowest) & (leads < _MANY[-1][0])
+        todo = np.flatnonzero(~np.isfinite(found).all(axis=1) & ~hopeless)
+        for own in pieces(todo):
+            shift = np.minimum(_LOW * first[own] + _HIGH * top[own], REACH * (leads + 1) ** 2 * lowest[own])
+            guess, proved = _about(batch.take(own), shift, count, (leads, max(order, batch.order)))
+            found[own] = np.where(proved & ~np.isfinite(found[own]), guess, found[own])
+            first[own], top[own] = guess[:, 0], guess[:, -1]
     return Enclosed(found, found * (1.0 - 2.0 * PROVED))
 
 

@@ -10,7 +10,7 @@ from cdpr_struct.dynamics.condensed_robot import Pencil, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, least_below, most_below
 from cdpr_struct.dynamics.string_functions import string_functions
 
-_ATTEMPTS = ((1, 2.4), (2, 4.5), (3, 8.0), (6, np.inf))
+_ATTEMPTS = ((1, 2.4), (2, 4.5), (3, 8.0), (6, np.inf), (8, np.inf))
 """At the platform's mode: leads, and the largest ratio of the squared massless frequency to the
 lowest string's at which that is tried."""
 _WINDOW = 8

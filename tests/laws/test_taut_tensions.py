@@ -133,9 +133,9 @@ def test_slack_cables_are_left_to_the_programs():
 def test_a_pose_does_not_depend_on_its_company(name):
     """To the last digit: a map is the same in chunks of any size."""
     robot = ROBOTS[name]()
-    positions = near_home(robot, 23)
+    positions = near_home(robot, 150)
     whole = inverse(robot, positions, LEVEL)
-    for part in (slice(0, 1), slice(3, 5), slice(4, 23)):
+    for part in (slice(i, i + 1) for i in range(0, 150, 3)):
         alone = inverse(robot, positions[part], LEVEL)
         assert (alone.tensions == whole.tensions[part]).all()
         assert (alone.lengths == whole.lengths[part]).all()

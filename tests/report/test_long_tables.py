@@ -8,7 +8,11 @@ import pytest
 from cdpr_struct.cli.written_files import replace_files
 from cdpr_struct.reports.csv_table import LongTable, csv_text
 
-COLUMNS = {"x_m": np.linspace(0.0, 1.0, 10_001), "value": np.where(np.arange(10_001) % 7, 0.1, np.nan), "held": [1] * 10_001}
+COLUMNS = {
+    "x_m": np.linspace(0.0, 1.0, 10_001),
+    "value": np.where(np.arange(10_001) % 7, 0.1, np.nan),
+    "held": [1] * 10_001,
+}
 
 
 def test_a_long_table_in_parts_is_the_text_in_one():
