@@ -25,7 +25,7 @@ _MANY = ((2, 10), (3, 12), (6, 16))  # leads and order of the attempts at many m
 _RESOLVED = 6.2  # so much must the order exceed twice the half waves of the lowest string that it resolves
 _SPARE = 4
 _HARMONICS = 5  # of each string, among which the highest mode is expected
-_PIECE = 512
+_PIECE = 256
 _LOW, _HIGH = 0.45, 0.55  # share of the first and of the last squared frequency in the shift
 
 

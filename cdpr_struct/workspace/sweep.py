@@ -13,7 +13,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.quantities import Columns, evaluate
 
-CHUNK = 512
+CHUNK = 256
 
 
 @dataclass(frozen=True, slots=True, eq=False)
