@@ -11,12 +11,10 @@ from cdpr_struct.dynamics.corrected_ritz import corrected, least_below, most_bel
 from cdpr_struct.dynamics.string_functions import string_functions
 
 _ATTEMPTS = ((1, 2.4), (2, 4.5), (3, 8.0), (6, np.inf), (8, np.inf))
-"""At the platform's mode: leads, and the largest ratio of the squared massless frequency to the
-lowest string's at which that is tried."""
+"""Leads, and below which ratio of the squared massless frequency to the lowest string's they are tried."""
 _WINDOW = 8
 _PAST = 1.05  # the shift towards the platform's mode, over the squared massless frequency
 _SEEN = 0.85  # of the eliminated motions' lowest squared frequency: so far modes are taken for known
-_LOW, _HIGH = 0.45, 0.55  # share of the first and of the last squared frequency in the shift
 
 
 @dataclass(frozen=True, slots=True, eq=False)

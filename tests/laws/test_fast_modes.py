@@ -21,6 +21,7 @@ from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.workspace import vibration
 from cdpr_struct.workspace.vibration import first_frequencies
 from tests.random_robots import random_positions, random_robot
 
@@ -204,6 +205,18 @@ def test_every_pose_has_its_frequencies():
     assert (exact <= found.bracket_hertz[..., 1] * (1.0 + 1e-9)).all()
     falling = replace(robot, platform=replace(robot.platform, center_of_mass=np.array([0.0, 0.0, 20.0])))
     assert np.isnan(lowest_frequencies(replace(point, robot=falling), 3).hertz).all()
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_columns_of_a_map_are_those_of_the_general_solver(name, monkeypatch):
+    robot = load_robot(name)
+    positions = near_home(robot, 6)
+    ours = first_frequencies(robot, positions, LEVEL)
+    monkeypatch.setattr(vibration, "fits", lambda point: np.zeros(len(point.position), dtype=bool))
+    theirs = first_frequencies(robot, positions, LEVEL)
+    assert ours.keys() == theirs.keys()
+    for column, values in theirs.items():
+        np.testing.assert_allclose(ours[column], values, rtol=MANY if column == "platform_Hz" else FIRST)
 
 
 @pytest.mark.parametrize("mass", [30.0, 60.0])
