@@ -40,14 +40,17 @@ def run(
     upper_bound: UpperBound = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
-    chunk: Annotated[int, typer.Option("--chunk", parser=whole_number, help="Poses a batch.")] = 256,
+    chunk: Annotated[
+        int | None,
+        typer.Option("--chunk", parser=whole_number, help="Poses a batch; what suits the quantity if not given."),
+    ] = None,
     *,
     output: Output,
 ) -> int:
     """Map a quantity over a grid of poses; with --out, an interrupted run continues where it stopped."""
     if grid is None:
         raise InputError("--grid", "", "nothing", "give X0:X1:NX,Y0:Y1:NY,Z, like -3:3:13,-3:3:13,0.5")
-    if not 1 <= chunk <= 100_000:
+    if chunk is not None and not 1 <= chunk <= 100_000:
         raise InputError("--chunk", "", chunk, "give a number from 1 to 100000")
     check_workers(workers, scheduler)
     machine, poses = read_robot(robot, payload, mass, lower_bound, upper_bound), read_grid(grid)
@@ -57,7 +60,7 @@ def run(
 
     if quantity is None or quantity not in QUANTITIES:
         raise InputError("--quantity", "", quantity or "nothing", f"one of: {', '.join(QUANTITIES)}")
-    sweep = Sweep(quantity, machine, poses, chunk)
+    sweep = Sweep(quantity, machine, poses, chunk or QUANTITIES[quantity].chunk)
     columns, resumed = run_sweep(sweep, workers, scheduler, output)
     result = report.map_json(machine, quantity, poses, columns) | {"resumed_chunks": resumed}
     result = with_extensions(result, machine, _kin(quantity))

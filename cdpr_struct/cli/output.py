@@ -11,9 +11,9 @@ from typing import Any
 
 from cdpr_struct.cli.plain_json import json_text
 from cdpr_struct.cli.progress import Begin, silent, steps
-from cdpr_struct.cli.written_files import RESULT, refuse_foreign, replace_files
+from cdpr_struct.cli.written_files import RESULT, Content, refuse_foreign, replace_files
 
-Files = Mapping[str, str | bytes]
+Files = Mapping[str, Content]
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,11 +63,14 @@ class Output:
         elif not self.quiet:
             _print("\n\n".join([text(), *_remarks(result)]) + "\n", sys.stdout)
 
-    def _completed(self, result: Mapping[str, Any], files: Files) -> dict[str, str | bytes]:
+    def _completed(self, result: Mapping[str, Any], files: Files) -> dict[str, Content]:
         """The files; the page says how to repeat the run, and what the screen says beside the result."""
         from cdpr_struct.reports.html import completed
 
-        page = completed(files["report.html"], shlex.join(self.words), warnings_of(result), extensions_of(result))
+        bare = files["report.html"]
+        if not isinstance(bare, str | bytes):
+            raise TypeError("report.html must be whole, not in parts")
+        page = completed(bare, shlex.join(self.words), warnings_of(result), extensions_of(result))
         return {**files, "report.html": page}
 
 

@@ -8,20 +8,22 @@ import hashlib
 import json
 import os
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from cdpr_struct.cli.plain_json import json_text
 from cdpr_struct.errors import InputError
 
+Content = str | bytes | Iterable[bytes]
+"""What a file holds; a long one in parts."""
+
 RESULT = "result.json"
 _FOREIGN = "a file that this program did not write, or that was changed since; give another place, or --overwrite"
 
 
-def replace_files(
-    directory: Path, result: Mapping[str, Any], files: Mapping[str, str | bytes], overwrite: bool
-) -> None:
+def replace_files(directory: Path, result: Mapping[str, Any], files: Mapping[str, Content], overwrite: bool) -> None:
     """Write result.json and the files of a result, and remove those of an earlier one.
 
     All are written under temporary names before the first is renamed; result.json, which lists them, comes last.
@@ -32,15 +34,14 @@ def replace_files(
     """
     try:
         directory.mkdir(parents=True, exist_ok=True)
-        contents = {name: _bytes(content) for name, content in files.items()}
-        digests = {name: _digest(content) for name, content in contents.items()}
-        digests[RESULT] = _digest(_bytes(json_text(result)))
-        contents[RESULT] = _bytes(json_text({**result, "files": digests}))
         earlier = _listed(directory)
-        if not overwrite:
-            _refuse(directory, {**dict.fromkeys(earlier, b""), **contents}, earlier)
-        _write_all(directory, contents)
-        for name in earlier.keys() - contents.keys():
+        with _renamed_at_the_end(directory) as write:
+            digests = {name: write(name, content) for name, content in files.items()}
+            digests[RESULT] = _digest(json_text(result))
+            wanted = {**digests, RESULT: write(RESULT, json_text({**result, "files": digests}))}
+            if not overwrite:
+                _refuse(directory, {**dict.fromkeys(earlier, _NOTHING), **wanted}, earlier)
+        for name in earlier.keys() - wanted.keys():
             (directory / name).unlink(missing_ok=True)
     except OSError as error:
         raise InputError("--out", "", str(directory), f"a directory that can be written ({error.strerror})") from error
@@ -54,7 +55,7 @@ def refuse_foreign(directory: Path, names: Iterable[str]) -> None:
     InputError : names the first such file.
     """
     if directory.is_dir():
-        _refuse(directory, dict.fromkeys(names, b""), _listed(directory))
+        _refuse(directory, dict.fromkeys(names, _NOTHING), _listed(directory))
 
 
 def write_new(path: Path, content: str, overwrite: bool) -> None:
@@ -76,13 +77,17 @@ def write_new(path: Path, content: str, overwrite: bool) -> None:
 
 def write_whole(path: Path, content: str | bytes) -> None:
     """Write to a temporary name beside `path`, then rename."""
-    _write_all(path.parent, {path.name: _bytes(content)})
+    with _renamed_at_the_end(path.parent) as write:
+        write(path.name, content)
 
 
-def _refuse(directory: Path, wanted: Mapping[str, bytes], earlier: Mapping[str, str]) -> None:
-    for name, content in wanted.items():
+def _refuse(directory: Path, wanted: Mapping[str, str], earlier: Mapping[str, str]) -> None:
+    """Refuse files that have neither the wanted digest nor that of an earlier run."""
+    for name, digest in wanted.items():
         path = directory / name
-        if path.exists() and (found := path.read_bytes()) != content and _own_digest(name, found) != earlier.get(name):
+        if not path.exists() or _digest(found := path.read_bytes()) == digest:
+            continue
+        if _own_digest(name, found) != earlier.get(name):
             raise InputError("--out", "", str(path), _FOREIGN)
 
 
@@ -106,25 +111,41 @@ def _own_digest(name: str, found: bytes) -> str:
         return _digest(found)
 
 
-def _write_all(directory: Path, contents: Mapping[str, bytes]) -> None:
+@contextmanager
+def _renamed_at_the_end(directory: Path) -> Iterator[Callable[[str, Content], str]]:
+    """Yields what writes a file under a temporary name and returns its digest; all are renamed at the end."""
     temporary: dict[str, str] = {}
+
+    def write(name: str, content: Content) -> str:
+        digest = hashlib.sha256()
+        handle, temporary[name] = tempfile.mkstemp(dir=directory, prefix=f".{name}.")
+        with os.fdopen(handle, "wb") as file:
+            for part in _parts(content):
+                digest.update(part)
+                file.write(part)
+        Path(temporary[name]).chmod(0o644)
+        return digest.hexdigest()
+
     try:
-        for name, data in contents.items():
-            handle, temporary[name] = tempfile.mkstemp(dir=directory, prefix=f".{name}.")
-            with os.fdopen(handle, "wb") as file:
-                file.write(data)
-            Path(temporary[name]).chmod(0o644)
-        for name in contents:
-            Path(temporary[name]).replace(directory / name)
+        yield write
+        for name, path in temporary.items():
+            Path(path).replace(directory / name)
     except BaseException:
         for path in temporary.values():
             Path(path).unlink(missing_ok=True)
         raise
 
 
+def _parts(content: Content) -> Iterable[bytes]:
+    return (_bytes(content),) if isinstance(content, str | bytes) else content
+
+
 def _bytes(content: str | bytes) -> bytes:
     return content.encode("utf-8") if isinstance(content, str) else content
 
 
-def _digest(content: bytes) -> str:
-    return hashlib.sha256(content).hexdigest()
+def _digest(content: str | bytes) -> str:
+    return hashlib.sha256(_bytes(content)).hexdigest()
+
+
+_NOTHING = _digest(b"")

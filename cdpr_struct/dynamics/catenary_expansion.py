@@ -46,7 +46,7 @@ class _Plane:
 
     omega_squared (m, p); modes (m, i, c, p); static (m, i, c, c); end_mass (m, c, c); coupling (m, p, c);
     rigid_mass, rigid_end (m, c, c) and rigid_modes (m, p, c) of the cable moved as a whole.
-    The functions are those of `_basis` without the moving end's.
+    The functions are those of `polynomial_basis` without the moving end's.
     """
 
     components: tuple[int, ...]
@@ -82,7 +82,7 @@ def expand_catenaries(
     frame = _frame(cables)
     to_local = np.swapaxes(frame, -1, -2)
     nodes, weights = legendre.leggauss(2 * order + 24)
-    values, slopes = _basis(nodes, order)
+    values, slopes = polynomial_basis(nodes, order)
     coordinate = CatenaryCoordinate.of(cables)
     arc, rate = coordinate.arc(nodes)
     density = _stiffness_density(cables, arc)
@@ -90,7 +90,7 @@ def expand_catenaries(
     mass = _products(values, linear_density[:, None] * rate * weights)
     bending = None
     if extras is not None and extras.added_mass.any():
-        middle, _ = _basis(coordinate.xi(np.array([0.5]))[:, 0], order)
+        middle, _ = polynomial_basis(coordinate.xi(np.array([0.5]))[:, 0], order)
         mass = mass + extras.added_mass[:, None, None] * middle.T[:, :, None] * middle.T[:, None, :]
     if extras is not None and extras.bending_stiffness.any():
         ends = 2.0 * slenderness(extras.bending_stiffness, cables.tension, cables.chord)
@@ -127,7 +127,7 @@ def _frame(cables: CableStates) -> np.ndarray:
     return np.stack([cables.heading, np.cross(up, cables.heading), up], axis=-1)
 
 
-def _basis(xi: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
+def polynomial_basis(xi: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
     """Values and slopes (order + 1, ...): order - 1 bubbles, zero at both ends, the ramps of frame and moving end."""
     polynomials = np.moveaxis(legendre.legvander(xi, order), -1, 0)
     k = np.arange(2, order + 1).reshape((-1,) + (1,) * np.ndim(xi))
@@ -143,7 +143,7 @@ def _products(functions: np.ndarray, weights: np.ndarray) -> np.ndarray:
 
 
 def _curvatures(xi: np.ndarray, order: int) -> np.ndarray:
-    """Second derivatives (order + 1, q) of the functions of `_basis`."""
+    """Second derivatives (order + 1, q) of the functions of `polynomial_basis`."""
     k = np.arange(2, order + 1)
     series = np.zeros((order + 1, order + 1))
     series[k - 1, k - 2] = np.sqrt((2 * k - 1) / 2.0)
@@ -265,7 +265,7 @@ def _shapes(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Static shapes (m, s, 3, 3) and modes (m, p, s, 3) as `Shapes` says; the second derivative for taut cables."""
     xi = coordinate.xi(stations)
-    values, slopes = _basis(xi, order)
+    values, slopes = polynomial_basis(xi, order)
     if derivative:
         stretch = coordinate.length[:, None] / coordinate.arc(xi)[1]
         values = slopes * stretch if derivative == 1 else _curvatures(xi, order) * stretch**2

@@ -3,8 +3,12 @@
 import csv
 import io
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import islice
 from typing import Any
+
+_ROWS = 4096  # of a long table that are in memory as text
 
 
 def csv_text(columns: Mapping[str, Iterable[Any]]) -> str:
@@ -19,6 +23,23 @@ def csv_text(columns: Mapping[str, Iterable[Any]]) -> str:
     writer.writerow(columns)
     writer.writerows([_field(value) for value in row] for row in zip(*columns.values(), strict=True))
     return buffer.getvalue()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LongTable:
+    """The bytes of `csv_text`, some rows at a time, as often as they are asked for; columns of one length."""
+
+    columns: Mapping[str, Any]
+
+    def __iter__(self) -> Iterator[bytes]:
+        buffer = io.StringIO()
+        csv.writer(buffer, lineterminator="\n").writerow(self.columns)
+        yield buffer.getvalue().encode("utf-8")
+        rows = zip(*self.columns.values(), strict=True)
+        while part := list(islice(rows, _ROWS)):
+            buffer = io.StringIO()
+            csv.writer(buffer, lineterminator="\n").writerows([_field(value) for value in row] for row in part)
+            yield buffer.getvalue().encode("utf-8")
 
 
 def _field(value: Any) -> str:

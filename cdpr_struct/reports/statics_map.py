@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.csv_table import LongTable
 from cdpr_struct.reports.html import Page, Plate, render_page
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import shared_cure
@@ -22,11 +22,11 @@ _NOTE = (
 )
 
 
-def map_table(grid: Grid, columns: Columns) -> str:
+def map_table(grid: Grid, columns: Columns) -> LongTable:
     """CSV of a map, one row a pose; flags as 0 and 1."""
     place = {f"{name}_m": grid.positions[:, i] for i, name in enumerate(AXES)}
     rest = {name: value.astype(int) if value.dtype == bool else value for name, value in columns.items()}
-    return csv_text({**place, **rest})
+    return LongTable({**place, **rest})
 
 
 def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str, Any]:
@@ -86,7 +86,7 @@ def map_values(name: str, columns: Columns) -> np.ndarray:
 
 def map_files(
     robot: Robot, name: str, grid: Grid, columns: Columns, result: Mapping[str, Any]
-) -> dict[str, str | bytes]:
+) -> dict[str, str | bytes | LongTable]:
     """CSV, figure and page of a map of one quantity; `result` as `map_json` made it."""
     from cdpr_struct.reports.figures import workspace_map
 

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.csv_table import LongTable, csv_text
 from cdpr_struct.reports.figures import pose_error as pose_error_figure
 from cdpr_struct.reports.figures import workspace_map
 from cdpr_struct.reports.figures.style import svg
@@ -54,9 +54,9 @@ def sufficient_load_json(found: SufficientLoad, pose: Pose) -> dict[str, Any]:
 
 def pose_error_files(
     robot: Robot, errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None
-) -> dict[str, str | bytes]:
+) -> dict[str, str | bytes | LongTable]:
     """CSV, figures and page of pose errors over a grid, of the sufficient load at a pose, or both."""
-    tables: dict[str, str | bytes] = {}
+    tables: dict[str, str | bytes | LongTable] = {}
     plates = []
     if errors is not None:
         tables["pose_error.csv"] = map_table(errors.grid, errors.columns)

@@ -21,6 +21,7 @@ from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import cable_wrench
 from cdpr_struct.statics.holding_tensions import HoldingProblem
+from cdpr_struct.statics.taut_tensions import suits, taut_tensions
 
 BALANCED = 1e-8  # residual over load and tensions that counts as balanced
 _SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
@@ -160,8 +161,30 @@ def _stiffening(problem: HoldingProblem, solution: InverseSolution) -> tuple[Hol
 
 
 def _solve(problem: HoldingProblem) -> InverseSolution:
+    """All poses: the taut ones of a batch together, the others one iteration of programs."""
+    if not suits(problem):
+        return _by_programs(problem)
+    taut = taut_tensions(problem)
+    found, rest = np.flatnonzero(taut.found), np.flatnonzero(~taut.found)
+    if not rest.size:
+        return _judged(problem, taut.states, taut.found, taut.iterations)
+    parts = []
+    if found.size:
+        kept = taut.states.at(found)
+        parts.append(_judged(problem.take(found), kept, taut.found[found], taut.iterations[found]))
+    parts.append(_by_programs(problem.take(rest)))
+    return _joined(parts, np.argsort(np.concatenate([found, rest])))
+
+
+def _by_programs(problem: HoldingProblem) -> InverseSolution:
     tension, iterations, settled = problem.solve()
     states = problem.model.hold(problem.arrays, problem.arms.points, tension).states
+    return _judged(problem, states, settled, iterations)
+
+
+def _judged(
+    problem: HoldingProblem, states: CableStates, settled: np.ndarray, iterations: np.ndarray
+) -> InverseSolution:
     residual = cable_wrench(states, problem.arms) + problem.load
     size = np.linalg.norm(problem.load / problem.unit, axis=1) + states.tension_at_platform.sum(axis=1)
     balanced = np.linalg.norm(residual / problem.unit, axis=1) <= BALANCED * size
@@ -173,6 +196,17 @@ def _solve(problem: HoldingProblem) -> InverseSolution:
     status[cut_short] = InverseStatus.NOT_CONVERGED
     lengths = problem.arrays.reading(states.total_length)
     return InverseSolution(states, lengths, residual, status, iterations)
+
+
+def _joined(parts: list[InverseSolution], order: np.ndarray) -> InverseSolution:
+    """One solution of several, its items in another order."""
+
+    def both(values: list[np.ndarray]) -> np.ndarray:
+        return np.concatenate(values)[order]
+
+    cables = CableStates(*(both([getattr(part.cables, name) for part in parts]) for name in CableStates.__slots__))
+    rest = ("lengths", "residual_wrench", "status", "iterations")
+    return InverseSolution(cables, *(both([getattr(part, name) for part in parts]) for name in rest))
 
 
 def _bounds(lower: npt.ArrayLike, upper: npt.ArrayLike, m: int) -> tuple[np.ndarray, np.ndarray]:

@@ -31,6 +31,7 @@ class Quantity:
     column      : which of the columns is the quantity
     evaluate    : (robot, positions (n, 3) [m], rotation (3, 3)) -> columns of n values; `held` (bool) is False where
                   the pose cannot be held, and the quantity then is nan or does not count
+    chunk       : poses that are best computed at once
     """
 
     label: str
@@ -38,6 +39,7 @@ class Quantity:
     meaning: str
     column: str
     evaluate: Callable[[Robot, np.ndarray, np.ndarray], Columns]
+    chunk: int = 256
 
 
 def evaluate(name: str, robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
@@ -154,7 +156,12 @@ QUANTITIES: dict[str, Quantity] = {
         stiffnesses,
     ),
     "first-frequency": Quantity(
-        "first frequency", "Hz", "first natural frequency of the robot, cables vibrating", "first_Hz", first_frequencies
+        "first frequency",
+        "Hz",
+        "first natural frequency of the robot, cables vibrating",
+        "first_Hz",
+        first_frequencies,
+        chunk=2048,
     ),
     "first-platform-frequency": Quantity(
         "first platform frequency",
@@ -162,6 +169,7 @@ QUANTITIES: dict[str, Quantity] = {
         "frequency of the mode most like the platform's first on massless cables, cables vibrating",
         "platform_Hz",
         first_frequencies,
+        chunk=2048,
     ),
     "tension-max": Quantity("largest tension", "N", "largest cable tension at the platform", "tension_max_N", tensions),
     "tension-min": Quantity(

@@ -59,22 +59,32 @@ class Sweep:
         known : chunks by number that need not be computed
         finished : called with number and columns of each chunk as it is done, in this thread
         """
-        done = dict(known or {})
+        columns: Columns = {}
         positions, rotation = self.grid.positions, self.grid.rotation
+        for number, part in (known or {}).items():
+            self._enter(columns, number, part)
         missing = {
             executor.submit(evaluate, self.quantity, self.robot, positions[part], rotation): number
             for number, part in enumerate(self._parts())
-            if number not in done
+            if number not in (known or {})
         }
         try:
-            for future in as_completed(missing):
-                done[missing[future]] = future.result()
-                finished(missing[future], done[missing[future]])
+            for future in as_completed(list(missing)):
+                number, part = missing.pop(future), future.result()
+                self._enter(columns, number, part)
+                finished(number, part)
         finally:
             for future in missing:
                 future.cancel()
-        ordered = [done[number] for number in range(self.chunks)]
-        return {name: np.concatenate([part[name] for part in ordered]) for name in ordered[0]}
+        return columns
+
+    def _enter(self, columns: Columns, number: int, part: Columns) -> None:
+        """Write a chunk into the columns over the whole grid."""
+        start = number * self.chunk
+        for name, values in part.items():
+            if name not in columns:
+                columns[name] = np.empty(self.grid.size, dtype=values.dtype)
+            columns[name][start : start + len(values)] = values
 
     def _parts(self) -> Iterator[slice]:
         return (slice(start, start + self.chunk) for start in range(0, self.grid.size, self.chunk))

@@ -2,75 +2,122 @@
 
 import numpy as np
 
+from cdpr_struct.dynamics.batched_modes import Batch, first_mode, fits
 from cdpr_struct.dynamics.cable_dynamics import expand_catenaries_at
 from cdpr_struct.dynamics.internal_mass import with_internal_mass
+from cdpr_struct.dynamics.lowest_clamped import lowest_clamped
+from cdpr_struct.dynamics.many_poses import poses_of
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.platform_modes import platform_mode
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
-from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_static_stiffness
+from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix, platform_static_stiffness
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.slack_cables import slack_count
 
+AMONG = 60  # first modes of the robot, of which one is the platform's
+_CHUNK, _GENERAL_CHUNK = 2048, 32  # poses at once
 _ORDER = 24
-_MODES = 60
 _HALF_WAVES = 2.5
 
+Columns = dict[str, np.ndarray]
 
-def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> dict[str, np.ndarray]:
+
+def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
     """First frequencies [Hz] of the robot, its platform (also on massless cables) and each cable; exact catenaries.
 
-    The platform's is that of the mode whose platform motion is most like the platform's first mode on massless cables:
-    where cable modes come near, they share its energy. A cable's frequency is that with both ends held. Minimum-norm
-    tensions within the robot's force limits. nan where the platform is not held, or balanced but not stable.
-    slack_cables: number of cables that hang slack where it is held.
+    The platform's is that of the mode, of the first `AMONG`, whose platform motion is most like the platform's first
+    mode on massless cables: where cable modes come near, they share its energy. A cable's frequency is that with both
+    ends held. Minimum-norm tensions within the robot's force limits. nan where the platform is not held, or balanced
+    but not stable. slack_cables: number of cables that hang slack where it is held.
     """
+    starts = range(0, max(len(positions), 1), _CHUNK)
+    parts = [_of_chunk(robot, positions[start : start + _CHUNK], rotation) for start in starts]
+    return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+
+def _of_chunk(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
     solution = inverse(robot, positions, rotation, allow_unheld=True)
+    columns = {name: np.full(len(positions), np.nan) for name in _names(robot)}
     held = np.flatnonzero(solution.held)
-    good = held[_stable(_points(robot, positions, rotation, solution, held))]
-    names = [
-        "first_Hz",
-        "platform_Hz",
-        "platform_massless_Hz",
-        *(f"cable_{i + 1}_Hz" for i in range(len(robot.cables))),
-    ]
-    columns = {name: np.full(len(positions), np.nan) for name in names}
-    if good.size:
-        found = _at_rest(_points(robot, positions, rotation, solution, good))
-        for name, values in zip(names, found, strict=True):
-            columns[name][good] = values
+    if held.size:
+        point = _points(robot, positions, rotation, solution, held)
+        massless, momentum = _first_static_mode(point)
+        stable = np.flatnonzero(massless > 0.0)
+        found = _at_rest(poses_of(point, stable), massless[stable], momentum[stable])
+        for name, values in found.items():
+            columns[name][held[stable]] = np.sqrt(values) / (2.0 * np.pi)
     return {**columns, "slack_cables": slack_count(solution.cables, solution.held), "held": solution.held}
+
+
+def _names(robot: Robot) -> list[str]:
+    cables = (f"cable_{i + 1}_Hz" for i in range(len(robot.cables)))
+    return ["first_Hz", "platform_Hz", "platform_massless_Hz", *cables]
 
 
 def _points(
     robot: Robot, positions: np.ndarray, rotation: np.ndarray, solution: InverseSolution, chosen: np.ndarray
 ) -> OperatingPoint:
-    states = solution.cables.at(chosen)
+    states = solution.cables if chosen.size == len(positions) else solution.cables.at(chosen)
     return OperatingPoint(robot, positions[chosen], np.broadcast_to(rotation, (len(chosen), 3, 3)), states)
 
 
-def _stable(point: OperatingPoint) -> np.ndarray:
-    """(n,) bool: the platform's static stiffness, whatever the units of rotation, is positive definite."""
-    if not len(point.position):
-        return np.zeros(0, dtype=bool)
-    return np.asarray(np.linalg.eigvalsh(platform_static_stiffness(point))[:, 0] > 0.0)
-
-
-def _at_rest(point: OperatingPoint) -> list[np.ndarray]:
-    full = expand_catenaries_at(point, _ORDER)
-    first = np.sqrt(full.omega_squared[..., 0])
-    modes = ritz_modes(point, full.reduced(_HALF_WAVES * float(first.max()), factor=1.2), _MODES)
-    rigid = platform_static_stiffness(point), modes.platform_mass
-    stiffness, mass = with_internal_mass(point.arrays, point.rotation, *rigid)
-    massless, shape = _first_static_mode(stiffness, mass)
-    moved = np.concatenate([modes.platform, modes.internal[..., None]], axis=-1)[..., : mass.shape[-1]]
-    alike = np.einsum("nki,ni->nk", moved @ mass, shape) ** 2
-    of_platform = np.take_along_axis(modes.omega, alike.argmax(axis=-1)[:, None], axis=-1)[:, 0]
-    return [values / (2.0 * np.pi) for values in (modes.omega[:, 0], of_platform, massless, *first.T)]
-
-
-def _first_static_mode(stiffness: np.ndarray, mass: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """omega (n,) [rad/s] (nan where unstable) and shape (n, d) of the first mode of matrices (n, d, d)."""
-    inverse_root = np.linalg.inv(np.linalg.cholesky(mass))
+def _first_static_mode(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
+    """omega^2 (n,) of the platform's first mode on massless cables, negative where it is unstable, and its momentum
+    (n, 6), with an internal mass (n, 7)."""
+    stiffness, mass = with_internal_mass(
+        point.arrays, point.rotation, platform_static_stiffness(point),
+        platform_mass_matrix(point.arrays, point.rotation),
+    )  # fmt: skip
+    lower = np.linalg.cholesky(mass)
+    inverse_root = np.linalg.inv(lower)
     squared, vectors = np.linalg.eigh(inverse_root @ stiffness @ np.swapaxes(inverse_root, -1, -2))
-    omega = np.sqrt(np.where(squared[:, 0] > 0.0, squared[:, 0], np.nan))
-    return omega, np.einsum("nij,ni->nj", inverse_root, vectors[..., 0])
+    return squared[:, 0], np.einsum("nij,nj->ni", lower, vectors[..., 0])
+
+
+def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> Columns:
+    """Squared frequencies by name at stable poses: the fast path's, and the general solver's where there are none."""
+    names = _names(point.entered)
+    found = {name: np.full(len(massless), np.nan) for name in names}
+    found["platform_massless_Hz"] = massless
+    fast = np.flatnonzero(fits(point))
+    if fast.size:
+        for name, values in _fast(poses_of(point, fast), massless[fast], momentum[fast]).items():
+            found[name][fast] = values
+    left = np.flatnonzero(~np.isfinite([found[name] for name in names]).all(axis=0))
+    for start in range(0, left.size, _GENERAL_CHUNK):
+        chosen = left[start : start + _GENERAL_CHUNK]
+        for name, values in _general(poses_of(point, chosen), momentum[chosen]).items():
+            known = found[name][chosen]
+            found[name][chosen] = np.where(np.isfinite(known), known, values)
+    return found
+
+
+def _fast(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> Columns:
+    whole = Batch.of(point)
+    found: Columns = {}
+    for group in whole.groups:
+        batch = whole.take(group)
+        platform = platform_mode(batch, massless[group], momentum[group], AMONG)
+        first = first_mode(batch, platform.first).squared
+        columns = {"first_Hz": first, "platform_Hz": platform.squared}
+        columns |= _of_cables(lowest_clamped(batch.cables, batch.order))
+        for name, values in columns.items():
+            found.setdefault(name, np.full(len(massless), np.nan))[group] = values
+    return found
+
+
+def _general(point: OperatingPoint, momentum: np.ndarray) -> Columns:
+    """Expansions of high order and as many modes as the definition asks for."""
+    full = expand_catenaries_at(point, _ORDER)
+    clamped = full.omega_squared[..., 0]
+    highest = _HALF_WAVES * float(np.sqrt(clamped.max()))
+    modes = ritz_modes(point, full.reduced(highest, factor=1.2), AMONG)
+    moved = np.concatenate([modes.platform, modes.internal[..., None]], axis=-1)[..., : momentum.shape[-1]]
+    alike = np.einsum("nki,ni->nk", moved, momentum) ** 2
+    of_platform = np.take_along_axis(modes.omega, alike.argmax(axis=-1)[:, None], axis=-1)[:, 0]
+    return {"first_Hz": modes.omega[:, 0] ** 2, "platform_Hz": of_platform**2} | _of_cables(clamped.T)
+
+
+def _of_cables(squared: np.ndarray) -> Columns:
+    return {f"cable_{i + 1}_Hz": values for i, values in enumerate(squared)}

@@ -124,8 +124,8 @@ def test_a_light_part_is_told_from_no_line_of_the_mains(tmp_path):
 
 
 def test_a_heavy_part_is_named_and_its_mode_is_in_the_extended_robot(tmp_path):
-    """A quarter of the platform, off its origin and along no axis, which no robot file can say: so it is found too light,
-    but its mode changes with the pose as the FEM's does, and lies within 3 % of it."""
+    """A quarter of the platform, off its origin and along no axis, which no robot file can say: so it is found too
+    light, but its mode changes with the pose as the FEM's does."""
     campaign, inner = written(tmp_path, seed=6, mass=30.0, hertz=5.0)
     said = diagnosed(campaign)
     assert said.decision.classes == (("flexible_platform",),)

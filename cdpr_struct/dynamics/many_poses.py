@@ -1,0 +1,54 @@
+"""The lowest natural frequencies at very many poses, every one in its bracket: quickly where that is proved, and else
+by the certified modes of one pose after the other."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.dynamics.batched_modes import Batch, fits, lowest_modes
+from cdpr_struct.dynamics.certified_modes import certified_modes
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_static_stiffness
+
+_CHUNK = 256
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FrequenciesOfPoses:
+    """The first k natural frequencies at n poses, multiplicities repeated; nan where the platform is not stable.
+
+    hertz         : (n, k) ascending
+    bracket_hertz : (n, k, 2) intervals that hold them. Quick ones are proved for the cables as polynomials see them:
+                    these frequencies lie less than 2e-7 above the catenary's
+    quick         : (n,) bool, without the certified modes of that pose
+    """
+
+    hertz: np.ndarray
+    bracket_hertz: np.ndarray
+    quick: np.ndarray
+
+
+def lowest_frequencies(point: OperatingPoint, count: int) -> FrequenciesOfPoses:
+    """First `count` undamped natural frequencies at a flat batch (n) of poses, exact catenaries."""
+    n = len(point.position)
+    bracket, quick = np.full((n, count, 2), np.nan), np.zeros(n, dtype=bool)
+    stable = np.flatnonzero(np.linalg.eigvalsh(platform_static_stiffness(point))[:, 0] > 0.0)
+    fast = stable[fits(poses_of(point, stable))]
+    for start in range(0, fast.size, _CHUNK):
+        own = fast[start : start + _CHUNK]
+        batch = Batch.of(poses_of(point, own))
+        for group in batch.groups:
+            found = lowest_modes(batch.take(group), count)
+            bracket[own[group]] = np.sqrt(np.stack([found.low, found.squared], axis=-1)) / (2.0 * np.pi)
+            quick[own[group]] = np.isfinite(found.squared).all(axis=1)
+    for i in stable[~quick[stable]]:
+        bracket[i] = certified_modes(poses_of(point, i), "exact", count).frequencies.bracket_hertz
+    middle = np.where(quick[:, None], bracket[..., 1], bracket.mean(axis=-1))
+    return FrequenciesOfPoses(middle, bracket, quick)
+
+
+def poses_of(point: OperatingPoint, index: "np.ndarray | int") -> OperatingPoint:
+    """Some poses of a flat batch, or one; all of them as they are."""
+    if np.size(index) == len(point.position) and np.ndim(index):
+        return point
+    return OperatingPoint(point.robot, point.position[index], point.rotation[index], point.cables.at(index))

@@ -1,0 +1,82 @@
+"""Which mode of the robot is its platform's, at very many poses?"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.dynamics.batched_modes import PROVED, REACH, Batch, pieces
+from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, condensed
+from cdpr_struct.dynamics.condensed_robot import Pencil, pencil
+from cdpr_struct.dynamics.corrected_ritz import corrected, least_below, most_below
+from cdpr_struct.dynamics.string_functions import string_functions
+
+_ATTEMPTS = ((1, 2.4), (2, 4.5), (3, 8.0), (6, np.inf), (8, np.inf))
+"""Leads, and below which ratio of the squared massless frequency to the lowest string's they are tried."""
+_WINDOW = 8
+_PAST = 1.05  # the shift towards the platform's mode, over the squared massless frequency
+_SEEN = 0.85  # of the eliminated motions' lowest squared frequency: so far modes are taken for known
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlatformMode:
+    """Squared frequency (n,) of the mode most like a motion of the platform, nan where it is not proved; and about the
+    squared first frequency (n,), nan where even that is not known."""
+
+    squared: np.ndarray
+    first: np.ndarray
+
+
+def platform_mode(batch: Batch, massless: np.ndarray, momentum: np.ndarray, among: int) -> PlatformMode:
+    """The mode, `among` so many first ones, whose platform motion is most like a wanted one.
+
+    massless : (n,) squared frequency near which it is to be expected
+    momentum : (n, 6) platform mass times that motion, of unit modal mass
+    """
+    n = len(massless)
+    found, first = np.full(n, np.nan), np.full(n, np.nan)
+    ratio = massless / batch.lowest_string
+    for leads, most in _ATTEMPTS:
+        todo = np.flatnonzero(~np.isfinite(found) & (ratio < most))
+        for own in pieces(todo):
+            wanted = massless[own], momentum[own]
+            found[own], first[own] = _most_alike(batch.take(own), wanted, leads, among)
+    return PlatformMode(found, first)
+
+
+def _most_alike(
+    batch: Batch, wanted: tuple[np.ndarray, np.ndarray], leads: int, among: int
+) -> tuple[np.ndarray, np.ndarray]:
+    massless, momentum = wanted
+    string = batch.lowest_string
+    shift = np.minimum(_PAST * massless, REACH * (leads + 1) ** 2 * string)
+    own = condensed(batch.cables, shift, string_functions(max(batch.order, 2 * leads + 5)), leads, HIGHEST_TERM)
+    small = pencil(batch.platform, own, shift)
+    d, vectors = small.modes
+    chosen, sure = _window(small, (d, vectors), momentum, among)
+    values, shapes = np.take_along_axis(d, chosen, axis=1), np.take_along_axis(vectors, chosen[:, None], axis=2)
+    squared, motion = corrected(batch.platform, own, small, values, shapes)
+    best = (np.einsum("ni,nis->ns", momentum, motion) ** 2).argmax(axis=1)[:, None]
+    rank = np.take_along_axis(chosen, best, axis=1)[:, 0]
+    found = np.take_along_axis(squared, best, axis=1)[:, 0]
+    above = least_below(batch.platform, own, shift, found * (1.0 + 2.0 * PROVED)) > rank
+    below = most_below(batch.platform, own, shift, found * (1.0 - 2.0 * PROVED)) <= rank
+    known = shift < own.lowest
+    return np.where(sure & above & below, found, np.nan), np.where(known, squared[:, 0], np.nan)
+
+
+def _window(
+    small: Pencil, modes: tuple[np.ndarray, np.ndarray], momentum: np.ndarray, among: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """The first mode and those around the most alike one (n, s), and where no other can be more alike (n,): all that
+    count lie within the shift's reach, or those beyond it have less in common with the motion altogether."""
+    d, vectors = modes
+    alike = small.shares(vectors, momentum)
+    known = (small.shift[:, None] + d < _SEEN * small.lowest[:, None]) & (np.arange(d.shape[1]) < among)
+    best = np.where(known, alike, -1.0).argmax(axis=1)
+    row = np.arange(len(best))
+    rest = np.where(known, 0.0, alike).sum(axis=1)
+    size = min(_WINDOW, d.shape[1]) - 1
+    start = np.clip(best - size // 2, 1, d.shape[1] - size)
+    chosen = np.concatenate([np.zeros((len(best), 1), dtype=int), start[:, None] + np.arange(size)], axis=1)
+    sure = (known.sum(axis=1) >= among) | (alike[row, best] > rest)
+    return chosen, known[row, best] & sure

@@ -1,0 +1,277 @@
+"""The fast path to the lowest modes of many poses: against the certified modes of each pose, and what it proves."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cdpr_struct.dynamics.batched_modes import Batch, first_mode, fits, lowest_modes, reasons_against
+from cdpr_struct.dynamics.cable_dynamics import expand_catenaries_at
+from cdpr_struct.dynamics.certified_modes import certified_modes
+from cdpr_struct.dynamics.condensed_cables import condensed
+from cdpr_struct.dynamics.condensed_robot import pencil
+from cdpr_struct.dynamics.corrected_ritz import least_below, most_below
+from cdpr_struct.dynamics.lowest_clamped import lowest_clamped
+from cdpr_struct.dynamics.many_poses import lowest_frequencies, poses_of
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_static_stiffness
+from cdpr_struct.dynamics.string_functions import string_functions
+from cdpr_struct.robot.cable import Pulley
+from cdpr_struct.robot.extensions import Extensions
+from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.workspace import vibration
+from cdpr_struct.workspace.vibration import first_frequencies
+from tests.random_robots import random_positions, random_robot
+
+LEVEL = np.eye(3)
+FIRST, MANY = 1e-8, 2e-7  # largest relative errors of the first frequency, and of twelve
+KINKED = 2e-5  # a mass leaves a kink in the cable, which polynomials of order 24 and of 32 resolve to 1e-5
+ROBOTS = ("thesis-3-1", "thesis-3-1-8mm", "cogiro", "thesis-5")
+
+
+def near_home(robot, count, seed=3):
+    spread = np.array([1.5, 1.2, 0.3])
+    return robot.home.position + np.random.default_rng(seed).uniform(-1.0, 1.0, (count, 3)) * spread
+
+
+def at_rest(robot, positions) -> OperatingPoint:
+    """At those of the poses that are held and stable."""
+    turns = np.broadcast_to(LEVEL, (len(positions), 3, 3))
+    solution = inverse(robot, positions, turns, allow_unheld=True)
+    held = np.flatnonzero(solution.held)
+    point = OperatingPoint(robot, positions[held], turns[held], solution.cables.at(held))
+    if not held.size:
+        return point
+    return poses_of(point, np.flatnonzero(np.linalg.eigvalsh(platform_static_stiffness(point))[:, 0] > 0.0))
+
+
+def certified_squared(point, count) -> np.ndarray:
+    poses = range(len(point.position))
+    hertz = [certified_modes(poses_of(point, i), "exact", count).frequencies.hertz for i in poses]
+    return (2.0 * np.pi * np.array(hertz)) ** 2
+
+
+def with_extensions(**given):
+    robot = load_robot("thesis-3-1")
+    return replace(robot, extensions=Extensions.of(len(robot.cables), given))
+
+
+def largest_error(ours, exact) -> float:
+    return float(np.abs(0.5 * np.log(ours / exact)).max())
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_lowest_modes_are_the_certified_ones(name):
+    point = at_rest(load_robot(name), near_home(load_robot(name), 4))
+    assert fits(point).all()
+    exact, batch = certified_squared(point, 12), Batch.of(point)
+    first, many = first_mode(batch), lowest_modes(batch, 12)
+    assert largest_error(first.squared, exact[:, 0]) < FIRST
+    assert (first.width <= 1e-9).all()
+    assert largest_error(many.squared, exact) < MANY
+    assert (many.low <= exact * (1.0 + MANY)).all()
+    assert (exact <= many.squared * (1.0 + 1e-9)).all()
+
+
+def test_cables_two_percent_heavier_are_told_apart():
+    """The twin of the test above."""
+    robot = load_robot("thesis-3-1")
+    heavier = replace(robot, cables=tuple(replace(c, linear_density=1.02 * c.linear_density) for c in robot.cables))
+    positions = near_home(robot, 3)
+    exact = certified_squared(at_rest(robot, positions), 12)
+    ours = Batch.of(at_rest(heavier, positions))
+    assert largest_error(first_mode(ours).squared, exact[:, 0]) > 1e4 * FIRST
+    assert largest_error(lowest_modes(ours, 12).squared, exact) > 1e4 * MANY
+
+
+@pytest.mark.parametrize("share", [0.3, 1.0, 1.7])
+def test_a_shift_encloses_every_frequency_below_the_eliminated_ones(share):
+    """By the bound, and by the counts of the series; the polynomials are fine enough to be exact here."""
+    robot = load_robot("thesis-3-1")
+    point = at_rest(robot, near_home(robot, 6))
+    exact, batch = certified_squared(point, 12), Batch.of(point)
+    shift = share * batch.lowest_string
+    own = condensed(batch.cables, shift, string_functions(12), 1, 5)
+    small = pencil(batch.platform, own, shift)
+    squared = small.squared[:, :12]
+    below = exact < 0.8 * own.lowest[:, None]
+    low = small.enclosed(squared)
+    assert below[:, :6].all()
+    assert (exact <= squared * (1.0 + 1e-9)).all()
+    assert (low <= exact * (1.0 + 1e-9))[below].all()
+    overstated = replace(small, lowest=1e6 * small.lowest)  # twin
+    assert not (overstated.enclosed(squared) <= exact * (1.0 + 1e-9))[below].all()
+    for i in range(6):
+        for factor in (1.0 - 1e-6, 1.0 + 1e-6):
+            near = exact[:, i] * factor
+            true = (exact < near[:, None]).sum(axis=1)
+            assert (least_below(batch.platform, own, shift, near) <= true).all()
+            assert (most_below(batch.platform, own, shift, near) >= true).all()
+
+
+def test_what_is_not_proved_is_not_said():
+    """A shift beyond the eliminated frequencies proves nothing."""
+    robot = load_robot("thesis-3-1")
+    batch = Batch.of(at_rest(robot, near_home(robot, 3)))
+    shift = 5.0 * batch.lowest_string
+    own = condensed(batch.cables, shift, string_functions(8), 1, 5)
+    small = pencil(batch.platform, own, shift)
+    assert np.isnan(small.squared).all()
+    assert (small.enclosed(shift) == -np.inf).all()
+    assert (most_below(batch.platform, own, shift, shift) > 1000).all()
+    assert (least_below(batch.platform, own, shift, shift) == 0).all()
+
+
+REFUSED = {
+    "pulleys": lambda: replace(load_robot("thesis-3-1"), pulleys=(Pulley(0.05),) + (None,) * 7),
+    "masts": lambda: with_extensions(frame_compliance=2e-5),
+    "elasticity in line": lambda: with_extensions(series_compliance=2e-5),
+    "bending stiffness": lambda: with_extensions(bending_stiffness=0.5),
+    "masses at mid-cable": lambda: with_extensions(added_mass=0.02),
+    "an internal mass": lambda: with_extensions(internal_mass=2.0, internal_frequency=5.0),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_does_not_fit_is_the_general_solvers(name):
+    robot = REFUSED[name]()
+    point = at_rest(robot, near_home(robot, 2))
+    assert reasons_against(point) == [name]
+    assert not fits(point).any()
+    mapped = first_frequencies(robot, near_home(robot, 2), LEVEL)["first_Hz"]
+    np.testing.assert_allclose(
+        mapped,
+        np.sqrt(certified_squared(point, 1)[:, 0]) / (2.0 * np.pi),
+        rtol=KINKED if name == "masses at mid-cable" else FIRST,
+    )
+
+
+def test_parameters_of_their_own_do_not_fit():
+    robot = load_robot("thesis-3-1")
+    point = at_rest(robot, near_home(robot, 3))
+    arrays = replace(point.arrays, mass=np.array([50.0, 60.0, 70.0]))
+    assert reasons_against(replace(point, robot=arrays)) == ["parameters of their own at each pose"]
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"nonlinearity": 0.3, "reference_tension": 200.0},
+        {"force": [20.0, 5.0, -30.0], "tilt": [0.01, -0.02]},
+        {"hose": 100.0, "hose_center": [0.0, 0.0, 0.5]},
+        {"length_offset": 0.01, "length_scale": 1.001, "cell_gain": 1.01},
+    ],
+    ids=str,
+)
+def test_loads_stiffening_cables_and_sensors_fit(given):
+    robot = with_extensions(**given)
+    point = at_rest(robot, near_home(robot, 3))
+    assert fits(point).all()
+    exact = certified_squared(point, 6)
+    assert largest_error(first_mode(Batch.of(point)).squared, exact[:, 0]) < FIRST
+    assert largest_error(lowest_modes(Batch.of(point), 6).squared, exact) < MANY
+
+
+def test_slack_cables_do_not_fit():
+    bare = load_robot("thesis-5").with_force_limits(0.0)
+    point = at_rest(bare, near_home(bare, 3))
+    assert len(point.position)
+    assert not fits(point).any()
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_clamped_cables_lowest_frequency_lies_out_of_its_plane(name):
+    """All the modes of the expansion, in the plane and out of it, against those out of it alone."""
+    robot = load_robot(name)
+    point = at_rest(robot, near_home(robot, 4))
+    batch = Batch.of(point)
+    exact = expand_catenaries_at(point, 24).omega_squared[..., 0].T
+    np.testing.assert_allclose(lowest_clamped(batch.cables, batch.order), exact, rtol=1e-9)
+
+
+def test_every_pose_has_its_frequencies():
+    """Quick ones, those of a slack cable by certified modes, none where the platform is not stable."""
+    robot = load_robot("thesis-5")
+    states = [inverse(r, robot.home.position[None], LEVEL).cables for r in (robot, robot.with_force_limits(0.0))]
+    both = CableStates(*(np.concatenate([getattr(s, n) for s in states]) for n in CableStates.__slots__))
+    turns, places = np.broadcast_to(LEVEL, (2, 3, 3)), np.repeat(robot.home.position[None], 2, axis=0)
+    point = OperatingPoint(robot, places, turns, both)
+    found = lowest_frequencies(point, 6)
+    assert found.quick.tolist() == [True, False]
+    exact = np.sqrt(certified_squared(point, 6)) / (2.0 * np.pi)
+    np.testing.assert_allclose(found.hertz, exact, rtol=MANY)
+    assert (found.bracket_hertz[..., 0] <= exact * (1.0 + 1e-9)).all()
+    assert (exact <= found.bracket_hertz[..., 1] * (1.0 + 1e-9)).all()
+    falling = replace(robot, platform=replace(robot.platform, center_of_mass=np.array([0.0, 0.0, 20.0])))
+    assert np.isnan(lowest_frequencies(replace(point, robot=falling), 3).hertz).all()
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_columns_of_a_map_are_those_of_the_general_solver(name, monkeypatch):
+    robot = load_robot(name)
+    positions = near_home(robot, 6)
+    ours = first_frequencies(robot, positions, LEVEL)
+    monkeypatch.setattr(vibration, "fits", lambda point: np.zeros(len(point.position), dtype=bool))
+    theirs = first_frequencies(robot, positions, LEVEL)
+    assert ours.keys() == theirs.keys()
+    for column, values in theirs.items():
+        np.testing.assert_allclose(ours[column], values, rtol=MANY if column == "platform_Hz" else FIRST)
+
+
+@pytest.mark.parametrize("mass", [30.0, 60.0])
+def test_a_mapped_pose_does_not_depend_on_its_company(mass):
+    """Poses with heavy and with light sag, alone and together; the general solver, which some platform modes come from,
+    drops what lies far above the highest string of its batch."""
+    robot = load_robot("thesis-3-1-8mm").with_load(mass=mass)
+    positions = near_home(robot, 12)
+    whole = first_frequencies(robot, positions, LEVEL)
+    for part in (slice(0, 1), slice(5, 6), slice(7, 12)):
+        alone = first_frequencies(robot, positions[part], LEVEL)
+        for name, rounding in (("first_Hz", 1e-12), ("cable_1_Hz", 1e-12), ("platform_Hz", 1e-9)):
+            np.testing.assert_allclose(alone[name], whole[name][part], rtol=rounding)
+
+
+def compare(seed: int, robots: int, poses: int) -> dict[str, float]:
+    """Over random robots: shares of poses that fit and are proved, and the largest errors against certified modes."""
+    rng = np.random.default_rng(seed)
+    counts, errors, many_errors = np.zeros(5), [0.0], [0.0]
+    for _ in range(robots):
+        robot = random_robot(rng)
+        point = at_rest(robot, random_positions(rng, robot, poses))
+        fast = np.flatnonzero(fits(point))
+        counts[:2] += len(point.position), fast.size
+        if not fast.size:
+            continue
+        point = poses_of(point, fast)
+        exact, batch = certified_squared(point, 12), Batch.of(point)
+        first, many = first_mode(batch), lowest_modes(batch, 12)
+        proved, of_many = np.isfinite(first.squared), np.isfinite(many.squared)
+        counts[2:] += proved.sum(), of_many.sum(), of_many.size
+        if proved.any():
+            errors.append(largest_error(first.squared[proved], exact[proved, 0]))
+        if of_many.any():
+            many_errors.append(largest_error(many.squared[of_many], exact[of_many]))
+    stable, fitting, proved, of_many, asked = counts
+    return {
+        "stable": stable, "fitting": fitting / stable, "proved": proved / fitting, "many": of_many / asked,
+        "error": max(errors), "many_error": max(many_errors),
+    }  # fmt: skip
+
+
+def test_random_robots_agree_with_certified_modes():
+    found = compare(7, robots=12, poses=6)
+    assert found["stable"] >= 20
+    assert found["error"] < FIRST
+    assert found["many_error"] < MANY
+    assert found["proved"] > 0.95
+
+
+@pytest.mark.slow
+def test_random_robots_agree_with_certified_modes_at_ten_thousand_poses():
+    found = compare(8, robots=100, poses=100)
+    print(found)
+    assert found["error"] < FIRST
+    assert found["many_error"] < MANY
+    assert found["proved"] > 0.95
