@@ -95,7 +95,7 @@ def _widened(classes: Classes, beliefs: Sequence[Belief], loss: Loss, without_si
 
 
 def _of_unknown(beliefs: Sequence[Belief], loss: Loss) -> float:
-    said = sum(one.probability for one in beliefs if UNKNOWN not in one.names and one.names)
+    said = sum(one.probability * len(one.names) for one in beliefs if UNKNOWN not in one.names)
     nothing = sum(one.probability for one in beliefs if not one.names)
     return loss.unknown * said + loss.wrong_name * nothing
 
@@ -104,9 +104,7 @@ def _of_classes(classes: Classes, beliefs: Sequence[Belief], loss: Loss) -> floa
     """Expected loss of an answer."""
     total = loss.too_wide * sum(len(names) - 1 for names in classes)
     for one in beliefs:
-        if one.names and not classes:
-            total += loss.unknown * one.probability
-        elif not fits(classes, one.names):
+        if not fits(classes, one.names):
             total += loss.wrong_name * one.probability
         else:
             total += loss.unknown * (len(one.names) - len(classes)) * one.probability

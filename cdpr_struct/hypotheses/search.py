@@ -27,6 +27,7 @@ from cdpr_struct.residuals.layout import Layout, layout
 from cdpr_struct.residuals.recorded import Recorded
 
 _NOTHING = 2.0  # nats by which the best single cause may be behind none: else a second one beside it is not looked for
+_NESTED = 2  # of the likeliest hypotheses, from whose points nothing wrong is judged
 _AGAIN = 6  # hypotheses that are fitted from another one's noise
 
 
@@ -181,11 +182,18 @@ class Search:
                     self.keep(again(self.data, self.where, self.found[one.hypothesis.key], other.fit.noise))
 
     def _converge(self) -> None:
-        """The likeliest hypotheses, and nothing wrong, linearised again until their evidence stays."""
+        """The likeliest hypotheses, and nothing wrong, linearised again until their evidence stays.
+
+        Nothing wrong is judged once more from their points: tolerances alone may give peaks to modes as they do.
+        """
         ranked = self._ranked()
         near = [one for one in ranked if one.score > ranked[0].score - self.budget.sure]
         for one in {one.hypothesis.key: one for one in [*near[: self.budget.converged], self._ranked(0)[0]]}.values():
             self.found[one.hypothesis.key] = converged(self.data, self.where, one)
+        for best in [one for one in self._ranked()[:_NESTED] if one.hypothesis.parts]:
+            null = Hypothesis(drift=best.hypothesis.drift)
+            there = best.likeliest(self.data, self.where)
+            self.keep(judged(self.data, self.where, null, there, best.fit.noise))
 
     def _pairs(self, first: Judged) -> None:
         """A second cause beside one, where that may come near the best."""

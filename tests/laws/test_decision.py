@@ -35,6 +35,8 @@ def beliefs(*rows: tuple[float, str]) -> list[Belief]:
         # both, or one of them: naming both costs 20 (1 - p), naming a costs 10 p, even at two thirds
         ([(0.66, "a b"), (0.34, "a")], "named", (("a",),), 1.0),
         ([(0.67, "a b"), (0.33, "a")], "named", (("a",), ("b",)), 0.67),
+        # three causes, one of them for sure: it alone costs 10 for each that is unspoken, unknown one more of these
+        ([(0.5, "a b c"), (0.5, "a d e")], "class", (("a",), ("b", "d"), ("c", "e")), 1.0),
         # a with one of three others: a alone costs 10, a and (b, c or d) costs 2, all others 6 or more
         ([(0.4, "a b"), (0.3, "a c"), (0.3, "a d")], "class", (("a",), ("b", "c", "d")), 1.0),
     ],
@@ -105,15 +107,15 @@ def test_no_answer_of_up_to_two_classes_costs_less(rows):
     def loss(classes) -> float:
         total = sum(len(own) - 1.0 for own in classes)
         for one in given:
-            if not classes:
-                total += 10.0 * one.probability * bool(one.names)
-            elif not _true(classes, one.names):
+            if not _true(classes, one.names):
                 total += 20.0 * one.probability
             else:
                 total += 10.0 * one.probability * (len(one.names) - len(classes))
         return total
 
-    unknown = sum(p * (20.0 if not names else 0.0 if names == UNKNOWN else 10.0) for p, names in rows)
+    unknown = sum(
+        p * (20.0 if not names else 0.0 if names == UNKNOWN else 10.0 * len(names.split())) for p, names in rows
+    )
     said = decided(given, LOSS)
     cost = unknown if said.status == UNKNOWN else loss(said.classes)
     assert cost == pytest.approx(min(unknown, *map(loss, answers)))
