@@ -31,13 +31,16 @@ def run(
     require_file(campaign)
     from cdpr_struct.diagnosis.diagnosing import diagnosed
     from cdpr_struct.measurement.campaign_file import load_campaign
+    from cdpr_struct.planning.recommendations import recommendations
     from cdpr_struct.reports.diagnose.result import result_json
     from cdpr_struct.reports.diagnose.text import result_text
 
     measured = load_campaign(campaign, *read_bounds(lower_bound, upper_bound))
-    with output.steps(4) as progress:
+    with output.steps(5) as progress:
         found = diagnosed(measured, budget, progress)
-    result = with_extensions(result_json(found), measured.robot, NAME)
+        progress("simulating the next measurement")
+        simulated = recommendations(found)
+    result = with_extensions(result_json(found, simulated), measured.robot, NAME)
 
     def files() -> Files:
         from cdpr_struct.reports.diagnose.page import result_files

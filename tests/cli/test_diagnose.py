@@ -227,10 +227,17 @@ def test_ticks_are_plain_numbers_at_any_size(largest):
 
 
 def test_what_to_measure_next_is_a_list():
-    table = tables.next_steps("poses with 0, 18 kg: expected to separate a from b by 7 nats; or weighing: 3 nats")
+    table = tables.next_steps(["poses with 0, 18 kg: expected to separate a from b by 7 nats", "weighing; a caliper"])
     assert [row[0][:2] for row in table.rows] == ["1.", "2."]
-    assert table.rows[1] == ["2. or weighing: 3 nats"]
-    assert tables.next_steps("") is None
+    assert table.rows[1] == ["2. weighing; a caliper"]
+    assert tables.next_steps([]) is None
+
+
+def test_the_next_measurement_is_simulated_where_causes_are_left_open(shaken):
+    first = shaken[0]["next_measurements"][0]
+    assert "expected to separate" in first
+    assert "nats" in first
+    assert shaken[0]["verdict"]["next_measurement"].startswith(first)
 
 
 def test_a_cause_that_the_verdict_leaves_open_is_not_called_hidden(shaken):

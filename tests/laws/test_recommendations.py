@@ -14,7 +14,7 @@ from cdpr_struct.hypotheses.search import BUDGETS, Answer, Search
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.planning import recommendations as following
 from cdpr_struct.planning.recommendations import Question, questions, recommendations
-from cdpr_struct.reports.plan.measurements import recommendations_text
+from cdpr_struct.reports.plan.measurements import recommendation_text
 from cdpr_struct.residuals.recorded import recorded
 from tests.laws.test_plan import clean_campaign
 
@@ -73,8 +73,8 @@ def test_the_scales_are_recommended_for_a_class_of_masses(found):
     assert first.what.check in MASSES
     assert first.separates == MASSES
     assert first.gain_nats > Loss().nats_of_a_class
-    assert recommendations_text(said).startswith("weigh the ")
-    assert "expected to separate platform mass from joint mass by" in recommendations_text(said)
+    assert recommendation_text(said[0]).startswith("weigh the ")
+    assert "expected to separate platform mass from joint mass by" in recommendation_text(said[0])
 
 
 def test_a_named_cause_is_held_against_its_next_rival(found):

@@ -133,7 +133,7 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
         tables.errors(result),
         tables.candidates(result["candidates"], 20, 3),
         tables.left_out(result["gain"]),
-        tables.next_steps(result["verdict"]["next_measurement"]),
+        tables.next_steps(result["next_measurements"]),
         tables.set_aside(result["set_aside"]),
         tables.noise(result["noise"]),
         tables.all_sizes(result["candidates"]),

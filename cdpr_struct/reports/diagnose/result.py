@@ -10,10 +10,12 @@ from cdpr_struct.diagnosis.decision import fits
 from cdpr_struct.diagnosis.diagnosis import Candidate, Diagnosis, Tried
 from cdpr_struct.diagnosis.left_out import LeftOut
 from cdpr_struct.hypotheses.laws import UNKNOWN
+from cdpr_struct.planning.recommendations import Recommendation
 from cdpr_struct.reports.diagnose import signals
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.sentences import finite, sentence
 from cdpr_struct.reports.diagnose.words import doubt, place, recommendation
+from cdpr_struct.reports.plan.measurements import recommendation_text
 
 KINDS = {
     "EQ": ("static_state (wrench balance)", 1.0, "N"), "CO": ("static_state (cable lengths)", 1e3, "mm"),
@@ -26,9 +28,10 @@ KINDS = {
 MOST_REPEATED = 4  # readings that are proposed to be read again
 
 
-def result_json(found: Diagnosis) -> dict[str, Any]:
-    """result.json of `diagnose`."""
+def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> dict[str, Any]:
+    """result.json of `diagnose`; simulated measurements stand before those that the library names."""
     hidden, law = _hidden(found), found.outside
+    steps = [*map(recommendation_text, simulated), *_next(found)]
     return {
         "campaign": found.campaign.source,
         "robot": found.campaign.robot_name,
@@ -38,7 +41,8 @@ def result_json(found: Diagnosis) -> dict[str, Any]:
         "p_value": found.p_value,
         "p_value_of": "evidence",
         "p_adequate": found.p_adequate,
-        "verdict": _verdict(found),
+        "verdict": _verdict(found, steps),
+        "next_measurements": steps,
         "probabilities": [{"causes": list(b.names), "probability": b.probability} for b in found.beliefs],
         "set_aside": [
             {"kind": row.kind, "case": row.case, "cable": row.cable + 1, "off_sigmas": row.sigmas,
@@ -72,12 +76,12 @@ def result_json(found: Diagnosis) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _verdict(found: Diagnosis) -> dict[str, Any]:
+def _verdict(found: Diagnosis, steps: Sequence[str]) -> dict[str, Any]:
     decision = found.decision
     return {
         "status": decision.status, "causes": likeliest(found), "class": [list(names) for names in decision.classes],
         "probability": float(decision.probability), "location": place(found.location),
-        "next_measurement": "; ".join(_next(found)), "sentence": sentence(found),
+        "next_measurement": "; ".join(steps), "sentence": sentence(found),
     }  # fmt: skip
 
 

@@ -179,11 +179,15 @@ def set_aside(rows: Sequence[Row]) -> HtmlTable | None:
     return HtmlTable("Readings that contradict all others", columns, cells, note) if cells else None
 
 
-def next_steps(text: str) -> HtmlTable | None:
+def next_steps(steps: Sequence[str]) -> HtmlTable | None:
     """What to measure next, one proposal a row."""
-    rows = [[f"{i}. {step}"] for i, step in enumerate(filter(None, text.split("; ")), start=1)]
+    rows = [[f"{i}. {step}"] for i, step in enumerate(steps, start=1)]
     note = "Nats: expected log evidence between the two causes, whichever is true (3 nats = a factor of 20)."
-    return HtmlTable("To measure next", ["proposal"], rows, note if "nats" in text else "") if rows else None
+    return (
+        HtmlTable("To measure next", ["proposal"], rows, note if any("nats" in step for step in steps) else "")
+        if rows
+        else None
+    )
 
 
 def sigmas(rows: Sequence[Row]) -> HtmlTable | None:

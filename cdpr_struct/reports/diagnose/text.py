@@ -19,7 +19,7 @@ def result_text(result: Mapping[str, Any]) -> str:
         tables.set_aside(result["set_aside"]),
     )
     blocks += [_shown(table) for table in rest if table]
-    after = tables.next_steps(said["next_measurement"])
+    after = tables.next_steps(result["next_measurements"])
     blocks += [f"{after.title}\n" + "\n".join(row[0] for row in after.rows)] if after else []
     blocks += filter(None, [tables.default_sigmas(result["sigmas"])])
     return paragraphs(*blocks)

@@ -1,7 +1,5 @@
 """Further measurements in words."""
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from cdpr_struct.measurement.campaign import Sigmas
@@ -77,12 +75,8 @@ def nats_text(nats: float) -> str:
     return f"{nats:.0f} nats" if nats < MANY else f"more than {MANY:.0f} nats"
 
 
-def recommendations_text(recommended: Sequence[Recommendation]) -> str:
-    """All recommendations in one line, "" without any."""
-    return "; ".join(_recommendation(one) for one in recommended)
-
-
-def _recommendation(one: Recommendation) -> str:
+def recommendation_text(one: Recommendation) -> str:
+    """What to measure, and which causes that is expected to separate."""
     cause, rival = (name.replace("_", " ") for name in one.separates)
     said = f"{measurement_text(one.what)}: expected to separate {cause} from {rival} by {nats_text(one.gain_nats)}"
     others = [pair for pair in one.pairs if (pair.cause, pair.rival) != one.separates]
