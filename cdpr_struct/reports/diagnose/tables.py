@@ -183,11 +183,8 @@ def next_steps(steps: Sequence[str]) -> HtmlTable | None:
     """What to measure next, one proposal a row."""
     rows = [[f"{i}. {step}"] for i, step in enumerate(steps, start=1)]
     note = "Nats: expected log evidence between the two causes, whichever is true (3 nats = a factor of 20)."
-    return (
-        HtmlTable("To measure next", ["proposal"], rows, note if any("nats" in step for step in steps) else "")
-        if rows
-        else None
-    )
+    shown = note if any("nats" in step for step in steps) else ""
+    return HtmlTable("To measure next", ["proposal"], rows, shown) if rows else None
 
 
 def sigmas(rows: Sequence[Row]) -> HtmlTable | None:
