@@ -21,6 +21,7 @@ def run(
     axial_stiffness: Annotated[float, typer.Option("--EA", parser=number, metavar="EA", help="Axial stiffness [N].")],
     density: Annotated[float, typer.Option("--rho", parser=number, metavar="RHO", help="Linear density [kg/m].")],
     gravity: Annotated[float, typer.Option("--gravity", parser=number, metavar="G", help="[m/s^2]")] = 9.81,
+    fem: Annotated[bool, typer.Option("--fem", help="The referee's frequencies, too.")] = False,
     *,
     output: Output,
 ) -> int:
@@ -35,7 +36,7 @@ def run(
         )
     from cdpr_struct.crosscheck.single_cable import describe_cable
 
-    result = describe_cable(force_x, force_z, length, axial_stiffness, density, gravity)
+    result = describe_cable(force_x, force_z, length, axial_stiffness, density, gravity, fem)
     from cdpr_struct.reports.text import cable_text
 
     def files() -> Files:

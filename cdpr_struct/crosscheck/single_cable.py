@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from cdpr_struct.crosscheck.clamped_frequencies import catenary_frequencies, fem_frequencies, pulled_cable
 from cdpr_struct.crosscheck.validity_limits import (
     LAMBDA_SQUARED_LIMIT,
     SAG_RATIO_LIMIT,
@@ -19,18 +20,21 @@ _MODES = 6
 
 
 def describe_cable(
-    force_x: float, force_z: float, length: float, axial_stiffness: float, density: float, gravity: float
-) -> dict[str, Any]:
+    force_x: float, force_z: float, length: float, axial_stiffness: float, density: float, gravity: float,
+    with_fem: bool = False,
+) -> dict[str, Any]:  # fmt: skip
     """Static and dynamic parameters of a cable held at one end and pulled by a force at the other.
 
     Parameters
     ----------
     force_x, force_z : pull at the free end C [N], x horizontal (not zero), z up
     length : unstrained [m];  axial_stiffness : EA [N];  density : [kg/m];  gravity : [m/s^2]
+    with_fem : the FEM's frequencies, too
 
     Returns
     -------
-    dict with SI values under the keys of the command's result.json. Eqs (2.11)-(2.29), (2.36)-(2.41).
+    dict with SI values under the keys of the command's result.json. Eqs (2.11)-(2.29), (2.36)-(2.41); `frequencies_hz`
+    by the closed form, `exact_frequencies_hz` by the catenary itself.
     """
     weight = density * gravity
     five = (force_x, force_z, length, axial_stiffness, weight)
@@ -43,6 +47,8 @@ def describe_cable(
     sag = float(catenary.sag(*five))
     inclination = float(np.degrees(np.arctan2(abs(z), abs(x))))
     axial, c_xx, c_xz, c_zz = (float(c) for c in cable_compliance.compliance(*five))
+    cable = pulled_cable((force_x, force_z), (float(x), float(z)), length, axial_stiffness, weight)
+    by_fem = {"fem_frequencies_hz": fem_frequencies(cable, density, gravity, 2 * _MODES)} if with_fem else {}
     k_xx, k_xz, k_zz = (float(k) for k in cable_compliance.stiffness(*five))
     return {
         "x_m": float(x),
@@ -58,6 +64,8 @@ def describe_cable(
         "compliance_sag": [[c_xx, c_xz], [c_xz, c_zz]],
         "stiffness": [[k_xx, k_xz], [k_xz, k_zz]],
         "frequencies_hz": _clamped_frequencies(chord, tau, density, lambda2),
+        "exact_frequencies_hz": catenary_frequencies(cable, density, _MODES),
+        **by_fem,
         "validity": _validity(lambda2, inclination, epsilon, sag / chord),
         "input": {
             "force_N": [force_x, force_z],

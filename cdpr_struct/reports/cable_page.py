@@ -9,6 +9,7 @@ from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import single_cable
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.text import cable_frequencies
 
 
 def cable_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
@@ -116,8 +117,7 @@ def _matrices(result: Mapping[str, Any]) -> HtmlTable:
 
 
 def _frequencies(result: Mapping[str, Any]) -> HtmlTable:
-    rows = [
-        [name.replace("_", " "), *(f"{f:.4f}" for f in values)] for name, values in result["frequencies_hz"].items()
-    ]
-    columns = ["plane", *(f"{n + 1} [Hz]" for n in range(len(rows[0]) - 1))]
-    return HtmlTable("Natural frequencies, both ends held", columns, rows)
+    rows = cable_frequencies(result)
+    columns = ["plane", "by", *(f"{n + 1} [Hz]" for n in range(len(rows[0]) - 2))]
+    note = "Where the exact catenary and the closed form differ, the closed form is outside its limits."
+    return HtmlTable("Natural frequencies, both ends held", columns, rows, note)

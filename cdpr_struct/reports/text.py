@@ -37,6 +37,17 @@ def paragraphs(*blocks: str) -> str:
     return "\n\n".join(blocks)
 
 
+def cable_frequencies(result: Mapping[str, Any]) -> list[list[str]]:
+    """Plane, model, and the first six frequencies [Hz] of each; the FEM's are those of both planes in turn."""
+    rows = [
+        [plane.replace("_", " "), model, *(f"{f:.4f}" for f in result[key][plane])]
+        for plane in ("out_of_plane", "in_plane")
+        for model, key in (("closed form", "frequencies_hz"), ("exact catenary", "exact_frequencies_hz"))
+    ]
+    both = [f"{f:.4f}" for f in result.get("fem_frequencies_hz", [])]
+    return [*rows, *(["both planes", "FEM", *part] for part in (both[:6], both[6:]) if part)]
+
+
 def cable_text(result: Mapping[str, Any]) -> str:
     """One cable's parameters, matrices, frequencies and verdict."""
     validity = result["validity"]
@@ -59,9 +70,7 @@ def cable_text(result: Mapping[str, Any]) -> str:
             ("stiffness", result["stiffness"], "N/m"),
         )
     ]
-    frequencies = [
-        [plane.replace("_", " "), *(f"{f:.4f}" for f in values)] for plane, values in result["frequencies_hz"].items()
-    ]
+    frequencies = cable_frequencies(result)
     verdict = (
         "The closed-form DSM is within its printed limits."
         if validity["valid"]
@@ -71,6 +80,6 @@ def cable_text(result: Mapping[str, Any]) -> str:
     return paragraphs(
         plain_table("Cable", ["", "value", "unit"], parameters),
         plain_table("2-D matrices at the free end", ["", "xx", "xz", "zz", "unit"], matrices),
-        plain_table("Natural frequencies, both ends held [Hz]", ["", *(f"{n + 1}" for n in range(6))], frequencies),
+        plain_table("Natural frequencies, both ends held [Hz]", ["", "by", *"123456"], frequencies),
         verdict,
     )

@@ -109,6 +109,22 @@ def test_closed_form_limits_exclude_these_cables():
         assert not found["validity"]["valid"]
 
 
+@pytest.mark.parametrize(
+    ("force", "closed_form_off"), [((100.0, -100.0), 3e-4), ((-10.0, 20.0), 0.043), ((2.0, -40.0), 1e-3)], ids=str
+)
+def test_the_command_shows_catenary_and_fem_side_by_side(force, closed_form_off):
+    """A taut cable, one that sags by a seventh of its chord upwards, and a nearly vertical one."""
+    found = describe_cable(*force, 20.0, AXIAL_STIFFNESS, DENSITY, GRAVITY, with_fem=True)
+    exact_hertz, closed = found["exact_frequencies_hz"], found["frequencies_hz"]
+    both = np.sort(exact_hertz["in_plane"] + exact_hertz["out_of_plane"])
+    below = both < min(exact_hertz["in_plane"][-1], exact_hertz["out_of_plane"][-1]) * (1.0 + 1e-9)
+    assert below.sum() >= 8
+    np.testing.assert_allclose(both[below], np.array(found["fem_frequencies_hz"])[below], rtol=2e-6)
+    far = max(abs(a / b - 1.0) for a, b in zip(exact_hertz["in_plane"], closed["in_plane"], strict=True))
+    assert far == pytest.approx(closed_form_off, rel=0.4)
+    assert "fem_frequencies_hz" not in describe_cable(*force, 20.0, AXIAL_STIFFNESS, DENSITY, GRAVITY)
+
+
 def test_robot_meets_the_extrapolated_fem_to_a_millionth(thesis_point):
     """First 40 eigenfrequencies of the thesis's robot; measured 2e-8 with 40 to 320 elements, here with fewer."""
     trial = verify(thesis_point, (40, 80, 160), 40)

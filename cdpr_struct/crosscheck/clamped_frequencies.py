@@ -1,0 +1,42 @@
+"""Natural frequencies of one cable between held ends, without the limits of the closed form: catenary, and FEM."""
+
+import numpy as np
+
+import fem_reference as fem
+from cdpr_struct.dynamics.catenary_expansion import expand_catenaries
+from cdpr_struct.statics.cable_state import CableStates, cable_stiffness
+
+MESHES = (40, 80, 160, 320)
+"""Numbers of elements from which the FEM is extrapolated."""
+_ORDER, _PER_MODE, _SAG, _HIGHEST = 40, 4, 8, 400  # of polynomials: of a taut cable, more a mode and a unit of w L / T
+_STATIONS = 33
+
+
+def pulled_cable(
+    force: tuple[float, float], end: tuple[float, float], length: float, axial_stiffness: float, weight: float
+) -> CableStates:
+    """One cable (1,) from the origin to `end` (x, z) [m], held there by a force (x, z) [N]; x turned positive."""
+    one = np.ones(1)
+    return CableStates(
+        np.array([[abs(end[0]), 0.0, end[1]]]), np.array([[1.0, 0.0, 0.0]]), length * one, 0.0 * one,
+        abs(force[0]) * one, force[1] * one, axial_stiffness * one, weight * one, np.zeros(1, dtype=int), 0.0 * one,
+    )  # fmt: skip
+
+
+def catenary_frequencies(cable: CableStates, density: float, count: int) -> dict[str, list[float]]:
+    """The first `count` of each plane [Hz], of the linearised elastic catenary: any sag, any inclination."""
+    slack = float((cable.weight * cable.length / cable.tension).max())
+    order = min(_HIGHEST, _ORDER + _PER_MODE * count + int(_SAG * slack))
+    found = expand_catenaries(cable, np.array([density]), order, cable_stiffness(cable))
+    hertz = np.sqrt(found.omega_squared[0]) / (2.0 * np.pi)
+    energy = (found.shapes(np.linspace(0.0, 1.0, _STATIONS)[1:-1])[1][0] ** 2).sum(axis=1)
+    across = energy[:, 1] > 0.5 * energy.sum(axis=1)
+    return {"out_of_plane": hertz[across][:count].tolist(), "in_plane": hertz[~across][:count].tolist()}
+
+
+def fem_frequencies(cable: CableStates, density: float, gravity: float, count: int) -> list[float]:
+    """The first `count` of both planes together [Hz], of bar elements, extrapolated to infinitely many."""
+    data = fem.CableData(float(cable.length[0]), float(cable.axial_stiffness[0]), density)
+    meshes = (fem.solve_cable(data, np.zeros(3), cable.offset[0], n, (0.0, 0.0, -gravity)) for n in MESHES)
+    hertz = np.array([fem.cable_modes(mesh, count).frequencies_hz for mesh in meshes])
+    return np.asarray(fem.extrapolate(MESHES, hertz).limit).tolist()
