@@ -14,6 +14,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _PER_HALF_WAVE, _SPARE = 2, 14  # order of the polynomials: ten digits of a taut cable's mode
 _SAG = 8.0  # further orders per unit of weight over chord tension: half waves shift, and the tension varies
+_HIGHEST = 400  # order at most: beyond, a cable is so slack that its modes are nobody's measurement
 _STATIONS = 33  # odd and many: along them the mode's direction is judged
 
 
@@ -56,7 +57,7 @@ def cable_modes_at(point: OperatingPoint, rows: CableRows) -> CableModes:
     pairs, place = np.unique(np.stack([rows.state, rows.cable]), axis=1, return_inverse=True)
     one, place = _one_cable_each(point, *pairs), place.reshape(-1)
     slack = float((one.cables.weight * one.cables.length / one.cables.tension).max())
-    order = _SPARE + _PER_HALF_WAVE * int(rows.mode.max()) + int(_SAG * slack)
+    order = min(_HIGHEST, _SPARE + _PER_HALF_WAVE * int(rows.mode.max()) + int(_SAG * slack))
     expansion = expand_catenaries_at(one, order)
     number = _numbers(expansion.shapes(np.linspace(0.0, 1.0, _STATIONS)[1:-1])[1][:, 0], place, rows)
     rank = _ranks(place)

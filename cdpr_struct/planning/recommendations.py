@@ -88,13 +88,13 @@ def questions(found: Diagnosis) -> list[Question]:
         near = [a for a in single if a.score > max(single[0].score - NAMED, none)]
         asked = [Question(_sized(near[:MOST], ()), {})]
     else:
-        asked = [_of_class(found, i, answers) for i in range(len(found.chosen.hypothesis.parts))]
+        asked = [_of_class(found, i, answers) for i in range(len(found.chosen.hypothesis.names))]
     return [question for question in asked if question.pairs]
 
 
 def _of_class(found: Diagnosis, i: int, answers: Sequence[Answer]) -> Question:
     """The i-th chosen cause and those that could stand in its place, the other chosen ones being there."""
-    parts = found.chosen.hypothesis.parts
+    parts = [part for part in found.chosen.hypothesis.parts if not part.cause.outside]
     name, others = parts[i].cause.name, tuple(part.cause for j, part in enumerate(parts) if j != i)
     rest = tuple(cause.name for cause in others)
     same = [a for a in answers if len(a.names) == len(parts) and set(rest) < set(a.names)]
@@ -103,17 +103,17 @@ def _of_class(found: Diagnosis, i: int, answers: Sequence[Answer]) -> Question:
     rivals = [a for a in same if a is not own and set(a.names) - set(rest) <= set(named)]
     if len(named) == 1:
         rivals = [a for a in same if a is not own and a.score > own.score - found.explained.search.budget.near][:1]
-    beside = {part.cause.name: part.pattern for j, part in enumerate(parts) if j != i}
+    beside = {p.cause.name: p.pattern for j, p in enumerate(parts) if j != i and p.law is None and not p.cause.tuned}
     return Question(_sized([own, *rivals][:MOST], rest), beside)
 
 
 def _sized(answers: Sequence[Answer], beside: Sequence[str]) -> dict[str, tuple[Pattern, np.ndarray]]:
-    """The one cause of each answer that is not beside, with its fitted size."""
+    """The one cause of each answer that is not beside, with its fitted size; laws and added modes have no columns."""
     found = {}
     for answer in answers:
         best = answer.best
         for part, size in zip(best.hypothesis.parts, best.sizes, strict=True):
-            if part.cause.name not in beside:
+            if part.cause.name not in beside and part.law is None and not part.cause.tuned:
                 found[part.cause.name] = (part.pattern, part.scale * size)
     return found
 

@@ -12,6 +12,7 @@ from cdpr_struct.reports.diagnose import tables
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CAMPAIGN = str(EXAMPLES / "table-4-4" / "campaign.toml")
+BLIND = EXAMPLES.parent / "tests" / "data" / "blind-ci" / "campaigns"
 SHAKEN = EXAMPLES / "tables-4-5-4-6" / "campaign.toml"
 
 
@@ -238,6 +239,17 @@ def test_the_next_measurement_is_simulated_where_causes_are_left_open(shaken):
     assert "expected to separate" in first
     assert "nats" in first
     assert shaken[0]["verdict"]["next_measurement"].startswith(first)
+
+
+def test_an_internal_force_has_no_columns_to_simulate_with():
+    """It is a law of the command's distribution: the next measurement is asked for the other causes alone."""
+    from cdpr_struct.diagnosis.diagnosing import diagnosed
+    from cdpr_struct.measurement.campaign_file import load_campaign
+    from cdpr_struct.planning.recommendations import recommendations
+
+    found = diagnosed(load_campaign(BLIND / "c001" / "campaign.toml"))
+    assert any("internal_force" in names for names in found.decision.classes)
+    assert all("internal_force" not in one.separates for one in recommendations(found))
 
 
 def test_a_cause_that_the_verdict_leaves_open_is_not_called_hidden(shaken):
