@@ -12,6 +12,7 @@ from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import judged
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.hypotheses.search import Answer, Budget, Search
+from cdpr_struct.inference.posterior import probabilities
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.residuals.recorded import recorded
 
@@ -77,5 +78,5 @@ def believed(found: Sequence[Explained]) -> list[Belief]:
         for names, score in one.beliefs():
             logs.setdefault(tuple(sorted(names)), []).append(score)
     whole = {names: float(logsumexp(scores)) for names, scores in logs.items()}
-    total = logsumexp(list(whole.values()))
-    return [Belief(names, float(np.exp(score - total))) for names, score in whole.items()]
+    probability = probabilities(np.array(list(whole.values())), np.zeros(len(whole)))
+    return [Belief(names, float(p)) for names, p in zip(whole, probability, strict=True)]

@@ -135,13 +135,13 @@ def settled(data: Recorded, where: Layout, found: Judged) -> Judged:
     return found
 
 
-def _nearer(data: Recorded, where: Layout, found: Judged) -> Judged | None:
+def _nearer(data: Recorded, where: Layout, found: Judged, steps: Sequence[float] = _STEPS) -> Judged | None:
     """Linearised at the likeliest point or on the way to it, where the next one is nearer; None if that is nowhere.
 
     A hypothesis that does not explain the data may ask for readings that no robot has; there it is not followed.
     """
     there = found.likeliest(data, where)
-    for share in _STEPS:
+    for share in steps:
         point = found.point.towards(there, share)
         if not _possible(data, point):
             continue
@@ -159,16 +159,10 @@ def converged(data: Recorded, where: Layout, found: Judged) -> Judged:
     for _ in range(PASSES):
         if found.moved < _STILL:
             break
-        before, there = found, found.likeliest(data, where)
-        if not _possible(data, there):
+        nearer = _nearer(data, where, found, (1.0,))
+        if nearer is None:
             break
-        try:
-            other = _fitted(data, where, found.hypothesis, there, found.fit.noise, found)
-        except (CdprError, np.linalg.LinAlgError):
-            break
-        if other.moved > max(found.moved, _NEAR):
-            break
-        found = other
+        before, found = found, nearer
         if abs(found.log_evidence - before.log_evidence) < WORTH:
             break
     return found
@@ -215,8 +209,3 @@ def _of_model(
     by_numbers = np.abs(found.z_mean - np.concatenate(point.z)) / hypothesis.straight(point)
     moved = max(float(by_numbers.max()), float(by_noise))
     return Judged(hypothesis, point, model, lists, found, moved)
-
-
-def best(found: Sequence[Judged]) -> Judged:
-    """The one of the highest score."""
-    return max(found, key=lambda one: one.score)
