@@ -26,8 +26,8 @@ USES = Path(__file__).with_name("final_uses.json")
 
 
 def set_seed(name: str, release: str = "") -> int:
-    """Base seed of a set; those of the final sets are the release's own, unknown before the release has a name."""
-    if name in SET_SEEDS:
+    """Base seed of a set: with a release its own, unknown before the release has a name. A final set needs one."""
+    if name in SET_SEEDS and not release:
         return SET_SEEDS[name]
     if not release:
         raise ValueError("the final set needs --release NAME: its seeds are that release's own")

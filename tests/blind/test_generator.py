@@ -217,6 +217,10 @@ def test_the_rates_of_a_final_set_have_seeds_of_their_own_and_of_the_release():
         set_seed("final-rates")
 
 
+def test_any_set_has_new_seeds_for_a_release():
+    assert len({set_seed("unseen"), set_seed("unseen", "1.0"), set_seed("unseen", "1.1")}) == 3
+
+
 def test_the_final_set_of_a_release_is_used_once(tmp_path):
     record_final_use("1.0", tmp_path / "uses.json")
     with pytest.raises(ValueError, match="already used"):
