@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 from cdpr_struct.diagnosis.damping_rows import DampingRows
 from cdpr_struct.hypotheses.detectable import FALSE_ALARMS, NAMED
@@ -61,7 +61,7 @@ def damping_finding(rows: DampingRows, tolerance: float, loss: Loss = _USUAL) ->
     if len(rows) < 2:
         return DampingFinding("not testable", (), (), rows, "needs free decays or FRFs with two clear modes or windows")
     covariance = _covariance(rows, tolerance)
-    p_null = float(chi2.sf(_square(rows, covariance, rows.entered), len(rows)))
+    p_null = float(chdtrc(len(rows), _square(rows, covariance, rows.entered)))
     fits = sorted((_fit(rows, covariance, laws) for laws in _hypotheses(rows)), key=lambda f: -f.gain)
     best = fits[0]
     if best.gain < NAMED and max(p_null, best.p_adequate) >= FALSE_ALARMS:
@@ -129,7 +129,7 @@ def _fit(rows: DampingRows, covariance: np.ndarray, laws: Sequence[int]) -> LawF
         found[name] = (middle + shift, low + shift, high + shift)
     causes, patterns = [_LAWS[j][0] for j in laws], [_LAWS[j][1] for j in laws if _LAWS[j][1]]
     square = _square(rows, covariance, rows.entered + best @ signature)
-    tail = float(chi2.sf(square, len(rows)))
+    tail = float(chdtrc(len(rows), square))
     return LawFit(tuple(causes), ", ".join(patterns), found, gain, tail, tuple(laws), square)
 
 

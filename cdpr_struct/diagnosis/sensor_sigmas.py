@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.stats import chi2, f
+from scipy.special import chdtr, fdtrc
 
 from cdpr_struct.hypotheses.detectable import FALSE_ALARMS
 from cdpr_struct.hypotheses.judge import Judged
@@ -87,7 +87,7 @@ def noise_of_kinds(found: Judged) -> list[NoiseOfKind]:
         if count:
             factor = float(noise.tau[kind])
             square = max(factor**2 * (TAU_DEGREES + count) - TAU_DEGREES, 0.0)
-            large, small = float(f.sf(square / count, count, TAU_DEGREES)), float(chi2.cdf(square, count))
+            large, small = float(fdtrc(count, TAU_DEGREES, square / count)), float(chdtr(count, square))
             odd = int(groups.size[members & noise.outlying].sum())
             rows.append(NoiseOfKind(SENSORS[kind], factor, count, odd, large, small))
     return rows

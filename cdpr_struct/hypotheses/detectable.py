@@ -2,18 +2,15 @@
 
 from functools import cache
 
-from scipy.optimize import brentq
-from scipy.stats import chi2, ncx2
+from scipy.special import chdtri, chndtrinc
 
 FALSE_ALARMS, POWER = 1e-3, 0.8
 """Of a single test: p-value below which it speaks, and the probability that it finds a change of the smallest size."""
 NAMED = 5.0
 """Log Bayes factor [nat] from which a cause is said to be there."""
-_MOST = 400.0
 
 
 @cache
 def noncentrality(numbers: int) -> float:
     """Squared sigmas of a change of so many unknown numbers that a chi^2 test finds with `POWER`: 17.1 for one."""
-    limit = chi2.isf(FALSE_ALARMS, numbers)
-    return float(brentq(lambda value: ncx2.sf(limit, numbers, value) - POWER, 1e-9, _MOST))
+    return float(chndtrinc(chdtri(numbers, FALSE_ALARMS), numbers, 1.0 - POWER))

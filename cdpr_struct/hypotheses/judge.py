@@ -19,9 +19,9 @@ from cdpr_struct.residuals.recorded import Recorded
 PASSES = 5  # linearisations at most; near the data the steps shrink by ten and more each
 _STEPS = (1.0, 0.4, 0.1)  # of the way to the likeliest point, as long as that leads nowhere
 WORTH = 0.1  # nats: a smaller difference is none; by so much must another start be better to be followed
-_NEAR = 3.0  # sigmas: so far the model is straight, and a step that is no shorter only assigns peaks anew
+NEAR = 3.0  # sigmas: so far the model is straight, and a step that is no shorter only assigns peaks anew
 _STILL = 0.01  # sigmas: so near its point the evidence of a hypothesis has converged
-_SETTLED = 0.5  # sigmas: a point that moves less is where it was; what bends on so short a way is no tenth of a nat
+SETTLED = 0.5  # sigmas: a point that moves less is where it was; what bends on so short a way is no tenth of a nat
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,32 +101,25 @@ def begun(data: Recorded, where: Layout, base: Judged, more: Hypothesis, z: np.n
 
 
 def extended(
-    data: Recorded, where: Layout, base: Judged, more: Hypothesis, columns: Sequence[np.ndarray], noise: NoiseState,
-    worth: float,
-) -> Judged:  # fmt: skip
-    """A hypothesis with one more cause than a judged one, columns (K, n, d) of its numbers a shelf.
-
-    worth : score from which it is linearised again; what stays far below is as good as impossible either way
-    """
+    data: Recorded, where: Layout, base: Judged, more: Hypothesis, columns: Sequence[np.ndarray], noise: NoiseState
+) -> Judged:
+    """A hypothesis with one more term than a judged one, about its point; columns (K, n, d) of its numbers a shelf."""
     point = _with_terms(data, more, base.point)
     model = base.model.with_columns(columns)
-    found = _of_model(data, where, more, point, model, noise, _copied(base.lists), base.fit.soft)
-    return settled(data, where, found) if found.score > worth else found
+    return _of_model(data, where, more, point, model, noise, _copied(base.lists), base.fit.soft)
 
 
 def again(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> Judged:
     """A hypothesis from other sizes of the noise, about the point that it has; the better of both."""
     point, model, lists = found.point, found.model, _copied(found.lists)
     other = _of_model(data, where, found.hypothesis, point, model, noise, lists, found.fit.soft)
-    if other.log_evidence < found.log_evidence + WORTH:
-        return found
-    return settled(data, where, other)
+    return other if other.log_evidence >= found.log_evidence + WORTH else found
 
 
 def settled(data: Recorded, where: Layout, found: Judged) -> Judged:
     """Linearised about its likeliest point until that stays where it is, or comes no nearer to that."""
     for _ in range(PASSES):
-        if found.moved < _SETTLED:
+        if found.moved < SETTLED:
             break
         nearer = _nearer(data, where, found)
         if nearer is None:
@@ -149,7 +142,7 @@ def _nearer(data: Recorded, where: Layout, found: Judged, steps: Sequence[float]
             other = _fitted(data, where, found.hypothesis, point, found.fit.noise, found)
         except (CdprError, np.linalg.LinAlgError):  # the robot has no stable equilibrium there
             continue
-        if other.moved < max(found.moved, _NEAR):
+        if other.moved < max(found.moved, NEAR):
             return other
     return None
 

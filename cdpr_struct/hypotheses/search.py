@@ -15,15 +15,17 @@ from cdpr_struct.hypotheses.alternatives import Gains, Offered, gains, offered
 from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.drift import AMPLITUDES
 from cdpr_struct.hypotheses.causes.library import testable
-from cdpr_struct.hypotheses.hypothesis import Hypothesis
-from cdpr_struct.hypotheses.judge import Judged, again, begun, converged, extended, judged
+from cdpr_struct.hypotheses.hypothesis import PRICE, Hypothesis, drift_term
+from cdpr_struct.hypotheses.judge import NEAR, SETTLED, Judged, again, begun, converged, extended, judged, settled
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.hypotheses.scan import beginnings
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.hypotheses.significant import p_of_null
 from cdpr_struct.inference.evidence import bound_at, fit
 from cdpr_struct.inference.scale_mixture import NoiseState
+from cdpr_struct.residuals.assembled import stacked
 from cdpr_struct.residuals.layout import Layout, layout
+from cdpr_struct.residuals.linearised import Local
 from cdpr_struct.residuals.recorded import Recorded
 
 _NOTHING = 2.0  # nats by which the best single cause may be behind none: else a second one beside it is not looked for
@@ -37,6 +39,7 @@ class Budget:
     from the best within which evidence converges, and of how many hypotheses at most.
 
     near : in the closed form, which errs by some nats where effects are large
+    hopeless : nats behind the best from which a fit is not linearised again, even if its numbers moved far
     """
 
     causes: int = 3
@@ -122,10 +125,13 @@ class Search:
 
     def _nulls(self) -> list[Judged]:
         """Nothing wrong, load cells drifting or not."""
-        first = self.keep(judged(self.data, self.where, Hypothesis()))
-        start, noise = first.likeliest(self.data, self.where), first.fit.noise
-        drifting = [Hypothesis(drift=size) for size, _ in AMPLITUDES if size > 0.0]
-        return [first, *(self.keep(judged(self.data, self.where, one, start, noise)) for one in drifting)]
+        first, found = self.keep(judged(self.data, self.where, Hypothesis())), []
+        local = Local.about(self.data, first.point)
+        for size in (size for size, _ in AMPLITUDES if size > 0.0):
+            columns = stacked(self.where, local.columns(drift_term(self.data, size)))
+            more = extended(self.data, self.where, first, Hypothesis(drift=size), columns, first.fit.noise)
+            found.append(self.keep(settled(self.data, self.where, more)))
+        return [first, *found]
 
     def _rich(self, menu: Sequence[Offered], base: Judged) -> NoiseState:
         """Sizes of the noise where every cause may act at once: what none of them explains."""
@@ -159,8 +165,15 @@ class Search:
                 more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
                 self.spread[more.key] = row.gains.spread
                 own = [shelf @ part.pattern.basis * part.term.sigma for shelf in columns[part.cause.name]]
-                worth = self._ranked()[0].score - self.budget.hopeless
-                self.keep(extended(self.data, self.where, row.base, more, own, row.noise, worth))
+                found = extended(self.data, self.where, row.base, more, own, row.noise)
+                if found.log_evidence < row.base.log_evidence + part.log_weight:
+                    found = again(self.data, self.where, found, row.base.fit.noise)
+                self.keep(self._followed(found))
+
+    def _followed(self, found: Judged) -> Judged:
+        """Linearised about its likeliest point where that may matter: as one of the best, or far from the first."""
+        worth = self.budget.hopeless if found.moved > NEAR else PRICE
+        return settled(self.data, self.where, found) if found.score > self._ranked()[0].score - worth else found
 
     def _begin(self, menu: Sequence[Offered], base: Judged) -> None:
         """Fits of large changes that would put peaks right."""
@@ -179,7 +192,9 @@ class Search:
         for other in ranked[:2]:
             for one in [*near[:_AGAIN], *self._ranked(0)]:
                 if one.hypothesis.key != other.hypothesis.key:
-                    self.keep(again(self.data, self.where, self.found[one.hypothesis.key], other.fit.noise))
+                    before = self.found[one.hypothesis.key]
+                    found = again(self.data, self.where, before, other.fit.noise)
+                    self.keep(found if found is before else self._followed(found))
 
     def _converge(self) -> None:
         """The likeliest hypotheses, and nothing wrong, linearised again until their evidence stays.
@@ -187,13 +202,17 @@ class Search:
         Nothing wrong is judged once more from their points: tolerances alone may give peaks to modes as they do.
         """
         ranked = self._ranked()
-        near = [one for one in ranked if one.score > ranked[0].score - self.budget.sure]
+        near = [one for one in ranked if self._may_matter(one, ranked[0].score)]
         for one in {one.hypothesis.key: one for one in [*near[: self.budget.converged], self._ranked(0)[0]]}.values():
             self.found[one.hypothesis.key] = converged(self.data, self.where, one)
         for best in [one for one in self._ranked()[:_NESTED] if one.hypothesis.parts]:
             null = Hypothesis(drift=best.hypothesis.drift)
             there = best.likeliest(self.data, self.where)
             self.keep(judged(self.data, self.where, null, there, best.fit.noise))
+
+    def _may_matter(self, found: Judged, best: float) -> bool:
+        """Whether evidence is near the best: a rival, or one that is still on its way."""
+        return found.score > best - (PRICE if found.moved < SETTLED else self.budget.sure)
 
     def _pairs(self, first: Judged) -> None:
         """A second cause beside one, where that may come near the best."""

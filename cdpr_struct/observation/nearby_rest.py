@@ -43,12 +43,10 @@ class NearbyRest:
         tension = true_tension(state.arrays, readings, known)
         rigid = _rigid(state, tension)
         base = _outputs(state.cables)
-        columns = [
-            (_outputs(tensioned(cable_model(known.model), moved, state.arms.points, pulled)) - base) / step
-            for moved, pulled, step in _steps(rigid, tension)
-        ]
+        moved, pulled, steps = _steps(rigid, tension)
+        found = _outputs(tensioned(cable_model(known.model), moved, state.arms.points, pulled))
         inputs = _inputs(state.arrays, state.arms, tension, _mast_shift(state.arrays, base))
-        return cls(known, radius, inputs, base, np.stack(columns, axis=-1))
+        return cls(known, radius, inputs, base, np.moveaxis((found - base) / steps[..., None], 0, -1))
 
     def residuals(self, arrays: RobotArrays, readings: Readings) -> np.ndarray:
         """(..., S, 6 + m) as `static_residuals`, to first order in the change of the cables."""
@@ -108,20 +106,18 @@ def _inputs(arrays: RobotArrays, arms: PlatformArms, tension: np.ndarray, shift:
     return np.concatenate(parts, axis=-1)
 
 
-def _steps(rigid: RobotArrays, tension: np.ndarray) -> list[tuple[RobotArrays, np.ndarray, np.ndarray]]:
-    """The robot and its tensions with one input changed at a time, and by how much."""
-    one = np.ones((*tension.shape, 1))
-    found = [
-        (replace(rigid, frame_anchors=rigid.frame_anchors - _ANCHOR * axis), tension, _ANCHOR * one)
-        for axis in np.eye(3)
-    ]
-    found.append((rigid, tension * (1.0 + _SHARE), (_SHARE * tension)[..., None]))
-    stiff, density = rigid.axial_stiffness, rigid.linear_density
-    found.append((replace(rigid, axial_stiffness=stiff * (1.0 + _SHARE)), tension, (_SHARE * stiff)[..., None] * one))
-    heavier = replace(rigid, linear_density=density * (1.0 + _SHARE))
-    found.append((heavier, tension, (_SHARE * rigid.weight)[..., None] * one))
-    wider = replace(rigid, pulley_radius=rigid.pulley_radius + _RADIUS)
-    found.append((wider, tension, _RADIUS * one))
-    softer = replace(rigid, series_compliance=rigid.series_compliance + _COMPLIANCE)
-    found.append((softer, tension, _COMPLIANCE * one))
-    return found
+def _steps(rigid: RobotArrays, tension: np.ndarray) -> tuple[RobotArrays, np.ndarray, np.ndarray]:
+    """The robot and its tensions with one input at a time changed along a new first axis (8), by (8, S, m)."""
+    shift, pull, stiff, heavy, wide, soft = np.split(np.eye(8)[:, :, None, None], [3, 4, 5, 6, 7], axis=1)
+    pull, stiff, heavy, wide, soft = (part[:, 0] for part in (pull, stiff, heavy, wide, soft))
+    moved = replace(
+        rigid,
+        frame_anchors=rigid.frame_anchors - _ANCHOR * np.moveaxis(shift, 1, -1),
+        axial_stiffness=rigid.axial_stiffness * (1.0 + _SHARE * stiff),
+        linear_density=rigid.linear_density * (1.0 + _SHARE * heavy),
+        pulley_radius=rigid.pulley_radius + _RADIUS * wide,
+        series_compliance=rigid.series_compliance + _COMPLIANCE * soft,
+    )
+    shares = pull * tension + stiff * rigid.axial_stiffness + heavy * rigid.weight
+    sizes = _ANCHOR * shift.sum(axis=1) + _SHARE * shares + _RADIUS * wide + _COMPLIANCE * soft
+    return moved, tension * (1.0 + _SHARE * pull), sizes
