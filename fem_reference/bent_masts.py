@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference.cable_statics import EPS, CableBatch, ChainState, solve_chains
-from fem_reference.surroundings import SurroundingsData
+from fem_reference.masts import Mast, unknowns
 
 MAX_ITERATIONS = 60
 
@@ -26,29 +26,26 @@ class BentMasts:
 
 
 def bend(
-    batch: CableBatch, anchors: np.ndarray, ends: np.ndarray, around: SurroundingsData, first: np.ndarray | None
+    batch: CableBatch, anchors: np.ndarray, ends: np.ndarray, masts: tuple[Mast, ...], first: np.ndarray | None
 ) -> BentMasts:
-    """Newton on the displacement of each mast: what its compliance makes of the pulls it feels is where it stands."""
+    """Newton on the displacement of each mast: what its flexibility makes of the pulls it feels is where it stands."""
     chains, steps = solve_chains(batch, anchors, ends, first)
-    if not around.bending:
+    if not masts:
         return BentMasts(anchors, 0.0, chains, steps)
-    moved, energy = np.zeros((len(around.bending), 3)), 0.0
+    moved, energy = [np.zeros(len(mast.flexibility)) for mast in masts], 0.0
     for _ in range(MAX_ITERATIONS):
         pulls = chains.tension_vectors[:, 0] + 0.5 * batch.element_weight
         rates = np.linalg.inv(chains.flexibility)
-        largest, energy = 0.0, 0.0
-        for number, (mast, give) in enumerate(zip(around.bending, around.bending_compliance, strict=True)):
-            carried = list(mast)
-            pull = pulls[carried].sum(axis=0)
-            energy += 0.5 * give * float(pull @ pull)
-            miss = give * pull - moved[number]
-            slope = np.eye(3) + give * rates[carried].sum(axis=0)
+        largest, energy, starts = 0.0, 0.0, anchors.copy()
+        for number, mast in enumerate(masts):
+            pull = mast.felt(pulls)
+            energy += 0.5 * float(pull @ mast.flexibility @ pull)
+            miss = mast.flexibility @ pull - moved[number]
+            slope = np.eye(len(pull)) + mast.flexibility @ mast.condensed(rates)
             step = np.linalg.solve(slope, miss)
             moved[number] += step
             largest = max(largest, float(np.abs(step).max()))
-        starts = anchors.copy()
-        for number, mast in enumerate(around.bending):
-            starts[list(mast)] += moved[number]
+            starts[list(mast.cables)] += mast.motion @ moved[number]
         chains, more = solve_chains(batch, starts, ends, chains.mid_force)
         steps += more
         if largest <= 16.0 * EPS * float(np.abs(anchors).max()):
@@ -57,19 +54,21 @@ def bend(
 
 
 def softened(
-    around: SurroundingsData, ends: np.ndarray, starts: np.ndarray, between: np.ndarray, motion: np.ndarray
+    masts: tuple[Mast, ...], ends: np.ndarray, starts: np.ndarray, between: np.ndarray, motion: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Stiffness (..., 6, 6) at the platform of cables on masts, and the masts' own (..., 3 k, 3 k) before elimination.
+    """Stiffness (..., 6, 6) at the platform of cables on masts, and the masts' own (..., k, k) before elimination.
 
     ends, starts, between : (..., m, 3, 3) [N/m] blocks of the condensed cables: end-end, start-start, start-end
     motion : (m, 3, 6) of the cable ends per platform motion
     """
     platform = np.einsum("mka,...mkl,mlb->...ab", motion, ends, motion, optimize=True)
-    count = 3 * len(around.bending)
+    places = unknowns(masts)
+    count = places[-1].stop
     own = np.zeros((*platform.shape[:-2], count, count), dtype=platform.dtype)
     coupling = np.zeros((*platform.shape[:-2], count, 6), dtype=platform.dtype)
-    for number, (mast, give) in enumerate(zip(around.bending, around.bending_compliance, strict=True)):
-        rows, carried = slice(3 * number, 3 * number + 3), list(mast)
-        own[..., rows, rows] = starts[..., carried, :, :].sum(axis=-3) + np.eye(3) / give
-        coupling[..., rows, :] = (between[..., carried, :, :] @ motion[carried]).sum(axis=-3)
+    for mast, rows in zip(masts, places, strict=True):
+        carried = list(mast.cables)
+        own[..., rows, rows] = mast.condensed(starts) + np.linalg.inv(mast.flexibility)
+        across = between[..., carried, :, :] @ motion[carried]
+        coupling[..., rows, :] = np.einsum("nak,...nab->...kb", mast.motion, across)
     return platform - np.swapaxes(coupling, -1, -2) @ np.linalg.solve(own, coupling), own

@@ -9,6 +9,7 @@ import numpy as np
 from fem_reference.arrays import fixed_array
 from fem_reference.bar_element import MassModel
 from fem_reference.cable import CableData, CableEquilibrium
+from fem_reference.masts import Mast
 from fem_reference.pulley import PulleyData
 from fem_reference.rigid_platform import PlatformData, point_motion, rotating_arm_stiffness
 from fem_reference.surroundings import SurroundingsData
@@ -50,6 +51,11 @@ class RobotData:
         object.__setattr__(self, "pulleys", pulleys)
         if any(pulleys) and self.surroundings.bending:
             raise ValueError("RobotData: pulleys do not go with masts that bend")
+
+    @property
+    def soft_masts(self) -> tuple[Mast, ...]:
+        """The masts that give way."""
+        return self.surroundings.soft_masts(self.frame_anchors)
 
 
 @dataclass(frozen=True, eq=False)

@@ -61,7 +61,7 @@ def _on_masts(equilibrium: RobotEquilibrium, omega: complex, mass: MassModel, ra
 
 def _softened(equilibrium: RobotEquilibrium, pieces: Pieces) -> tuple[np.ndarray, np.ndarray]:
     first, between, last = (block[..., 0, :, :] for block in (pieces.first, pieces.between, pieces.last))
-    return softened(equilibrium.robot.surroundings, last, first, between, equilibrium.end_motion())
+    return softened(equilibrium.robot.soft_masts, last, first, between, equilibrium.end_motion())
 
 
 def _cable_ends(equilibrium: RobotEquilibrium, omegas: np.ndarray, mass: MassModel, rates: np.ndarray) -> np.ndarray:

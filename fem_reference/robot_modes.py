@@ -12,6 +12,7 @@ from fem_reference.bar_element import MassModel
 from fem_reference.cable_modes import string_eigenvalue
 from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
 from fem_reference.errors import MissedModesError
+from fem_reference.masts import unknowns
 from fem_reference.rigid_platform import platform_mass_matrix
 from fem_reference.robot import RobotEquilibrium
 from fem_reference.robot_dynamics import count_below, platform_dynamic_stiffness
@@ -69,30 +70,34 @@ def robot_matrices(equilibrium: RobotEquilibrium, mass: MassModel = "lumped") ->
     )
     if not robot.surroundings.bending:
         return stiffness, inertia
-    springs = 1.0 / np.array(robot.surroundings.bending_compliance)
     return (
-        _with_masts(equilibrium, stiffness, elements[0], springs),
-        _with_masts(equilibrium, inertia, elements[1], np.zeros_like(springs)),
+        _with_masts(equilibrium, stiffness, elements[0], elastic=True),
+        _with_masts(equilibrium, inertia, elements[1], elastic=False),
     )
 
 
 def _with_masts(
-    equilibrium: RobotEquilibrium, matrix: csc_array, element_matrices: np.ndarray, springs: np.ndarray
+    equilibrium: RobotEquilibrium, matrix: csc_array, element_matrices: np.ndarray, elastic: bool
 ) -> csc_array:
-    """The matrix with the unknowns of the masts before the platform's: first bars of their cables, and springs (k,)."""
-    masts, interior = equilibrium.robot.surroundings.bending, 3 * (equilibrium.elements - 1)
-    cables, count = matrix.shape[0] - 6, 3 * len(masts)
+    """The matrix with the unknowns of the masts before the platform's: first bars of their cables, and own stiffness.
+
+    elastic : whether it is the stiffness; masts have no mass
+    """
+    robot, interior = equilibrium.robot, 3 * (equilibrium.elements - 1)
+    masts, places = robot.soft_masts, unknowns(robot.soft_masts)
+    cables, count = matrix.shape[0] - 6, places[-1].stop
     full = lil_array((matrix.shape[0] + count, matrix.shape[0] + count))
     keep = np.r_[0:cables, cables + count : full.shape[0]]
     coo = matrix.tocoo()
     full[keep[coo.row], keep[coo.col]] = coo.data
-    for number, mast in enumerate(masts):
-        own = slice(cables + 3 * number, cables + 3 * number + 3)
-        full[own, own] = element_matrices[list(mast), 0, :3, :3].sum(axis=0) + springs[number] * np.eye(3)
-        for cable in mast:
+    for mast, rows in zip(masts, places, strict=True):
+        own = slice(cables + rows.start, cables + rows.stop)
+        springs = np.linalg.inv(mast.flexibility) if elastic else 0.0
+        full[own, own] = mast.condensed(element_matrices[:, 0, :3, :3]) + springs
+        for cable, moved in zip(mast.cables, mast.motion, strict=True):
             node = slice(cable * interior, cable * interior + 3)
-            full[own, node] = element_matrices[cable, 0, :3, 3:]
-            full[node, own] = element_matrices[cable, 0, 3:, :3]
+            full[own, node] = moved.T @ element_matrices[cable, 0, :3, 3:]
+            full[node, own] = element_matrices[cable, 0, 3:, :3] @ moved
     return csc_array(full)
 
 
@@ -130,7 +135,7 @@ def robot_modes(equilibrium: RobotEquilibrium, count: int, mass: MassModel = "lu
 
 def _mast_unknowns(equilibrium: RobotEquilibrium) -> np.ndarray:
     first = 3 * len(equilibrium.cables) * (equilibrium.elements - 1)
-    return first + np.arange(3 * len(equilibrium.robot.surroundings.bending))
+    return first + np.arange(unknowns(equilibrium.robot.soft_masts)[-1].stop if equilibrium.robot.soft_masts else 0)
 
 
 def _shift(equilibrium: RobotEquilibrium) -> float:
@@ -151,8 +156,8 @@ def _counted_in_gap(
     A gap too narrow to count in is reported as found = -1. With every unknown solved nothing can be missed.
     """
     roots = np.sqrt(np.maximum(values, 0.0))
-    unknowns = 3 * len(equilibrium.cables) * (equilibrium.elements - 1) + 6
-    if len(roots) == unknowns + len(_mast_unknowns(equilibrium)):
+    free = 3 * len(equilibrium.cables) * (equilibrium.elements - 1) + 6
+    if len(roots) == free + len(_mast_unknowns(equilibrium)):
         return len(roots), len(roots), float(roots[-1])
     gaps = np.diff(roots[count - 1 :])
     last = count - 1 + int(np.argmax(gaps))

@@ -67,7 +67,7 @@ def platform_state(
     load_arms = loads.points @ rotation.T
     ends = position + arms
     around = robot.surroundings
-    bent = bend(batch, robot.frame_anchors, ends, around, first)
+    bent = bend(batch, robot.frame_anchors, ends, robot.soft_masts, first)
     chains = bent.chains
     half_weight = 0.5 * batch.elements * batch.element_weight
     pulls = half_weight - chains.mid_force
@@ -78,7 +78,7 @@ def platform_state(
     motion = point_motion(arms)
     if around.bending:
         rates = np.linalg.inv(chains.flexibility)
-        tangent, _ = softened(around, rates, rates, -rates, motion)
+        tangent, _ = softened(robot.soft_masts, rates, rates, -rates, motion)
     else:
         tangent = np.einsum("mka,mkb->ab", motion, np.linalg.solve(chains.flexibility, motion))
     tangent[:3, :3] += around.tether_stiffness * np.eye(3)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fem_reference.arrays import fixed_array
+from fem_reference.masts import Mast, rigid, with_bracket, with_upright
 
 
 @dataclass(frozen=True, eq=False)
@@ -15,20 +16,25 @@ class SurroundingsData:
 
     masts            : for each mast, the numbers (from 0) of the cables it carries
     mast_compliance  : [m/N], one of each mast, the same in all directions, or one of all; a mast has no mass
+    mast_bending     : [m/N], of each mast or of all, as an upright that bends sideways, at its highest exit
+    mast_foot        : [m], height z at which uprights are clamped
     tether_stiffness : [N/m] of a spring on the platform's reference point, relaxed at tether_point (3,) [m], world
     platform_gravity : (3,) [m/s^2], world, that acts on the platform; None for that of the cables
     """
 
     masts: tuple[tuple[int, ...], ...] = ()
     mast_compliance: float | tuple[float, ...] = 0.0
+    mast_bending: float | tuple[float, ...] = 0.0
+    mast_foot: float = 0.0
     tether_stiffness: float = 0.0
     tether_point: np.ndarray = field(default_factory=lambda: np.zeros(3))
     platform_gravity: np.ndarray | None = None
 
     def __post_init__(self) -> None:
-        if np.shape(self.mast_compliance) not in ((), (len(self.masts),)):
-            raise ValueError(f"SurroundingsData.mast_compliance: {len(self.masts)} masts, got {self.mast_compliance!r}")
-        for name in ("mast_compliance", "tether_stiffness"):
+        for name in ("mast_compliance", "mast_bending"):
+            if np.shape(getattr(self, name)) not in ((), (len(self.masts),)):
+                raise ValueError(f"SurroundingsData.{name}: {len(self.masts)} masts, got {getattr(self, name)!r}")
+        for name in ("mast_compliance", "mast_bending", "tether_stiffness"):
             if not all(0.0 <= value < np.inf for value in np.ravel(getattr(self, name))):
                 raise ValueError(f"SurroundingsData.{name} must be zero or more, got {getattr(self, name)!r}")
         carried = [cable for mast in self.masts for cable in mast]
@@ -40,18 +46,20 @@ class SurroundingsData:
             object.__setattr__(self, "platform_gravity", gravity)
 
     @property
-    def bending(self) -> tuple[tuple[int, ...], ...]:
-        """Cables of the masts that give way."""
-        return tuple(mast for mast, give in zip(self.masts, self._compliances, strict=True) if give > 0.0)
+    def bending(self) -> bool:
+        """Whether any mast gives way."""
+        return bool(np.any(self.mast_compliance)) or bool(np.any(self.mast_bending))
 
-    @property
-    def bending_compliance(self) -> tuple[float, ...]:
-        """[m/N] of the masts that give way."""
-        return tuple(give for give in self._compliances if give > 0.0)
-
-    @property
-    def _compliances(self) -> tuple[float, ...]:
-        return tuple(np.broadcast_to(self.mast_compliance, (len(self.masts),)).tolist())
+    def soft_masts(self, frame_anchors: np.ndarray) -> tuple[Mast, ...]:
+        """The masts that give way, of a robot with exits at frame_anchors (m, 3) [m]."""
+        gives = (np.broadcast_to(v, (len(self.masts),)).tolist() for v in (self.mast_compliance, self.mast_bending))
+        found = []
+        for cables, bracket, upright in zip(self.masts, *gives, strict=True):
+            mast, heights = rigid(cables), frame_anchors[list(cables), 2] - self.mast_foot
+            mast = with_bracket(mast, bracket) if bracket > 0.0 else mast
+            mast = with_upright(mast, upright, heights) if upright > 0.0 else mast
+            found += [mast] if mast.flexibility.size else []
+        return tuple(found)
 
     @property
     def still(self) -> bool:

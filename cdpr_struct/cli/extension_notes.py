@@ -12,7 +12,7 @@ _NO_BENDING = "this cable model has none; --model exact does"
 _AT_REST = ("inverse", "forward", "pose-error")
 _CABLES_ONLY = ("bending_stiffness", "added_mass")
 _INTERNAL = "internal_mass"
-_ELASTIC = ("series_compliance", "frame_compliance", "nonlinearity")
+_ELASTIC = ("series_compliance", "frame_compliance", "mast_bending", "nonlinearity")
 
 
 def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, model: str = "") -> dict[str, Any]:
@@ -77,7 +77,8 @@ def _particulars(command: str, model: str) -> dict[str, str]:
     if command in ("frf", "transient"):
         said[_INTERNAL] = "The mount of internal_mass has no damping of its own."
     if command == "frf":
-        said["frame_compliance"] = "Points of cables are shaken and watched as if their masts stood still."
+        still = "Points of cables are shaken and watched as if their masts stood still."
+        said |= {"frame_compliance": still, "mast_bending": still}
     if command == "pose-error":
         wrong = "enters the axial part: spring and sagging cables get the same wrong length."
         said |= {name: f"{name} {wrong}" for name in ("length_offset", "length_scale")}

@@ -35,8 +35,10 @@ def _surroundings(robot: Robot) -> fem.SurroundingsData:
     more, tilted = robot.extensions, np.append(robot.extensions.tilt, -1.0) * robot.gravity
     shared = masts_of(robot.frame_anchors)
     masts = tuple(tuple(np.flatnonzero(column).tolist()) for column in carriers(shared).T)
-    give = tuple(of_each_mast(shared, more.frame_compliance).tolist())
-    return fem.SurroundingsData(masts, give, more.hose, np.array(more.hose_center), tilted if more.tilt.any() else None)
+    bracket, upright = (tuple(of_each_mast(shared, c).tolist()) for c in (more.frame_compliance, more.mast_bending))
+    gravity = tilted if more.tilt.any() else None
+    hose = more.hose, np.array(more.hose_center)
+    return fem.SurroundingsData(masts, bracket, upright, more.mast_foot, *hose, gravity)
 
 
 def push_of(robot: Robot) -> fem.PointForce | None:

@@ -61,7 +61,7 @@ def count_below(
     robot = point.arrays
     if robot.has_masts:
         ends, moving = cables.stiffness(omega**2), cables.mast_stiffness(omega**2)
-        negative = negative + negative_junctions(ends, robot.masts, robot.frame_compliance, moving)
+        negative = negative + negative_junctions(ends, robot, moving)
     return negative + cables.clamped_count(omega).sum(axis=-1) + internal_count(robot, omega[..., 0] ** 2)
 
 

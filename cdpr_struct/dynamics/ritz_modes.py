@@ -10,7 +10,7 @@ from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, assemble, attachment, platform_mass_matrix
 from cdpr_struct.errors import UnstableEquilibriumError
-from cdpr_struct.statics.masts import carriers, of_each_mast
+from cdpr_struct.statics.masts import MastShapes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -130,14 +130,10 @@ def _with_masts(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
     That of a mast counts in units of the root of its compliance: its own stiffness is one, even if it is rigid.
     """
     ends = attachment(point)
-    masts = point.arrays.masts
     if not point.arrays.has_masts:
         return ends, np.zeros_like(ends)
-    give = of_each_mast(masts, point.arrays.frame_compliance)
-    soft = give.reshape(-1, give.shape[-1]).any(axis=0)
-    carried = carriers(masts)[:, soft] * np.sqrt(give[..., None, soft])
-    own = np.einsum("...mq,ab->...maqb", carried, np.eye(3))
-    own = np.broadcast_to(own.reshape((*carried.shape[:-1], 3, -1)), (*ends.shape[:-1], 3 * int(soft.sum())))
+    scaled = MastShapes.soft(point.arrays).scaled
+    own = np.broadcast_to(scaled, (*ends.shape[:-1], scaled.shape[-1]))
     return np.concatenate([ends, -own], axis=-1), np.concatenate([np.zeros_like(ends), own], axis=-1)
 
 

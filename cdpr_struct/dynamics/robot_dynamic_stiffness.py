@@ -62,7 +62,7 @@ def assemble(
     (..., 6, 6), world axes, rotations about the platform origin [N/m, N, N m].
     """
     robot = point.arrays
-    cables = behind_masts(cable_stiffness, attachment(point), robot.masts, robot.frame_compliance, mast_inertia)
+    cables = behind_masts(cable_stiffness, attachment(point), robot, mast_inertia)
     held = np.zeros((*robot.hose.shape, 6, 6))
     held[..., :3, :3] = robot.hose[..., None, None] * np.eye(3)
     if assembly == "thesis":

@@ -77,8 +77,10 @@ def _check_weight(source: str, robot: Robot, states: States) -> None:
 
 def _check_masts(source: str, robot: Robot, states: States) -> None:
     """Masts stand where their cables pull."""
-    give = float(np.nanmedian(states.tension * robot.extensions.frame_compliance))
-    if give > _GIVE * frame_reach(robot)[1]:
-        expected = "m/N: under the tensions measured masts would give way by "
-        expected += f"{give:.3g} m, in the median (is it in mm/N?)"
-        raise InputError(source, "frame_compliance", float(np.median(robot.extensions.frame_compliance)), expected)
+    for name in ("frame_compliance", "mast_bending"):
+        compliance: np.ndarray = getattr(robot.extensions, name)
+        give = float(np.nanmedian(states.tension * compliance))
+        if give > _GIVE * frame_reach(robot)[1]:
+            expected = "m/N: under the tensions measured masts would give way by "
+            expected += f"{give:.3g} m, in the median (is it in mm/N?)"
+            raise InputError(source, name, float(np.median(compliance)), expected)

@@ -92,11 +92,11 @@ def _one_cable_each(point: OperatingPoint, state: np.ndarray, cable: np.ndarray)
     own = {}
     for name, rule in PARAMETERS.items():
         value: np.ndarray = getattr(point.arrays, name)
-        if rule.shape[:1] == (CABLES,) and name != "masts":
+        if rule.shape[:1] == (CABLES,) and name not in ("masts", "uprights"):
             own[name] = picked(value, rule.axes - 1)
         elif value.ndim > rule.axes:
             own[name] = np.broadcast_to(value, shape[:-1] + value.shape[value.ndim - rule.axes :])[state]
-    arrays: RobotArrays = replace(point.arrays, **own, masts=np.eye(1))
+    arrays: RobotArrays = replace(point.arrays, **own, masts=np.eye(1), uprights=np.zeros((1, 1)))
     cables = point.cables
     states = {f.name: picked(getattr(cables, f.name), f.name in ("offset", "heading")) for f in fields(cables)}
     return OperatingPoint(arrays, point.position[state], point.rotation[state], type(cables)(**states))

@@ -1,7 +1,8 @@
 """Everything that the vibration of a robot at rest depends on, as one vector of smooth numbers.
 
 Per cable: tension vector at the frame end, weight, EA, unstrained length, density, stiffening by bending, EI, mass at
-mid-cable, compliance of the frame end, lever arm. Per mast its compliance. Of the platform: mass matrix and the
+mid-cable, compliance of the frame end, lever arm. Of each shape of the masts its
+compliance. Of the platform: mass matrix and the
 stiffness of weight, lever arms and hose; of its internal mass the coupling (`internal_coupling`) and omega.
 """
 
@@ -14,7 +15,7 @@ from cdpr_struct.dynamics.internal_mass import internal_coupling, internal_omega
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, geometric_stiffness, platform_mass_matrix
 from cdpr_struct.dynamics.stiff_cable import slenderness
-from cdpr_struct.statics.masts import of_each_mast
+from cdpr_struct.statics.masts import MastShapes
 
 PULL, WEIGHT, EA, LENGTH, DENSITY, TIGHTENED, BENDING, MIDDLE, GIVE, ARM = (
     slice(0, 3), 3, 4, 5, 6, 7, 8, 9, slice(10, 19), slice(19, 22),
@@ -28,7 +29,8 @@ class Dependence:
     """What the vibration of robots (...) depends on.
 
     cables : (..., m, CABLE_COLUMNS), in the order of the constants above
-    masts  : (..., n) compliances [m/N];  mass, stiffness : (..., 6, 6) of the platform without cables, world axes
+    masts  : (..., q) compliances of `MastShapes` [m/N]
+    mass, stiffness : (..., 6, 6) of the platform without cables, world axes
     internal : (..., 7) coupling (6) [kg^(1/2)] and omega [rad/s] of an internal mass
     """
 
@@ -47,8 +49,8 @@ class Dependence:
         stiffness[..., :3, :3], stiffness[..., 3:, 3:] = held, turned
         mass = platform_mass_matrix(arrays, point.rotation)
         internal = _joined(internal_coupling(arrays, point.rotation), internal_omega(arrays)[..., None])
-        masts = of_each_mast(arrays.masts, arrays.frame_compliance)
-        return cls(cable_dependence(point), masts, mass, stiffness, internal)
+        masts = MastShapes.of(arrays)
+        return cls(cable_dependence(point), masts.compliance, mass, stiffness, internal)
 
     @property
     def vector(self) -> np.ndarray:

@@ -25,7 +25,7 @@ from cdpr_struct.observation.dependence import (
     TIGHTENED,
     WEIGHT,
 )
-from cdpr_struct.statics.masts import carriers
+from cdpr_struct.statics.masts import MastShapes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,17 +69,17 @@ def cable_gradient(
     return CableGradient(result, reaction)
 
 
-def whole_gradient(own: CableGradient, masts: np.ndarray, modes: RitzModes, mount: np.ndarray) -> np.ndarray:
-    """(..., n, k) gradient by `Dependence.vector`; masts (m, m) of `RobotArrays`, mount (...) omega_i [rad/s]."""
+def whole_gradient(own: CableGradient, masts: MastShapes, modes: RitzModes, mount: np.ndarray) -> np.ndarray:
+    """(..., n, k) gradient by `Dependence.vector`; mount (...) omega_i of an internal mass [rad/s]."""
     platform, squared = modes.platform, modes.omega**2
     columns = np.moveaxis(own.columns, -2, -1)
     cables = columns.reshape((*columns.shape[:-3], -1, columns.shape[-1]))
-    pulled = np.einsum("mq,...mka->...qka", carriers(masts), own.reaction)
+    pulled = np.einsum("maq,...mka->...qk", masts.shapes, own.reaction)
     twice = (platform[..., :, None] * platform[..., None, :]).reshape((*platform.shape[:-1], 36))
     body = np.swapaxes(np.concatenate([-squared[..., None] * twice, twice], axis=-1), -1, -2)
     by_coupling = (-2.0 * squared * modes.internal)[..., None] * platform
     inner = np.concatenate([by_coupling, (2.0 * mount[..., None] * modes.internal**2)[..., None]], axis=-1)
-    return np.concatenate([cables, -(pulled**2).sum(axis=-1), body, np.swapaxes(inner, -1, -2)], axis=-2)
+    return np.concatenate([cables, -(pulled**2), body, np.swapaxes(inner, -1, -2)], axis=-2)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

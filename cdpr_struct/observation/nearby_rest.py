@@ -15,6 +15,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, load_wrench
+from cdpr_struct.statics.masts import MastShapes
 from cdpr_struct.statics.tensioned_cables import tensioned
 
 _ANCHOR, _SHARE, _RADIUS, _COMPLIANCE = 1e-5, 1e-5, 1e-6, 1e-10  # steps: m, of the value, m, m/N
@@ -80,6 +81,7 @@ def _rigid(state: Rest, tension: np.ndarray) -> RobotArrays:
         frame_anchors=moved,
         axial_stiffness=stiff,
         frame_compliance=np.zeros(1),
+        mast_bending=np.zeros(1),
         nonlinearity=np.zeros(()),
     )
 
@@ -94,7 +96,7 @@ def _mast_shift(arrays: RobotArrays, outputs: np.ndarray) -> np.ndarray:
     """(..., m, 3) by which the pull on the masts moves their exits."""
     if not arrays.has_masts:
         return np.zeros(3)
-    return arrays.frame_compliance[..., None] * (arrays.masts @ outputs[..., 3:6])
+    return MastShapes.soft(arrays).shift(outputs[..., 3:6])
 
 
 def _inputs(arrays: RobotArrays, arms: PlatformArms, tension: np.ndarray, shift: np.ndarray) -> np.ndarray:

@@ -14,6 +14,7 @@ from cdpr_struct.errors import CrowdedModesError, UnstableEquilibriumError
 from cdpr_struct.observation.cable_fields import fields_of_expansion, massless_fields
 from cdpr_struct.observation.dependence import BENDING, TIGHTENED, Dependence
 from cdpr_struct.observation.mode_gradient import CableGradient, cable_gradient, whole_gradient
+from cdpr_struct.statics.masts import MastShapes
 
 BEYOND = 1.3  # times the highest frequency of the band: from there changes of tens of per cent bring modes into it
 PLATFORM_SHARE = 0.02  # of the kinetic energy: modes beyond the band with less in the platform are left out
@@ -64,7 +65,7 @@ def modes_at(
         shapes, own = _catenary_modes(point, float(limit.max()), assembly, now.cables)
     else:
         raise ValueError(f"model must be 'exact' or 'static', got {model!r}")
-    gradient = whole_gradient(own, point.arrays.masts, shapes, internal_omega(point.arrays))
+    gradient = whole_gradient(own, MastShapes.of(point.arrays), shapes, internal_omega(point.arrays))
     kept = (shapes.omega < np.asarray(highest_omega)[:, None]) | (shapes.platform_energy > PLATFORM_SHARE)
     return _collected(shapes, now, gradient, kept & (shapes.omega < limit[:, None]), assembly)
 
@@ -133,7 +134,9 @@ def _catenary_modes(
     """Modes below `highest` [rad/s] and their gradient by the cables (F, m, CABLE_COLUMNS)."""
     smooth = not (point.arrays.bending_stiffness.any() or point.arrays.added_mass.any())
     order = polynomial_order(point, highest, rough=smooth)
-    expansion = expand_catenaries_at(point, order).reduced(highest)
+    expansion = expand_catenaries_at(point, order)
+    if not point.arrays.has_masts:  # the reduction keeps how cables answer the platform, not how they answer masts
+        expansion = expansion.reduced(highest)
     below = (expansion.omega_squared < highest**2).sum(axis=(-2, -1)).max()
     shapes = ritz_modes(point, expansion, int(below) + _beyond_cables(point), assembly)
     shapes = _first(shapes, max(1, int((shapes.omega < highest).sum(axis=-1).max())))

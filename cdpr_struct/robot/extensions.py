@@ -11,6 +11,7 @@ from cdpr_struct.robot.arrays import frozen_array
 from cdpr_struct.robot.parameters import AUXILIARY, EXTENSIONS
 
 MAST = 0.2  # frame anchors nearer to each other in plan than this share of the frame's width sit on one mast
+_RANK = 1e-12  # of the largest flexibility: exits at one height move as one
 _ROUNDING = 1e-15  # a vector whose length is one but for this is left as it is: files are read as they were written
 
 
@@ -25,6 +26,8 @@ class Extensions:
 
     series_compliance: np.ndarray
     frame_compliance: np.ndarray
+    mast_bending: np.ndarray
+    mast_foot: float
     hose: float
     hose_center: np.ndarray
     force: np.ndarray
@@ -112,6 +115,29 @@ def masts_of(frame_anchors: np.ndarray) -> np.ndarray:
     for _ in range(len(shared)):
         shared = shared | (shared.astype(int) @ shared.astype(int) > 0)
     return np.asarray(shared, dtype=float)
+
+
+def uprights_of(frame_anchors: np.ndarray, foot: float) -> np.ndarray:
+    """(m, m) U, so that a unit compliance of each mast at its highest exit moves the exits by U U^T F under pulls F.
+
+    A mast is an upright of constant bending stiffness EI, clamped at the height `foot` [m]: a force at height a moves
+    height b by l^2 (3 h - l) / (6 EI), l and h the lower and the higher of the two above the foot (Euler-Bernoulli). An
+    exit at the foot or below does not move. Columns belong to one mast each; those that are not needed are zero.
+    """
+    masts, height = masts_of(frame_anchors), np.maximum(frame_anchors[:, 2] - foot, 0.0)
+    low, high = np.minimum.outer(height, height), np.maximum.outer(height, height)
+    top = (masts * height).max(axis=1)
+    share = np.where(top > 0.0, top, 1.0) ** 3
+    flexibility = masts * low**2 * (3.0 * high - low) / (2.0 * share)
+    result, column = np.zeros_like(masts), 0
+    for first in np.unique(masts.argmax(axis=1)):
+        own = np.flatnonzero(masts[first])
+        values, vectors = np.linalg.eigh(flexibility[np.ix_(own, own)])
+        kept = values > _RANK * values.max(initial=0.0)
+        count = int(kept.sum())
+        result[own, column : column + count] = vectors[:, kept] * np.sqrt(values[kept])
+        column += count
+    return result
 
 
 def divided_mast(frame_anchors: np.ndarray, frame_compliance: np.ndarray) -> tuple[int, ...]:

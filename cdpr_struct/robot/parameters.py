@@ -88,12 +88,16 @@ _RULES: dict[str, Parameter] = {
     "force_min": _of_cables("N", "least tension at the platform to ask for", "cable.force_min", 0.0, least=0.0),
     "force_max": _of_cables("N", "largest tension at the platform", "cable.force_max", np.inf, above=0.0),
     "masts": Parameter((CABLES, CABLES), "1", "1 where cables share a mast, by the frame anchors", "", 1.0),
+    "uprights": Parameter((CABLES, CABLES), "1", "U, exits moved by a unit compliance of uprights: U U^T F", "", 0.0),
 }
 EXTENSIONS: dict[str, Parameter] = {
     "series_compliance": _extra(_EACH, 0.0, "m/N", "spring in line with the cable, at its frame end",
                                 least=0.0, most=0.1),
     "frame_compliance": _extra(_EACH, 0.0, "m/N", "of the mast, alike in all directions; one a mast",
                                least=0.0, most=0.1),
+    "mast_bending": _extra(_EACH, 0.0, "m/N", "of the mast as an upright that bends sideways, at its highest exit",
+                           least=0.0, most=0.1),
+    "mast_foot": _extra((), 0.0, "m", "height z, world, at which uprights are clamped"),
     "hose": _extra((), 0.0, "N/m", "stiffness that holds the platform origin to hose_center", least=0.0),
     "hose_center": _extra((3,), 0.0, "m", "where the hose is relaxed, world frame"),
     "force": _extra((3,), 0.0, "N", "constant force on the platform origin, world frame"),
@@ -123,6 +127,7 @@ PARAMETERS: dict[str, Parameter] = {**_RULES, **EXTENSIONS}
 SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain", "sensor_mass")
 """Act only where readings are compared: they describe sensors, or need the time of a reading."""
 AUXILIARY = {
+    "mast_foot": "mast_bending",
     "hose_center": "hose",
     "reference_tension": "nonlinearity",
     "internal_frequency": "internal_mass",

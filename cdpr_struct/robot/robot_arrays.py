@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, fields, replace
 import numpy as np
 import numpy.typing as npt
 
-from cdpr_struct.robot.extensions import masts_of
+from cdpr_struct.robot.extensions import masts_of, uprights_of
 from cdpr_struct.robot.parameters import EXTENSIONS, PARAMETERS
 from cdpr_struct.robot.platform import joined_masses
 from cdpr_struct.robot.robot import Robot
@@ -31,7 +31,8 @@ class RobotArrays:
 
     Extensions, without effect unless given:
     series_compliance, length_offset, length_scale, bending_stiffness, added_mass : (..., m)
-    frame_compliance : (..., m) [m/N] of each cable's mast;  masts : (m, m) 1 where cables share one
+    frame_compliance, mast_bending : (..., m) [m/N] of each cable's mast;  mast_foot : (...) [m]
+    masts : (m, m) 1 where cables share one;  uprights : (m, m) how they bend, as `uprights_of` says
     hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  tilt : (..., 2) [rad]
     nonlinearity    : (...) k with reference_tension (...) [N]
     cell_gain, cell_bias, friction, slip : (..., m);  tracker, accelerometer_gain : (..., 6)
@@ -56,6 +57,9 @@ class RobotArrays:
     length_offset: np.ndarray = field(default_factory=PARAMETERS["length_offset"].without_effect)
     length_scale: np.ndarray = field(default_factory=PARAMETERS["length_scale"].without_effect)
     frame_compliance: np.ndarray = field(default_factory=PARAMETERS["frame_compliance"].without_effect)
+    mast_bending: np.ndarray = field(default_factory=PARAMETERS["mast_bending"].without_effect)
+    mast_foot: np.ndarray = field(default_factory=PARAMETERS["mast_foot"].without_effect)
+    uprights: np.ndarray = field(default_factory=PARAMETERS["uprights"].without_effect)
     masts: np.ndarray = field(default_factory=PARAMETERS["masts"].without_effect)
     hose: np.ndarray = field(default_factory=PARAMETERS["hose"].without_effect)
     hose_center: np.ndarray = field(default_factory=PARAMETERS["hose_center"].without_effect)
@@ -98,6 +102,7 @@ class RobotArrays:
             force_min=robot.force_min,
             force_max=robot.force_max,
             masts=masts_of(robot.frame_anchors),
+            uprights=uprights_of(robot.frame_anchors, more.mast_foot),
             **{name: np.asarray(getattr(more, name), dtype=float) for name in EXTENSIONS},
         )
 
@@ -124,7 +129,7 @@ class RobotArrays:
     @property
     def has_masts(self) -> bool:
         """Whether masts give way."""
-        return bool(self.frame_compliance.any())
+        return bool(self.frame_compliance.any() or self.mast_bending.any())
 
     @property
     def has_internal_mass(self) -> bool:
@@ -152,7 +157,8 @@ class RobotArrays:
     def with_rigid_ends(self) -> "RobotArrays":
         """Nothing elastic but the cables themselves, and these alike at all tensions."""
         rigid = np.zeros(1)
-        return replace(self, series_compliance=rigid, frame_compliance=rigid, nonlinearity=np.zeros(()))
+        nothing = np.zeros(())
+        return replace(self, series_compliance=rigid, frame_compliance=rigid, mast_bending=rigid, nonlinearity=nothing)
 
     def stiffened(self, factor: float) -> "RobotArrays":
         """Cables, what is in line with them, and masts all `factor` times stiffer."""
@@ -161,6 +167,7 @@ class RobotArrays:
             axial_stiffness=factor * self.axial_stiffness,
             series_compliance=self.series_compliance / factor,
             frame_compliance=self.frame_compliance / factor,
+            mast_bending=self.mast_bending / factor,
         )
 
     def with_point_masses(self, masses: npt.ArrayLike, places: npt.ArrayLike) -> "RobotArrays":

@@ -200,10 +200,11 @@ def _extensions(table: RobotTable, source: str) -> Extensions:
         _check_extension(name, value, len(table.cables), source)
     made = Extensions.of(len(table.cables), given, tuple(causes))
     anchors = np.array([entry.frame_anchor for entry in table.cables])
-    if divided := divided_mast(anchors, made.frame_compliance):
-        carried = ", ".join(str(i + 1) for i in divided)
-        expected = f"cables {carried} hang on one mast: give equal numbers for them, that of their mast in m/N"
-        raise InputError(source, "extensions.frame_compliance", given["frame_compliance"], expected)
+    for name in ("frame_compliance", "mast_bending"):
+        if divided := divided_mast(anchors, getattr(made, name)):
+            carried = ", ".join(str(i + 1) for i in divided)
+            expected = f"cables {carried} hang on one mast: give equal numbers for them, that of their mast in m/N"
+            raise InputError(source, f"extensions.{name}", given[name], expected)
     return made
 
 

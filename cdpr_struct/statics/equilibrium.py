@@ -79,7 +79,7 @@ def tangent_stiffness(arrays: RobotArrays, states: CableStates, arms: PlatformAr
     map_ = attachment(*np.moveaxis(arms.arms, -1, 0))
     stiff = end_stiffness(arrays, states)
     if arrays.has_masts:
-        tangent = behind_masts(stiff, map_, arrays.masts, arrays.frame_compliance)
+        tangent = behind_masts(stiff, map_, arrays)
     else:
         moved = stiff @ map_
         rows = 3 * arrays.cable_count

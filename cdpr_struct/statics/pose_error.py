@@ -20,7 +20,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.equilibrium import PlatformArms, weight_force
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
-from cdpr_struct.statics.masts import of_each_mast, pull_on_masts
+from cdpr_struct.statics.masts import MastShapes
 from cdpr_struct.statics.preload import Preload
 
 CONTINUATION = (30.0, 4.0)  # times EA: stations between the ideal reference and the spring model
@@ -157,8 +157,7 @@ def potential_energy(
     cables = solution.cables
     give = cables.total_length / cables.axial_stiffness + arrays.series_compliance
     strain = 0.5 * (cables.tension_at_platform**2 * give).sum(axis=-1)
-    give = of_each_mast(arrays.masts, arrays.frame_compliance)
-    strain = strain + 0.5 * (give * (pull_on_masts(arrays, cables) ** 2).sum(axis=-1)).sum(axis=-1)
+    strain = strain + MastShapes.of(arrays).energy(cables.force_at_frame)
     away = solution.position - arrays.hose_center
     strain = strain + 0.5 * arrays.hose * (away**2).sum(axis=-1)
     center = PlatformArms.at(arrays, solution.position, solution.rotation).center + solution.position

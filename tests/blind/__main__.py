@@ -199,7 +199,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--count", type=int, default=0, help="cases (default: the whole set)")
     parser.add_argument("--out", default="", help="directory of campaigns and answers (default: results/blind-SET)")
     parser.add_argument("--sealed", default="", help="directory of the truth (default: OUT-sealed)")
-    parser.add_argument("--release", default="", help="name of the release: seeds of its own, for the final set and any other")
+    parser.add_argument("--release", default="", help="name of a release, whose own seeds are taken")
     parser.add_argument("--budget", choices=("small", "full"), default="small")
     parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--command", default="", help="what to run instead of cdpr-struct diagnose")

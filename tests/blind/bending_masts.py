@@ -1,8 +1,9 @@
-"""Masts as what they are: cantilevers clamped to the floor, which bend sideways and do not shorten.
+"""Masts as what they are: uprights on a foot that turns a little, which bend sideways and do not shorten.
 
 A force F at one height bends an upright of bending stiffness EI at another by F l^2 (3 h - l) / 6 EI, l and h the lower
-and the higher of the two. The size of an effect is the compliance H^3 / 3 EI at the top exit, so that an exit
-lower down gives way less, and one on the floor not at all.
+and the higher of the two, and turns its foot, of rotational stiffness k, so that it leans by F l h / k. The size of an
+effect is the compliance H^3 / 3 EI + H^2 / k at the top exit, so that an exit lower down gives way less, and one on
+the floor not at all.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from scipy.sparse import csc_array, lil_array
 from tests.blind.entered_robot import EnteredRobot
 
 FLOOR = 0.0  # m, where masts are clamped
+FOOT = 0.3  # of the compliance at the top comes from the foot: anchor bolts and base plates give way
 ONE_LEVEL = 0.1  # m, exits nearer to each other in height move alike
 MASTS = 4
 
@@ -45,7 +47,9 @@ def _cantilever(number: int, cables: np.ndarray, heights: np.ndarray) -> Cantile
     nearest, level = np.unique(np.round(heights[above] / ONE_LEVEL), return_inverse=True)
     levels = np.array([heights[above][level == index].mean() for index in range(len(nearest))])
     low, high = np.minimum.outer(levels, levels), np.maximum.outer(levels, levels)
-    return Cantilever(number, above, level, low**2 * (3.0 * high - low) / (2.0 * levels.max() ** 3))
+    top = levels.max(initial=FLOOR)
+    bent, leaning = low**2 * (3.0 * high - low) / (2.0 * top**3), low * high / top**2
+    return Cantilever(number, above, level, (1.0 - FOOT) * bent + FOOT * leaning)
 
 
 def mast_deflections(robot: EnteredRobot, compliance: np.ndarray, pulls: np.ndarray) -> np.ndarray:

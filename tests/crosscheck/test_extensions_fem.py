@@ -26,6 +26,12 @@ CASES = {
     "masts": {"frame_compliance": 5e-5},
     "one mast": {"frame_compliance": [0.0, 5e-5, 0.0, 0.0, 0.0, 5e-5, 0.0, 0.0]},
     "masts, each its own": {"frame_compliance": [5e-5, 2e-5, 0.0, 1e-5, 5e-5, 2e-5, 0.0, 1e-5]},
+    "uprights": {"mast_bending": 5e-5, "mast_foot": -1.0},
+    "one upright on a bracket": {
+        "mast_bending": [0.0, 5e-5, 0.0, 0.0, 0.0, 5e-5, 0.0, 0.0],
+        "mast_foot": -1.0,
+        "frame_compliance": 1e-5,
+    },
     "both": {"series_compliance": 2e-5, "frame_compliance": 2e-5},
     "hose, tilt, force": {"hose": 500.0, "hose_center": [0.0, 0.0, 1.0], "tilt": [0.02, 0.01], "force": [9.0, 5.0, 3]},
     "modulus": {"nonlinearity": 0.3, "reference_tension": 100.0},
@@ -68,17 +74,21 @@ def test_the_referee_vibrates_alike(trial):
     assert np.abs(exact / hertz - 1.0).max() < FREQUENCY
 
 
-@pytest.mark.parametrize("name", ["in line", "masts", "one mast", "hose, tilt, force", "modulus"])
+@pytest.mark.parametrize("name", ["in line", "masts", "one mast", "uprights", "hose, tilt, force", "modulus"])
 def test_a_wrong_extension_is_found_out(name):
     """Twin: every number of the model 5 % larger than the referee's; at the pose that the referee is given."""
     point = at_rest(CASES[name])
-    wrong = {key: 1.05 * np.asarray(value) for key, value in CASES[name].items() if key != "reference_tension"}
+    wrong = {
+        key: 1.05 * np.asarray(value)
+        for key, value in CASES[name].items()
+        if key not in ("reference_tension", "mast_foot")
+    }
     other = at_rest({**CASES[name], **wrong})
     exact = certified_modes(other, "exact", MODES).frequencies.hertz
     assert np.abs(exact / referee(point)[2] - 1.0).max() > 5.0 * FREQUENCY
 
 
-@pytest.mark.parametrize("name", ["masts", "one mast"])
+@pytest.mark.parametrize("name", ["masts", "one mast", "uprights"])
 def test_the_referee_s_dynamic_stiffness_is_ours(name):
     """K(omega) - omega^2 M between the poles, cables on masts condensed there, masts eliminated here."""
     point = at_rest(CASES[name])
@@ -99,6 +109,13 @@ def test_the_soft_mast_is_the_one_that_is_named():
     assert np.abs(place - point.position).max() < 1e-9
     exact = certified_modes(other, "exact", MODES).frequencies.hertz
     assert np.abs(exact / hertz - 1.0).max() > 5.0 * FREQUENCY
+
+
+def test_brackets_are_found_out_where_uprights_bend():
+    """Twin: the same compliance in all directions and at all heights is another robot."""
+    point = at_rest(CASES["uprights"])
+    exact = certified_modes(at_rest(CASES["masts"]), "exact", MODES).frequencies.hertz
+    assert np.abs(exact / referee(point)[2] - 1.0).max() > 5.0 * FREQUENCY
 
 
 def test_cable_inertia_matters_on_masts():

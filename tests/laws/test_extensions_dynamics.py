@@ -30,6 +30,8 @@ SOFT = [
     {"frame_compliance": 5e-5},
     {"frame_compliance": [0.0, 5e-5, 2e-5, 0.0, 0.0, 5e-5, 2e-5, 0.0]},
     {"series_compliance": 2e-5, "frame_compliance": 2e-5},
+    {"mast_bending": 5e-5, "mast_foot": -1.0},
+    {"frame_compliance": 2e-5, "mast_bending": [0.0, 5e-5, 2e-5, 0.0, 0.0, 5e-5, 2e-5, 0.0]},
     {"hose": 500.0},
 ]
 

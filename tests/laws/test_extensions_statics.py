@@ -27,6 +27,7 @@ SOFT = [(name, {"frame_compliance": give}) for name, give in ONE_MAST.items()]
 ALONE = [
     {"series_compliance": 5e-5},
     {"frame_compliance": 5e-5},
+    {"mast_bending": 5e-5, "mast_foot": -1.0},
     {"hose": 200.0, "hose_center": [0.3, 0.0, 1.0]},
     {"force": [10.0, 5.0, -3.0]},
     {"tilt": [0.02, -0.01]},
@@ -104,6 +105,22 @@ def test_cables_of_one_mast_share_its_compliance():
     together = masts_of(robot.frame_anchors) > 0.0
     assert (together.sum(axis=1) == 2).all()
     np.testing.assert_allclose(moved, give * (together @ held.cables.force_at_frame), atol=1e-13)
+
+
+def test_uprights_bend_as_cantilevers():
+    """Sideways only, l^2 (3 h - l) / 2 H^3 of the compliance at the top, l and h the heights of force and exit."""
+    give, foot = 3e-5, -1.0
+    robot = extended("thesis-3-1", {"mast_bending": give, "mast_foot": foot})
+    held = inverse(robot, robot.home.position + SHIFT, np.eye(3), "spring")
+    points = robot.home.position + SHIFT + robot.platform_anchors
+    moved = points - held.cables.offset - robot.frame_anchors
+    height, pull = robot.frame_anchors[:, 2] - foot, held.cables.force_at_frame
+    expected = np.zeros_like(moved)
+    for i, j in zip(*np.nonzero(masts_of(robot.frame_anchors)), strict=True):
+        low, high = sorted((height[i], height[j]))
+        expected[i, :2] += give * low**2 * (3.0 * high - low) / (2.0 * height.max() ** 3) * pull[j, :2]
+    np.testing.assert_allclose(moved, expected, atol=1e-13)
+    assert np.ptp(np.abs(expected).max(axis=1)) > 1e-3  # two levels: the lower exits move less
 
 
 @pytest.mark.parametrize("name", ONE_MAST)

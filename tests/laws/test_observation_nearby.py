@@ -31,6 +31,7 @@ def everything(name: str) -> Recorded:
     varied = np.linspace(0.4, 1.3, m)
     more = {
         "series_compliance": 4e-6 * varied, "frame_compliance": mast_values(robot, 2e-6 * varied), "hose": 30.0,
+        "mast_bending": mast_values(robot, 3e-6 * varied), "mast_foot": -1.0,
         "hose_center": robot.home.position, "force": [5.0, 3.0, -4.0], "tilt": [3e-3, -2e-3], "nonlinearity": 0.1,
         "reference_tension": 400.0, "length_offset": 2e-3 * varied, "length_scale": 1.0 + 1e-3 * varied,
         "cell_gain": 1.0 + 0.02 * varied, "cell_bias": 4.0 * varied, "friction": 0.03 * varied,

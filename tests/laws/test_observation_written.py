@@ -26,6 +26,7 @@ def fields_of(robot) -> dict[str, dict]:
     return {
         "series_compliance": {"series_compliance": 4e-6 * VARIED},
         "frame_compliance": {"frame_compliance": mast_values(robot, 2e-6 * VARIED)},
+        "mast_bending": {"mast_bending": mast_values(robot, 3e-6 * VARIED), "mast_foot": -0.5},
         "hose": {"hose": 40.0, "hose_center": center},
         "force": {"force": [8.0, -5.0, 3.0]},
         "tilt": {"tilt": [4e-3, -3e-3]},

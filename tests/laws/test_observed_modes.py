@@ -29,7 +29,7 @@ IDLE = {
 STEPS = {
     "axial_stiffness": 30.0, "mass": 1e-3, "series_compliance": 2e-10, "frame_compliance": 2e-11, "hose": 1e-2,
     "linear_density": 2e-7, "bending_stiffness": 1e-4, "added_mass": 3e-6, "gravity": 1e-4, "inertia": 1e-5,
-    "tilt": 1e-4,
+    "tilt": 1e-4, "mast_bending": 2e-11,
 }  # fmt: skip
 STEP = 1e-6  # m, or the unit of what is not named: a millionth, so that close modes do not veer
 TENSION_STEP = 1e-3  # N
@@ -68,7 +68,7 @@ class State:
         value = np.stack([getattr(self.arrays, name)] * d)
         if name == "inertia":
             value[:, [0, 1], [1, 0]] += step[:, None]
-        elif name == "frame_compliance":
+        elif name in ("frame_compliance", "mast_bending"):
             value += step[:, None] * self.arrays.masts[2]
         else:
             value[(slice(None), *((2,) if value.shape[1:2] == (len(self.tension),) else ()), *([1] * _rest(name)))] += (
@@ -99,8 +99,8 @@ def single(state: State) -> OperatingPoint:
 
 
 EXTENDED = {
-    "pulley_radius": 0.05, "series_compliance": 5e-7, "frame_compliance": 3e-7, "bending_stiffness": 2.0,
-    "added_mass": 0.02, "hose": 500.0, "center_of_mass": np.array([0.05, -0.02, 0.08]),
+    "pulley_radius": 0.05, "series_compliance": 5e-7, "frame_compliance": 3e-7, "mast_bending": 4e-7,
+    "bending_stiffness": 2.0,    "added_mass": 0.02, "hose": 500.0, "center_of_mass": np.array([0.05, -0.02, 0.08]),
 }  # fmt: skip
 INTERNAL = {
     "internal_mass": 5.0, "internal_frequency": 6.0, "internal_direction": np.array([0.0, 0.6, 0.8]),
@@ -113,7 +113,7 @@ STATES: dict[str, Callable[[], State]] = {
     "a tool on a mount": lambda: state_of("cogiro", **INTERNAL),
 }
 READINGS = ("position", "rotation", "tension")
-ACTING = tuple(n for n in PARAMETERS if n not in IDLE and n != "masts")
+ACTING = tuple(n for n in PARAMETERS if n not in IDLE and n not in ("masts", "uprights", "mast_foot"))
 
 
 def derivative(state: State, name: str, log_omega: Callable[[OperatingPoint], np.ndarray]) -> tuple[np.ndarray, float]:
@@ -267,7 +267,12 @@ def symmetric() -> State:
     high = np.array([0.0, 0.0, 1.0])
     frame = np.concatenate([4.0 * ring, 4.0 * ring + 3.0 * high])
     platform = np.concatenate([0.3 * ring + 0.3 * high, 0.3 * ring])
-    body = {"center_of_mass": np.zeros(3), "inertia": np.diag([1.0, 1.0, 1.5]), "masts": np.eye(8)}
+    body = {
+        "center_of_mass": np.zeros(3),
+        "inertia": np.diag([1.0, 1.0, 1.5]),
+        "masts": np.eye(8),
+        "uprights": 0.5 * np.eye(8),
+    }
     arrays = replace(arrays, frame_anchors=frame, platform_anchors=platform, **body)
     return State(arrays, np.array([0.0, 0.0, 1.3]), np.eye(3), np.repeat([500.0, 900.0], 4))
 

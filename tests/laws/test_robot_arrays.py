@@ -17,6 +17,7 @@ from cdpr_struct.statics.inverse_kinematics import inverse
 
 ROBOT = load_robot("thesis-3-1")
 LEVEL = np.eye(3)
+BY_ANCHORS = ("masts", "uprights")  # follow from the frame anchors
 PLACE = ROBOT.home.position + np.array([0.4, -0.2, 0.1])
 
 
@@ -33,7 +34,10 @@ def test_arrays_have_the_shape_of_the_table_and_obey_its_bounds(name):
     assert (rule.place == "extensions") == (name in EXTENSIONS)
 
 
-@pytest.mark.parametrize("name", [n for n, rule in PARAMETERS.items() if rule.neutral is not None and n != "masts"])
+NEUTRAL = [n for n, rule in PARAMETERS.items() if rule.neutral is not None and n not in BY_ANCHORS]
+
+
+@pytest.mark.parametrize("name", NEUTRAL)
 def test_what_is_not_given_is_neutral(name):
     whole = RobotArrays.of(ROBOT)
     needed = {n: getattr(whole, n) for n, rule in PARAMETERS.items() if rule.neutral is None or n == "pulley_radius"}
@@ -73,6 +77,7 @@ def extended(masts: float) -> RobotArrays:
     each = np.linspace(0.5, 1.5, 8)
     given = {
         "series_compliance": 2e-6 * each, "frame_compliance": masts * np.repeat([0.0, 1.0, 2.0, 3.0], 2),
+        "mast_bending": 2.0 * masts,
         "hose": 200.0, "tilt": [0.002, -0.001], "bending_stiffness": 20.0 * each, "added_mass": 0.02 * each,
     }  # fmt: skip
     more = Extensions.of(8, given)
@@ -90,7 +95,8 @@ def test_a_batch_of_robots_vibrates_as_each_of_them_does(model):
     cables = inverse(ROBOT, PLACE, LEVEL).cables
     singles = [ritz(OperatingPoint(robot, PLACE, LEVEL, cables), model) for robot in robots]
     both = RobotArrays(
-        **{n: np.stack([getattr(r, n) for r in robots]) for n in PARAMETERS if n != "masts"}, masts=robots[0].masts
+        **{n: np.stack([getattr(r, n) for r in robots]) for n in PARAMETERS if n not in BY_ANCHORS},
+        **{n: getattr(robots[0], n) for n in BY_ANCHORS},
     )
     twice = type(cables)(*(np.stack([getattr(cables, n)] * 2) for n in cables.__slots__))
     together = ritz(OperatingPoint(both, np.stack([PLACE] * 2), np.stack([LEVEL] * 2), twice), model)

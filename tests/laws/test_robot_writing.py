@@ -14,6 +14,7 @@ from cdpr_struct.hypotheses.judge import judged
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.residuals.layout import layout
 from cdpr_struct.residuals.recorded import recorded
+from cdpr_struct.robot.extensions import uprights_of
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.robot.robot_from_arrays import bodily, robot_from_arrays
@@ -27,11 +28,14 @@ def everything() -> RobotArrays:
     """CoGiRo with every number off, each by another share."""
     arrays, each = RobotArrays.of(load_robot("cogiro")), np.linspace(0.5, 1.5, 8)
     body = arrays.with_point_masses(0.1 * each, arrays.platform_anchors)
+    exits = arrays.frame_anchors + 1e-3 / 3.0
     return replace(
         body, axial_stiffness=arrays.axial_stiffness * each, linear_density=arrays.linear_density * each,
-        frame_anchors=arrays.frame_anchors + 1e-3 / 3.0, platform_anchors=arrays.platform_anchors * (1.0 + 1e-3 / 7.0),
+        frame_anchors=exits, platform_anchors=arrays.platform_anchors * (1.0 + 1e-3 / 7.0),
         length_offset=0.002 * each, length_scale=1.0 + 0.001 * each, series_compliance=2e-6 * each,
         frame_compliance=2e-6 * np.linspace(0.0, 1.5, 4) @ carriers(arrays.masts).T, cell_gain=1.0 + 0.01 * each,
+        mast_bending=1e-6 * np.linspace(2.0, 0.5, 4) @ carriers(arrays.masts).T, mast_foot=np.array(-1.0 / 3.0),
+        uprights=uprights_of(exits, -1.0 / 3.0),
         cell_bias=2.0 * each, friction=0.02 * each, force=np.array([5.0, -3.0, 2.0]), hose=np.array(30.0),
         hose_center=np.array([0.1, 0.2, 1.0 / 3.0]), tilt=np.array([0.002, -0.001]), nonlinearity=np.array(0.1),
         reference_tension=np.array(1000.0 / 3.0), tracker=np.array([0.001, 0.0, 0.002, 0.0, 0.001, 0.0]),

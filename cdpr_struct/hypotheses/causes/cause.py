@@ -102,6 +102,7 @@ class Cause:
     carrier   : "" for parameters of the robot as a whole, else "cable", "mast", "axis" or "state": each has its own
     alike     : probability that all carriers have the same, 0 if that cannot be
     shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
+    laws      : (words, which of its parameters, probability) where a carrier may follow one of several laws
     seen_in   : kinds of rows it shows in;  needs : why these data cannot show it, or ""
     outside   : whether it sits in the data alone: the extended robot does not have it
     becomes   : causes that it is where some of its parameters are zero
@@ -116,6 +117,7 @@ class Cause:
     carrier: str = ""
     alike: float = 0.4
     shapes: tuple[tuple[str, slice | list[int], float], ...] = ()
+    laws: tuple[tuple[str, list[int], float], ...] = ()
     seen_in: tuple[str, ...] = ()
     needs: Callable[[Seen], str] = always
     outside: bool = False
@@ -144,21 +146,30 @@ class Cause:
         every = np.eye(len(basic))
         if self.shapes:
             return [_of_some(label, every, basic, own, weight) for label, own, weight in self.shapes]
-        parts = [slice(axes * i, axes * (i + 1)) for i in range(len(basic) // axes)]
-        if len(parts) < 2:
+        if len(basic) < 2 * axes:
             return [Pattern("", every, self.parameters, 1.0)]
-        words = list(seen.groups[self.carrier].values())
-        alone = 1.0 if self.carrier == "state" else 0.5 * (1.0 - self.alike)
+        laws = self.laws or (("", list(range(axes)), 1.0),)
+        return [found for words, own, share in laws for found in self._of_law(seen, words, own, share)]
+
+    def _of_law(self, seen: Seen, law: str, own: list[int], share: float) -> list[Pattern]:
+        """Patterns in which some of the parameters `own` of each carrier act, with a probability `share` together."""
+        basic, axes, words = self.basic(seen), len(self.parameters), list(seen.groups[self.carrier].values())
+        every, ending = np.eye(len(basic)), f", {law}" if law else ""
+        places = [[axes * i + k for k in own] for i in range(len(words))]
+        alone = share * (1.0 if self.carrier == "state" else 0.5 * (1.0 - self.alike))
         found = [
-            Pattern(f"{word} alone", every[:, own], basic[own], alone / len(parts))
-            for word, own in zip(words, parts, strict=True)
+            Pattern(f"{word} alone{ending}", every[:, at], tuple(basic[k] for k in at), alone / len(words))
+            for word, at in zip(words, places, strict=True)
         ]
         if self.carrier == "state":
             return found
         if self.alike:
-            same = np.tile(np.eye(axes), (len(parts), 1))
-            found.append(Pattern("all alike", same, self.parameters, self.alike))
-        return [*found, Pattern("each its own", every, basic, 0.5 * (1.0 - self.alike))]
+            same = np.tile(np.eye(axes)[:, own], (len(words), 1))
+            alike = tuple(self.parameters[k] for k in own)
+            found.append(Pattern(f"all alike{ending}", same, alike, share * self.alike))
+        several = [k for at in places for k in at]
+        each = tuple(basic[k] for k in several)
+        return [*found, Pattern(f"each its own{ending}", every[:, several], each, share * 0.5 * (1.0 - self.alike))]
 
 
 def _of_some(

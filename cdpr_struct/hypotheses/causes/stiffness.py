@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cdpr_struct.hypotheses.causes.cause import A_MINUTE, Cause, Parameter, Seen
+from cdpr_struct.hypotheses.causes.cause import A_MINUTE, Cause, Parameter, Seen, by_carrier
 from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
 from cdpr_struct.statics.masts import carriers
 
@@ -20,7 +20,8 @@ def _dead(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
 
 
 def _frame(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
-    return plus(arrays, frame_compliance=theta @ carriers(arrays.masts).T)
+    carried, give = carriers(arrays.masts).T, by_carrier(theta, 2)
+    return plus(arrays, frame_compliance=give[..., 0] @ carried, mast_bending=give[..., 1] @ carried)
 
 
 def _nonlinear(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
@@ -72,9 +73,13 @@ CAUSES = (
     Cause(
         "frame_compliance",
         "compliance of the masts",
-        (Parameter("compliance", "m/N", 2e-6, positive=True),),
+        (
+            Parameter("compliance", "m/N", 2e-6, positive=True),
+            Parameter("bending_compliance", "m/N", 2e-6, positive=True),
+        ),
         _frame,
         carrier="mast",
+        laws=(("", [0], 0.5), ("bending sideways", [1], 0.5)),
         seen_in=("CO", "RF"),
         sentence="the masts have a compliance of {value} m/N",
         separated_by="a dial gauge on a mast; pulling one cable and watching its neighbour",
