@@ -5,21 +5,26 @@ cables as there are in one go; it lies out of the cable's plane, as `lowest_clam
 as held where it leaves the pulley.
 """
 
+from functools import cache
+
 import numpy as np
 from numpy.polynomial import legendre
 
 from cdpr_struct.dynamics.cable_dynamics import flattened
+from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
 from cdpr_struct.dynamics.catenary_expansion import polynomial_basis
 from cdpr_struct.dynamics.condensed_cables import HangingCables
 from cdpr_struct.dynamics.lowest_clamped import lowest_clamped
 from cdpr_struct.dynamics.stiff_cable import bending_factor, load_factor, slenderness
+from cdpr_struct.errors import ConvergenceError
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 
 MAX_ITERATIONS = 40
-_TAUT_ORDER, _SLACK_ORDER = 10, 48
-_SLACK = 0.3  # weight over twice the chord tension from which the higher order is used
+_TAUT_ORDER, _SLACK_ORDERS = 10, (12, 20)
+_DEEP = 1.5  # hyperbolic angle of a cable from which the higher order is used
+_SLACK = 0.3  # weight over twice the chord tension from which polynomials of the arc length no longer do
 _CHUNK = 1024
 _MET = 1e-10
 SAFE = 1.0 + 1e-9  # the bound is met with this margin, so that rounding does not undercut it
@@ -72,20 +77,31 @@ def _meet(
     tau: np.ndarray,
     extensions: Extensions | None,
 ) -> np.ndarray:
-    shape, least = tau.shape, problem.model.least_chord_tension(problem.arrays, problem.arms.points)
-    old, old_ratio = np.zeros(shape), np.ones(shape)
+    """Secant steps at the instants at which a cable is not there yet; one that needs less than `least` is.
+
+    Raises
+    ------
+    ConvergenceError : a cable's tension is not found.
+    """
+    tau, arrays = tau.copy(), problem.arrays
+    least = np.broadcast_to(problem.model.least_chord_tension(arrays, problem.arms.points), tau.shape)
+    old, old_ratio = np.zeros(tau.shape), np.ones(tau.shape)
+    rows = np.arange(len(tau))
     for _ in range(MAX_ITERATIONS):
-        states = problem.model.hold(problem.arrays, problem.arms.points, tau).states
+        states = problem.model.hold(arrays, problem.arms.points[rows], tau[rows]).states
         frequency = _frequencies(states, density) * _extra_factor(states, density, extensions)
         ratio = 2.0 * np.log(frequency / b)
-        if (np.abs(ratio) <= _MET).all() or ((ratio >= 0.0) & (tau <= least)).all():
-            break
-        moved = np.log(tau) - old
-        slope = np.where(old == 0.0, 1.0, (ratio - old_ratio) / np.where(moved == 0.0, 1.0, moved))
+        open_ = (np.abs(ratio) > _MET) & ((ratio < 0.0) | (tau[rows] > least[rows]))
+        rows, ratio = rows[open_.any(axis=1)], ratio[open_.any(axis=1)]
+        if not rows.size:
+            return tau
+        moved = np.log(tau[rows]) - old[rows]
+        slope = np.where(old[rows] == 0.0, 1.0, (ratio - old_ratio[rows]) / np.where(moved == 0.0, 1.0, moved))
         slope = np.where(moved == 0.0, 1.0, np.clip(slope, 0.3, 3.0))
-        old, old_ratio = np.log(tau), ratio
-        tau = np.maximum(tau * np.exp(np.clip(-ratio / slope, -1.0, 1.0)), least)
-    return tau
+        old[rows], old_ratio[rows] = np.log(tau[rows]), ratio
+        tau[rows] = np.maximum(tau[rows] * np.exp(np.clip(-ratio / slope, -1.0, 1.0)), least[rows])
+    hint = "The wanted frequency may be out of reach of some cable; try another --b."
+    raise ConvergenceError("tension at the wanted cable frequency", float(np.abs(ratio).max()), MAX_ITERATIONS, hint)
 
 
 def _frequencies(cables: CableStates, linear_density: np.ndarray) -> np.ndarray:
@@ -98,23 +114,35 @@ def _frequencies(cables: CableStates, linear_density: np.ndarray) -> np.ndarray:
     for lowest, members in ((_of_taut, np.flatnonzero(~slack)), (_of_slack, np.flatnonzero(slack))):
         for i in range(0, len(members), _CHUNK):
             own = members[i : i + _CHUNK]
-            frequency[own] = np.sqrt(lowest(HangingCables.of(flat.at(own).at(None), density[own])))
+            frequency[own] = np.sqrt(lowest(flat.at(own), density[own]))
     return frequency.reshape(shape)
 
 
-def _of_taut(cables: HangingCables) -> np.ndarray:
-    """(k,) squared frequencies of cables (k, 1)."""
-    return lowest_clamped(cables, _TAUT_ORDER)[:, 0]
+def _of_taut(cables: CableStates, density: np.ndarray) -> np.ndarray:
+    """(k,) squared frequencies of cables (k,)."""
+    return lowest_clamped(HangingCables.of(cables.at(None), density), _TAUT_ORDER)[:, 0]
 
 
-def _of_slack(cables: HangingCables) -> np.ndarray:
-    """The same by more polynomials, as they come: the largest of 1 / omega^2, so that rounding falls on fast modes."""
-    nodes, weights = legendre.leggauss(2 * _SLACK_ORDER + 16)
-    values, slopes = (np.asarray(part)[:-2] for part in polynomial_basis(nodes, _SLACK_ORDER))
-    products = (slopes[:, None, :] * slopes[None, :, :] * weights).reshape(-1, len(nodes)).T
-    across = cables.out_of_plane(nodes)[..., 0].T
-    stiffness = (across @ products).reshape(-1, len(slopes), len(slopes))
-    root = np.linalg.inv(np.linalg.cholesky(stiffness))
-    mass = (values * weights) @ values.T
-    largest: np.ndarray = np.linalg.eigvalsh(root @ mass @ np.swapaxes(root, 1, 2))[:, -1]
-    return 1.0 / (largest * cables.per_squared[:, 0])
+def _of_slack(cables: CableStates, density: np.ndarray) -> np.ndarray:
+    """The same of cables (k,) that hang, by polynomials of the catenary's own coordinate, in which all is smooth."""
+    coordinate = CatenaryCoordinate.of(cables)
+    order = _SLACK_ORDERS[int(coordinate.angle.max() > _DEEP)]
+    nodes, mass, stiffness = _products(order)
+    arc, rate = coordinate.arc(nodes)
+    vertical = coordinate.frame_vertical[:, None] + cables.weight[:, None] * arc
+    tension = np.hypot(cables.force_x[:, None], vertical)
+    soft = tension / (1.0 + tension / cables.axial_stiffness[:, None])
+    k, n = len(arc), order - 1
+    root = np.linalg.inv(np.linalg.cholesky(((soft / rate) @ stiffness).reshape(k, n, n)))
+    whole = root @ ((density[:, None] * rate) @ mass).reshape(k, n, n) @ np.swapaxes(root, 1, 2)
+    largest: np.ndarray = np.linalg.eigvalsh(whole)[:, -1]  # of 1 / omega^2, so that rounding falls on fast modes
+    return 1.0 / largest
+
+
+@cache
+def _products(order: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Gauss nodes (q,), and weighted products of the functions and of their slopes (q, n n)."""
+    nodes, weights = legendre.leggauss(order + order // 2)
+    both = (np.asarray(part)[:-2] for part in polynomial_basis(nodes, order))
+    mass, stiffness = ((f[:, None, :] * f[None, :, :] * weights).reshape(-1, len(nodes)).T for f in both)
+    return nodes, mass, stiffness
