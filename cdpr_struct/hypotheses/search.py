@@ -28,6 +28,7 @@ from cdpr_struct.residuals.recorded import Recorded
 
 _NOTHING = 2.0  # nats by which the best single cause may be behind none: else a second one beside it is not looked for
 _NESTED = 2  # of the likeliest hypotheses, from whose points nothing wrong is judged
+_LAWS = 3  # outside the library, the likeliest, that are fitted where one may be
 _AGAIN = 6  # hypotheses that are fitted from another one's noise
 
 
@@ -106,6 +107,7 @@ class Search:
         for first in [one for one in singles[: self.budget.beginnings] if one.score > least]:
             self._pairs(first)
             self._transfer(2)
+        self._laws_beside(self._ranked()[0])
         self._converge()
         return self.answers()
 
@@ -155,12 +157,13 @@ class Search:
         columns = {cause.cause.name: cause.columns for cause in menu}
         for i, row in enumerate(rows):
             if i < at_least or row.score > above:
-                part = row.gains.part
-                more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
-                self.spread[more.key] = row.gains.spread
-                own = [shelf @ part.pattern.basis * part.term.sigma for shelf in columns[part.cause.name]]
-                worth = self._ranked()[0].score - self.budget.hopeless
-                self.keep(extended(self.data, self.where, row.base, more, own, row.noise, worth))
+                for part, spread in row.gains.leading(_LAWS if row.gains.cause.name == UNKNOWN else 1):
+                    more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
+                    self.spread[more.key] = spread
+                    sigma = part.scale * part.pattern.prior
+                    own = [shelf @ part.pattern.basis * sigma for shelf in columns[part.cause.name]]
+                    worth = self._ranked()[0].score - self.budget.hopeless
+                    self.keep(extended(self.data, self.where, row.base, more, own, row.noise, worth))
 
     def _begin(self, menu: Sequence[Offered], base: Judged) -> None:
         """Fits of large changes that would put peaks right."""
@@ -202,3 +205,10 @@ class Search:
         menu = offered(self.data, self.where, self.seen, left, first)
         rows = self._screened(menu, [first], None)[: self.budget.pairs]
         self._fit_best(menu, rows, 0, self._ranked()[0].score - self.budget.pair_near)
+
+    def _laws_beside(self, best: Judged) -> None:
+        """A law outside the library beside the two likeliest causes: these may have shared out its effect."""
+        if len(best.hypothesis.parts) < 2 or UNKNOWN in best.hypothesis.names:
+            return
+        menu = [one for one in offered(self.data, self.where, self.seen, [], best) if one.cause.name == UNKNOWN]
+        self._fit_best(menu, self._screened(menu, [best], None), 0, best.score - self.budget.pair_near)
