@@ -102,7 +102,7 @@ class Search:
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
         self._begin(menu, base)
         self._transfer()
-        singles = self._ranked(1)
+        singles = self._singles()
         least = max(singles[0].score - self.budget.near, self._ranked(0)[0].score - _NOTHING)
         for first in [one for one in singles[: self.budget.beginnings] if one.score > least]:
             self._pairs(first)
@@ -174,6 +174,13 @@ class Search:
     def _ranked(self, causes: int | None = None) -> list[Judged]:
         own = [one for one in self.found.values() if causes is None or len(one.hypothesis.parts) == causes]
         return sorted(own, key=lambda one: -one.score)
+
+    def _singles(self) -> list[Judged]:
+        """The best fit of each single cause, best first; all laws outside the library are one cause."""
+        best: dict[str, Judged] = {}
+        for one in self._ranked(1):
+            best.setdefault(one.hypothesis.parts[0].cause.name, one)
+        return list(best.values())
 
     def _transfer(self, causes: int | None = None) -> None:
         """The likeliest hypotheses, and nothing wrong, again from the noise of the best two."""
