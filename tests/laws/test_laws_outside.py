@@ -65,3 +65,19 @@ def test_cells_that_are_off_more_and_more_with_the_tilt_are_unknown():
     said = diagnosed(off)
     assert said.decision.status == "unknown", said.decision
     assert "tilt" in said.outside[0]
+
+
+def test_an_encoder_that_often_skips_is_unknown_and_two_wrong_lengths_are_none():
+    robot = load_robot("cogiro")
+    sound = noisy(written(robot, plan_of(robot, 18)), 8)
+    skipped, misread = sound.states.length.copy(), sound.states.length.copy()
+    skipped[[1, 4, 8, 11, 15], 2] += [0.01, -0.01, 0.01, 0.01, -0.01]
+    misread[[4, 13], [2, 5]] -= 0.01
+    said = diagnosed(with_states(sound, length=skipped))
+    assert said.decision.status == "unknown", said.decision
+    assert said.piled_up is not None
+    assert (said.piled_up.kind, said.piled_up.cable, said.piled_up.outliers) == ("length", 2, 5)
+    other = diagnosed(with_states(sound, length=misread))
+    assert other.decision.status == "adequate", other.decision
+    assert other.piled_up is None
+    assert len(other.set_aside) == 2
