@@ -85,7 +85,7 @@ class _Known:
         turn = Rotation.from_matrix(readings.rotation).as_rotvec()
         turn = turn / max(float(np.abs(turn).max()), 1e-3)
         load = known.payload / max(float(np.ptp(known.payload)), 1e-9)
-        day = np.linspace(-1.0, 1.0, len(x))
+        day = np.linspace(-1.0, 1.0, len(x))  # states are filed in the order in which they were measured
         of_states = {
             "the position": x,
             "the position, alike on both sides": np.abs(x),
