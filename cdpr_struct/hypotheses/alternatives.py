@@ -120,7 +120,14 @@ def _gains(cause: Offered, gram: np.ndarray, score: np.ndarray) -> Gains:
     """From gram (d0, d0) and score (d0,) of the basic parameters."""
     logs = []
     for pattern in cause.patterns:
-        basis, weight = pattern.basis * pattern.prior, np.log(pattern.weight / len(SCALES)) - PRICE
-        own = scaled_gains(basis.T @ gram @ basis, basis.T @ score, np.array(SCALES), pattern.positive)
+        weight = np.log(pattern.weight / len(SCALES)) - PRICE
+        own = scaled_gains(*of_pattern(pattern, gram, score), np.array(SCALES), pattern.positive)
         logs.append(own + weight)
     return Gains(cause, np.array(logs))
+
+
+def of_pattern(pattern: Pattern, gram: np.ndarray, scores: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Gram (d, d) and scores (d, ...) of a pattern's parameters, a prior sigma, from (d0, d0), (d0, ...) of all."""
+    used = np.flatnonzero(pattern.basis.any(axis=1))
+    basis = pattern.basis[used] * pattern.prior
+    return basis.T @ gram[np.ix_(used, used)] @ basis, basis.T @ scores[used]

@@ -119,8 +119,8 @@ class _Channel:
 
     def law(self, words: str, share: np.ndarray, stands_for: float = 1.0) -> Law:
         """Numbers z (d,) that make the errors share (S, k, d) @ z of the states."""
-        static = np.einsum("srk,skd->srd", self.effect.static, share)
-        cables = np.einsum("rk,rkd->rd", self.effect.cables, share[self.states])
+        static = self.effect.static @ share
+        cables = (self.effect.cables[:, None] @ share[self.states])[:, 0]
         return Law(self.name, f"{self.words} {words}", Outside(static, cables), stands_for)
 
     def each(self, features: np.ndarray) -> np.ndarray:
