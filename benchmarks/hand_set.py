@@ -52,7 +52,7 @@ def _corrected(campaign: Campaign) -> Any:
 
 def _laws(campaign: Campaign) -> Any:
     data = recorded(campaign)
-    return [(law.words, law.columns.shape) for law in laws(Local.about(data, Point.entered(data)))]
+    return [(law.words, law.columns.static.shape) for law in laws(Local.about(data, Point.entered(data)))]
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,11 +8,12 @@ from cdpr_struct.diagnosis.added_modes import least_evidence
 from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
 from cdpr_struct.diagnosis.decision import Decision, decided
 from cdpr_struct.diagnosis.detectable_sizes import minimum_detectable
-from cdpr_struct.diagnosis.diagnosis import DAMPING, Candidate, Diagnosis, Location, Peaks, SetAside
+from cdpr_struct.diagnosis.diagnosis import DAMPING, Candidate, Diagnosis, Location, Peaks, Pile, SetAside
 from cdpr_struct.diagnosis.errors_of_kinds import errors_of_kinds, located
 from cdpr_struct.diagnosis.extended import extended_robot
 from cdpr_struct.diagnosis.generic_fit import generic_ratio
 from cdpr_struct.diagnosis.left_out import LeftOut, left_out, rows_of
+from cdpr_struct.diagnosis.piled_up import piled_up
 from cdpr_struct.diagnosis.recommended import Recommendation, recommended
 from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind, doubts, noise_of_kinds, sigmas_used
 from cdpr_struct.diagnosis.set_aside import set_aside
@@ -56,9 +57,12 @@ def diagnosed(
     loss = campaign.loss if loss is None else loss
     decision = _decided(beliefs, loss, hidden, stories.p_value(found))
     story = stories.believed_data(found, decision)
+    pile = piled_up(story.search.data, story.search.where, stories.chosen_of(story, decision))
+    if pile is not None:
+        decision = Decision(UNKNOWN, (), 1.0 - pile.p)
     progress("predicting what was left out")
     answer = _Said.of(campaign, story, decision, loss)
-    return _assembled(found, beliefs, answer, told[id(story)])
+    return _assembled(found, beliefs, answer, told[id(story)], pile)
 
 
 def _decided(beliefs: Sequence[Belief], loss: Loss, hidden: set[str], p_value: float) -> Decision:
@@ -129,7 +133,7 @@ class _Said:
 
 
 def _assembled(
-    found: Sequence[Explained], beliefs: Sequence[Belief], said: _Said, rows: Sequence[Candidate]
+    found: Sequence[Explained], beliefs: Sequence[Belief], said: _Said, rows: Sequence[Candidate], pile: Pile | None
 ) -> Diagnosis:
     """Everything of a diagnosis."""
     story, null, chosen, campaign = said.story, said.null, said.chosen, said.campaign
@@ -140,7 +144,8 @@ def _assembled(
     advice = recommended(said.decision, said.confirmed, _likeliest(rows))
     return Diagnosis(
         campaign=campaign, decision=said.whole, beliefs=tuple(sorted(beliefs, key=lambda one: -one.probability)),
-        p_value=stories.p_value(found), p_adequate=_p_adequate(noise), explained=story, correction=story.correction,
+        p_value=min(stories.p_value(found), 1.0 if pile is None else pile.p), piled_up=pile,
+        p_adequate=_p_adequate(noise), explained=story, correction=story.correction,
         chosen=chosen, null=null, sizes=said.sizes, drift=stories.drift_of(story, chosen), candidates=tuple(rows),
         tried=tuple(stories.tried(found, story)), set_aside=aside,
         peaks=Peaks(peak_count(data), tuple(uncertain_peaks(data, chosen))), noise=tuple(noise),

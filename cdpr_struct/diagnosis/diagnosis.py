@@ -103,6 +103,20 @@ class Tried:
 
 
 @dataclass(frozen=True, slots=True)
+class Pile:
+    """Outliers of one sensor: kind, number of the cable from 0, how many of how many readings.
+
+    p : of a sensor of the campaign with so many, if outliers are independent and as frequent as in the others
+    """
+
+    kind: str
+    cable: int
+    outliers: int
+    readings: int
+    p: float
+
+
+@dataclass(frozen=True, slots=True)
 class Peaks:
     """How many peaks of the robot were measured, and those that are given to no mode for certain."""
 
@@ -118,6 +132,7 @@ class Diagnosis:
     None where they stand
     chosen, null : what the decision speaks of, and nothing wrong, both on the data that are believed
     p_value : of nothing being wrong with the data as recorded: no likelihood ratio exceeds 1 / p more often than p
+    piled_up : the sensor whose outliers are no chance, for which the decision is `unknown`; None without any
     p_adequate : of noise as large as what the choice leaves, sigmas being known as well as they usually are
     sizes : of the chosen causes;  drift : of the load cells' zeros, rms over the cells of their largest change [N]
     candidates : sets of causes that were fitted, best first, those without a size or below the null among them
@@ -136,6 +151,7 @@ class Diagnosis:
     decision: Decision
     beliefs: tuple[Belief, ...]
     p_value: float
+    piled_up: Pile | None
     p_adequate: float
     explained: Explained
     correction: Correction | None

@@ -16,14 +16,19 @@ def set_aside(data: Recorded, where: Layout, found: Judged) -> list[SetAside]:
     noise = found.fit.noise
     odd = noise.outlying & np.isnan(where.groups.fixed_variance)
     rows = []
-    for shelf, mean in zip(where.shelves, found.fit.noise_mean, strict=False):  # modal constants come last
-        for group, kind, state, cable, value in _readings(data, shelf, mean):
-            if odd[group]:
-                factor = float(noise.responsibility[group] @ KAPPA)
-                gain = 0.5 * float(value @ value) * (1.0 - factor**-2) - len(value) * float(np.log(factor))
-                name = data.campaign.states.names[state]
-                rows.append(SetAside(kind, name, cable, float(np.linalg.norm(value)), gain))
+    for group, kind, state, cable, value in readings_by_group(data, where, found):
+        if odd[group]:
+            factor = float(noise.responsibility[group] @ KAPPA)
+            gain = 0.5 * float(value @ value) * (1.0 - factor**-2) - len(value) * float(np.log(factor))
+            name = data.campaign.states.names[state]
+            rows.append(SetAside(kind, name, cable, float(np.linalg.norm(value)), gain))
     return sorted(rows, key=lambda row: -row.gain)
+
+
+def readings_by_group(data: Recorded, where: Layout, found: Judged) -> Iterator[tuple[int, str, int, int, np.ndarray]]:
+    """Group, kind, state, cable (-1 for none) and errors in stated sigmas of every group of readings."""
+    for shelf, mean in zip(where.shelves, found.fit.noise_mean, strict=False):  # modal constants come last
+        yield from _readings(data, shelf, mean)
 
 
 def _readings(data: Recorded, shelf: Shelf, mean: np.ndarray) -> Iterator[tuple[int, str, int, int, np.ndarray]]:

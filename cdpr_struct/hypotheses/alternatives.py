@@ -20,7 +20,7 @@ from cdpr_struct.inference.screening import Screen
 from cdpr_struct.inference.screening import gains as scaled_gains
 from cdpr_struct.residuals.assembled import stacked
 from cdpr_struct.residuals.layout import Layout
-from cdpr_struct.residuals.linearised import Local, Term
+from cdpr_struct.residuals.linearised import Local, Outside, Term
 from cdpr_struct.residuals.recorded import Recorded
 
 
@@ -28,13 +28,13 @@ from cdpr_struct.residuals.recorded import Recorded
 class Offered:
     """A cause with what its basic parameters do at a point, columns (K, n, d0) a shelf and unit, and its patterns.
 
-    laws : of laws outside the model, what each pattern does to the rows of the states, (S, 6 + m, d)
+    laws : of what is no change of the robot, what each pattern does to the rows
     """
 
     cause: Cause
     patterns: tuple[Pattern, ...]
     columns: list[np.ndarray]
-    laws: tuple[np.ndarray, ...] = ()
+    laws: tuple[Outside, ...] = ()
 
     def part(self, i: int, scale: float) -> Part:
         """The i-th pattern at a scale."""
@@ -57,16 +57,18 @@ class Gains:
         """Over all patterns and scales."""
         return float(logsumexp(self.logs))
 
-    @property
-    def part(self) -> Part:
-        """The best alternative."""
-        i, j = np.unravel_index(int(self.logs.argmax()), self.logs.shape)
-        return self.offered.part(int(i), SCALES[j])
+    def leading(self, count: int) -> list[tuple[Part, float]]:
+        """The best alternatives of so many patterns, best first, and by how much all that each stands for exceed it.
 
-    @property
-    def spread(self) -> float:
-        """By how much all alternatives together exceed the best."""
-        return self.total - float(self.logs.max())
+        Each stands for the other scales of its pattern, and the first for all other patterns as well.
+        """
+        order = np.argsort(-self.logs.max(axis=1), kind="stable")
+        found = []
+        for k, i in enumerate(order[:count]):
+            own = [i] if k else [i, *order[count:]]
+            part = self.offered.part(int(i), SCALES[int(self.logs[i].argmax())])
+            found.append((part, float(logsumexp(self.logs[own]) - self.logs[i].max())))
+        return found
 
 
 def offered(data: Recorded, where: Layout, seen: Seen, causes: Sequence[Cause], about: Judged) -> list[Offered]:
@@ -85,9 +87,10 @@ def _internal(local: Local, where: Layout) -> list[Offered]:
     internal = local.data.sent.internal
     if not internal.any():
         return []
-    found = internal_force.columns(internal)
-    states = found[1].shape[-1] // internal.shape[-1]
-    columns = stacked(where, local.r.only_static(np.concatenate(found, axis=-1)))
+    frequencies = len(local.r.cables)
+    found = tuple(Outside(own, np.zeros((frequencies, own.shape[-1]))) for own in internal_force.columns(internal))
+    states = found[1].count // internal.shape[-1]
+    columns = stacked(where, local.r.of_outside(Outside.joined(found)))
     return [Offered(internal_force.CAUSE, internal_force.patterns(internal.shape[-1], states), columns, found)]
 
 
@@ -96,12 +99,8 @@ def _laws(local: Local, where: Layout) -> list[Offered]:
     found = laws(local)
     if not found:
         return []
-    columns = np.concatenate([law.columns for law in found], axis=-1)
-    return [
-        Offered(
-            OUTSIDE, patterns(found), stacked(where, local.r.only_static(columns)), tuple(law.columns for law in found)
-        )
-    ]
+    own = tuple(law.columns for law in found)
+    return [Offered(OUTSIDE, patterns(found), stacked(where, local.r.of_outside(Outside.joined(own))), own)]
 
 
 def gains(causes: Sequence[Offered], about: Judged, noise: NoiseState | None = None) -> list[Gains]:
@@ -121,7 +120,14 @@ def _gains(cause: Offered, gram: np.ndarray, score: np.ndarray) -> Gains:
     """From gram (d0, d0) and score (d0,) of the basic parameters."""
     logs = []
     for pattern in cause.patterns:
-        basis, weight = pattern.basis * pattern.prior, np.log(pattern.weight / len(SCALES)) - PRICE
-        own = scaled_gains(basis.T @ gram @ basis, basis.T @ score, np.array(SCALES), pattern.positive)
+        weight = np.log(pattern.weight / len(SCALES)) - PRICE
+        own = scaled_gains(*of_pattern(pattern, gram, score), np.array(SCALES), pattern.positive)
         logs.append(own + weight)
     return Gains(cause, np.array(logs))
+
+
+def of_pattern(pattern: Pattern, gram: np.ndarray, scores: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Gram (d, d) and scores (d, ...) of a pattern's parameters, a prior sigma, from (d0, d0), (d0, ...) of all."""
+    used = np.flatnonzero(pattern.basis.any(axis=1))
+    basis = pattern.basis[used] * pattern.prior
+    return basis.T @ gram[np.ix_(used, used)] @ basis, basis.T @ scores[used]

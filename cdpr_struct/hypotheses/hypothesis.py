@@ -6,7 +6,7 @@ import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import Cause, Pattern
 from cdpr_struct.hypotheses.causes.drift import AMPLITUDES, WAVES, drifted, walk
-from cdpr_struct.residuals.linearised import Point, Term
+from cdpr_struct.residuals.linearised import Outside, Point, Term
 from cdpr_struct.residuals.recorded import Recorded
 
 SCALES = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
@@ -19,19 +19,19 @@ PRICE = 3.0  # nats that a cause costs before it is found: one campaign in twent
 class Part:
     """A cause in a pattern of occurrence at a scale of its prior.
 
-    law (S, 6 + m, d) : of what is no change of the robot, what its basic parameters of this pattern do to the rows
+    law : of what is no change of the robot, what its basic parameters of this pattern do to the rows
     """
 
     cause: Cause
     pattern: Pattern
     scale: float
-    law: np.ndarray | None = None
+    law: Outside | None = None
 
     @property
     def term(self) -> Term:
         """What it changes of the robot, or what it does to the rows."""
         if self.law is not None:
-            return Term.outside(self.law * (self.scale * self.pattern.prior))
+            return Term.outside(self.law.times(self.scale * self.pattern.prior))
         return Term(self.cause.apply, self.pattern.basis, self.scale * self.pattern.prior)
 
     @property

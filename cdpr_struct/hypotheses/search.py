@@ -30,6 +30,7 @@ from cdpr_struct.residuals.recorded import Recorded
 
 _NOTHING = 2.0  # nats by which the best single cause may be behind none: else a second one beside it is not looked for
 _NESTED = 2  # of the likeliest hypotheses, from whose points nothing wrong is judged
+_LAWS = 3  # outside the library, the likeliest, that are fitted where one may be
 _AGAIN = 6  # hypotheses that are fitted from another one's noise
 
 
@@ -104,11 +105,12 @@ class Search:
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
         self._begin(menu, base)
         self._transfer()
-        singles = self._ranked(1)
+        singles = self._singles()
         least = max(singles[0].score - self.budget.near, self._ranked(0)[0].score - _NOTHING)
         for first in [one for one in singles[: self.budget.beginnings] if one.score > least]:
             self._pairs(first)
             self._transfer(2)
+        self._laws_beside(self._ranked()[0])
         self._converge()
         return self.answers()
 
@@ -161,14 +163,15 @@ class Search:
         columns = {cause.cause.name: cause.columns for cause in menu}
         for i, row in enumerate(rows):
             if i < at_least or row.score > above:
-                part = row.gains.part
-                more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
-                self.spread[more.key] = row.gains.spread
-                own = [shelf @ part.pattern.basis * part.term.sigma for shelf in columns[part.cause.name]]
-                found = extended(self.data, self.where, row.base, more, own, row.noise)
-                if found.log_evidence < row.base.log_evidence + part.log_weight:
-                    found = again(self.data, self.where, found, row.base.fit.noise)
-                self.keep(self._followed(found))
+                for part, spread in row.gains.leading(_LAWS if row.gains.cause.name == UNKNOWN else 1):
+                    more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
+                    self.spread[more.key] = spread
+                    sigma = part.scale * part.pattern.prior
+                    own = [shelf @ part.pattern.basis * sigma for shelf in columns[part.cause.name]]
+                    found = extended(self.data, self.where, row.base, more, own, row.noise)
+                    if found.log_evidence < row.base.log_evidence + part.log_weight:
+                        found = again(self.data, self.where, found, row.base.fit.noise)
+                    self.keep(self._followed(found))
 
     def _followed(self, found: Judged) -> Judged:
         """Linearised about its likeliest point where that may matter: as one of the best, or far from the first."""
@@ -184,6 +187,13 @@ class Search:
     def _ranked(self, causes: int | None = None) -> list[Judged]:
         own = [one for one in self.found.values() if causes is None or len(one.hypothesis.parts) == causes]
         return sorted(own, key=lambda one: -one.score)
+
+    def _singles(self) -> list[Judged]:
+        """The best fit of each single cause, best first; all laws outside the library are one cause."""
+        best: dict[str, Judged] = {}
+        for one in self._ranked(1):
+            best.setdefault(one.hypothesis.parts[0].cause.name, one)
+        return list(best.values())
 
     def _transfer(self, causes: int | None = None) -> None:
         """The likeliest hypotheses, and nothing wrong, again from the noise of the best two."""
@@ -221,3 +231,10 @@ class Search:
         menu = offered(self.data, self.where, self.seen, left, first)
         rows = self._screened(menu, [first], None)[: self.budget.pairs]
         self._fit_best(menu, rows, 0, self._ranked()[0].score - self.budget.pair_near)
+
+    def _laws_beside(self, best: Judged) -> None:
+        """A law outside the library beside the two likeliest causes: these may have shared out its effect."""
+        if len(best.hypothesis.parts) < 2 or UNKNOWN in best.hypothesis.names:
+            return
+        menu = [one for one in offered(self.data, self.where, self.seen, [], best) if one.cause.name == UNKNOWN]
+        self._fit_best(menu, self._screened(menu, [best], None), 0, best.score - self.budget.pair_near)

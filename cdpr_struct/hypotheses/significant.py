@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from scipy.special import gammaln, hyp0f1, ive, logsumexp
 
-from cdpr_struct.hypotheses.alternatives import Offered
+from cdpr_struct.hypotheses.alternatives import Offered, of_pattern
 from cdpr_struct.hypotheses.detectable import noncentrality
 from cdpr_struct.hypotheses.hypothesis import SCALES
 from cdpr_struct.hypotheses.judge import Judged
@@ -65,12 +65,12 @@ def _of_cause(cause: Offered, gram: np.ndarray, scores: np.ndarray) -> np.ndarra
 def _of_patterns(cause: Offered, gram: np.ndarray, scores: np.ndarray) -> Iterator[tuple[np.ndarray, float]]:
     """(k,) of each pattern that shows, and its weight."""
     for pattern in cause.patterns:
-        basis = pattern.basis * pattern.prior
-        values, vectors = np.linalg.eigh(basis.T @ gram @ basis)
+        own_gram, own_scores = of_pattern(pattern, gram, scores)
+        values, vectors = np.linalg.eigh(own_gram)
         shown = SCALES[-1] ** 2 * values > 1.0  # by a sigma, where it is as large as is considered
         if not shown.any():
             continue
-        along = (vectors[:, shown].T @ (basis.T @ scores)) / np.sqrt(values[shown])[:, None]
+        along = (vectors[:, shown].T @ own_scores) / np.sqrt(values[shown])[:, None]
         one_sided = len(pattern.prior) == 1 and bool(pattern.positive[0])
         if one_sided:
             along = along * np.sign(vectors[0, 0])

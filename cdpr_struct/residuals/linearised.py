@@ -20,6 +20,32 @@ from cdpr_struct.residuals.tolerances import tolerance_count, tolerated
 from cdpr_struct.residuals.vibrations import Vibrating
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Outside:
+    """Columns -dR/dz of what is no change of the robot: static (S, 6 + m, d), of single cables' ln f (r, d).
+
+    Peaks of the robot are left out: a reading changes them little, and other points have other modes.
+    """
+
+    static: np.ndarray
+    cables: np.ndarray
+
+    @classmethod
+    def joined(cls, parts: Sequence["Outside"]) -> "Outside":
+        """Columns side by side."""
+        return cls(*(np.concatenate([getattr(p, f.name) for p in parts], axis=-1) for f in fields(cls)))
+
+    @property
+    def count(self) -> int:
+        """d"""
+        return int(self.static.shape[-1])
+
+    def times(self, sigma: np.ndarray) -> "Outside":
+        """Columns times factors (d,)."""
+        return Outside(self.static * sigma, self.cables * sigma)
+
+
 Change = Callable[[RobotArrays, np.ndarray], RobotArrays]
 _KEPT = 16  # points whose model is kept: those of the hypotheses that a search goes back to
 _STEP = 0.05  # of a sigma, of differences: the residuals are smooth, and all but straight so near
@@ -29,19 +55,18 @@ _STEP = 0.05  # of a sigma, of differences: the residuals are smooth, and all bu
 class Term:
     """A change of the robot by numbers theta0 = basis @ (sigma * z), z (d,) standard normal under its prior.
 
-    columns (S, 6 + m, d) : of a law outside the model instead, -dR/dz as it stands; it changes no robot
+    columns : of a law outside the model instead, -dR/dz as it stands; it changes no robot
     """
 
     change: Change
     basis: np.ndarray
     sigma: np.ndarray
-    columns: np.ndarray | None = None
+    columns: Outside | None = None
 
     @classmethod
-    def outside(cls, columns: np.ndarray) -> "Term":
+    def outside(cls, columns: Outside) -> "Term":
         """A law outside the model."""
-        count = columns.shape[-1]
-        return cls(_nothing, np.eye(count), np.ones(count), columns)
+        return cls(_nothing, np.eye(columns.count), np.ones(columns.count), columns)
 
     def applied(self, arrays: RobotArrays, z: np.ndarray) -> RobotArrays:
         """The robot with z (..., 1, d) put in; the axes before d are batch and states of its fields."""
@@ -129,6 +154,10 @@ class Rows:
         d = columns.shape[-1]
         return Rows(columns, *(np.zeros((*part.shape, d)) for part in (self.cables, self.robot, self.sizes)))
 
+    def of_outside(self, columns: Outside) -> "Rows":
+        """Columns of what is no change of the robot, in the form of these residuals."""
+        return replace(self.only_static(columns.static), cables=columns.cables)
+
 
 @dataclass(frozen=True, eq=False)
 class Local:
@@ -169,13 +198,31 @@ class Local:
     def columns(self, term: Term) -> Rows:
         """-dR/dz of one more term, from zero."""
         if term.columns is not None:
-            return self.r.only_static(term.columns)
+            return self.r.of_outside(term.columns)
         moved = term.applied(self.arrays, _STEP * np.eye(len(term.sigma))[:, None, :])
         return self._slope(moved, self.point.readings(self.data), len(term.sigma))
 
-    def of_three(self, change: Change, step: float) -> np.ndarray:
-        """-dR (S, 6 + m, 3) of the static rows by each of three numbers of a change, a unit."""
-        return self.columns(Term(change, np.eye(3), np.full(3, step))).static / step
+    def of_three(self, change: Change, step: float) -> Outside:
+        """-dR by each of three numbers of a change, a unit."""
+        found = self.columns(Term(change, np.eye(3), np.full(3, step)))
+        return Outside(found.static / step, found.cables / step)
+
+    def of_reading(self, which: slice) -> Outside:
+        """-dR by some readings (d of 6 + 2 m) of each row's own state, a unit; zero of those that nobody read."""
+        unit = np.where(self.data.read, 1.0 / self.data.sigma, 0.0)[:, which]
+        static = self.by_noise.static[..., which] * unit[:, None]
+        return Outside(static, self.by_noise.cables[..., which] * unit[self.states_of_cables])
+
+    def noisy_static(self) -> np.ndarray:
+        """(S, 6 + m) static residuals with the noise of the point put back, its robot as it is."""
+        return self.r.static + np.einsum("srj,sj->sr", self.by_noise.static, self.point.noise)
+
+    @property
+    def states_of_cables(self) -> np.ndarray:
+        """(r,) state of each frequency of a single cable."""
+        if self.vibrating is None:
+            return np.zeros(0, dtype=int)
+        return np.asarray(self.vibrating.measured.states[self.vibrating.measured.rows.state])
 
     @cached_property
     def own_columns(self) -> Rows:
@@ -183,7 +230,7 @@ class Local:
         parts, readings = [], self.point.readings(self.data)
         for i, term in enumerate(self.point.terms):
             if term.columns is not None:
-                parts.append(self.r.only_static(term.columns))
+                parts.append(self.r.of_outside(term.columns))
                 continue
             arrays = self.data.arrays
             for j, (other, z) in enumerate(zip(self.point.terms, self.point.z, strict=True)):

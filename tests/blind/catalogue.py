@@ -93,7 +93,33 @@ UNSEEN = {
     )
 }
 
-BEYOND = {**OUTSIDE, **UNSEEN}  # what no cause of the library explains
+OUTSIDE_DEV = {
+    effect.name: effect
+    for effect in (
+        Effect("gusts", "N, rms an axis", ("common",), signed=False),
+        Effect("cell_tilt", "N at 0.1 rad", ("common",)),
+        Effect("anchor_settling", "m", ("common",), signed=False),
+        Effect("tracker_shear", "m at 3 m", ("common",)),
+        Effect("encoder_quadratic", "m at 3 m", ("common",)),
+        Effect("floor_magnet", "N at 1 m", ("common",), signed=False),
+    )
+}
+
+OUTSIDE_HELD = {
+    effect.name: effect
+    for effect in (
+        Effect("cell_fading", "ratio - 1 at the end", ("common",)),
+        Effect("noon_frame", "m", ("common",)),
+        Effect("tracker_heading", "rad at 3 m", ("common",)),
+        Effect("second_layer", "m", ("common",)),
+        Effect("clamp_slip", "m", ("common",), signed=False),
+        Effect("cubic_hose", "N at 1 m", ("common",), signed=False),
+    )
+}
+
+STATIC_OUTSIDE = {**OUTSIDE_DEV, **OUTSIDE_HELD}  # of sets without frequencies
+
+BEYOND = {**OUTSIDE, **UNSEEN, **STATIC_OUTSIDE}  # what no cause of the library explains
 
 HANDLING = ("swapped_channels", "unit_error", "sign_error", "pose_mismatch")
 STATICS_ONLY = ("platform_mass",)  # filed without robot frequencies; weighing the platform separates

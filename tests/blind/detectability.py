@@ -44,13 +44,15 @@ CELL_FIELDS = (
     "cell_quadratic",
     "cell_crosstalk",
     "cell_settling",
+    "cell_tilt",
+    "cell_fading",
 )
-SENSOR_FIELDS = ("tracker_frame", "tracker_lens", *CELL_FIELDS)
+SENSOR_FIELDS = ("tracker_frame", "tracker_lens", "tracker_shear", "tracker_heading", *CELL_FIELDS)
 STEPS = {"temperature": 0.3, "external_force": 0.3, "hose_stiffness": 0.3, "internal_force": 0.3, "dead_length": 0.02}
 STEPS |= {"platform_mass": 0.03, "joint_mass": 0.005, "joint_compliance": 3e-8, "frame_compliance": 3e-8}
 STEPS |= {"axial_stiffness": 3e-3, "cable_linear_density": 3e-3, "platform_inertia": 5e-3, "wind_gradient": 0.1}
 STEPS |= {"drum_scale": 5e-6, "cable_warming": 0.3, "construction_stretch": 5e-6, "tool_balancer": 0.3}
-STEPS |= {"hook_offset": 1e-3}
+STEPS |= {"hook_offset": 1e-3, "gusts": 0.3, "floor_magnet": 0.3, "cubic_hose": 0.3}
 STEP = 5e-5  # all others: m, rad, ratios
 
 

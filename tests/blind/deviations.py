@@ -53,6 +53,19 @@ NUMBERS_PER_ROBOT = {
     "tool_balancer": 1,  # N, a line of constant force towards a hook above the platform
     "hook_offset": 2,  # m, x y of the platform: the payload hangs beside the origin
     "cell_settling": 1,  # share of the last state's reading that is still in this one
+    # outside the library, of sets without frequencies
+    "gusts": 1,  # N, a force that is drawn anew at every state
+    "cell_tilt": 1,  # N at 0.1 rad of platform tilt, cells in turn with and against it
+    "anchor_settling": 1,  # m by which the first two exits sink, most of it early in the campaign
+    "tracker_shear": 1,  # m in x at 3 m in y
+    "encoder_quadratic": 1,  # m of cable at 3 m from the middle of the drum, with the square of that distance
+    "floor_magnet": 1,  # N at 1 m, pulls down to a place on the floor with the inverse square of the distance
+    "cell_fading": 1,  # ratio - 1 of all cells at the last state, nothing at the first
+    "noon_frame": 1,  # m by which exits at 5 m from the middle are farther out at noon, half way through the campaign
+    "tracker_heading": 1,  # rad about the vertical that the tracker adds at 3 m in x
+    "second_layer": 1,  # m that a drum pays out more beyond 6 m of cable, where its rope lies in one layer
+    "clamp_slip": 1,  # m by which the third cable is longer in the later half of the campaign
+    "cubic_hose": 1,  # N at 1 m from home, with the cube of that distance
 }
 
 

@@ -23,6 +23,7 @@ POSE = ["x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"]
 COLOUR = 0.7  # correlation of one reading with the next in coloured noise
 OUTLIER = 7.0  # sigma
 PICTURE = 3.0  # m, from the middle of the tracker's picture, where its lens error is given
+TILT = 0.1  # rad, where the cells' error with the platform's tilt is given
 TAILS = 3.0  # degrees of freedom of `student` noise
 
 Tables = dict[str, pd.DataFrame]
@@ -63,6 +64,9 @@ def cell_readings(deviations: Deviations, command: Command, rest: Rest) -> np.nd
     pulled = rest.tensions * np.exp(drag)
     pulled = pulled + deviations["cell_crosstalk"] * np.roll(pulled, -1)
     pulled = pulled + deviations["cell_quadratic"] * (pulled / 300.0) ** 2
+    turns = np.where(np.arange(len(pulled)) % 2, -1.0, 1.0)
+    pulled = pulled + deviations["cell_tilt"] * turns * rest.rotation[2, 0] / TILT
+    pulled = pulled * (1.0 + deviations["cell_fading"] * command.day)
     return np.asarray(pulled * (1.0 + deviations["load_cell_gain"]) + deviations["load_cell_bias"])
 
 
@@ -80,7 +84,9 @@ def pose_readings(deviations: Deviations, rest: Rest) -> np.ndarray:
     shift, turn = deviations["tracker_frame"][:3], Rotation.from_rotvec(deviations["tracker_frame"][3:]).as_matrix()
     aside = np.array([*rest.position[:2], 0.0]) / PICTURE
     bent = rest.position + deviations["tracker_lens"] * float(aside @ aside) * aside
-    return np.concatenate([turn @ bent + shift, angles_deg(turn @ rest.rotation)])
+    bent = bent + deviations["tracker_shear"] * aside[1] * np.array([1.0, 0.0, 0.0])
+    added = Rotation.from_rotvec([0.0, 0.0, float(deviations["tracker_heading"][0]) * aside[0]]).as_matrix()
+    return np.concatenate([turn @ bent + shift, angles_deg(turn @ added @ rest.rotation)])
 
 
 def noisy_pose(deviations: Deviations, rest: Rest, noise: Noise) -> np.ndarray:

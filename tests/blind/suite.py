@@ -6,12 +6,13 @@ import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from tests.blind.case_drawing import CaseKind
-from tests.blind.catalogue import EQUIVALENT, HANDLING, LIBRARY, OUTSIDE, UNSEEN
+from tests.blind.catalogue import EQUIVALENT, HANDLING, LIBRARY, OUTSIDE, OUTSIDE_DEV, OUTSIDE_HELD, UNSEEN
 
 FULL = {"null": 40, "single": 80, "pair": 24, "ambiguous": 20, "outside": 20, "handling": 16}
 CI = {"null": 3, "single": 3, "pair": 1, "ambiguous": 2, "outside": 2, "handling": 1}
@@ -22,6 +23,7 @@ NULLS = 0.6  # share of nulls in a set of rates; the rest is just detectable
 SET_SEEDS = {"dev": 20_101, "ci": 20_102, "unseen": 20_103, "rates": 20_104}
 SET_SEEDS |= {"messy": 31_201, "peaks": 31_202, "sizes": 31_203}
 SET_SEEDS |= {"messy-dev": 31_301, "peaks-dev": 31_302, "sizes-dev": 31_303}
+SET_SEEDS |= {"outside-dev": 31_401, "outside-held": 31_402}
 USES = Path(__file__).with_name("final_uses.json")
 
 
@@ -52,6 +54,8 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
     special = {
         "ci": CI,
         "unseen": {"unseen": total},
+        "outside-dev": {"outside_dev": total},
+        "outside-held": {"outside_held": total},
         "rates": {"null": nulls, "just": total - nulls},
         "final-rates": counts(total, FINAL_RATES),
     }
@@ -65,6 +69,8 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
         "outside": _outside,
         "handling": _handling,
         "unseen": _unseen,
+        "outside_dev": partial(_static_outside, [*OUTSIDE_DEV]),
+        "outside_held": partial(_static_outside, [*OUTSIDE_HELD]),
     }
     kinds = [kind for key, maker in makers.items() if key in numbers for kind in maker(numbers[key], rng)]
     return [kinds[index] for index in rng.permutation(len(kinds))]
@@ -108,6 +114,10 @@ def _outside(count: int, rng: np.random.Generator) -> list[CaseKind]:
 
 def _unseen(count: int, rng: np.random.Generator) -> list[CaseKind]:
     return [CaseKind("outside", ((name, CLEAR),)) for name in _dealt([*UNSEEN], count, rng)]
+
+
+def _static_outside(names: Sequence[str], count: int, rng: np.random.Generator) -> list[CaseKind]:
+    return [CaseKind("outside", ((name, CLEAR),), statics=True) for name in _dealt(names, count, rng)]
 
 
 def _handling(count: int, rng: np.random.Generator) -> list[CaseKind]:

@@ -20,6 +20,11 @@ HINGE_TILT = 0.05  # rad, over which the hinge tips
 BEDDED = 300.0  # N, over which the wires of a rope bed down
 JOINT_RADIUS = 0.03  # m, a joint is a ball of it
 HOOK = np.array([1.0, -0.5, 2.5])  # m from home, of the balancer's line
+MAGNET = np.array([0.8, 0.5, -2.0])  # m from home, of the place on the floor
+MIDDLE, REACH, CHANGE = 6.0, 3.0, 0.2  # m: of a drum, from there, and along which it changes its layer
+SETTLING_DAY = 0.2  # share of the campaign in which settling exits sink by all but 1 / e
+FRAME_REACH = 5.0  # m
+DAYS = 10_000  # moments of a campaign, each with a gust of its own
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +51,9 @@ def true_lengths(deviations: Deviations, command: Command) -> np.ndarray:
     wanted, phases = command.lengths, 0.7 * np.arange(len(command.lengths))
     eccentric = deviations["drum_eccentricity"] * np.sin(2.0 * np.pi * wanted / DRUM_CIRCUMFERENCE + phases)
     paid = wanted + deviations["unstrained_length_offset"] + eccentric + deviations["backlash"] * command.approach
+    paid = paid + deviations["encoder_quadratic"] * ((wanted - MIDDLE) / REACH) ** 2
+    paid = paid + deviations["second_layer"] * 0.5 * (1.0 + np.tanh((wanted - MIDDLE) / CHANGE))
+    paid = paid + deviations["clamp_slip"] * (np.arange(len(wanted)) == 2) * (command.day > 0.5)
     warmed = 1.0 + EXPANSION * deviations["cable_warming"] * command.day
     scale = (1.0 + deviations["drum_scale"]) * warmed
     return np.asarray(paid * scale * (1.0 + EXPANSION * deviations["temperature"]))
@@ -111,13 +119,26 @@ def true_gravity(robot: EnteredRobot, deviations: Deviations) -> np.ndarray:
     return np.asarray(tilt.apply([0.0, 0.0, -robot.gravity]))
 
 
-def placed_force(robot: EnteredRobot, deviations: Deviations, position: np.ndarray) -> PointForce | None:
-    """Force on the platform at its origin when it stands at a position."""
+def moved_exits(robot: EnteredRobot, deviations: Deviations, day: float) -> np.ndarray:
+    """By how much the exits (m, 3) [m] have moved at a share of the campaign: where they sink, and in the sun."""
+    shift = deviations["noon_frame"] * np.sin(np.pi * day) * (robot.frame_anchors - robot.home) / FRAME_REACH
+    shift[:2, 2] -= deviations["anchor_settling"] * (1.0 - np.exp(-day / SETTLING_DAY))
+    return np.asarray(shift)
+
+
+def placed_force(
+    robot: EnteredRobot, deviations: Deviations, position: np.ndarray, day: float = 0.0
+) -> PointForce | None:
+    """Force on the platform at its origin when it stands at a position, at a share of the campaign."""
     away = position - robot.home
     force = deviations["external_force"] - deviations["hose_stiffness"] * away
     force = force + deviations["wind_gradient"] * float(away[:2] @ away[:2])
     line = robot.home + HOOK - position
     force = force + deviations["tool_balancer"] * line / np.linalg.norm(line)
+    to_floor = robot.home + MAGNET - position
+    force = force + deviations["floor_magnet"] * to_floor / np.linalg.norm(to_floor) ** 3
+    force = force - deviations["cubic_hose"] * float(away @ away) * away
+    force = force + deviations["gusts"] * np.random.default_rng(round(DAYS * day)).standard_normal(3)
     return PointForce(force) if np.any(force) else None
 
 
@@ -144,6 +165,7 @@ def true_robot(
     about = np.zeros(robot.cables) if tensions is None else tensions
     warmth = 1.0 + EXPANSION * deviations["temperature"]
     anchors = (robot.frame_anchors + _offsets(deviations, "frame")) * warmth + yielded
+    anchors = anchors + moved_exits(robot, deviations, command.day)
     pulleys: tuple[PulleyData, ...] = ()
     if robot.pulley_radius is not None:
         pulleys = tuple(PulleyData(float(robot.pulley_radius + d), UP) for d in deviations["pulley_radius"])
@@ -174,7 +196,7 @@ def at_rest(robot: EnteredRobot, deviations: Deviations, command: Command, eleme
     yielded, tensions, masts = np.zeros_like(robot.frame_anchors), np.zeros(robot.cables), Settling()
     for _ in range(ROUNDS):
         data = true_robot(robot, deviations, command, rotation, yielded, tensions)
-        force = placed_force(robot, deviations, position)
+        force = placed_force(robot, deviations, position, command.day)
         equilibrium = solve_robot(data, position, rotation, elements, external_force=force)
         shift = mast_yield(robot, deviations, equilibrium)
         moved = np.abs(equilibrium.position - position).max() + np.abs(equilibrium.rotation - rotation).max()
@@ -190,7 +212,7 @@ def at_rest(robot: EnteredRobot, deviations: Deviations, command: Command, eleme
 
 
 def _depends_on_pose(deviations: Deviations) -> bool:
-    forces = ("hose_stiffness", "wind_gradient", "tool_balancer")
+    forces = ("hose_stiffness", "wind_gradient", "tool_balancer", "floor_magnet", "cubic_hose")
     return any(
         np.any(deviations[name]) for name in (*forces, "platform_hinge", "frame_compliance", "construction_stretch")
     )

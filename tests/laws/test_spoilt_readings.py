@@ -48,4 +48,4 @@ def test_a_cell_that_is_not_linear_is_not_told_as_gain_and_zero():
     tension = sound().states.tension
     said = diagnosed(reading(tension + 15.0 * (tension / 300.0) ** 2))
     assert said.decision.status == "unknown"
-    assert "an error of the load cells other than gain and zero" in said.outside[0]
+    assert "an error of the load cells" in said.outside[0]

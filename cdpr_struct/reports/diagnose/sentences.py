@@ -127,6 +127,12 @@ def _standing(found: Diagnosis) -> str:
 def _unknown(found: Diagnosis) -> list[str]:
     """What no cause explains: where it is, what comes nearest, through what it acts."""
     parts = [f"There is a significant error in {place(found.location)}, and no cause in the library explains it."]
+    pile = found.piled_up
+    if pile is not None:
+        parts.append(
+            f"{pile.outliers} of {pile.readings} {pile.kind} readings of cable {pile.cable + 1} are outliers, and few "
+            "of the other cables: this sensor or this cable has an error of its own."
+        )
     if found.correction is not None:
         parts.append(f"A correction of the data ({found.correction.sentence}) accounts for part of it only.")
     best = next((one for one in found.candidates if one.has_size), None)
