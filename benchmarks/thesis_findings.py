@@ -42,7 +42,7 @@ def where_table_4_4_fails() -> str:
     for column, label in (("measured_N", "measured"), ("thesis_simulation_N", "thesis's simulation")):
         data = recorded(_with_column(example("table-4-4/campaign"), column))
         local = Local.about(data, Point.entered(data))
-        causes = np.concatenate([local.by_noise().static, local.columns(tolerance_term(data)).static], axis=-1)
+        causes = np.concatenate([local.by_noise.static, local.columns(tolerance_term(data)).static], axis=-1)
         off = data.campaign.states.tension - _ours(data)
         for i, name in enumerate(data.campaign.states.names):
             left, spread, null = local.r.static[i], causes[i], 1e3 * _null(data, i).T
