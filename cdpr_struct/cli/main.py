@@ -89,7 +89,8 @@ def run(arguments: list[str] | None) -> int:
     """Run one command and return its exit code."""
     try:
         typed = sys.argv[1:] if arguments is None else arguments
-        code = int(app(args=typed, prog_name="cdpr-struct", standalone_mode=False, obj=tuple(typed)) or 0)
+        with interruption.stopped_in_order():
+            code = int(app(args=typed, prog_name="cdpr-struct", standalone_mode=False, obj=tuple(typed)) or 0)
         return _fail(code, "interrupted; nothing was written") if code == interruption.CODE else code
     except TyperException as error:
         return _fail(2, _complaint(error))

@@ -1,5 +1,7 @@
 """Running a sweep from the command line: executor, progress bar, checkpoint."""
 
+from collections.abc import Callable
+from concurrent.futures import BrokenExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -7,30 +9,57 @@ from cdpr_struct.cli.checkpoint import Checkpoint
 from cdpr_struct.cli.executors import executor
 from cdpr_struct.cli.interruption import Interrupted
 from cdpr_struct.cli.output import Output
+from cdpr_struct.errors import CdprError
 
 if TYPE_CHECKING:
     from cdpr_struct.workspace.quantities import Columns
     from cdpr_struct.workspace.sweep import Sweep
+
+_LIVES = 3  # pools of workers that one run may use up
 
 
 def run_sweep(sweep: "Sweep", workers: int, scheduler: str | None, output: Output) -> "tuple[Columns, int]":
     """Columns over the grid, and how many chunks came from an earlier, interrupted run in the same directory."""
     store = None if output.directory is None else Checkpoint(output.directory, sweep.fingerprint)
     known = {} if store is None else store.chunks(sweep.chunks)
-    left = sweep.chunks - len(known)
-    with executor(workers, scheduler) as pool, output.steps(left) as begin:
+    resumed = len(known)
+    with output.steps(sweep.chunks - resumed) as begin:
         begin(f"{sweep.grid.size} poses")
 
         def finished(number: int, columns: "Columns") -> None:
+            known[number] = columns
             if store is not None:
                 store.keep(number, columns)
             begin(f"{sweep.grid.size} poses")
 
         try:
-            columns = sweep.run(pool, known, finished)
+            return _run(sweep, workers, scheduler, known, finished), resumed
         except KeyboardInterrupt as stop:
             raise Interrupted(_what_is_kept(store, sweep)) from stop
-    return columns, len(known)
+
+
+def _run(
+    sweep: "Sweep",
+    workers: int,
+    scheduler: str | None,
+    known: "dict[int, Columns]",
+    finished: "Callable[[int, Columns], None]",
+) -> "Columns":
+    """Columns over the grid. Where a worker dies, what `known` does not hold by then is given to new ones.
+
+    Raises
+    ------
+    CdprError : workers died again and again.
+    """
+    for _ in range(_LIVES):
+        with executor(workers, scheduler) as pool:
+            try:
+                return sweep.run(pool, dict(known), finished)
+            except BrokenExecutor:
+                continue
+    raise CdprError(
+        f"worker processes were ended from outside {_LIVES} times (is there enough memory?); give fewer --workers"
+    )
 
 
 def clear_checkpoint(sweep: "Sweep", directory: Path | None) -> None:

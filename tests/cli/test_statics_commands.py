@@ -1,10 +1,12 @@
 """forward, pose-error, map: what they print, what they write, and how a map survives an interruption."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import BrokenExecutor
 from pathlib import Path
 
 import numpy as np
@@ -216,25 +218,78 @@ def test_a_torn_checkpoint_file_is_computed_again(tmp_path):
     assert list(store.chunks(5)) == [0]
 
 
-@pytest.mark.slow
-def test_a_killed_map_continues(tmp_path):
-    """SIGINT from outside, as a user presses it."""
-    command = [sys.executable, "-c", "from cdpr_struct.cli.main import main; main()", "map", "six-cable-8mm"]
-    command += ["--grid=-3:3:61,-3:3:61,0.5", "--quantity", "tension-max", "--chunk", "64", "--out", str(tmp_path)]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+LONG = ["map", "six-cable-8mm", "--grid=-3:3:41,-3:3:41,0.5", "--quantity", "tension-max", "--chunk", "64"]
+
+
+def started(*more: str) -> subprocess.Popen[str]:
+    """A long map in a process of its own."""
+    program = [sys.executable, "-c", "from cdpr_struct.cli.main import main; main()"]
+    return subprocess.Popen([*program, *LONG, *more], stderr=subprocess.PIPE, text=True)
+
+
+def wait_for(condition) -> None:
     deadline = time.monotonic() + 60.0
-    while len(list(Path(tmp_path).glob(".checkpoint-*/chunk-*"))) < 2 and time.monotonic() < deadline:
-        time.sleep(0.1)
-    process.send_signal(signal.SIGINT)
+    while not condition():
+        assert time.monotonic() < deadline, "nothing happened within a minute"
+        time.sleep(0.02)
+
+
+def chunks_kept(directory: Path) -> int:
+    return len(list(directory.glob(".checkpoint-*/chunk-*")))
+
+
+def workers_of(process: int) -> list[int]:
+    """Process numbers of the spawned workers of a process."""
+    children = Path(f"/proc/{process}/task/{process}/children")
+    found = [int(word) for word in children.read_text().split()] if children.exists() else []
+    return [n for n in found if b"spawn_main" in Path(f"/proc/{n}/cmdline").read_bytes()]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_stopped_map_keeps_its_chunks_and_ends_its_workers(tmp_path, number):
+    """Ctrl-C, or a request to end as batch systems send it."""
+    process = started("--workers", "2", "--out", str(tmp_path))
+    wait_for(lambda: chunks_kept(tmp_path) >= 2)
+    workers = workers_of(process.pid)
+    assert len(workers) == 2
+    process.send_signal(number)
     assert "the same command continues" in process.communicate(timeout=60)[1]
     assert process.returncode == 130
+    assert not any(Path(f"/proc/{worker}").exists() for worker in workers)
 
 
-def test_a_dask_cluster_does_the_same(tmp_path):
+def test_a_killed_worker_costs_nothing_but_time(tmp_path):
+    clean, torn = tmp_path / "clean", tmp_path / "torn"
+    assert run([*LONG, "--out", str(clean)]) == 0
+    process = started("--workers", "2", "--out", str(torn))
+    wait_for(lambda: chunks_kept(torn) >= 2)
+    os.kill(workers_of(process.pid)[0], signal.SIGKILL)
+    assert process.communicate(timeout=120)[1].count("Traceback") == 0
+    assert process.returncode == 0
+    assert (torn / "map.csv").read_text() == (clean / "map.csv").read_text()
+
+
+def test_workers_that_die_again_and_again_are_told(monkeypatch, capsys):
+    def broken(*arguments):
+        raise BrokenExecutor
+
+    monkeypatch.setattr(sweep.Sweep, "run", broken)
+    assert run(MAP) == 1
+    assert "worker processes were ended from outside 3 times" in capsys.readouterr().err
+
+
+def test_a_dask_cluster_of_processes_does_the_same_though_a_worker_is_killed(tmp_path):
+    """Two worker processes on this machine; the scheduler gives the work of the one that is killed to the other."""
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None
-    ) as cluster:
-        assert run([*MAP, "--scheduler", cluster.scheduler_address, "--out", str(tmp_path / "dask")]) == 0
-    assert run([*MAP, "--out", str(tmp_path / "here")]) == 0
-    assert (tmp_path / "dask" / "map.csv").read_text() == (tmp_path / "here" / "map.csv").read_text()
+    here, there = tmp_path / "here", tmp_path / "there"
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        process = started("--scheduler", cluster.scheduler_address, "--out", str(there))
+        wait_for(lambda: chunks_kept(there) >= 2)
+        os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
+        process.communicate(timeout=120)
+    assert process.returncode == 0
+    assert run([*LONG, "--out", str(here)]) == 0
+    assert (there / "map.csv").read_text() == (here / "map.csv").read_text()
