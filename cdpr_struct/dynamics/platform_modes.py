@@ -19,10 +19,15 @@ _SEEN = 0.85  # of the eliminated motions' lowest squared frequency: so far mode
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlatformMode:
-    """Squared frequency (n,) of the mode most like a motion of the platform, nan where it is not proved; and about the
-    squared first frequency (n,), nan where even that is not known."""
+    """The mode most like a motion of the platform, at n poses.
+
+    squared : (n,) its squared frequency, nan where it is not proved
+    share   : (n,) of that motion that it holds, by kinetic energy [-]; the rest is in other modes
+    first   : (n,) about the squared first frequency of all modes, nan where even that is not known
+    """
 
     squared: np.ndarray
+    share: np.ndarray
     first: np.ndarray
 
 
@@ -33,19 +38,18 @@ def platform_mode(batch: Batch, massless: np.ndarray, momentum: np.ndarray, amon
     momentum : (n, 6) platform mass times that motion, of unit modal mass
     """
     n = len(massless)
-    found, first = np.full(n, np.nan), np.full(n, np.nan)
+    found, share, first = (np.full(n, np.nan) for _ in range(3))
     ratio = massless / batch.lowest_string
     for leads, most in _ATTEMPTS:
         todo = np.flatnonzero(~np.isfinite(found) & (ratio < most))
         for own in pieces(todo):
             wanted = massless[own], momentum[own]
-            found[own], first[own] = _most_alike(batch.take(own), wanted, leads, among)
-    return PlatformMode(found, first)
+            best = _most_alike(batch.take(own), wanted, leads, among)
+            found[own], share[own], first[own] = best.squared, best.share, best.first
+    return PlatformMode(found, share, first)
 
 
-def _most_alike(
-    batch: Batch, wanted: tuple[np.ndarray, np.ndarray], leads: int, among: int
-) -> tuple[np.ndarray, np.ndarray]:
+def _most_alike(batch: Batch, wanted: tuple[np.ndarray, np.ndarray], leads: int, among: int) -> PlatformMode:
     massless, momentum = wanted
     string = batch.lowest_string
     shift = np.minimum(_PAST * massless, REACH * (leads + 1) ** 2 * string)
@@ -55,13 +59,16 @@ def _most_alike(
     chosen, sure = _window(small, (d, vectors), momentum, among)
     values, shapes = np.take_along_axis(d, chosen, axis=1), np.take_along_axis(vectors, chosen[:, None], axis=2)
     squared, motion = corrected(batch.platform, own, small, values, shapes)
-    best = (np.einsum("ni,nis->ns", momentum, motion) ** 2).argmax(axis=1)[:, None]
+    alike = np.einsum("ni,nis->ns", momentum, motion) ** 2
+    best = alike.argmax(axis=1)[:, None]
     rank = np.take_along_axis(chosen, best, axis=1)[:, 0]
     found = np.take_along_axis(squared, best, axis=1)[:, 0]
     above = least_below(batch.platform, own, shift, found * (1.0 + 2.0 * PROVED)) > rank
     below = most_below(batch.platform, own, shift, found * (1.0 - 2.0 * PROVED)) <= rank
-    known = shift < own.lowest
-    return np.where(sure & above & below, found, np.nan), np.where(known, squared[:, 0], np.nan)
+    proved = sure & above & below
+    share = np.take_along_axis(alike, best, axis=1)[:, 0]
+    first = np.where(shift < own.lowest, squared[:, 0], np.nan)
+    return PlatformMode(np.where(proved, found, np.nan), np.where(proved, share, np.nan), first)
 
 
 def _window(

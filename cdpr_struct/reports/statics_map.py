@@ -52,8 +52,15 @@ def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str,
         "mean": float(np.nanmean(value)) if some else None,
         **ends,
         "slack_poses": len(slack_poses(columns)),
+        **({"shared_poses": int(shared(name, columns).sum())} if quantity.shared else {}),
         "warnings": slack_warnings(robot, grid, columns, released=name.startswith("pose-error")),
     }
+
+
+def shared(name: str, columns: Columns) -> np.ndarray:
+    """(n,) bool: what the quantity describes is shared by modes of which none holds most."""
+    column = QUANTITIES[name].shared
+    return columns[column] < 0.5 if column else np.zeros(len(columns["held"]), dtype=bool)
 
 
 def slack_poses(columns: Columns) -> np.ndarray:
@@ -117,6 +124,8 @@ def map_sentence(result: Mapping[str, Any]) -> str:
         return f"{label[0].upper()}{label[1:]} at {at[0]}: {low['value']:.4g} {result['unit']}."
     missing = {"cannot be held": result["poses"] - result["held"], "would not be stable": result["unstable"]}
     held = "".join(f" {n} pose{'s' if n > 1 else ''} {what}." for what, n in missing.items() if n)
+    if several := result.get("shared_poses"):
+        held += f" At {several} of {result['poses']} poses modes veer: none holds half of the platform's motion."
     return (
         f"{label[0].upper()}{label[1:]}: {low['value']:.4g} {result['unit']} at {at[0]} to {high['value']:.4g} "
         f"{result['unit']} at {at[1]}, {result['mean']:.4g} {result['unit']} on average.{held}"
@@ -145,8 +154,11 @@ def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
     from cdpr_struct.reports.figures import style, workspace_map, workspace_slices
 
     quantity, value = QUANTITIES[name], map_values(name, columns)
-    marked = columns.get("more_stable_pose", np.zeros(grid.size, bool))
-    layer = workspace_map.Layer(quantity.label, quantity.unit, value, marked, signed=name.startswith("pose-error"))
+    marked, mark = columns.get("more_stable_pose"), workspace_map.OTHER
+    if marked is None:
+        marked, mark = shared(name, columns), "no mode holds half of the platform's motion"
+    signed = name.startswith("pose-error")
+    layer = workspace_map.Layer(quantity.label, quantity.unit, value, marked, signed, mark)
     solid = len(grid.free) == 3
     size = workspace_slices.slices_size(grid) if solid else workspace_map.map_size(grid)
     draw = workspace_slices.draw_slices if solid else workspace_map.draw_map

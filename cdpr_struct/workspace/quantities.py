@@ -17,7 +17,7 @@ from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.statics.static_stiffness import static_stiffness
-from cdpr_struct.workspace.vibration import first_frequencies
+from cdpr_struct.workspace.vibration import SHARE, first_frequencies
 
 Columns = dict[str, np.ndarray]
 
@@ -32,6 +32,7 @@ class Quantity:
     evaluate    : (robot, positions (n, 3) [m], rotation (3, 3)) -> columns of n values; `held` (bool) is False where
                   the pose cannot be held, and the quantity then is nan or does not count
     chunk       : poses that are best computed at once
+    shared      : column of the share of what the quantity describes, "" if it is never shared
     """
 
     label: str
@@ -40,6 +41,7 @@ class Quantity:
     column: str
     evaluate: Callable[[Robot, np.ndarray, np.ndarray], Columns]
     chunk: int = 256
+    shared: str = ""
 
 
 def evaluate(name: str, robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
@@ -170,6 +172,7 @@ QUANTITIES: dict[str, Quantity] = {
         "platform_Hz",
         first_frequencies,
         chunk=2048,
+        shared=SHARE,
     ),
     "tension-max": Quantity("largest tension", "N", "largest cable tension at the platform", "tension_max_N", tensions),
     "tension-min": Quantity(

@@ -15,6 +15,7 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.slack_cables import slack_count
 
+SHARE = "platform_share"
 AMONG = 60  # first modes of the robot, of which one is the platform's
 _CHUNK, _GENERAL_CHUNK = 2048, 32  # poses at once
 _ORDER = 24
@@ -27,9 +28,10 @@ def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray)
     """First frequencies [Hz] of the robot, its platform (also on massless cables) and each cable; exact catenaries.
 
     The platform's is that of the mode, of the first `AMONG`, whose platform motion is most like the platform's first
-    mode on massless cables: where cable modes come near, they share its energy. A cable's frequency is that with both
-    ends held. Minimum-norm tensions within the robot's force limits. nan where the platform is not held, or balanced
-    but not stable. slack_cables: number of cables that hang slack where it is held.
+    mode on massless cables. platform_share is the share of that motion which it holds: below one half, cable modes of
+    nearly the same frequency hold more of it together, and the frequency may step to another mode at the next pose. A
+    cable's frequency is that with both ends held. Minimum-norm tensions within the robot's force limits. nan where the
+    platform is not held, or balanced but not stable. slack_cables: number of cables that hang slack where it is held.
     """
     starts = range(0, max(len(positions), 1), _CHUNK)
     parts = [_of_chunk(robot, positions[start : start + _CHUNK], rotation) for start in starts]
@@ -46,13 +48,13 @@ def _of_chunk(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Colu
         stable = np.flatnonzero(massless > 0.0)
         found = _at_rest(poses_of(point, stable), massless[stable], momentum[stable])
         for name, values in found.items():
-            columns[name][held[stable]] = np.sqrt(values) / (2.0 * np.pi)
+            columns[name][held[stable]] = values if name == SHARE else np.sqrt(values) / (2.0 * np.pi)
     return {**columns, "slack_cables": slack_count(solution.cables, solution.held), "held": solution.held}
 
 
 def _names(robot: Robot) -> list[str]:
     cables = (f"cable_{i + 1}_Hz" for i in range(len(robot.cables)))
-    return ["first_Hz", "platform_Hz", "platform_massless_Hz", *cables]
+    return ["first_Hz", "platform_Hz", SHARE, "platform_massless_Hz", *cables]
 
 
 def _points(
@@ -76,7 +78,7 @@ def _first_static_mode(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> Columns:
-    """Squared frequencies by name at stable poses: the fast path's, and the general solver's where there are none."""
+    """Squared frequencies by name, and the share, at stable poses: the fast path's, else the general solver's."""
     names = _names(point.entered)
     found = {name: np.full(len(massless), np.nan) for name in names}
     found["platform_massless_Hz"] = massless
@@ -100,7 +102,7 @@ def _fast(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> 
         batch = whole.take(group)
         platform = platform_mode(batch, massless[group], momentum[group], AMONG)
         first = first_mode(batch, platform.first).squared
-        columns = {"first_Hz": first, "platform_Hz": platform.squared}
+        columns = {"first_Hz": first, "platform_Hz": platform.squared, SHARE: platform.share}
         columns |= _of_cables(lowest_clamped(batch.cables, batch.order))
         for name, values in columns.items():
             found.setdefault(name, np.full(len(massless), np.nan))[group] = values
@@ -115,8 +117,9 @@ def _general(point: OperatingPoint, momentum: np.ndarray) -> Columns:
     modes = ritz_modes(point, full.reduced(highest, factor=1.2), AMONG)
     moved = np.concatenate([modes.platform, modes.internal[..., None]], axis=-1)[..., : momentum.shape[-1]]
     alike = np.einsum("nki,ni->nk", moved, momentum) ** 2
-    of_platform = np.take_along_axis(modes.omega, alike.argmax(axis=-1)[:, None], axis=-1)[:, 0]
-    return {"first_Hz": modes.omega[:, 0] ** 2, "platform_Hz": of_platform**2} | _of_cables(clamped.T)
+    best = alike.argmax(axis=-1)[:, None]
+    omega, share = (np.take_along_axis(values, best, axis=-1)[:, 0] for values in (modes.omega, alike))
+    return {"first_Hz": modes.omega[:, 0] ** 2, "platform_Hz": omega**2, SHARE: share} | _of_cables(clamped.T)
 
 
 def _of_cables(squared: np.ndarray) -> Columns:

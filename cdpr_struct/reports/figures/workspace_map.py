@@ -31,6 +31,7 @@ class Layer:
     values      : (n,) over the grid; nan is hatched
     marked      : (n,) bool, poses that carry a mark
     signed      : zero means something: above it is red, below it blue
+    mark        : what the marks say
     """
 
     title: str
@@ -38,6 +39,7 @@ class Layer:
     values: np.ndarray
     marked: np.ndarray
     signed: bool = False
+    mark: str = OTHER
 
 
 def drawable(grid: Grid) -> bool:
@@ -131,8 +133,8 @@ def legend_handles(layers: list[Layer]) -> list[Patch | Line2D]:
     handles: list[Patch | Line2D] = []
     if any(np.isnan(layer.values).any() for layer in layers):
         handles.append(Patch(facecolor=LIGHT, edgecolor=GREY, hatch=_HATCH, linewidth=0, label=UNHELD))
-    if any(layer.marked.any() for layer in layers):
-        handles.append(Line2D([], [], color=BLACK, marker="^", markersize=4, linestyle="none", label=OTHER))
+    for mark in dict.fromkeys(layer.mark for layer in layers if layer.marked.any()):
+        handles.append(Line2D([], [], color=BLACK, marker="^", markersize=4, linestyle="none", label=mark))
     return handles
 
 
