@@ -218,8 +218,6 @@ def test_columns_of_a_map_are_those_of_the_general_solver(name, monkeypatch):
     assert ours.keys() == theirs.keys()
     for column, values in theirs.items():
         rounding = {"platform_Hz": MANY, SHARE: 1e-3}.get(column, FIRST)  # shapes err like roots of frequencies
-            column, FIRST
-        )  # shapes are as good as the root of frequencies
         np.testing.assert_allclose(ours[column], values, rtol=rounding)
 
 
