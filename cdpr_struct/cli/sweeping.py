@@ -49,7 +49,7 @@ def _run(
 
     Raises
     ------
-    CdprError : workers died again and again.
+    CdprError : workers died again and again, or a cluster gave up.
     """
     for _ in range(_LIVES):
         with executor(workers, scheduler) as pool:
@@ -57,6 +57,11 @@ def _run(
                 return sweep.run(pool, dict(known), finished)
             except BrokenExecutor:
                 continue
+            except Exception as error:
+                if type(error).__module__.partition(".")[0] != "distributed":
+                    raise
+                what = f"{type(error).__name__}: {error}".replace("\n", " ")
+                raise CdprError(f"the cluster of {scheduler} gave up ({what}); finished chunks are kept") from error
     raise CdprError(
         f"worker processes were ended from outside {_LIVES} times (is there enough memory?); give fewer --workers"
     )

@@ -65,7 +65,8 @@ def cable_dynamics(
 def polynomial_order(point: OperatingPoint, highest_omega: float, rough: bool = False) -> int:
     """Order of the polynomials with which "exact" is as accurate as `cable_dynamics` says."""
     half_waves = highest_omega / _first_frequency(point).min()
-    spare, least = (10.0, 14.0) if rough else (24.0, 32.0)
+    kinks = point.arrays.bending_stiffness.any() or point.arrays.added_mass.any()  # at clamped ends, at the mass
+    spare, least = (10.0, 14.0) if rough else (24.0, 32.0) if kinks else (16.0, 22.0)
     return int(np.clip(2.0 * half_waves + spare, least, 400.0))
 
 

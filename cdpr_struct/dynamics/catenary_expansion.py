@@ -12,10 +12,10 @@ slack cable bends sharply.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial import legendre
 
 from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
+from cdpr_struct.dynamics.polynomial_basis import curvatures, on_gauss_nodes, polynomial_basis
 from cdpr_struct.dynamics.stiff_cable import slenderness
 from cdpr_struct.statics.cable_state import CableStates
 
@@ -81,8 +81,7 @@ def expand_catenaries(
     """
     frame = _frame(cables)
     to_local = np.swapaxes(frame, -1, -2)
-    nodes, weights = legendre.leggauss(2 * order + 24)
-    values, slopes = polynomial_basis(nodes, order)
+    nodes, weights, values, slopes = on_gauss_nodes(order)
     coordinate = CatenaryCoordinate.of(cables)
     arc, rate = coordinate.arc(nodes)
     density = _stiffness_density(cables, arc)
@@ -95,7 +94,7 @@ def expand_catenaries(
     if extras is not None and extras.bending_stiffness.any():
         ends = 2.0 * slenderness(extras.bending_stiffness, cables.tension, cables.chord)
         density = _stiffness_density(cables, arc, (1.0 + ends + ends**2) ** 2)
-        bending = _curvatures(nodes, order), extras.bending_stiffness[:, None] * weights / rate**3
+        bending = curvatures(nodes, order), extras.bending_stiffness[:, None] * weights / rate**3
         across = _across(cables, arc)
     directions = None if frame_ends is None else to_local @ frame_ends.directions
     springs = None if frame_ends is None else frame_ends.stiffness
@@ -106,7 +105,7 @@ def expand_catenaries(
         if bending is not None:
             plane = across[..., components, :][..., components] * bending[1][..., None, None]
             stiffness = stiffness + np.moveaxis(_products(bending[0], np.moveaxis(plane, 1, -1)), (1, 2), (2, 4))
-        freedoms = _freedoms(order, len(components), directions)
+        freedoms = _Freedoms.of(order, len(components), directions)
         planes.append(_condense(components, stiffness, mass, freedoms, springs))
     found = ModalExpansion(
         frame=frame,
@@ -127,27 +126,9 @@ def _frame(cables: CableStates) -> np.ndarray:
     return np.stack([cables.heading, np.cross(up, cables.heading), up], axis=-1)
 
 
-def polynomial_basis(xi: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
-    """Values and slopes (order + 1, ...): order - 1 bubbles, zero at both ends, the ramps of frame and moving end."""
-    polynomials = np.moveaxis(legendre.legvander(xi, order), -1, 0)
-    k = np.arange(2, order + 1).reshape((-1,) + (1,) * np.ndim(xi))
-    bubbles = (polynomials[2:] - polynomials[:-2]) / np.sqrt(2.0 * (2 * k - 1))
-    slopes = np.sqrt((2 * k - 1) / 2.0) * polynomials[1:-1]
-    half = np.full_like(xi, 0.5)[None]
-    return np.concatenate([bubbles, half - 0.5 * xi, half + 0.5 * xi]), np.concatenate([slopes, -half, half])
-
-
 def _products(functions: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """(..., i, j) weighted sums over q of products of functions (i, q), weights (..., q)."""
     return (functions * weights[..., None, :]) @ functions.T
-
-
-def _curvatures(xi: np.ndarray, order: int) -> np.ndarray:
-    """Second derivatives (order + 1, q) of the functions of `polynomial_basis`."""
-    k = np.arange(2, order + 1)
-    series = np.zeros((order + 1, order + 1))
-    series[k - 1, k - 2] = np.sqrt((2 * k - 1) / 2.0)
-    return legendre.legval(xi, legendre.legder(series))
 
 
 def _across(cables: CableStates, arc: np.ndarray) -> np.ndarray:
@@ -179,34 +160,59 @@ def _stiffness_density(cables: CableStates, arc: np.ndarray, tightened: np.ndarr
     return along[..., None, None] * outer + across[..., None, None] * (np.eye(3) - outer)
 
 
-def _freedoms(order: int, size: int, frame_directions: np.ndarray | None) -> np.ndarray:
-    """(m or 1, (order + 1) size, n) columns: the free combinations of functions and components, the moving end last."""
-    bubbles, every = (order - 1) * size, np.eye((order + 1) * size)
-    if frame_directions is None:
-        return np.delete(every, np.s_[bubbles : bubbles + size], axis=1)[None]
-    count, _, q = frame_directions.shape
-    freedoms = np.zeros((count, len(every), len(every) - size + q))
-    freedoms[:, :bubbles, :bubbles] = np.eye(bubbles)
-    freedoms[:, bubbles : bubbles + size, bubbles : bubbles + q] = frame_directions
-    freedoms[:, -size:, -size:] = np.eye(size)
-    return freedoms
+@dataclass(frozen=True, slots=True, eq=False)
+class _Freedoms:
+    """Free combinations of i functions and c components, those of the moving end last.
+
+    kept    : those that are free as they are, frame and moving end ramps alike; all but the frame's where it is fixed
+    columns : (m, i c, n) where the frame gives way in some directions, None where it is fixed
+    """
+
+    kept: np.ndarray
+    columns: np.ndarray | None
+
+    @classmethod
+    def of(cls, order: int, size: int, frame_directions: np.ndarray | None) -> "_Freedoms":
+        bubbles, every = (order - 1) * size, (order + 1) * size
+        kept = np.r_[0:bubbles, bubbles + size : every]
+        if frame_directions is None:
+            return cls(kept, None)
+        count, _, q = frame_directions.shape
+        columns = np.zeros((count, every, every - size + q))
+        columns[:, :bubbles, :bubbles] = np.eye(bubbles)
+        columns[:, bubbles : bubbles + size, bubbles : bubbles + q] = frame_directions
+        columns[:, -size:, -size:] = np.eye(size)
+        return cls(kept, columns)
+
+    def rows(self, matrix: np.ndarray) -> np.ndarray:
+        """(m, n, ...) of (m, i c, ...)."""
+        return matrix[:, self.kept] if self.columns is None else np.swapaxes(self.columns, 1, 2) @ matrix
+
+    def both(self, matrix: np.ndarray) -> np.ndarray:
+        """(m, n, n) of (m, i c, i c)."""
+        return self.rows(matrix)[..., self.kept] if self.columns is None else self.rows(matrix) @ self.columns
+
+    def functions(self, vectors: np.ndarray, size: int) -> np.ndarray:
+        """(m, (i - 1) c, ...) coefficients of all but the moving end's functions, of free ones (m, n - c, ...)."""
+        if self.columns is not None:
+            return self.columns[:, :-size, :-size] @ vectors
+        return np.concatenate([vectors, np.zeros((len(vectors), size, vectors.shape[-1]))], axis=1)
 
 
 def _condense(
     components: tuple[int, ...],
     stiffness: np.ndarray,
     mass: np.ndarray,
-    freedoms: np.ndarray,
+    freedoms: _Freedoms,
     springs: np.ndarray | None,
 ) -> _Plane:
     """Static shapes of the moving end and modes of the clamped cable; stiffness (m, i, c, i, c), mass (m, i, i)."""
     (m, count, _), size = mass.shape, len(components)
-    turned = np.swapaxes(freedoms, 1, 2)
-    stiffness = turned @ stiffness.reshape(m, count * size, count * size) @ freedoms
-    full = np.kron(mass, np.eye(size))
-    mass = turned @ full @ freedoms
+    stiffness = freedoms.both(stiffness.reshape(m, count * size, count * size))
+    full = mass if size == 1 else np.kron(mass, np.eye(size))
+    mass = freedoms.both(full)
     whole = np.kron(np.r_[np.zeros(count - 2), 1.0, 1.0][:, None], np.eye(size))  # both ramps sum up to one
-    shared = turned @ full @ whole
+    shared = freedoms.rows(full @ whole)
     inner, end = slice(None, -size), slice(-size, None)
     if springs is not None:
         held = np.arange(stiffness.shape[-1] - size - springs.shape[1], stiffness.shape[-1] - size)
@@ -215,12 +221,11 @@ def _condense(
     static = -np.linalg.solve(stiffness[:, inner, inner], stiffness[:, inner, end])
     carried = mass[:, inner, end] + mass[:, inner, inner] @ static
     end_mass = mass[:, end, end] + mass[:, end, inner] @ static + np.swapaxes(static, 1, 2) @ carried
-    functions = freedoms[:, : (count - 1) * size, :-size]
     return _Plane(
         components,
         omega_squared,
-        (functions @ modes).reshape(m, count - 1, size, -1),
-        (functions @ static).reshape(m, count - 1, size, size),
+        freedoms.functions(modes, size).reshape(m, count - 1, size, -1),
+        freedoms.functions(static, size).reshape(m, count - 1, size, size),
         end_mass,
         np.swapaxes(modes, 1, 2) @ carried,
         whole.T @ full @ whole,
@@ -268,7 +273,7 @@ def _shapes(
     values, slopes = polynomial_basis(xi, order)
     if derivative:
         stretch = coordinate.length[:, None] / coordinate.arc(xi)[1]
-        values = slopes * stretch if derivative == 1 else _curvatures(xi, order) * stretch**2
+        values = slopes * stretch if derivative == 1 else curvatures(xi, order) * stretch**2
     inner, ramp = values[:-1], values[-1]
     static = np.zeros((*xi.shape, 3, 3))
     blocks = []

@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 from numpy.polynomial import legendre
 
-from cdpr_struct.dynamics.catenary_expansion import polynomial_basis
+from cdpr_struct.dynamics.polynomial_basis import polynomial_basis
 
 _SPARE_NODES = 2
 

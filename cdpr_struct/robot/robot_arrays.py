@@ -1,6 +1,7 @@
 """The robot as arrays, any of which may carry batch axes: what statics, dynamics and observation compute with."""
 
 from dataclasses import dataclass, field, fields, replace
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -10,6 +11,7 @@ from cdpr_struct.robot.parameters import EXTENSIONS, PARAMETERS
 from cdpr_struct.robot.platform import joined_masses
 from cdpr_struct.robot.robot import Robot
 
+_KEPT = 16  # robots whose arrays are kept
 _LEAST_MODULUS = 0.05  # of E as entered: the law is a straight line and would end below zero
 
 
@@ -84,27 +86,8 @@ class RobotArrays:
     @classmethod
     def of(cls, robot: "Robot | RobotArrays", mass: np.ndarray | float | None = None) -> "RobotArrays":
         """Arrays of a robot; `mass` (...) [kg] replaces the platform's."""
-        if isinstance(robot, RobotArrays):
-            return robot if mass is None else replace(robot, mass=np.asarray(mass, dtype=float))
-        vertical, more = np.array([0.0, 0.0, 1.0]), robot.extensions
-        return cls(
-            platform_anchors=robot.platform_anchors,
-            frame_anchors=robot.frame_anchors,
-            axial_stiffness=robot.axial_stiffness,
-            linear_density=robot.linear_density,
-            pulley_radius=np.array([0.0 if p is None else p.radius for p in robot.pulleys]),
-            pulley_axis=np.array([vertical if p is None else p.axis for p in robot.pulleys]),
-            mass=np.asarray(robot.platform.mass if mass is None else mass, dtype=float),
-            center_of_mass=robot.platform.center_of_mass,
-            inertia=robot.platform.inertia,
-            gravity=np.asarray(robot.gravity, dtype=float),
-            damping_ratio=robot.damping_ratio,
-            force_min=robot.force_min,
-            force_max=robot.force_max,
-            masts=masts_of(robot.frame_anchors),
-            uprights=uprights_of(robot.frame_anchors, more.mast_foot),
-            **{name: np.asarray(getattr(more, name), dtype=float) for name in EXTENSIONS},
-        )
+        arrays = robot if isinstance(robot, RobotArrays) else _entered(robot)
+        return arrays if mass is None else replace(arrays, mass=np.asarray(mass, dtype=float))
 
     @property
     def weight(self) -> np.ndarray:
@@ -199,6 +182,30 @@ class RobotArrays:
             return value
         core = value.shape[len(batch) :]
         return np.broadcast_to(value, shape + core).reshape((-1, *core))
+
+
+@lru_cache(maxsize=_KEPT)
+def _entered(robot: Robot) -> RobotArrays:
+    """Arrays of a robot, kept for the last few: what follows from the frame anchors is computed once."""
+    vertical, more = np.array([0.0, 0.0, 1.0]), robot.extensions
+    return RobotArrays(
+        platform_anchors=robot.platform_anchors,
+        frame_anchors=robot.frame_anchors,
+        axial_stiffness=robot.axial_stiffness,
+        linear_density=robot.linear_density,
+        pulley_radius=np.array([0.0 if p is None else p.radius for p in robot.pulleys]),
+        pulley_axis=np.array([vertical if p is None else p.axis for p in robot.pulleys]),
+        mass=np.asarray(robot.platform.mass, dtype=float),
+        center_of_mass=robot.platform.center_of_mass,
+        inertia=robot.platform.inertia,
+        gravity=np.asarray(robot.gravity, dtype=float),
+        damping_ratio=robot.damping_ratio,
+        force_min=robot.force_min,
+        force_max=robot.force_max,
+        masts=masts_of(robot.frame_anchors),
+        uprights=uprights_of(robot.frame_anchors, more.mast_foot),
+        **{name: np.asarray(getattr(more, name), dtype=float) for name in EXTENSIONS},
+    )
 
 
 def _batch(arrays: RobotArrays, name: str) -> tuple[int, ...]:

@@ -278,6 +278,20 @@ def test_workers_that_die_again_and_again_are_told(monkeypatch, capsys):
     assert "worker processes were ended from outside 3 times" in capsys.readouterr().err
 
 
+def test_a_cluster_that_gives_up_is_told_in_one_line(monkeypatch, capsys):
+    """As where the scheduler goes away."""
+    client = pytest.importorskip("distributed").client
+
+    def failing(*arguments):
+        raise client.FutureCancelledError("chunk", "scheduler-connection-lost")
+
+    monkeypatch.setattr(sweep.Sweep, "run", failing)
+    assert run(MAP) == 1
+    line = capsys.readouterr().err.strip().splitlines()[-1]
+    assert "gave up (FutureCancelledError" in line
+    assert "finished chunks are kept" in line
+
+
 def test_a_dask_cluster_of_processes_does_the_same_though_a_worker_is_killed(tmp_path):
     """Two worker processes on this machine; the scheduler gives the work of the one that is killed to the other."""
     distributed = pytest.importorskip("distributed")
