@@ -18,7 +18,7 @@ from cdpr_struct.hypotheses.causes.library import testable
 from cdpr_struct.hypotheses.hypothesis import PRICE, Hypothesis, drift_term
 from cdpr_struct.hypotheses.judge import NEAR, SETTLED, Judged, again, begun, converged, extended, judged, settled
 from cdpr_struct.hypotheses.laws import UNKNOWN
-from cdpr_struct.hypotheses.scan import beginnings
+from cdpr_struct.hypotheses.scan import Beginning, beginnings
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.hypotheses.significant import p_of_null
 from cdpr_struct.inference.evidence import bound_at, fit
@@ -103,9 +103,12 @@ class Search:
         self.p_value = p_of_null(menu, base)
         rows = self._screened(menu, nulls, self._rich(menu, base))
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
-        self._begin(menu, base)
+        large = beginnings(self.data, menu, base, self.budget.beginnings + 1)
+        self._begin(large, base)
         self._transfer()
         singles = self._singles()
+        if singles[0].score > base.score:
+            self._begin(large, singles[0])
         least = max(singles[0].score - self.budget.near, self._ranked(0)[0].score - _NOTHING)
         for first in [one for one in singles[: self.budget.beginnings] if one.score > least]:
             self._pairs(first)
@@ -178,11 +181,13 @@ class Search:
         worth = self.budget.hopeless if found.moved > NEAR else PRICE
         return settled(self.data, self.where, found) if found.score > self._ranked()[0].score - worth else found
 
-    def _begin(self, menu: Sequence[Offered], base: Judged) -> None:
-        """Fits of large changes that would put peaks right."""
-        for one in beginnings(self.data, menu, base, self.budget.beginnings + 1):
-            more = Hypothesis((*base.hypothesis.parts, one.part), base.hypothesis.drift)
-            self.keep(begun(self.data, self.where, base, more, one.z))
+    def _begin(self, large: Sequence[Beginning], base: Judged) -> None:
+        """Fits of large changes that would put peaks right, beside what is known by then."""
+        present = {part.cause.name for part in base.hypothesis.parts}
+        for one in large:
+            if one.part.cause.name not in present:
+                more = Hypothesis((*base.hypothesis.parts, one.part), base.hypothesis.drift)
+                self.keep(begun(self.data, self.where, base, more, one.z))
 
     def _ranked(self, causes: int | None = None) -> list[Judged]:
         own = [one for one in self.found.values() if causes is None or len(one.hypothesis.parts) == causes]
