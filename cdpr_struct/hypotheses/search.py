@@ -217,7 +217,7 @@ class Search:
         Nothing wrong is judged once more from their points: tolerances alone may give peaks to modes as they do.
         """
         ranked = self._ranked()
-        near = [one for one in ranked if self._may_matter(one, ranked[0].score)]
+        near = [one for one in ranked if self._may_matter(one, ranked[0])]
         for one in {one.hypothesis.key: one for one in [*near[: self.budget.converged], self._ranked(0)[0]]}.values():
             self.found[one.hypothesis.key] = converged(self.data, self.where, one)
         for best in [one for one in self._ranked()[:_NESTED] if one.hypothesis.parts]:
@@ -225,9 +225,10 @@ class Search:
             there = best.likeliest(self.data, self.where)
             self.keep(judged(self.data, self.where, null, there, best.fit.noise))
 
-    def _may_matter(self, found: Judged, best: float) -> bool:
-        """Whether evidence is near the best: a rival, or one that is still on its way."""
-        return found.score > best - (PRICE if found.moved < SETTLED else self.budget.sure)
+    def _may_matter(self, found: Judged, best: Judged) -> bool:
+        """Whether evidence is near the best. Where nothing is wrong effects are small, and what has settled stays."""
+        small = not best.hypothesis.parts and found.moved < SETTLED
+        return found.score > best.score - (PRICE if small else self.budget.sure)
 
     def _pairs(self, first: Judged) -> None:
         """A second cause beside one, where that may come near the best."""
