@@ -1,13 +1,13 @@
 """`cdpr-struct audit`: the cables against the printed validity limits, or the limits themselves on trial."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import rest, state_warnings
+from cdpr_struct.cli.operating_point import rest
 from cdpr_struct.cli.options import (
     GridText,
     Lengths,
@@ -15,6 +15,7 @@ from cdpr_struct.cli.options import (
     Mass,
     Payload,
     PoseText,
+    Start,
     UpperBound,
     number,
     read_grid,
@@ -46,6 +47,7 @@ def run(
     ] = None,
     pose: PoseText = None,
     lengths: Lengths = None,
+    start: Start = None,
     grid: GridText = None,
     trajectory: Annotated[str | None, typer.Option("--trajectory", metavar="T", help=_TRAJECTORY)] = None,
     payload: Payload = 0.0,
@@ -75,10 +77,10 @@ def run(
     if small:
         raise InputError("--small", "", small, "it belongs to --limits; leave it out")
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
-    return _audit(machine, ways, output)
+    return _audit(machine, ways, start, output)
 
 
-def _audit(machine: "Robot", ways: Mapping[str, str | None], output: Output) -> int:
+def _audit(machine: "Robot", ways: Mapping[str, str | None], start: str | None, output: Output) -> int:
     """The audit where the options say, reported over the grid or the times that its poses are ordered by."""
     if (text := ways["--grid"]) is not None:
         poses = read_grid(text)
@@ -89,11 +91,11 @@ def _audit(machine: "Robot", ways: Mapping[str, str | None], output: Output) -> 
 
         path, assumed = read_trajectory(text, _INSTANTS if text == "helix" or text.startswith("line:") else None)
         audit = _at_poses(machine, path.position, path.rotation, output)
-        return _report(audit, machine, output, time=path.time, warnings=assumed)
+        return _report(audit, machine, output, time=path.time, more={"warnings": assumed})
     from cdpr_struct.crosscheck.limits_poses import audit_rest
 
-    point = rest(machine, ways["--pose"], ways["--lengths"])
-    return _report(audit_rest(point), machine, output, warnings=state_warnings(point, ways["--lengths"]))
+    state = rest(machine, ways["--pose"], ways["--lengths"], start)
+    return _report(audit_rest(state.point), machine, output, more=state.told())
 
 
 def _at_poses(machine: "Robot", position: "np.ndarray", rotation: "np.ndarray", output: Output) -> "PoseAudit":
@@ -109,7 +111,7 @@ def _report(
     output: Output,
     grid: "Grid | None" = None,
     time: "np.ndarray | None" = None,
-    warnings: Sequence[str] = (),
+    more: "dict[str, Any] | None" = None,
 ) -> int:
     from cdpr_struct.reports.audit_result import audit_json, audit_text
 
@@ -118,7 +120,7 @@ def _report(
 
         return audit_files(audit, grid, time)
 
-    told = audit_json(audit, time) | {"warnings": list(warnings)}
+    told = audit_json(audit, time) | (more or {"warnings": []})
     result = with_extensions(told, machine, NAME)
     output.deliver(result, lambda: audit_text(audit), files)
     return 0 if result["valid"] else 1

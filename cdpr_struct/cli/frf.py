@@ -8,7 +8,7 @@ from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_va
 from cdpr_struct.cli.damping_option import DampingText, read_damping
 from cdpr_struct.cli.degrees_of_freedom import FrameName, PointText, read_ports
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import advised, rest, state_warnings
+from cdpr_struct.cli.operating_point import rest
 from cdpr_struct.cli.options import (
     AssemblyName,
     Lengths,
@@ -17,6 +17,7 @@ from cdpr_struct.cli.options import (
     Payload,
     PoseText,
     RobotName,
+    Start,
     UpperBound,
     read_assembly,
     read_robot,
@@ -42,6 +43,7 @@ def run(
     band: Annotated[str, typer.Option("--band", metavar="F0:F1:DF", help="Frequencies [Hz].")],
     pose: PoseText = None,
     lengths: Lengths = None,
+    start: Start = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
@@ -72,7 +74,8 @@ def run(
     what = next((q for q in QUANTITIES if q == quantity), None)
     if what is None:
         raise InputError("--quantity", "", quantity, f"one of: {', '.join(QUANTITIES)}")
-    point = rest(machine, pose, lengths)
+    state = rest(machine, pose, lengths, start)
+    point = state.point
     require_valid(cable_model, point, force)
     source = read_ports(excite, "--excite", point, frame, at)
     if len(source) != 1:
@@ -80,13 +83,13 @@ def run(
     if cable_model == "static" and excite.startswith("cable"):
         raise InputError("--excite", "", excite, "massless cables cannot be shaken; use --model dsm or exact")
     targets = read_ports(respond, "--respond", point, frame, at)
-    with output.steps(1) as progress, advised(point, lengths):
+    with output.steps(1) as progress, state.advised():
         progress("response, eigenfrequencies and peaks")
         sweep = sweep_response(point, cable_model, law, source[0], targets, hertz, what, way)
     described = {"damping": damping, "frame": frame, "at_m": at or "0,0,0", "assembly": way, "band_hz": band}
     described["damping_note"] = damping_note(law, damping, machine, cable_model == "static")
     result = frf_json(sweep, {**described, "command": output.words})
-    result |= {"warnings": state_warnings(point, lengths)}
+    result |= state.told()
     result = with_extensions(result, machine, "frf", cable_model)
 
     def files() -> Files:

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import advised, pose_in_degrees, rest, state_warnings
+from cdpr_struct.cli.operating_point import pose_in_degrees, rest
 from cdpr_struct.cli.options import (
     AssemblyName,
     Lengths,
@@ -14,6 +14,7 @@ from cdpr_struct.cli.options import (
     Payload,
     PoseText,
     RobotName,
+    Start,
     UpperBound,
     read_assembly,
     read_robot,
@@ -33,6 +34,7 @@ def run(
     robot: RobotName,
     pose: PoseText = None,
     lengths: Lengths = None,
+    start: Start = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
@@ -58,10 +60,11 @@ def run(
     name = next((m for m in MODELS if m == model), None)
     if name is None:
         raise InputError("--model", "", model, f"one of: {', '.join(MODELS)}")
-    point = rest(machine, pose, lengths)
+    state = rest(machine, pose, lengths, start)
+    point = state.point
     if name == "dsm" and not force:
         require_validity(point)
-    with advised(point, lengths):
+    with state.advised():
         found = robot_modes(point, name, min(count, 6) if name == "static" else count, way, elements)
     result = {
         "robot": machine.name,
@@ -73,8 +76,8 @@ def run(
         "kinds": found.kinds(),
         "platform_energy": found.platform_energy,
         "tensions_N": point.cables.tension_at_platform,
-        "warnings": state_warnings(point, lengths),
         "lengths_m": RobotArrays.of(machine).reading(point.cables.total_length),
+        **state.told(),
     }
     result = with_extensions(result, machine, NAME, name)
 

@@ -2,11 +2,12 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cdpr_struct.cli.options import read_numbers, read_pose
+from cdpr_struct.cli.options import read_numbers, read_pose, require_metres
 from cdpr_struct.errors import CdprError, ConvergenceError, InputError, UnholdablePoseError, UnstableEquilibriumError
 
 if TYPE_CHECKING:
@@ -14,15 +15,62 @@ if TYPE_CHECKING:
     from cdpr_struct.robot.pose import Pose
     from cdpr_struct.robot.robot import Robot
     from cdpr_struct.statics.inverse_kinematics import InverseSolution
+    from cdpr_struct.statics.locked_rest import LockedRest
 
 
-def rest(robot: "Robot", pose: str | None, lengths: str | None) -> "OperatingPoint":
+@dataclass(frozen=True, slots=True, eq=False)
+class AtRest:
+    """The robot at rest, and how the pose was found if the lengths were given instead of it."""
+
+    point: "OperatingPoint"
+    locked: "LockedRest | None" = None
+
+    @contextmanager
+    def advised(self) -> Iterator[None]:
+        """Work about the state of rest; should it be unstable where a lower bound would cure it, the message names it.
+
+        Locked lengths are what they are, so for them no bound is named.
+        """
+        try:
+            yield
+        except UnstableEquilibriumError as error:
+            from cdpr_struct.statics.bound_advice import bound_hint
+
+            point = self.point
+            hint = "" if self.locked is not None else bound_hint(point.entered, point.position, point.rotation)
+            raise CdprError(f"{error}.{hint}" if hint else str(error)) from error
+
+    def told(self, *warnings: str) -> dict[str, Any]:
+        """What every result says of the state of rest: `warnings`, and `locked` if the lengths were given."""
+        if self.locked is None:
+            return {"warnings": [*warnings, *self._warnings()]}
+        from cdpr_struct.reports.locked_rest import locked_json, locked_warnings
+
+        said = [*warnings, *locked_warnings(self.locked), *self._warnings()]
+        return {"warnings": said, "locked": locked_json(self.locked)}
+
+    def _warnings(self) -> list[str]:
+        """Sentences on cables that hang slack, and on locked cables outside the robot's force limits."""
+        from cdpr_struct.statics.bound_advice import outside_limits, slack_warning
+        from cdpr_struct.statics.slack_cables import hangs_slack, slack_sentence
+
+        point = self.point
+        if self.locked is None:
+            said = slack_warning(point.entered, point.position, point.rotation, point.cables)
+            return [] if said is None else [said]
+        slack = slack_sentence(hangs_slack(point.cables))
+        outside = outside_limits(point.entered, point.cables.tension_at_platform)
+        return [*([] if slack is None else [f"{slack}."]), *outside]
+
+
+def rest(robot: "Robot", pose: str | None, lengths: str | None, start: str | None = None) -> AtRest:
     """The robot at rest with sagging cables.
 
     Parameters
     ----------
     pose : text of --pose; the cables hold it with the least norm of tensions within the robot's force limits
     lengths : text of --lengths, the unstrained lengths at which it is locked; only one of the two may be given
+    start : text of --start, only with lengths
 
     Raises
     ------
@@ -32,11 +80,13 @@ def rest(robot: "Robot", pose: str | None, lengths: str | None) -> "OperatingPoi
     from cdpr_struct.dynamics.operating_point import OperatingPoint
 
     if lengths is None:
+        if start is not None:
+            raise InputError("--start", "", start, "it belongs to --lengths; leave it out")
         where = read_pose(pose, robot)
-        return OperatingPoint(robot, where.position, where.rotation, held(robot, where).cables)
+        return AtRest(OperatingPoint(robot, where.position, where.rotation, held(robot, where).cables))
     if pose is not None:
         raise InputError("--lengths", "", lengths, "give either --pose or --lengths, not both")
-    return _locked(robot, lengths)
+    return _locked(robot, lengths, start)
 
 
 def held(
@@ -60,50 +110,37 @@ def held(
         raise CdprError(str(error) + hint) from error
 
 
-@contextmanager
-def advised(point: "OperatingPoint", lengths: str | None) -> Iterator[None]:
-    """Work about a state of rest; should it be unstable where a lower bound would cure it, the message names the bound.
+def read_lengths(text: str | None, robot: "Robot") -> list[float]:
+    """Unstrained lengths of --lengths [m].
 
-    lengths : text of --lengths; locked lengths are what they are, so no bound is named
+    Raises
+    ------
+    InputError : missing, not one positive number per cable, or in mm.
     """
-    try:
-        yield
-    except UnstableEquilibriumError as error:
-        from cdpr_struct.statics.bound_advice import bound_hint
-
-        hint = "" if lengths is not None else bound_hint(point.entered, point.position, point.rotation)
-        raise CdprError(f"{error}.{hint}" if hint else str(error)) from error
-
-
-def state_warnings(point: "OperatingPoint", lengths: str | None) -> list[str]:
-    """Sentences on cables that hang slack, and on locked cables outside the robot's force limits."""
-    from cdpr_struct.statics.bound_advice import outside_limits, slack_warning
-    from cdpr_struct.statics.slack_cables import hangs_slack, slack_sentence
-
-    if lengths is None:
-        said = slack_warning(point.entered, point.position, point.rotation, point.cables)
-        return [] if said is None else [said]
-    slack = slack_sentence(hangs_slack(point.cables))
-    return [*([] if slack is None else [f"{slack}."]), *outside_limits(point.entered, point.cables.tension_at_platform)]
-
-
-def _locked(robot: "Robot", text: str) -> "OperatingPoint":
-    from cdpr_struct.dynamics.operating_point import OperatingPoint
-    from cdpr_struct.statics.forward_kinematics import forward
-
     count = len(robot.cables)
-    lengths = np.array(
-        read_numbers(text, "--lengths", (count,), f"unstrained lengths in m, one per cable of {robot.name}")
-    )
-    if not (lengths > 0.0).all():
+    what = f"unstrained lengths in m, one per cable of {robot.name}"
+    if text is None:
+        raise InputError("--lengths", "", "nothing", f"give {count} {what}")
+    values = read_numbers(text, "--lengths", (count,), what)
+    if min(values) <= 0.0:
         raise InputError("--lengths", "", text, "lengths must be above zero")
-    start = (None, None) if robot.home is None else (robot.home.position, robot.home.rotation)
-    solution = forward(robot, lengths, *start).require_converged()
+    require_metres(values, robot)
+    return values
+
+
+def _locked(robot: "Robot", lengths: str, start: str | None) -> AtRest:
+    from cdpr_struct.dynamics.operating_point import OperatingPoint
+    from cdpr_struct.statics.locked_rest import locked_rest
+
+    begin = None if start is None else read_pose(start, robot, "--start")
+    found = locked_rest(robot, read_lengths(lengths, robot), begin)
+    solution = found.solution
     if not bool(solution.stable):
         raise CdprError(
-            f"at these lengths the platform has no stable equilibrium (least {solution.least_stiffness:.3g} N/m)"
+            f"at these lengths the platform has no stable equilibrium here (least {solution.least_stiffness:.3g} N/m); "
+            f"stable ones elsewhere: {found.others.count}"
         )
-    return OperatingPoint(robot, solution.position, solution.rotation, solution.cables)
+    return AtRest(OperatingPoint(robot, solution.position, solution.rotation, solution.cables), found)
 
 
 def pose_in_degrees(point: "OperatingPoint") -> list[float]:

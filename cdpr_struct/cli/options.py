@@ -86,6 +86,14 @@ PoseText = Annotated[
 Lengths = Annotated[
     str | None, typer.Option("--lengths", metavar="L1,..,Lm", help="Locked unstrained lengths [m], in place of --pose.")
 ]
+Start = Annotated[
+    str | None,
+    typer.Option(
+        "--start",
+        metavar="X,Y,Z[,RX,RY,RZ]",
+        help="With --lengths: where to look [m, deg]; default: the way continues from the home pose.",
+    ),
+]
 LowerBound = Annotated[
     float | None,
     typer.Option(

@@ -54,7 +54,8 @@ class Output:
 
         Files come first, so that a screen that is closed (`| head`) loses nothing.
 
-        result : `warnings` (sentences) and `extensions` (as `extension_notes` makes it) are shown if they are there
+        result : `warnings` (sentences), `locked` (how the rest at locked lengths was found) and `extensions` (as
+        `extension_notes` makes it) are shown if they are there
         """
         if self.directory is not None:
             replace_files(self.directory, result, self._completed(result, files()), self.overwrite)
@@ -70,7 +71,7 @@ class Output:
         bare = files["report.html"]
         if not isinstance(bare, str | bytes):
             raise TypeError("report.html must be whole, not in parts")
-        page = completed(bare, shlex.join(self.words), warnings_of(result), extensions_of(result))
+        page = completed(bare, shlex.join(self.words), warnings_of(result), extensions_of(result), locked_of(result))
         return {**files, "report.html": page}
 
 
@@ -100,8 +101,14 @@ def extensions_of(result: Mapping[str, Any]) -> list[str]:
     return list(result.get("extensions", {}).get("sentences", ()))
 
 
+def locked_of(result: Mapping[str, Any]) -> list[str]:
+    """Sentences on how the rest at locked lengths was found."""
+    return list(result.get("locked", {}).get("sentences", ()))
+
+
 def _remarks(result: Mapping[str, Any]) -> list[str]:
-    parts = ["\n".join(f"Warning: {sentence}" for sentence in warnings_of(result)), "\n".join(extensions_of(result))]
+    warnings = [f"Warning: {sentence}" for sentence in warnings_of(result)]
+    parts = ["\n".join(part) for part in (locked_of(result), warnings, extensions_of(result))]
     return [part for part in parts if part]
 
 

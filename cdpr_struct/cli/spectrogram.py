@@ -7,8 +7,8 @@ import typer
 
 from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_valid
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import advised, rest, state_warnings
-from cdpr_struct.cli.options import Lengths, LowerBound, Mass, Payload, PoseText, UpperBound, number, read_robot
+from cdpr_struct.cli.operating_point import rest
+from cdpr_struct.cli.options import Lengths, LowerBound, Mass, Payload, PoseText, Start, UpperBound, number, read_robot
 from cdpr_struct.cli.output import Output
 from cdpr_struct.errors import InputError
 
@@ -24,6 +24,7 @@ def run(
     robot: Annotated[str, typer.Option("--robot", metavar="ROBOT", help="Whose modes to draw in.")],
     pose: PoseText = None,
     lengths: Lengths = None,
+    start: Start = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
@@ -49,13 +50,14 @@ def run(
     if window is not None and not 8.0 <= window * 2.0 * half_rate <= len(time):
         raise InputError("--window", "", window, f"between {4.0 / half_rate:.4g} and {time[-1] - time[0]:.4g} s")
     cable_model, machine = read_model(model), read_robot(robot, payload, mass, lower_bound, upper_bound)
-    point = rest(machine, pose, lengths)
+    state = rest(machine, pose, lengths, start)
+    point = state.point
     require_valid(cable_model, point, force)
     from cdpr_struct.reports.transient_measured import measured_files, measured_json, measured_text
 
-    with advised(point, lengths):
+    with state.advised():
         result = measured_json(time, acceleration, point, cable_model, highest)
-    result |= {"warnings": state_warnings(point, lengths)}
+    result |= state.told()
     result = with_extensions(result, machine, NAME, cable_model)
     output.deliver(result, lambda: measured_text(result), lambda: measured_files(time, acceleration, result, window))
     return 0

@@ -8,7 +8,7 @@ from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_va
 from cdpr_struct.cli.damping_option import DampingText, read_damping
 from cdpr_struct.cli.degrees_of_freedom import FrameName, PointText, read_ports
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import advised, rest, state_warnings
+from cdpr_struct.cli.operating_point import rest
 from cdpr_struct.cli.options import (
     AssemblyName,
     Lengths,
@@ -17,6 +17,7 @@ from cdpr_struct.cli.options import (
     Payload,
     PoseText,
     RobotName,
+    Start,
     UpperBound,
     number,
     read_assembly,
@@ -45,6 +46,7 @@ def run(
     robot: RobotName,
     pose: PoseText = None,
     lengths: Lengths = None,
+    start: Start = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
@@ -93,7 +95,8 @@ def run(
         raise InputError("--duration", "", seconds, f"at least one period of --highest, {1.0 / highest:.3g} s")
     if motion is not None and pose is None and lengths is None:
         pose = _last_pose(motion)
-    point = rest(machine, pose, lengths)
+    state = rest(machine, pose, lengths, start)
+    point = state.point
     require_valid(cable_model, point, force)
     ports = read_ports("x,y,z,rx,ry,rz" + (f",{watch}" if watch else ""), "--watch", point, frame, at)
     if window is not None and not 0.0 < window <= seconds:
@@ -104,7 +107,7 @@ def run(
     from cdpr_struct.reports.transient_text import transient_text
 
     vibrating = VibratingRobot(point, cable_model, law, highest, way)
-    with output.steps(1) as progress, advised(point, lengths):
+    with output.steps(1) as progress, state.advised():
         progress("modes and motion")
         if motion is None:
             record = vibrating.after_stop(_twist(initial_velocity or ""), ports, seconds)
@@ -113,7 +116,7 @@ def run(
     described = {"damping": damping, "frame": frame, "at_m": at or "0,0,0", "assembly": way}
     described["damping_note"] = damping_note(law, damping, machine, cable_model == "static", ENDLESS_VIBRATION)
     result = transient_json(record, {**described, "command": output.words})
-    result |= {"warnings": [*assumed, *state_warnings(point, lengths)]}
+    result |= state.told(*assumed)
     result = with_extensions(result, machine, NAME, cable_model)
 
     def files() -> Files:

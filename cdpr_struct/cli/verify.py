@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import advised, pose_in_degrees, rest, state_warnings
+from cdpr_struct.cli.operating_point import pose_in_degrees, rest
 from cdpr_struct.cli.options import (
     AssemblyName,
     Lengths,
@@ -15,6 +15,7 @@ from cdpr_struct.cli.options import (
     Payload,
     PoseText,
     RobotName,
+    Start,
     UpperBound,
     number,
     read_assembly,
@@ -36,6 +37,7 @@ def run(
     robot: RobotName,
     pose: PoseText = None,
     lengths: Lengths = None,
+    start: Start = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
@@ -65,10 +67,10 @@ def run(
     from cdpr_struct.reports.verification_text import verification_text
 
     with output.steps(len(counts) + 2) as progress:
-        point = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths)
-        with advised(point, lengths):
-            trial = verify(point, counts, modes, way, Criteria(relative_error=tolerance), progress)
-    told = verification_json(trial, pose_in_degrees(point)) | {"warnings": state_warnings(point, lengths)}
+        state = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths, start)
+        with state.advised():
+            trial = verify(state.point, counts, modes, way, Criteria(relative_error=tolerance), progress)
+    told = verification_json(trial, pose_in_degrees(state.point)) | state.told()
     result = with_extensions(told, machine, NAME)
 
     def files() -> Files:

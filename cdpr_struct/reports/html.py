@@ -92,13 +92,21 @@ def render_page(page: Page, plotly_packed: str = "") -> str:
     )
 
 
-def completed(page: str | bytes, command: str, warnings: Sequence[str] = (), extensions: Sequence[str] = ()) -> str:
+def completed(
+    page: str | bytes,
+    command: str,
+    warnings: Sequence[str] = (),
+    extensions: Sequence[str] = (),
+    locked: Sequence[str] = (),
+) -> str:
     """A rendered page with the command that repeats the run, and sentences that stand on the screen beside the result.
 
-    warnings stand below the verdict, extensions and the command at the end
+    warnings, and how the rest at locked lengths was found, stand below the verdict; extensions and the command at the
+    end
     """
     text = page.decode("utf-8") if isinstance(page, bytes) else page
     top = f'<section class="warnings">{_paragraphs(f"Warning: {w}" for w in warnings)}</section>' if warnings else ""
+    top += f'<section class="notes">{_paragraphs(locked)}</section>' if locked else ""
     end = f'<section class="notes"><h2>Extensions</h2>{_paragraphs(extensions)}</section>\n' if extensions else ""
     end += f'<section class="notes"><h2>Reproduce</h2>\n<pre>{escape(command)}</pre></section>'
     return text.replace(_WARNINGS, top, 1).replace(_END, end, 1)

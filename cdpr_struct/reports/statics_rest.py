@@ -1,6 +1,7 @@
 """The robot at rest, held at a pose (inverse) or at locked lengths (forward): result, text, table, picture, page."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -8,12 +9,14 @@ import numpy as np
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
-from cdpr_struct.reports.text import paragraphs, plain_table, rounded
+from cdpr_struct.reports.text import paragraphs, place, plain_table, rounded
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.equilibria import Equilibria
 from cdpr_struct.statics.forward_kinematics import ForwardSolution
 from cdpr_struct.statics.inverse_kinematics import InverseSolution
+from cdpr_struct.statics.locked_rest import LockedRest
 
 _COLUMNS = ["cable", "unstrained length [m]", "tension at the platform [N]", "sag [mm]", "stretch [mm]"]
 _MOST_STRAIN = 0.05  # steel ropes break near 0.02, high-modulus fibres at 0.035
@@ -104,15 +107,38 @@ def inverse_files(
     return _files(point, result, [verdict, residual_sentence(result)], True)
 
 
-def forward_files(robot: Robot, solution: ForwardSolution, result: Mapping[str, Any]) -> dict[str, str | bytes]:
-    """CSV, picture and page of the pose at locked lengths."""
+def forward_files(
+    robot: Robot, found: LockedRest, result: Mapping[str, Any], equilibria: bool = False
+) -> dict[str, str | bytes]:
+    """CSV, picture and page of the pose at locked lengths; with `equilibria`, pictures of other stable poses, too."""
+    solution = found.solution
     point = OperatingPoint(robot, solution.position, solution.rotation, solution.cables)
     stiffness = f"Least stiffness {result['least_stiffness_N_m']:.4g} N/m, rotations as arcs at the anchors."
     verdict = [pose_sentence(result), stiffness, residual_sentence(result)]
-    return _files(point, result, verdict, result["stable"])
+    return _files(point, result, verdict, result["stable"], _others(robot, found.others) if equilibria else [])
 
 
-def _files(point: OperatingPoint, result: Mapping[str, Any], verdict: list[str], holds: bool) -> dict[str, str | bytes]:
+def _others(robot: Robot, others: Equilibria) -> list[Plate]:
+    """A picture of every other stable pose."""
+    from cdpr_struct.reports.figures import interactive, robot_drawing, style
+
+    plates = []
+    for i, energy in enumerate(others.energy):
+        point = OperatingPoint(robot, others.position[i], others.rotation[i], others.cables.at(i))
+        name = f"equilibrium_{i + 2}"
+        picture = style.svg(name, robot_drawing.SIZE, partial(robot_drawing.draw_robot, point=point))
+        caption = (
+            f"{energy:+.4g} J against the answer, at {place(point.position)}; {int(others.slack[i])} cables slack. "
+            "Whether cables cross each other or the platform is not checked."
+        )
+        title = f"Stable pose {i + 2} at the same lengths"
+        plates.append(Plate(name, title, picture, caption, interactive.robot_plot(point)))
+    return plates
+
+
+def _files(
+    point: OperatingPoint, result: Mapping[str, Any], verdict: list[str], holds: bool, more: Sequence[Plate] = ()
+) -> dict[str, str | bytes]:
     from cdpr_struct.reports.figures import interactive, robot_drawing, style
 
     picture = style.svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point))
@@ -122,7 +148,8 @@ def _files(point: OperatingPoint, result: Mapping[str, Any], verdict: list[str],
     how = (
         _MODEL_NOTES[result["model"]],
         "A platform of given pose is held with the tensions of least norm inside the bounds; at given lengths its "
-        "potential energy is minimised, so the pose is a stable one, and the one in whose basin the start lies.",
+        "potential energy is minimised, so the pose is a stable one: the one that continuous motion from the home pose "
+        "leads to, or in whose basin --start lies.",
     )
     page = Page(
         title=f"{result['robot']} at rest",
@@ -130,13 +157,13 @@ def _files(point: OperatingPoint, result: Mapping[str, Any], verdict: list[str],
         verdict=verdict,
         holds=holds,
         facts=_facts(result, point.cables),
-        plates=[plate],
+        plates=[plate, *more],
         tables=[HtmlTable("Cables", _COLUMNS, _rows(point.cables))],
         notes=[("How it was computed", how)],
     )
     return {
         "cables.csv": _cables_csv(point.cables),
-        "robot.svg": plate.svg,
+        **{f"{each.name}.svg": each.svg for each in (plate, *more)},
         "report.html": render_page(page, interactive.plotly_packed()),
     }
 

@@ -8,7 +8,7 @@ import numpy as np
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.equilibrium import rotation_from_vector
 
-LONGEST_STEP = 0.6  # [m], rotations as arcs at the anchors' mean radius
+_SHORTEST_LIMIT, _LIMIT = 0.6, 0.06  # a step is at most 0.6 m or .06 of the reach, rotations as arcs
 LARGEST_TURN = 0.5  # [rad]
 _OVERSHOOT = 0.8  # a step is kept while the power at its end is above -0.8 of that at its start
 _PUSH = 0.02  # [m] off a saddle, along its softest motion
@@ -31,6 +31,11 @@ class Balance(Protocol):
     def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation: ...
 
 
+def longest_step(reach: float) -> float:
+    """Longest step [m] of a robot whose cables are `reach` long [m]."""
+    return max(_SHORTEST_LIMIT, _LIMIT * reach)
+
+
 def arm_scale(arrays: RobotArrays) -> float:
     """Root mean square distance of the platform anchors from the platform origin, at least 1 mm [m]."""
     square = (arrays.platform_anchors**2).sum(axis=-1).mean()
@@ -42,10 +47,14 @@ class EnergyDescent:
 
     position, rotation, wrench : the last accepted pose and its wrench
     converged, iterations : (n,)
+
+    scale : anchors' mean radius [m];  longest : of a step, rotations as arcs at that radius [m]
     """
 
-    def __init__(self, balance: Balance, position: np.ndarray, rotation: np.ndarray, scale: float) -> None:
-        self.balance, self.position, self.rotation = balance, position, rotation
+    def __init__(
+        self, balance: Balance, position: np.ndarray, rotation: np.ndarray, scale: float, longest: float
+    ) -> None:
+        self.balance, self.position, self.rotation, self.longest = balance, position, rotation, longest
         self.unit = np.array([1.0, 1.0, 1.0, scale, scale, scale])
         first = balance.evaluate(position, rotation)
         self.wrench, self.tangent = first.wrench, first.tangent
@@ -55,7 +64,9 @@ class EnergyDescent:
     def run(self, limit: int) -> None:
         """Step every item that is not balanced until it is, at most `limit` evaluations each."""
         items = np.flatnonzero(~self.converged)
-        step = newton_step(self._scaled(self.tangent[items]), self.wrench[items] / self.unit, self.unit[-1])
+        step = newton_step(
+            self._scaled(self.tangent[items]), self.wrench[items] / self.unit, self.unit[-1], self.longest
+        )
         for _ in range(limit):
             if not items.size:
                 return
@@ -77,7 +88,7 @@ class EnergyDescent:
             going = ~self.converged[items]
             items, step, fresh = items[going], step[going], accepted[going]
             scaled = self._scaled(self.tangent[items[fresh]])
-            step[fresh] = newton_step(scaled, self.wrench[items[fresh]] / self.unit, self.unit[-1])
+            step[fresh] = newton_step(scaled, self.wrench[items[fresh]] / self.unit, self.unit[-1], self.longest)
 
     def leave_saddles(self, limit: int, attempts: int = 3) -> np.ndarray:
         """Push balanced but unstable items along their softest motion and descend again.
@@ -109,25 +120,25 @@ class EnergyDescent:
         return self.position[items] + step[:, :3], turn @ self.rotation[items]
 
 
-def newton_step(tangent: np.ndarray, wrench: np.ndarray, scale: float) -> np.ndarray:
+def newton_step(tangent: np.ndarray, wrench: np.ndarray, scale: float, longest: float) -> np.ndarray:
     """Descent steps (n, 6) in scaled coordinates: Newton where the tangent is positive, else made positive."""
     force = np.linalg.norm(wrench, axis=-1)
-    shift = 1e-14 * np.einsum("nii->n", np.abs(tangent)) + 1e-12 * force / LONGEST_STEP + 1e-100
+    shift = 1e-14 * np.einsum("nii->n", np.abs(tangent)) + 1e-12 * force / longest + 1e-100
     step = np.linalg.solve(tangent + shift[:, None, None] * np.eye(6), wrench[..., None])[..., 0]
     power = np.einsum("ni,ni->n", step, wrench)
     size = np.linalg.norm(step, axis=-1)
-    suspect = ~(power > 1e-6 * size * force) | (size > LONGEST_STEP)
+    suspect = ~(power > 1e-6 * size * force) | (size > longest)
     if suspect.any():
-        step[suspect] = _positive_step(tangent[suspect], wrench[suspect])
+        step[suspect] = _positive_step(tangent[suspect], wrench[suspect], longest)
     size = np.linalg.norm(step, axis=-1)
     turn = np.linalg.norm(step[:, 3:], axis=-1) / scale
-    excess = np.maximum(np.maximum(size / LONGEST_STEP, turn / LARGEST_TURN), 1.0)
+    excess = np.maximum(np.maximum(size / longest, turn / LARGEST_TURN), 1.0)
     return step / excess[:, None]
 
 
-def _positive_step(tangent: np.ndarray, wrench: np.ndarray) -> np.ndarray:
+def _positive_step(tangent: np.ndarray, wrench: np.ndarray, longest: float) -> np.ndarray:
     values, vectors = np.linalg.eigh(tangent)
     force = np.linalg.norm(wrench, axis=-1, keepdims=True)
-    floor = np.maximum(1e-9 * np.abs(values[:, -1:]), force / LONGEST_STEP * 1e-3)
+    floor = np.maximum(1e-9 * np.abs(values[:, -1:]), force / longest * 1e-3)
     values = np.maximum(np.abs(values), np.maximum(floor, 1e-300))
     return np.einsum("nij,nj->ni", vectors, np.einsum("nji,nj->ni", vectors, wrench) / values)

@@ -16,12 +16,11 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
-from cdpr_struct.statics.energy_descent import EnergyDescent, Evaluation, arm_scale
-from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, tangent_stiffness
+from cdpr_struct.statics.energy_descent import EnergyDescent, arm_scale, longest_step
+from cdpr_struct.statics.locked_balance import LockedBalance
 
 MAX_ITERATIONS = 200
 NEUTRAL = 1e-9  # smallest over largest eigenvalue of the tangent below which an equilibrium counts as neutral
-_TOLERANCE = 1e-11  # of weight plus cable tensions
 _SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
 
 
@@ -117,19 +116,23 @@ def forward(
     cores = (length.shape[:-1], wrench.shape[:-1], start.shape[:-1], turn.shape[:-2], arrays.batch_shape)
     shape = np.broadcast_shapes(*cores)
     place, turns = _flat(start, shape, 1), _flat(turn, shape, 2)
-    balance = _Balance(arrays.flattened(shape), _flat(length, shape, 1), _flat(wrench, shape, 1), cable_model(model))
-    entered = balance.arrays
+    balance = LockedBalance(
+        arrays.flattened(shape), _flat(length, shape, 1), _flat(wrench, shape, 1), cable_model(model)
+    )
+    entered, sizes = balance.arrays, (arm_scale(arrays), longest_step(float(length.mean())))
     for station in balance.model.approach():
         balance = replace(balance, arrays=station.seen(entered), model=station)
-        descent = EnergyDescent(balance, place, turns, arm_scale(arrays))
+        descent = EnergyDescent(balance, place, turns, *sizes)
         descent.run(MAX_ITERATIONS)
         place, turns = descent.position, descent.rotation
     if balance.arrays.nonlinearity.any():
-        balance, descent = _stiffening(balance, descent, arm_scale(arrays))
+        balance, descent = _stiffening(balance, descent, sizes)
     return _solution(descent, balance, descent.leave_saddles(MAX_ITERATIONS), shape)
 
 
-def _stiffening(balance: "_Balance", descent: EnergyDescent, scale: float) -> "tuple[_Balance, EnergyDescent]":
+def _stiffening(
+    balance: LockedBalance, descent: EnergyDescent, sizes: tuple[float, float]
+) -> tuple[LockedBalance, EnergyDescent]:
     """Descents with the stiffness that the cables have at their tension, until it stays."""
     entered = balance.arrays
     for _ in range(MAX_ITERATIONS):
@@ -138,7 +141,7 @@ def _stiffening(balance: "_Balance", descent: EnergyDescent, scale: float) -> "t
         if np.abs(stiffness / before - 1.0).max() <= _SAME_STIFFNESS:
             break
         balance = replace(balance, arrays=replace(entered, axial_stiffness=stiffness))
-        descent = EnergyDescent(balance, descent.position, descent.rotation, scale)
+        descent = EnergyDescent(balance, descent.position, descent.rotation, *sizes)
         descent.run(MAX_ITERATIONS)
     return balance, descent
 
@@ -153,38 +156,13 @@ def starting_position(arrays: RobotArrays, length: np.ndarray) -> np.ndarray:
     return start
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Balance:
-    """Wrench and tangent of a flat batch: the callable that the descent works on."""
-
-    arrays: RobotArrays
-    length: np.ndarray
-    wrench: np.ndarray
-    model: CableModel
-
-    def take(self, index: np.ndarray) -> "_Balance":
-        return replace(self, arrays=self.arrays.take(index), length=self.length[index], wrench=self.wrench[index])
-
-    def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation:
-        arms = PlatformArms.at(self.arrays, position, rotation)
-        states = self.model.states(self.arrays, arms.points, self.length)
-        wrench = cable_wrench(states, arms) + load_wrench(self.arrays, arms) + self.wrench
-        rounding = 8.0 * np.finfo(float).eps * states.axial_stiffness.sum(axis=-1)
-        size = self.arrays.mass * self.arrays.gravity + states.tension_at_platform.sum(axis=-1)
-        tangent = tangent_stiffness(self.arrays, states, arms)
-        return Evaluation(wrench, tangent, _TOLERANCE * size + rounding)
-
-    def states(self, position: np.ndarray, rotation: np.ndarray) -> CableStates:
-        return self.model.states(self.arrays, PlatformArms.at(self.arrays, position, rotation).points, self.length)
-
-
 def _flat(value: np.ndarray, shape: tuple[int, ...], core_axes: int) -> np.ndarray:
     core = value.shape[value.ndim - core_axes :]
     return np.array(np.broadcast_to(value, shape + core)).reshape((-1, *core))
 
 
 def _solution(
-    descent: EnergyDescent, balance: _Balance, eigenvalues: np.ndarray, shape: tuple[int, ...]
+    descent: EnergyDescent, balance: LockedBalance, eigenvalues: np.ndarray, shape: tuple[int, ...]
 ) -> ForwardSolution:
     states = balance.states(descent.position, descent.rotation)
     cables = CableStates(

@@ -7,12 +7,17 @@ import subprocess
 import sys
 import time
 from concurrent.futures import BrokenExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from cdpr_struct.cli.main import run
+from cdpr_struct.reports.locked_rest import locked_warnings
+from cdpr_struct.robot.pose import Pose
+from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.statics.locked_rest import locked_rest
 from cdpr_struct.workspace import quantities, sweep
 
 GRID = "-3:3:7,-3:3:7,0.5"
@@ -307,3 +312,55 @@ def test_a_dask_cluster_of_processes_does_the_same_though_a_worker_is_killed(tmp
     assert process.returncode == 0
     assert run([*LONG, "--out", str(here)]) == 0
     assert (there / "map.csv").read_text() == (here / "map.csv").read_text()
+
+
+COGIRO_LENGTHS = "10.1013,9.8141,6.562,6.1095,12.6744,11.9695,14.4796,14.6593"
+
+
+def test_forward_says_how_it_got_there_and_which_other_poses_exist(tmp_path, capsys):
+    words = ["forward", "cogiro", "--lengths", COGIRO_LENGTHS, "--equilibria", "--out", str(tmp_path)]
+    assert run(words) == 0
+    said = capsys.readouterr().out
+    assert "led from the home pose (0.012, 0.0697, 1.219) m" in said
+    assert "4 other stable poses exist" in said
+    found = json.loads((tmp_path / "result.json").read_text())
+    assert found["pose"] == pytest.approx([-3.8688, 2.9127, 0.7823, 5.326, -2.136, -8.608], abs=1e-3)
+    assert found["locked"]["way"] == "continued"
+    assert len(found["locked"]["other_equilibria"]) == 4
+    assert len(list(tmp_path.glob("equilibrium_*.svg"))) == 4
+    assert "led from the home pose" in (tmp_path / "report.html").read_text()
+    assert found["warnings"] == []
+
+
+@pytest.mark.parametrize(
+    ("command", "more"),
+    [
+        ("forward", []),
+        ("modes", ["--count", "2"]),
+        ("frf", ["--excite", "fz", "--respond", "z", "--band", "1:3:0.1"]),
+        ("transient", ["--initial-velocity", "0,0,0.1", "--duration", "1", "--highest", "5"]),
+        ("audit", []),
+    ],
+)
+def test_start_chooses_among_equilibria_and_a_tumbled_one_is_warned_of(command, more, capsys):
+    start = ["--start=-3.769,2.688,0.983,-22,68,73"]
+    run([command, "cogiro", "--lengths", COGIRO_LENGTHS, *start, *more, "--json"])
+    found = json.loads(capsys.readouterr().out)
+    assert found["locked"]["pose"] == pytest.approx([-3.7686, 2.6881, 0.9833, -22.408, 67.759, 72.919], abs=1e-3)
+    assert found["locked"]["start"] == [-3.769, 2.688, 0.983, -22, 68, 73]
+    assert any("230 J less energy" in sentence for sentence in found["warnings"])
+
+
+def test_a_platform_that_turned_over_is_warned_of():
+    lengths = [float(value) for value in COGIRO_LENGTHS.split(",")]
+    tumbled = locked_rest(load_robot("cogiro"), lengths, Pose.from_degrees([-3.769, 2.688, 1, -22, 68, 73]))
+    assert "less energy" in locked_warnings(tumbled)[0]
+    fallen = replace(tumbled, start=load_robot("cogiro").home, way="continued", steps=9, jumps=1)
+    jumped, turned = locked_warnings(fallen)
+    assert "ended once" in jumped
+    assert "turned by 108 deg" in turned
+
+
+def test_start_without_lengths_is_refused(capsys):
+    assert run(["modes", "cogiro", "--start", "0,0,1"]) == 2
+    assert "--start: got '0,0,1'; it belongs to --lengths" in capsys.readouterr().err

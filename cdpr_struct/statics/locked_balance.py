@@ -1,0 +1,45 @@
+"""Balance of a platform on cables of given unstrained lengths."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.cable_models import CableModel
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.energy_descent import Evaluation
+from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, tangent_stiffness
+
+_TOLERANCE = 1e-11  # of weight plus cable tensions
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LockedBalance:
+    """Balance of the platforms of a flat batch (n) on cables of given lengths.
+
+    length : (n, m) unstrained, paid out beyond the frame anchors [m]
+    wrench : (n, 6) on the platform beside its weight, hose and constant force [N, N m]
+    """
+
+    arrays: RobotArrays
+    length: np.ndarray
+    wrench: np.ndarray
+    model: CableModel
+
+    def take(self, index: np.ndarray) -> "LockedBalance":
+        """Some of the batch."""
+        return replace(self, arrays=self.arrays.take(index), length=self.length[index], wrench=self.wrench[index])
+
+    def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation:
+        """Wrench, tangent and tolerated residual at positions (n, 3) and rotations (n, 3, 3)."""
+        arms = PlatformArms.at(self.arrays, position, rotation)
+        states = self.model.states(self.arrays, arms.points, self.length)
+        wrench = cable_wrench(states, arms) + load_wrench(self.arrays, arms) + self.wrench
+        rounding = 8.0 * np.finfo(float).eps * states.axial_stiffness.sum(axis=-1)
+        size = self.arrays.mass * self.arrays.gravity + states.tension_at_platform.sum(axis=-1)
+        tangent = tangent_stiffness(self.arrays, states, arms)
+        return Evaluation(wrench, tangent, _TOLERANCE * size + rounding)
+
+    def states(self, position: np.ndarray, rotation: np.ndarray) -> CableStates:
+        """The cables there."""
+        return self.model.states(self.arrays, PlatformArms.at(self.arrays, position, rotation).points, self.length)

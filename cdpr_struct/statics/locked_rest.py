@@ -1,0 +1,97 @@
+"""Where does the platform rest at locked cable lengths, and how sure is it that this is the pose that was meant?
+
+Without a start, the platform is led from its home pose to the asked lengths by continuous motion; then other stable
+equilibria at these lengths are sought.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from cdpr_struct.robot.pose import Pose
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.cable_models import CableModel, cable_model
+from cdpr_struct.statics.continuation import Continuation, continued
+from cdpr_struct.statics.equilibria import Equilibria, other_equilibria
+from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward, starting_position
+from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.pose_error import reference_lengths
+
+Way = Literal["continued", "descended"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LockedRest:
+    """A platform at rest at locked lengths.
+
+    solution : ForwardSolution without batch axes
+    start    : where the search began
+    way      : "continued" from the start's own lengths, or "descended" from the start at the asked ones
+    steps    : equilibria on the way that was continued
+    jumps    : of them that no continuous motion led to; from there on the platform may be another way up
+    others   : other stable equilibria that were found
+    """
+
+    solution: ForwardSolution
+    start: Pose
+    way: Way
+    steps: int
+    jumps: int
+    others: Equilibria
+
+    @property
+    def turned(self) -> float:
+        """Angle between the platform's orientations at the start and at rest [rad]."""
+        cosine = 0.5 * (np.trace(self.start.rotation.T @ self.solution.rotation) - 1.0)
+        return float(np.arccos(np.clip(cosine, -1.0, 1.0)))
+
+
+def locked_rest(
+    robot: Robot,
+    lengths: npt.ArrayLike,
+    start: Pose | None = None,
+    model: str = "sagging",
+    external_wrench: npt.ArrayLike | None = None,
+) -> LockedRest:
+    """Stable equilibrium at locked lengths, with what else is known about it.
+
+    Parameters
+    ----------
+    lengths : (m,) unstrained, as the encoders say them [m]
+    start : pose near which the equilibrium is sought; without it, the way continues from the home pose, or descends
+        from below the frame anchors if the robot has none
+    external_wrench : (6,) on the platform beside its weight [N, N m]
+
+    Raises
+    ------
+    ConvergenceError : no equilibrium was found.
+    """
+    arrays, chosen = RobotArrays.of(robot), cable_model(model)
+    wrench = np.zeros(6) if external_wrench is None else np.asarray(external_wrench, dtype=float)
+    asked = np.asarray(lengths, dtype=float)
+    led = _from_home(robot, arrays, asked, chosen, wrench) if start is None else None
+    begin = start or robot.home or Pose(starting_position(arrays, arrays.paid_out(asked)), np.zeros(3))
+    place, turn = (begin.position, begin.rotation) if led is None else (led.position[0], led.rotation[0])
+    solution = forward(arrays, asked, place, turn, chosen, wrench).require_converged()
+    steps, jumps = (0, 0) if led is None else (int(led.steps[0]), int(led.jumps[0]))
+    others = other_equilibria(arrays, asked, solution, chosen, wrench)
+    return LockedRest(solution, begin, "descended" if led is None else "continued", steps, jumps, others)
+
+
+def _from_home(
+    robot: Robot, arrays: RobotArrays, asked: np.ndarray, model: CableModel, wrench: np.ndarray
+) -> Continuation | None:
+    """The way from the home pose; None where there is no stable equilibrium at home."""
+    if robot.home is None:
+        return None
+    place, turn = robot.home.position, robot.home.rotation
+    first = model.approach()[0]
+    held = inverse(arrays, place, turn, first, wrench, allow_unheld=True)
+    lengths = held.lengths if held.held.all() else reference_lengths(arrays, place, turn)
+    home = forward(arrays, lengths, place, turn, first, wrench)
+    if not home.stable.all():
+        return None
+    return continued(arrays, (lengths, home.position, home.rotation), asked[None], first, wrench)

@@ -1,0 +1,64 @@
+"""Potential energy of platform and cables at locked lengths: which of several equilibria lies lowest?
+
+Along a hanging cable w z - T - T^2/(2 EA) does not change, so its weight and stretch together hold
+
+    integral (T + T^2/EA) ds - L (T_0 + T_0^2/(2 EA) - w z_0),
+
+0 the frame end. With W = w L, S = T_0 + T_1, r = W/S and the vertical pulls V,
+
+    integral T ds   = L/2 [ S/2 + (V_0 + V_1)^2 / (2 S) + 2 H^2 artanh(r) / (r S) ],
+    integral T^2 ds = L [ H^2 + (V_0^2 + V_0 V_1 + V_1^2) / 3 ],
+
+which has no cancellation from taut to slack and holds for weightless cables, too.
+"""
+
+import numpy as np
+
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.equilibrium import PlatformArms, weight_force
+from cdpr_struct.statics.masts import MastShapes
+
+
+def potential_energy(
+    arrays: RobotArrays, position: np.ndarray, rotation: np.ndarray, states: CableStates, wrench: np.ndarray
+) -> np.ndarray:
+    """Energy of platforms (...) at rest at locked lengths [J]; only differences at the same lengths mean something.
+
+    Weight, cables, constant forces, a hose, elements in line and masts are counted. Cable on a pulley counts by its
+    stretch. Cables whose EA depends on their tension are taken with EA as in `states`.
+
+    Parameters
+    ----------
+    position, rotation : (..., 3) [m], (..., 3, 3)
+    wrench : (..., 6); its force counts, and it must have no moment, which has no energy of its own
+    """
+    arms = PlatformArms.at(arrays, position, rotation)
+    platform = -(weight_force(arrays) * (position + arms.center)).sum(axis=-1)
+    loads = -((arrays.force + wrench[..., :3]) * position).sum(axis=-1)
+    hose = 0.5 * arrays.hose * ((arrays.hose_center - position) ** 2).sum(axis=-1)
+    height = arms.points[..., 2] - states.offset[..., 2]
+    cables = (_of_cables(states, height) + _behind_frame(arrays, states, height)).sum(axis=-1)
+    masts = MastShapes.soft(arrays).energy(states.force_at_frame) if arrays.has_masts else 0.0
+    return np.asarray(platform + loads + hose + cables + masts)
+
+
+def _behind_frame(arrays: RobotArrays, states: CableStates, height: np.ndarray) -> np.ndarray:
+    """(..., m) energy of cable on pulleys, and of elements in line, which let cable out at the frame end [J]."""
+    square = 0.5 * states.tension_at_frame**2
+    wrapped = square * states.wrapped_length / states.axial_stiffness
+    in_line = square * arrays.series_compliance / (1.0 + states.tension_at_frame / states.axial_stiffness)
+    return np.asarray(wrapped + in_line - states.weight * height * states.let_out)
+
+
+def _of_cables(states: CableStates, height: np.ndarray) -> np.ndarray:
+    """(..., m) energy of the free cables, their frame ends at `height` (..., m) [J]."""
+    upper, lower = states.force_z, states.force_z - states.weight * states.length
+    first, last = states.tension_at_frame, states.tension_at_platform
+    both = np.maximum(first + last, 1e-300)
+    ratio = np.minimum(states.weight * states.length / both, 1.0)
+    bend = np.where(ratio > 1e-8, np.arctanh(np.minimum(ratio, 1.0 - 1e-16)) / np.maximum(ratio, 1e-8), 1.0)
+    pull = 0.5 * (0.5 * both + 0.5 * (lower + upper) ** 2 / both + 2.0 * states.force_x**2 * bend / both)
+    square = states.force_x**2 + (lower**2 + lower * upper + upper**2) / 3.0
+    there = first + 0.5 * first**2 / states.axial_stiffness - states.weight * height
+    return np.asarray(states.length * (pull + square / states.axial_stiffness - there))
