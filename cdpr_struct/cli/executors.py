@@ -17,6 +17,8 @@ Workers = Annotated[
 Scheduler = Annotated[
     str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Dask scheduler that takes the work, like tcp://host:8786.")
 ]  # fmt: skip
+Where = tuple[int, str | None]
+"""Values of --workers and --scheduler."""
 
 
 def check_workers(workers: int, scheduler: str | None) -> None:

@@ -18,7 +18,7 @@ from cdpr_struct.cli.options import (
     whole_number,
 )
 from cdpr_struct.cli.output import Output
-from cdpr_struct.cli.sweeping import clear_checkpoint, run_sweep
+from cdpr_struct.cli.sweeping import clear_checkpoint, run_batches
 from cdpr_struct.errors import InputError
 
 NAME = "map"
@@ -56,12 +56,12 @@ def run(
     machine, poses = read_robot(robot, payload, mass, lower_bound, upper_bound), read_grid(grid)
     from cdpr_struct.reports import statics_map as report
     from cdpr_struct.workspace.quantities import QUANTITIES
-    from cdpr_struct.workspace.sweep import Sweep
+    from cdpr_struct.workspace.sweep import sweep
 
     if quantity is None or quantity not in QUANTITIES:
         raise InputError("--quantity", "", quantity or "nothing", f"one of: {', '.join(QUANTITIES)}")
-    sweep = Sweep(quantity, machine, poses, chunk or QUANTITIES[quantity].chunk)
-    columns, resumed = run_sweep(sweep, workers, scheduler, output)
+    batches = sweep(quantity, machine, poses, chunk)
+    columns, resumed = run_batches(batches, (workers, scheduler), output)
     result = report.map_json(machine, quantity, poses, columns) | {"resumed_chunks": resumed}
     result = with_extensions(result, machine, _kin(quantity))
     output.deliver(
@@ -69,7 +69,7 @@ def run(
         lambda: report.map_sentence(result),
         lambda: report.map_files(machine, quantity, poses, columns, result),
     )
-    clear_checkpoint(sweep, output.directory)
+    clear_checkpoint(batches, output.directory)
     return 0 if result["held"] > result["unstable"] else 1
 
 

@@ -20,7 +20,7 @@ from cdpr_struct.cli.options import (
     read_robot,
 )
 from cdpr_struct.cli.output import Output
-from cdpr_struct.cli.sweeping import clear_checkpoint, run_sweep
+from cdpr_struct.cli.sweeping import clear_checkpoint, run_batches
 from cdpr_struct.errors import InputError
 
 if TYPE_CHECKING:
@@ -63,14 +63,15 @@ def run(
     load = None if sufficient_load is None else _load(machine, read_pose(pose, machine), sufficient_load)
     from cdpr_struct.reports import statics_pose_error as report
     from cdpr_struct.workspace.pose_error_map import PoseErrorMap
-    from cdpr_struct.workspace.sweep import Sweep
+    from cdpr_struct.workspace.sweep import sweep
 
-    sweep = None if poses is None else Sweep("pose-error", machine, poses)
     errors: PoseErrorMap | None = None
     result: dict[str, Any] = {"robot": machine.name, "mass_kg": machine.platform.mass}
-    if sweep is not None:
-        columns, _ = run_sweep(sweep, workers, scheduler, output)
-        errors = PoseErrorMap(machine.name, machine.platform.mass, sweep.grid, columns).require_some()
+    batches = None
+    if poses is not None:
+        batches = sweep("pose-error", machine, poses)
+        columns, _ = run_batches(batches, (workers, scheduler), output)
+        errors = PoseErrorMap(machine.name, machine.platform.mass, poses, columns).require_some()
         result |= report.pose_error_json(errors, machine)
     if load is not None:
         result["sufficient_load"] = report.sufficient_load_json(*load)
@@ -80,8 +81,8 @@ def run(
         lambda: "\n".join(report.pose_error_sentences(errors, load)),
         lambda: report.pose_error_files(machine, errors, load),
     )
-    if sweep is not None:
-        clear_checkpoint(sweep, output.directory)
+    if batches is not None:
+        clear_checkpoint(batches, output.directory)
     return 0
 
 

@@ -1,6 +1,5 @@
 """The printed limits over many poses of a robot: grids and trajectories, all at once."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +16,8 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.taut_cables import taut_cables
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, InverseStatus, inverse
+from cdpr_struct.workspace.pose_batches import PoseBatches
+from cdpr_struct.workspace.work_list import Columns
 
 CHUNK = 512
 PARAMETERS = ("lambda2", "crossover_distance", "alpha_deg", "epsilon", "sag_ratio")
@@ -69,38 +70,29 @@ class PoseAudit:
         return np.where(self.held, self.largest_use.max(axis=0).argmax(axis=-1) + 1, 0)
 
 
-def chunk_count(poses: int) -> int:
-    """Calls of `progress` that an audit of so many poses makes."""
-    return max(1, -(-poses // CHUNK))
+def audit_batches(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> PoseBatches:
+    """Columns of an audit at poses (k, 3), (k, 3, 3) or (3, 3), for `audit_of`."""
+    return PoseBatches("audit", _batch, robot, position, rotation, CHUNK)
 
 
-def audit_poses(
-    robot: Robot,
-    position: np.ndarray,
-    rotation: np.ndarray,
-    lower_bound: float | None = None,
-    progress: Callable[[str], None] = lambda _: None,
-) -> PoseAudit:
-    """Cable parameters at poses (k, 3), (k, 3, 3) held by sagging cables of minimum-norm tension.
-
-    lower_bound : smallest tension at the platform [N], None: each cable's own limit
-    progress : called once a batch of poses
-    """
-    rotation = np.broadcast_to(rotation, (len(position), 3, 3))
-    parts = []
-    for numbers in np.array_split(np.arange(len(position)), chunk_count(len(position))):
-        progress(f"{len(position)} poses")
-        parts.append(_batch(robot, position[numbers], rotation[numbers], lower_bound))
-    held, tension, reason = (np.concatenate([part[i] for part in parts]) for i in range(3))
-    values = {name: np.concatenate([part[3][name] for part in parts]) for name in PARAMETERS}
-    return PoseAudit(robot, position, rotation, held, tuple(reason), tension, values, *_against_limits(values))
+def audit_of(batches: PoseBatches, columns: Columns) -> PoseAudit:
+    """The audit that the columns of all batches make."""
+    rotation = np.broadcast_to(batches.rotation, (len(batches.position), 3, 3))
+    values = {name: columns[name] for name in PARAMETERS}
+    told = columns["held"], tuple(columns["reason"].tolist()), columns["tension"]
+    return PoseAudit(batches.robot, batches.position, rotation, *told, values, *_against_limits(values))
 
 
-def _batch(
-    robot: Robot, position: np.ndarray, rotation: np.ndarray, lower_bound: float | None
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+def audit_poses(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> PoseAudit:
+    """Cable parameters at poses (k, 3), (k, 3, 3) held by sagging cables of minimum-norm tension."""
+    batches = audit_batches(robot, position, rotation)
+    return audit_of(batches, batches.here())
+
+
+def _batch(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> Columns:
     """Held or not, tensions, reasons and parameters of one batch of poses."""
-    solution = inverse(robot, position, rotation, lower_bound=lower_bound, allow_unheld=True)
+    rotation = np.broadcast_to(rotation, (len(position), 3, 3))
+    solution = inverse(robot, position, rotation, allow_unheld=True)
     held = solution.held & (solution.tensions > 0.0).all(axis=-1)
     numbers = np.flatnonzero(held)
     values = {name: np.full(solution.tensions.shape, np.nan) for name in PARAMETERS}
@@ -108,8 +100,8 @@ def _batch(
         own = solution.cables.at(numbers)
         for name, value in _parameters(OperatingPoint(robot, position[numbers], rotation[numbers], own)).items():
             values[name][numbers] = value
-    reason = np.array(["" if h else _reason(solution, i) for i, h in enumerate(held)], dtype=object)
-    return held, np.where(held[:, None], solution.tensions, np.nan), reason, values
+    reason = np.array(["" if h else _reason(solution, i) for i, h in enumerate(held)], dtype=str)
+    return {"held": held, "reason": reason, "tension": np.where(held[:, None], solution.tensions, np.nan), **values}
 
 
 def audit_rest(point: OperatingPoint) -> PoseAudit:

@@ -11,7 +11,8 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import shared_cure
 from cdpr_struct.statics.sufficient_bound import shared_bound_of_pose_errors, shared_lower_bound
 from cdpr_struct.workspace.grid import AXES, Grid
-from cdpr_struct.workspace.quantities import QUANTITIES, Columns
+from cdpr_struct.workspace.quantities import QUANTITIES
+from cdpr_struct.workspace.work_list import Columns
 
 _MOST_HELD, _MOST_RELEASED = 64, 16  # poses with slack cables at which a cure is searched; a release takes longer
 _NOTE = (

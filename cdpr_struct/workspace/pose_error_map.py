@@ -6,7 +6,7 @@ import numpy as np
 
 from cdpr_struct.errors import UnholdablePoseError
 from cdpr_struct.workspace.grid import Grid
-from cdpr_struct.workspace.quantities import Columns
+from cdpr_struct.workspace.work_list import Columns
 
 PARTS = ("sag", "axial", "global")
 

@@ -18,8 +18,7 @@ from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.statics.static_stiffness import static_stiffness
 from cdpr_struct.workspace.vibration import SHARE, first_frequencies
-
-Columns = dict[str, np.ndarray]
+from cdpr_struct.workspace.work_list import Columns
 
 
 @dataclass(frozen=True, slots=True)

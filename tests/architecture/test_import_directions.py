@@ -15,7 +15,7 @@ MAY_IMPORT = {
     "robot": set(),
     "statics": {"robot"},
     "dynamics": {"robot", "statics"},
-    "crosscheck": {"robot", "statics", "dynamics"},
+    "crosscheck": {"robot", "statics", "dynamics", "workspace"},
     "measurement": {"robot", "statics", "dynamics"},
     "observation": {"robot", "statics", "dynamics", "measurement"},
     "inference": set(),

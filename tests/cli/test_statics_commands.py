@@ -18,7 +18,7 @@ from cdpr_struct.reports.locked_rest import locked_warnings
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.locked_rest import locked_rest
-from cdpr_struct.workspace import quantities, sweep
+from cdpr_struct.workspace import quantities, sweep, work_list
 
 GRID = "-3:3:7,-3:3:7,0.5"
 MAP = ["map", "thesis-3-1", "--grid=-3:3:9,-3:3:9,0.5", "--quantity", "tension-max", "--chunk", "20"]
@@ -187,7 +187,7 @@ def test_an_interrupted_map_continues(tmp_path, capsys, monkeypatch):
 
     monkeypatch.setattr(sweep, "evaluate", failing)
     assert run([*MAP, "--out", str(torn)]) == 130
-    assert "2 of 5 chunks are kept" in capsys.readouterr().err
+    assert "2 of 5 parts are kept" in capsys.readouterr().err
     assert not (torn / "result.json").exists()
     computed.extend([1] * 10)
     before = len(computed)
@@ -217,10 +217,10 @@ def test_a_torn_checkpoint_file_is_computed_again(tmp_path):
     from cdpr_struct.cli.checkpoint import Checkpoint
 
     store = Checkpoint(tmp_path, "abc")
-    store.keep(0, {"a": np.arange(3.0)})
-    store.keep(1, {"a": np.arange(3.0)})
+    store.keep("000000", {"a": np.arange(3.0)})
+    store.keep("000001", {"a": np.arange(3.0)})
     (tmp_path / ".checkpoint-abc" / "chunk-000001.npz").write_bytes(b"PK\x03\x04 torn")
-    assert list(store.chunks(5)) == [0]
+    assert list(store.parts(["000000", "000001", "000002"])) == [0]
 
 
 LONG = ["map", "six-cable-8mm", "--grid=-3:3:41,-3:3:41,0.5", "--quantity", "tension-max", "--chunk", "64"]
@@ -278,7 +278,7 @@ def test_workers_that_die_again_and_again_are_told(monkeypatch, capsys):
     def broken(*arguments):
         raise BrokenExecutor
 
-    monkeypatch.setattr(sweep.Sweep, "run", broken)
+    monkeypatch.setattr(work_list, "run_parts", broken)
     assert run(MAP) == 1
     assert "worker processes were ended from outside 3 times" in capsys.readouterr().err
 
@@ -290,11 +290,11 @@ def test_a_cluster_that_gives_up_is_told_in_one_line(monkeypatch, capsys):
     def failing(*arguments):
         raise client.FutureCancelledError("chunk", "scheduler-connection-lost")
 
-    monkeypatch.setattr(sweep.Sweep, "run", failing)
+    monkeypatch.setattr(work_list, "run_parts", failing)
     assert run(MAP) == 1
     line = capsys.readouterr().err.strip().splitlines()[-1]
     assert "gave up (FutureCancelledError" in line
-    assert "finished chunks are kept" in line
+    assert "finished parts are kept" in line
 
 
 def test_a_dask_cluster_of_processes_does_the_same_though_a_worker_is_killed(tmp_path):

@@ -16,7 +16,7 @@ from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.tension_distribution import distribute
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.quantities import tensions
-from cdpr_struct.workspace.sweep import Sweep
+from cdpr_struct.workspace.sweep import sweep
 
 PRELOADED = load_robot("thesis-5")
 HOME = PRELOADED.home.position
@@ -105,11 +105,11 @@ def test_maps_and_audits_keep_the_limits():
     robot = PRELOADED.with_force_limits(least)
     assert tensions(robot, NEAR, LEVEL)["tension_min_N"].min() == pytest.approx(least, rel=1e-6)
     assert audit_poses(robot, NEAR, LEVEL).tension.min() == pytest.approx(least, rel=1e-6)
-    assert audit_poses(robot, NEAR, LEVEL, lower_bound=30.0).tension.min() == pytest.approx(30.0, rel=1e-6)
+    assert audit_poses(PRELOADED.with_force_limits(30.0), NEAR, LEVEL).tension.min() == pytest.approx(30.0, rel=1e-6)
 
 
 def test_a_map_of_other_limits_is_another_map():
     """Chunks kept from an interrupted run must not be mixed with those of another limit."""
     grid = Grid(np.array([0.0, 1.0]), np.array([0.0]), np.array([2.5]), np.zeros(3))
     robots = [PRELOADED, PRELOADED.with_force_limits(60.0), PRELOADED.with_force_limits(None, 5000.0)]
-    assert len({Sweep("tension-min", robot, grid).fingerprint for robot in robots}) == 3
+    assert len({sweep("tension-min", robot, grid).fingerprint for robot in robots}) == 3

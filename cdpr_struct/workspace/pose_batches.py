@@ -1,0 +1,75 @@
+"""A function of very many poses, cut into batches."""
+
+import hashlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.workspace.work_list import Columns
+
+Evaluate = Callable[[Robot, np.ndarray, np.ndarray], Columns]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PoseBatches:
+    """Columns of a robot at n poses as a `work_list.WorkList`: each part is one batch of poses.
+
+    name     : of what is computed, for the fingerprint
+    evaluate : (robot, positions (k, 3) [m], rotation (3, 3) or (k, 3, 3)) -> columns with k rows; it can be sent to
+               another process
+    position : (n, 3) platform origin, world frame [m]
+    rotation : (3, 3) for all poses, or (n, 3, 3), platform to world
+    batch    : poses in a batch
+    """
+
+    name: str
+    evaluate: Evaluate
+    robot: Robot
+    position: np.ndarray
+    rotation: np.ndarray
+    batch: int
+
+    @property
+    def parts(self) -> int:
+        """Number of batches, one at least."""
+        return max(1, -(-len(self.position) // self.batch))
+
+    @property
+    def about(self) -> str:
+        """For the progress bar."""
+        return f"{len(self.position)} poses"
+
+    @property
+    def fingerprint(self) -> str:
+        """Hexadecimal digest of everything that the result depends on."""
+        arrays = RobotArrays.of(self.robot)
+        parts = [np.asarray(getattr(arrays, f.name), dtype=float) for f in fields(arrays)]
+        digest = hashlib.sha256(f"{version('cdpr-struct')} {self.name} {self.batch}".encode())
+        for part in (*parts, self.position, self.rotation):
+            digest.update(f"{part.shape}".encode() + np.ascontiguousarray(part).tobytes())
+        return digest.hexdigest()[:16]
+
+    def key(self, number: int) -> str:
+        """Name of a batch."""
+        return f"{number:06d}"
+
+    def call(self, number: int) -> tuple[Callable[..., Columns], tuple[Any, ...]]:
+        """What computes a batch."""
+        part = slice(number * self.batch, (number + 1) * self.batch)
+        rotation = self.rotation if self.rotation.ndim == 2 else self.rotation[part]
+        return self.evaluate, (self.robot, self.position[part], rotation)
+
+    def joined(self, found: Mapping[int, Columns]) -> Columns:
+        """Columns over all poses, from all batches by number."""
+        batches = [found[number] for number in range(self.parts)]
+        return {name: np.concatenate([batch[name] for batch in batches]) for name in batches[0]}
+
+    def here(self) -> Columns:
+        """Columns over all poses, computed in this process."""
+        calls = [self.call(number) for number in range(self.parts)]
+        return self.joined({number: evaluate(*given) for number, (evaluate, given) in enumerate(calls)})
