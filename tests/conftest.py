@@ -5,11 +5,10 @@ import os
 import pytest
 from hypothesis import settings
 
+import cdpr_struct.cli  # noqa: F401, one thread for NumPy, which must be said before it is imported
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
-
-os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 # A change lands or not for its own sake: with CI set, property tests draw the same examples every time.
 settings.register_profile("ci", derandomize=True)

@@ -5,7 +5,7 @@ from importlib.metadata import version as installed
 from typing import Annotated
 
 import typer
-from typer.exceptions import Abort, TyperException
+from typer.exceptions import Abort
 
 from cdpr_struct.cli import (
     audit,
@@ -29,8 +29,8 @@ from cdpr_struct.cli import (
     verify,
 )
 from cdpr_struct.cli.command import examples, register
+from cdpr_struct.cli.complaints import complaint
 from cdpr_struct.cli.interruption import Interrupted
-from cdpr_struct.errors import CdprError, InputError
 
 app = typer.Typer(
     add_completion=False,
@@ -92,29 +92,15 @@ def run(arguments: list[str] | None) -> int:
         with interruption.stopped_in_order():
             code = int(app(args=typed, prog_name="cdpr-struct", standalone_mode=False, obj=tuple(typed)) or 0)
         return _fail(code, "interrupted; nothing was written") if code == interruption.CODE else code
-    except TyperException as error:
-        return _fail(2, _complaint(error))
-    except InputError as error:
-        return _fail(2, str(error))
-    except CdprError as error:
-        return _fail(1, str(error))
     except Interrupted as stop:
         return _fail(interruption.CODE, str(stop))
     except (Abort, KeyboardInterrupt):
         return _fail(interruption.CODE, "interrupted; nothing was written")
     except Exception as error:
-        if type(error).__module__.partition(".")[0] == "fem_reference":
-            return _fail(1, f"FEM reference: {error}")
-        if isinstance(error, ArithmeticError) or type(error).__name__ == "LinAlgError":
-            return _fail(1, f"cannot be computed ({error}): check the size of masses, lengths and forces")
-        raise
-
-
-def _complaint(error: TyperException) -> str:
-    """What is wrong with the words of the command line, in one line."""
-    if isinstance(error, typer.BadParameter) and error.param is not None and error.message.startswith("got "):
-        return f"{error.param.opts[0]}: {error.message}"
-    return f"{error.format_message().replace(chr(10), ' ').rstrip('.')}. See cdpr-struct --help."
+        told = complaint(error)
+        if told is None:
+            raise
+        return _fail(*told)
 
 
 def _fail(code: int, message: str) -> int:

@@ -5,7 +5,7 @@ import shlex
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -58,11 +58,21 @@ class Output:
         `extension_notes` makes it) are shown if they are there
         """
         if self.directory is not None:
-            replace_files(self.directory, result, self._completed(result, files()), self.overwrite)
+            self.write(result, files())
         if self.json:
             _print(json_text(result), sys.stdout)
         elif not self.quiet:
             _print("\n\n".join([text(), *_remarks(result)]) + "\n", sys.stdout)
+
+    def write(self, result: Mapping[str, Any], files: Files) -> None:
+        """Write the files, if --out is given."""
+        if self.directory is not None:
+            replace_files(self.directory, result, self._completed(result, files), self.overwrite)
+
+    def of_input(self, folder: str, words: tuple[str, ...]) -> "Output":
+        """Where the results of one of many inputs go: a folder of their own, and the command for that input alone."""
+        directory = None if self.directory is None else self.directory / folder
+        return replace(self, directory=directory, words=words)
 
     def _completed(self, result: Mapping[str, Any], files: Files) -> dict[str, Content]:
         """The files; the page says how to repeat the run, and what the screen says beside the result."""

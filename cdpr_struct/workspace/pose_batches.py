@@ -1,15 +1,13 @@
 """A function of very many poses, cut into batches."""
 
-import hashlib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
-from importlib.metadata import version
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from cdpr_struct.robot.fingerprint import fingerprint
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.workspace.work_list import Columns
 
 Evaluate = Callable[[Robot, np.ndarray, np.ndarray], Columns]
@@ -47,12 +45,7 @@ class PoseBatches:
     @property
     def fingerprint(self) -> str:
         """Hexadecimal digest of everything that the result depends on."""
-        arrays = RobotArrays.of(self.robot)
-        parts = [np.asarray(getattr(arrays, f.name), dtype=float) for f in fields(arrays)]
-        digest = hashlib.sha256(f"{version('cdpr-struct')} {self.name} {self.batch}".encode())
-        for part in (*parts, self.position, self.rotation):
-            digest.update(f"{part.shape}".encode() + np.ascontiguousarray(part).tobytes())
-        return digest.hexdigest()[:16]
+        return fingerprint(f"{self.name} {self.batch}", self.robot, self.position, self.rotation)
 
     def key(self, number: int) -> str:
         """Name of a batch."""

@@ -132,12 +132,12 @@ def run(options: argparse.Namespace) -> int:
     about = json.loads((out / "run.json").read_text("utf-8")) | {"budget": options.budget}
     (out / "run.json").write_text(json.dumps(about) + "\n", "utf-8")
     how = (options.budget, options.workers, command, options.again)
-    diagnose_all(campaigns_of(out), out / "answers", *how)
+    diagnose_all(campaigns_of(out), out / "answers", *how, scheduler=options.scheduler)
     untimed = (options.budget, max(options.workers, os.cpu_count() or 1), command, options.again)
-    diagnose_all(campaigns_of(out / RATES), out / RATES / "answers", *untimed)
+    diagnose_all(campaigns_of(out / RATES), out / RATES / "answers", *untimed, scheduler=options.scheduler)
     more = out / FOLLOW_UPS
     asking = asking_for_more(out / "answers")
-    diagnose_all(campaigns_of(more), more / "answers", *how, only=asking)
+    diagnose_all(campaigns_of(more), more / "answers", *how, only=asking, scheduler=options.scheduler)
     return 0
 
 
@@ -202,6 +202,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--release", default="", help="name of a release, whose own seeds are taken")
     parser.add_argument("--budget", choices=("small", "full"), default="small")
     parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--scheduler", help="address of a Dask scheduler that shares out the diagnoses of run")
     parser.add_argument("--command", default="", help="what to run instead of cdpr-struct diagnose")
     parser.add_argument("--again", action="store_true", help="make, or diagnose, also what is there")
     parser.add_argument("--page", default="", help="page that report writes")

@@ -10,10 +10,13 @@ import sys
 import tempfile
 import time
 from collections.abc import Collection, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from cdpr_struct.cli.executors import executor
 
 TIME_LIMIT = 900.0  # s
 RESULT, RECORD = "result.json", "run.json"
@@ -32,13 +35,17 @@ def diagnose_all(
     command: Sequence[str],
     again: bool = False,
     only: Collection[str] | None = None,
+    scheduler: str | None = None,
 ) -> int:
-    """Run every campaign (of those in `only`) that has no answer yet; returns how many were run."""
+    """Run every campaign (of those in `only`) that has no answer yet; returns how many were run.
+
+    scheduler : address of a Dask scheduler whose workers see the same files, in place of `workers` of this machine
+    """
     names = sorted(path.parent.name for path in campaigns.glob("*/campaign.toml"))
     names = [name for name in names if only is None or name in only]
     todo = [name for name in names if again or not (answers / name / RECORD).exists()]
     columns = (TextColumn("diagnose"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, disable=not sys.stderr.isatty()) as bar, ThreadPoolExecutor(workers) as pool:
+    with Progress(*columns, disable=not sys.stderr.isatty()) as bar, _pool(workers, scheduler) as pool:
         task = bar.add_task("diagnose", total=len(todo))
         jobs = [pool.submit(diagnose, campaigns / n, answers / n, budget, command) for n in todo]
         for job in jobs:
@@ -46,6 +53,10 @@ def diagnose_all(
         for job in jobs:
             job.result()
     return len(todo)
+
+
+def _pool(workers: int, scheduler: str | None) -> AbstractContextManager[Executor]:
+    return ThreadPoolExecutor(workers) if scheduler is None else executor(1, scheduler)
 
 
 def diagnose(campaign: Path, answer: Path, budget: str, command: Sequence[str]) -> None:

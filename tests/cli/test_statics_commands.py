@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from concurrent.futures import BrokenExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -226,10 +227,10 @@ def test_a_torn_checkpoint_file_is_computed_again(tmp_path):
 LONG = ["map", "six-cable-8mm", "--grid=-3:3:41,-3:3:41,0.5", "--quantity", "tension-max", "--chunk", "64"]
 
 
-def started(*more: str) -> subprocess.Popen[str]:
-    """A long map in a process of its own."""
+def started(*more: str, command: Sequence[str] = LONG) -> subprocess.Popen[str]:
+    """A command, a long map if none is given, in a process of its own."""
     program = [sys.executable, "-c", "from cdpr_struct.cli.main import main; main()"]
-    return subprocess.Popen([*program, *LONG, *more], stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen([*program, *command, *more], stderr=subprocess.PIPE, text=True)
 
 
 def wait_for(condition) -> None:
@@ -302,7 +303,7 @@ def test_a_dask_cluster_of_processes_does_the_same_though_a_worker_is_killed(tmp
     distributed = pytest.importorskip("distributed")
     here, there = tmp_path / "here", tmp_path / "there"
     with (
-        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0") as cluster,
         distributed.Client(cluster) as client,
     ):
         process = started("--scheduler", cluster.scheduler_address, "--out", str(there))
