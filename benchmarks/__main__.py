@@ -12,12 +12,12 @@ import sys
 import warnings
 from pathlib import Path
 
-from benchmarks import single_cable
+from benchmarks import robot_modes, single_cable
 from benchmarks.markdown_page import put
 from benchmarks.peers import versions
 from benchmarks.question import Question
 
-QUESTIONS: tuple[Question, ...] = (single_cable.QUESTION,)
+QUESTIONS: tuple[Question, ...] = (single_cable.QUESTION, robot_modes.QUESTION)
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 
 
