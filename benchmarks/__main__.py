@@ -12,12 +12,23 @@ import sys
 import warnings
 from pathlib import Path
 
-from benchmarks import robot_modes, single_cable
+from benchmarks import (
+    distribution,
+    frf,
+    pose_batch,
+    robot_modes,
+    single_cable,
+    statics_forward_kinematics,
+    vibration_floor,
+)
 from benchmarks.markdown_page import put
 from benchmarks.peers import versions
 from benchmarks.question import Question
 
-QUESTIONS: tuple[Question, ...] = (single_cable.QUESTION, robot_modes.QUESTION)
+QUESTIONS: tuple[Question, ...] = tuple(
+    module.QUESTION
+    for module in (single_cable, robot_modes, pose_batch, vibration_floor, statics_forward_kinematics, frf, distribution)
+)
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 
 
