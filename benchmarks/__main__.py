@@ -15,6 +15,7 @@ from pathlib import Path
 from benchmarks import (
     distribution,
     frf,
+    geometric_term,
     pose_batch,
     robot_modes,
     single_cable,
@@ -27,7 +28,7 @@ from benchmarks.question import Question
 
 QUESTIONS: tuple[Question, ...] = tuple(
     module.QUESTION
-    for module in (single_cable, robot_modes, pose_batch, vibration_floor, statics_forward_kinematics, frf, distribution)
+    for module in (single_cable, robot_modes, pose_batch, vibration_floor, statics_forward_kinematics, frf, distribution, geometric_term)
 )
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 

@@ -8,6 +8,7 @@ and the building of its model included. Errors are the largest of the 20, agains
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -36,6 +37,12 @@ def our_frequencies(cable: HeldCable, order: int, count: int) -> np.ndarray:
     state = pulled_cable(pull, end, cable.unstrained_length, cable.axial_stiffness, weight)
     planes = clamped_frequencies(state, np.array([cable.linear_density]), order)
     return np.sort(np.concatenate([plane[0] for plane in planes]))[:count] / (2.0 * np.pi)
+
+
+@cache
+def reference() -> np.ndarray:
+    """(20,) exact frequencies [Hz]."""
+    return np.sort(np.concatenate(exact_frequencies(single_cable(), COUNT)))
 
 
 @dataclass(frozen=True)
@@ -84,8 +91,7 @@ class SingleCable:
 
     def track_error(self, case: tuple[str, int]) -> float:
         """Largest relative error of the 20 frequencies."""
-        exact = np.sort(np.concatenate(exact_frequencies(self.cable, COUNT)))
-        return float(np.abs(self.frequencies() / exact - 1.0).max())
+        return float(np.abs(self.frequencies() / reference() - 1.0).max())
 
 
 @dataclass(frozen=True)
@@ -106,7 +112,7 @@ def measure(quick: bool, peers: list[str]) -> list[Point]:
             for size in code.sizes[:2] if quick else code.sizes:
                 cases[f"{code.name} {size}"] = case = SingleCable()
                 case.setup((code.name, size))
-    exact = np.sort(np.concatenate(exact_frequencies(single_cable(), COUNT)))
+    exact = reference()
     seconds = medians({name: case.frequencies for name, case in cases.items()}, 1 if quick else 7)
     errors = {name: float(np.abs(case.frequencies() / exact - 1.0).max()) for name, case in cases.items()}
     return [Point(case.code, case.size, seconds[name], errors[name]) for name, case in cases.items()]
