@@ -28,7 +28,16 @@ from benchmarks.question import Question
 
 QUESTIONS: tuple[Question, ...] = tuple(
     module.QUESTION
-    for module in (single_cable, robot_modes, pose_batch, vibration_floor, statics_forward_kinematics, frf, distribution, geometric_term)
+    for module in (
+        single_cable,
+        robot_modes,
+        pose_batch,
+        vibration_floor,
+        statics_forward_kinematics,
+        frf,
+        distribution,
+        geometric_term,
+    )
 )
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 

@@ -6,7 +6,6 @@ The peers are SciPy's SLSQP and IPOPT on the thesis's formulation with exact der
 pose, each started at its neighbour's solution; they are timed on every `STRIDE`-th pose and scaled up.
 """
 
-import time
 from collections.abc import Callable
 
 import numpy as np

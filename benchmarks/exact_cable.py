@@ -118,9 +118,7 @@ def _segment(
     return last[-1]
 
 
-def _rate(
-    cable: HeldCable, shape: Catenary, omega: np.ndarray, s: np.longdouble, state: np.ndarray
-) -> np.ndarray:
+def _rate(cable: HeldCable, shape: Catenary, omega: np.ndarray, s: np.longdouble, state: np.ndarray) -> np.ndarray:
     size = state.shape[1] // 2
     tangent, tension = shape.tangent(s)
     across = np.eye(2, dtype=np.longdouble) - np.outer(tangent, tangent) if size == 2 else np.eye(1)

@@ -85,7 +85,14 @@ def answer(quick: bool) -> Answer:
             seconds = medians(tasks, 1 if quick else RUNS)
             ratios.append(seconds["response"] / seconds["solve"])
             rows.append([model, law, *map(milliseconds, seconds.values()), f"{ratios[-1]:.2f}"])
-    head = ["model", "damping", "bare solution [ms]", "response [ms]", "preparing the model [ms]", "response / solution"]
+    head = [
+        "model",
+        "damping",
+        "bare solution [ms]",
+        "response [ms]",
+        "preparing the model [ms]",
+        "response / solution",
+    ]
     said = f"{FREQUENCIES} frequencies up to {FrequencyResponse.top:g} Hz; the largest ratio is {max(ratios):.2f}."
     return Answer(paragraphs(table(head, rows), said))
 

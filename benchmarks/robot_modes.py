@@ -3,8 +3,9 @@
     python -m benchmarks robot-modes
 
 The eight-cable robot of Table 3.1 off centre. Ours: from the pose to tensions, lengths, and modes with the proof that
-none is missing. Peers: from our lengths to their own static equilibrium and as many lowest frequencies; no proof, and no
-tensions to be found. Errors are the largest of all frequencies, against finite elements extrapolated (`robot_reference`).
+none is missing. Peers: from our lengths to their own static equilibrium and as many lowest frequencies; no proof, and
+no tensions to be found. Errors are the largest of all frequencies, against extrapolated finite elements
+(`robot_reference`).
 """
 
 from collections.abc import Callable

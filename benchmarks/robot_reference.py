@@ -5,6 +5,7 @@ what one mesh less gives bounds what is left.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -36,5 +37,5 @@ def romberg(values: list[np.ndarray]) -> np.ndarray:
     column, power = list(values), 1
     while len(column) > 1:
         power *= 4
-        column = [fine + (fine - coarse) / (power - 1) for coarse, fine in zip(column, column[1:], strict=False)]
+        column = [fine + (fine - coarse) / (power - 1) for coarse, fine in pairwise(column)]
     return column[0]

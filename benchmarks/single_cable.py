@@ -158,9 +158,7 @@ def answer(quick: bool) -> Answer:
     shown = [code for code in CODES if any(point.code == code for point in points)]
     head = ["code", *(f"20 frequencies within {tolerance:.0e}" for tolerance in TOLERANCES), "smallest error"]
     text = paragraphs(table(head, [_row(points, code) for code in shown]), _verdict(points), *absent)
-    curves = {
-        code.name: [(point.seconds, point.error) for point in points if point.code == code] for code in shown
-    }
+    curves = {code.name: [(point.seconds, point.error) for point in points if point.code == code] for code in shown}
     return Answer(text, {FIGURE: lambda path: draw_curves(path, curves, "largest relative error of 20 frequencies")})
 
 

@@ -97,4 +97,6 @@ def answer(quick: bool) -> Answer:
     return Answer(table(["robot", "task", "time [floors]", "error"], rows))
 
 
-QUESTION = Question("vibration-floor", "Statics and vibrations of many poses, in units of NumPy's own eigenproblems", answer)
+QUESTION = Question(
+    "vibration-floor", "Statics and vibrations of many poses, in units of NumPy's own eigenproblems", answer
+)

@@ -6,6 +6,7 @@ for (SciPy's `eigh`), which is faster than Exudyn's call that solves them all.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
@@ -57,7 +58,7 @@ class Model:
         system, items = self.system, self.items
         places = np.hstack(cable.parabola(elements))
         nodes = [system.AddNode(items.NodePointSlope1(referenceCoordinates=place)) for place in places]
-        for pair in zip(nodes, nodes[1:], strict=False):
+        for pair in pairwise(nodes):
             element = system.AddObject(
                 items.ObjectANCFCable(
                     length=cable.unstrained_length / elements,
@@ -81,7 +82,7 @@ class Model:
             system.AddObject(items.ObjectMassPoint(mass=mass, nodeNumber=node))
             markers.append(system.AddMarker(items.MarkerNodePosition(nodeNumber=node)))
         markers.append(end)
-        for i, pair in enumerate(zip(markers, markers[1:], strict=False)):
+        for i, pair in enumerate(pairwise(markers)):
             system.AddObject(
                 items.ObjectConnectorSpringDamper(
                     markerNumbers=list(pair), referenceLength=bar, stiffness=cable.axial_stiffness / bar
@@ -151,9 +152,7 @@ def robot_frequencies(
     model, body = _with_platform(robot, position)
     added = np.zeros((6, 6))
     for start, arm, data in zip(robot.frame_anchors, robot.platform_anchors, robot.cables, strict=True):
-        cable = HeldCable(
-            start, position + arm, data.unstrained_length, data.axial_stiffness, data.linear_density
-        )
+        cable = HeldCable(start, position + arm, data.unstrained_length, data.axial_stiffness, data.linear_density)
         markers = model.point_of(model.ground, start), model.point_of(body, arm)
         if element == "ANCF":
             model.add_ancf(cable, elements, *markers, joint=joint)
@@ -173,13 +172,9 @@ def _with_platform(robot: fem.RobotData, position: np.ndarray) -> tuple[Model, A
     if np.any(platform.center_of_mass):
         raise ValueError("the benchmark's platforms have their centre of mass at the reference point")
     j = platform.inertia
-    node = model.system.AddNode(
-        model.items.NodeRigidBodyRxyz(referenceCoordinates=[*position.tolist(), 0.0, 0.0, 0.0])
-    )
+    node = model.system.AddNode(model.items.NodeRigidBodyRxyz(referenceCoordinates=[*position.tolist(), 0.0, 0.0, 0.0]))
     inertia = [j[0, 0], j[1, 1], j[2, 2], j[1, 2], j[0, 2], j[0, 1]]
-    body = model.system.AddObject(
-        model.items.ObjectRigidBody(mass=platform.mass, inertia=inertia, nodeNumber=node)
-    )
+    body = model.system.AddObject(model.items.ObjectRigidBody(mass=platform.mass, inertia=inertia, nodeNumber=node))
     model.weigh(body)
     return model, body
 

@@ -24,8 +24,8 @@ def line_type(name: str, axial_stiffness: float, linear_density: float, gravity:
 def cable_frequencies(cable: HeldCable, elements: int, count: int) -> np.ndarray:
     """Lowest frequencies of the clamped cable [Hz], from the matrices that `Line.getModes` uses.
 
-    `getModes` itself stops with a NameError in MoorPy 1.3.0. The stiffness is not symmetric: every row takes the tension
-    of its own node.
+    `getModes` itself stops with a NameError in MoorPy 1.3.0. The stiffness is not symmetric: every row takes
+    the tension of its own node.
     """
     system = load("MoorPy").System(depth=100.0, rho=0.0, g=GRAVITY)
     system.lineTypes["cable"] = line_type("cable", cable.axial_stiffness, cable.linear_density, GRAVITY)

@@ -118,8 +118,6 @@ def robot_frequencies(
     if arms == "stiff beam":
         model.ops.geomTransf("Corotational", 1, 0.3, 0.1, 1.0)
     for start, arm, data in zip(robot.frame_anchors, robot.platform_anchors, robot.cables, strict=True):
-        cable = HeldCable(
-            start, position + arm, data.unstrained_length, data.axial_stiffness, data.linear_density
-        )
+        cable = HeldCable(start, position + arm, data.unstrained_length, data.axial_stiffness, data.linear_density)
         model.hold_to_platform(model.add_cable(cable, elements, held_end=False), arms)
     return model.frequencies(count)
