@@ -17,7 +17,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Question:
-    """name : on the command line and of the page's section;  answer : measures; few runs and poses if asked to be quick."""
+    """name : on the command line and of the page;  answer : measures, with few runs and poses if asked to be quick."""
 
     name: str
     asks: str

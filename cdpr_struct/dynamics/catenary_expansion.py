@@ -122,8 +122,10 @@ def expand_catenaries(
 
 
 def _frame(cables: CableStates) -> np.ndarray:
-    up = np.broadcast_to([0.0, 0.0, 1.0], cables.heading.shape)
-    return np.stack([cables.heading, np.cross(up, cables.heading), up], axis=-1)
+    frame = np.zeros((*cables.heading.shape, 3))
+    frame[..., 0] = cables.heading
+    frame[..., 0, 1], frame[..., 1, 1], frame[..., 2, 2] = -cables.heading[..., 1], cables.heading[..., 0], 1.0
+    return frame
 
 
 def _products(functions: np.ndarray, weights: np.ndarray) -> np.ndarray:
