@@ -52,7 +52,10 @@ def symmetric_roots(lambda2: np.ndarray, count: int) -> np.ndarray:
     low = np.broadcast_to((2 * number - 1) * np.pi, (*lambda2.shape[:-1], count)).copy()
     high = low + 2.0 * np.pi
     below, above = clamped_frequency_function(low, lambda2), clamped_frequency_function(high, lambda2)
-    start, at_start = low, below * above >= 0.0  # without sag both ends are zeros, to rounding; the root is the first
+    start, at_start = (
+        low,
+        np.abs(below) <= _SAME * low,
+    )  # with hardly any sag both ends are zeros; the root is the first
     root, first, last_left = low, True, np.zeros(low.shape, dtype=bool)
     for _ in range(_ROOT_STEPS):
         rise = above - below
