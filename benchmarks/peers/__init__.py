@@ -1,12 +1,11 @@
 """Other codes, each in a file of its own; absent ones are told, not missed."""
 
 import importlib
-import shutil
 from importlib.metadata import PackageNotFoundError, version
 from types import ModuleType
 
 PACKAGES = {"OpenSeesPy": "openseespy.opensees", "Exudyn": "exudyn", "MoorPy": "moorpy", "CasADi": "casadi"}
-"""Name of a peer, and what is imported of it. The extra [bench] installs them; CalculiX is the system's program ccx."""
+"""Name of a peer, and what is imported of it. The extra [bench] installs them."""
 
 
 class PeerAbsentError(Exception):
@@ -31,20 +30,12 @@ def present(peers: tuple[str, ...]) -> tuple[list[str], list[str]]:
     found, sentences = [], []
     for peer in peers:
         try:
-            program(peer) if peer == "CalculiX" else load(peer)
+            load(peer)
         except PeerAbsentError as error:
             sentences.append(str(error))
         else:
             found.append(peer)
     return found, sentences
-
-
-def program(peer: str = "CalculiX") -> str:
-    """Path of the program ccx."""
-    path = shutil.which("ccx")
-    if path is None:
-        raise PeerAbsentError(f"{peer} is skipped: no program ccx (Debian: apt-get install calculix-ccx).")
-    return path
 
 
 def versions() -> dict[str, str]:
