@@ -1,17 +1,21 @@
-"""How long does the force distribution along the thesis's helix take, beside a general nonlinear solver?
+"""How long does the force distribution along the thesis's helix take, beside general nonlinear solvers?
 
-asv-shaped. The peer is SciPy's SLSQP on the thesis's formulation with exact derivatives (`general_solver.py`), pose by
-pose, each started at its neighbour's solution; it is timed on every `STRIDE`-th pose and scaled up.
+    python -m benchmarks distribution
 
-Run: python -m benchmarks.distribution
+The peers are SciPy's SLSQP and IPOPT on the thesis's formulation with exact derivatives (`general_solver.py`), pose by
+pose, each started at its neighbour's solution; they are timed on every `STRIDE`-th pose and scaled up.
 """
 
-import argparse
-import time
+from collections.abc import Callable
 
 import numpy as np
 
 from benchmarks.general_solver import PoseProblem, slsqp
+from benchmarks.markdown_page import table
+from benchmarks.peers import present
+from benchmarks.peers.ipopt import Distribution
+from benchmarks.question import Answer, Question, paragraphs
+from benchmarks.timing import medians
 from cdpr_struct.dynamics.trajectory_distribution import THESIS_B, BoundRule, distribute_along
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.tension_bound import chord_tension_at, constant
@@ -37,6 +41,10 @@ class HelixDistribution:
         """Bounds, distribution, exact cable frequencies, work."""
         distribute_along(self.robot, self.path, bound)
 
+    def tensions(self, bound: BoundRule) -> np.ndarray:
+        """(3001, m) at the platform [N]."""
+        return distribute_along(self.robot, self.path, bound).distribution.tensions
+
     def time_distribution_only(self, bound: BoundRule) -> None:
         """Bounds as tensions and distribution; a bound of 237.8 N for every rule."""
         holding = holding_problem(self.robot, self.path.position, self.path.rotation, self.wrench)
@@ -45,65 +53,79 @@ class HelixDistribution:
 
 
 class GeneralSolver:
-    """SLSQP on the same poses."""
+    """A general solver on the same poses."""
 
-    params = ("fixed", "pose-dependent")
-    param_names = ("bound",)
+    params = (("fixed", "pose-dependent"), ("SLSQP", "IPOPT"))
+    param_names = ("bound", "solver")
 
-    def setup(self, bound: str) -> None:
+    def setup(self, bound: str, solver: str, stride: int = STRIDE) -> None:
         robot, path = load_robot("thesis-5"), helix()
         load = path.inertia_wrench(robot.platform)
         load[:, 2] -= robot.platform.mass * robot.gravity
         per_length = bound == "pose-dependent"
         low = (THESIS_B / np.pi) ** 2 * robot.weight_per_length if per_length else FIXED
-        self.problems = [
-            PoseProblem.at(robot, path.position[i], load[i], low, per_length=per_length)
-            for start in range(0, len(path) - 1, STRIDE)
-            for i in (start, start + 1)
+        self.total = len(path)
+        self.warm = np.arange(0, len(path) - 1, stride) + 1
+        self.pairs = [
+            [PoseProblem.at(robot, path.position[i], load[i], low, per_length=per_length) for i in (at - 1, at)]
+            for at in self.warm
         ]
+        self.solve: Callable[[PoseProblem, np.ndarray], np.ndarray] = _slsqp
+        if solver == "IPOPT":
+            self.solve = Distribution(self.pairs[0][0]).solve
+        self.starts = [_slsqp(cold, cold.straight_start()) for cold, _ in self.pairs]
 
-    def time_every_stride(self, bound: str) -> None:
-        """The second of each pair of neighbours only counts in `seconds_for_all`: it is warm."""
-        for cold, warm in zip(self.problems[::2], self.problems[1::2], strict=True):
-            slsqp(warm, slsqp(cold, tolerance=1e-12)[0], tolerance=1e-12)
+    def tensions(self) -> np.ndarray:
+        """(poses, m) [N] at the second pose of each pair, started at the first one's solution."""
+        each = zip(self.pairs, self.starts, strict=True)
+        return np.array([warm.tensions(self.solve(warm, start)) for (_, warm), start in each])
 
-    def seconds_for_all(self) -> float:
-        """Seconds for 3001 warm-started poses."""
-        spent = 0.0
-        for cold, warm in zip(self.problems[::2], self.problems[1::2], strict=True):
-            start = slsqp(cold, tolerance=1e-12)[0]
-            begin = time.process_time()
-            slsqp(warm, start, tolerance=1e-12)
-            spent += time.process_time() - begin
-        return spent / (len(self.problems) / 2) * 3001
+    def time_every_stride(self, bound: str, solver: str) -> None:
+        self.tensions()
 
-
-def _median(function, repeats: int = 5) -> float:
-    times = []
-    for _ in range(repeats):
-        begin = time.process_time()
-        function()
-        times.append(time.process_time() - begin)
-    return float(np.median(times))
+    def seconds_for_all(self, seconds: float) -> float:
+        """Seconds for all poses of the path from those for the timed ones."""
+        return seconds / len(self.pairs) * self.total
 
 
-def main() -> None:
-    """Print the record (processor time, so that a busy machine does not disturb it)."""
-    argparse.ArgumentParser(
-        prog="python -m benchmarks.distribution", description=(__doc__ or "").split("\n")[0]
-    ).parse_args()
-    for bound in ("fixed", "pose-dependent"):
-        ours, peer = HelixDistribution(), GeneralSolver()
+def _slsqp(problem: PoseProblem, start: np.ndarray) -> np.ndarray:
+    return slsqp(problem, start, tolerance=1e-12)[0]
+
+
+def answer(quick: bool) -> Answer:
+    """Seconds for 3001 poses of each, and how far the tensions are apart."""
+    peers, absent = present(("CasADi",))
+    rows = []
+    for bound in GeneralSolver.params[0][: 1 if quick else 2]:
+        ours = HelixDistribution()
         ours.setup(bound)
-        peer.setup(bound)
-        whole = _median(lambda o=ours, b=bound: o.time_whole_command(b))
-        alone = _median(lambda o=ours, b=bound: o.time_distribution_only(b))
-        general = float(np.median([peer.seconds_for_all() for _ in range(3)]))
-        print(
-            f"{bound}: distribution {alone:.2f} s, with bounds by rule, frequencies and work {whole:.2f} s; "
-            f"SLSQP {general:.0f} s: {general / alone:.0f} and {general / whole:.0f} times faster"
-        )
+        general = {}
+        for solver in ("SLSQP", "IPOPT")[: 1 + bool(peers)]:
+            general[solver] = GeneralSolver()
+            general[solver].setup(bound, solver, 20 * STRIDE if quick else STRIDE)
+        tasks = {"ours": lambda o=ours, b=bound: o.time_distribution_only(b)}
+        tasks |= {"whole": lambda o=ours, b=bound: o.time_whole_command(b)}
+        seconds = medians(tasks | {name: one.tensions for name, one in general.items()}, 1 if quick else 5)
+        scaled = {name: one.seconds_for_all(seconds[name]) for name, one in general.items()}
+        rows += _rows(bound, seconds, scaled, general, ours)
+    head = ["bound", "code", "3001 poses [s]", "of ours", "largest difference of a tension"]
+    return Answer(paragraphs(table(head, rows), *absent))
 
 
-if __name__ == "__main__":
-    main()
+def _rows(
+    bound: str,
+    seconds: dict[str, float],
+    scaled: dict[str, float],
+    general: dict[str, GeneralSolver],
+    ours: HelixDistribution,
+) -> list[list[str]]:
+    best = ours.tensions(bound)
+    rows = [[bound, "cdpr-struct, distribution", f"{seconds['ours']:.2f}", "1", ""]]
+    rows += [[bound, "cdpr-struct, with frequencies and work", f"{seconds['whole']:.2f}", "", ""]]
+    for name, one in general.items():
+        apart = np.abs(one.tensions() / best[one.warm] - 1.0).max()
+        rows.append([bound, name, f"{scaled[name]:.1f}", f"{scaled[name] / seconds['ours']:.0f}", f"{apart:.0e}"])
+    return rows
+
+
+QUESTION = Question("distribution", "Cable forces along the thesis's helix, beside general solvers", answer)

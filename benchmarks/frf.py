@@ -1,22 +1,17 @@
 """What does a frequency response of 10 000 frequencies cost, against solving as many complex 6 x 6 systems?
 
-    python -m benchmarks.frf [--top HZ]
+    python -m benchmarks frf
 
 The measure is NumPy's batched `solve` of 10 000 dense complex 6 x 6 systems with one right-hand side: the least that a
-frequency response of a platform needs. Target: less than five times that, statics and cable model prepared beforehand;
+frequency response of a platform needs. Target: at most twice that, statics and cable model prepared beforehand;
 their preparation is shown apart. One thread; medians of nine runs, alternating.
 """
 
-import argparse
-import os
-import time
-from collections.abc import Callable
-
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
 import numpy as np
 
+from benchmarks.markdown_page import table
+from benchmarks.question import Answer, Question, paragraphs
+from benchmarks.timing import medians, milliseconds
 from cdpr_struct.dynamics.cable_dynamics import CABLE_MODELS, CableModel, cable_dynamics
 from cdpr_struct.dynamics.damping import DampingLaw, Hysteretic, PowerLaw, Rayleigh, Viscous
 from cdpr_struct.dynamics.frequency_response import frequency_response
@@ -73,34 +68,33 @@ def laws(ratio: np.ndarray) -> dict[str, DampingLaw]:
     }
 
 
-def milliseconds(calls: list[Callable[..., None]], arguments: tuple[str, str]) -> list[float]:
-    """Median time of each call, runs alternating so that all see the same machine."""
-    times = np.empty((RUNS, len(calls)))
-    for run in range(RUNS):
-        for column, call in enumerate(calls):
-            start = time.perf_counter()
-            call(*arguments)
-            times[run, column] = time.perf_counter() - start
-    return (1000.0 * np.median(times, axis=0)).tolist()
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--top", type=float, default=FrequencyResponse.top, help="top of the band [Hz]")
-    FrequencyResponse.top = parser.parse_args().top
-    print(f"{FREQUENCIES} frequencies up to {FrequencyResponse.top:g} Hz, 8 cables; times in ms")
-    print(f"{'model':<8}{'law':<22}{'solve':>8}{'response':>10}{'ratio':>7}{'model':>8}{'K in full':>11}")
-    for model in FrequencyResponse.params[0]:
-        for law in FrequencyResponse.params[1]:
+def answer(quick: bool) -> Answer:
+    """Each model and law beside the bare solution."""
+    rows, ratios = [], []
+    models, damping = FrequencyResponse.params
+    for model in models:
+        for law in damping[:1] if quick else damping:
             case = FrequencyResponse()
-            case.setup(model, law)  # type: ignore[arg-type]
-            solve, response = milliseconds([case.time_solve, case.time_response], (model, law))
-            start = time.perf_counter()
-            case.time_every_frequency_in_full(model, law)  # type: ignore[arg-type]
-            full = 1000.0 * (time.perf_counter() - start)
-            (prepare,) = milliseconds([case.time_model], (model, law))
-            print(f"{model:<8}{law:<22}{solve:8.1f}{response:10.1f}{response / solve:7.2f}{prepare:8.1f}{full:11.1f}")
+            case.setup(model, law)
+            given = model, law
+            tasks = {
+                "solve": lambda c=case, g=given: c.time_solve(*g),
+                "response": lambda c=case, g=given: c.time_response(*g),
+                "model": lambda c=case, g=given: c.time_model(*g),
+            }
+            seconds = medians(tasks, 1 if quick else RUNS)
+            ratios.append(seconds["response"] / seconds["solve"])
+            rows.append([model, law, *map(milliseconds, seconds.values()), f"{ratios[-1]:.2f}"])
+    head = [
+        "model",
+        "damping",
+        "bare solution [ms]",
+        "response [ms]",
+        "preparing the model [ms]",
+        "response / solution",
+    ]
+    said = f"{FREQUENCIES} frequencies up to {FrequencyResponse.top:g} Hz; the largest ratio is {max(ratios):.2f}."
+    return Answer(paragraphs(table(head, rows), said))
 
 
-if __name__ == "__main__":
-    main()
+QUESTION = Question("frf", "A frequency response at 10 000 frequencies, beside solving as many 6 x 6 systems", answer)

@@ -1,22 +1,17 @@
 """How long do statics and vibrations of many poses take, in units of NumPy's own eigenproblems?
 
-    python benchmarks/vibration_floor.py [poses]
+    python -m benchmarks vibration-floor
 
 One floor is the time a pose of batched `numpy.linalg.eigh` of eight matrices 24 x 24 and one 54 x 54. Everything runs
 alternately in one thread, by processor time; printed are medians and their ratio to the floor's, and the errors against
 certified modes of single poses.
 """
 
-import os
-import sys
-import time
-from collections.abc import Callable
-
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
 import numpy as np
 
+from benchmarks.markdown_page import table
+from benchmarks.question import Answer, Question
+from benchmarks.timing import medians
 from cdpr_struct.dynamics.batched_modes import Batch, first_mode, lowest_modes
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.many_poses import poses_of
@@ -85,35 +80,23 @@ def _error(ours: np.ndarray, exact: np.ndarray) -> float:
     return float(np.nanmax(np.abs(0.5 * np.log(ours / exact))))
 
 
-def medians(tasks: dict[str, Callable[[], None]]) -> dict[str, float]:
-    """Processor seconds of each task, the median of alternating runs."""
-    seconds: dict[str, list[float]] = {name: [] for name in tasks}
-    for _ in range(RUNS):
-        for name, task in tasks.items():
-            start = time.process_time()
-            task()
-            seconds[name].append(time.process_time() - start)
-    return {name: float(np.median(values)) for name, values in seconds.items()}
-
-
-def main() -> None:
-    """Print ratios and errors, robot by robot."""
-    poses = int(sys.argv[1]) if len(sys.argv) > 1 else POSES
-    for name in ROBOTS:
+def answer(quick: bool) -> Answer:
+    """Ratios and errors, robot by robot."""
+    rows = []
+    for name in ROBOTS[:1] if quick else ROBOTS:
         bench = VibrationFloor()
-        bench.setup(name, poses)
+        bench.setup(name, CHECKED if quick else POSES)
         tasks = {
-            "floor": bench.time_floor,
             "inverse kinematics": bench.time_inverse,
             "first frequency": bench.time_first,
             f"{COUNT} modes": bench.time_many,
             "map of first frequencies": bench.time_map,
         }
-        found, errors = medians(tasks), bench.errors()
-        print(f"{name}, {poses} poses, {1e6 * found['floor'] / poses:.0f} us a floor")
-        for task, seconds in found.items():
-            print(f"  {task:<26} {seconds / found['floor']:7.3f} floors   {errors.get(task, '')}")
+        found, errors = medians({"floor": bench.time_floor} | tasks, 1 if quick else RUNS), bench.errors()
+        rows += [[name, task, f"{found[task] / found['floor']:.3f}", errors.get(task, "")] for task in tasks]
+    return Answer(table(["robot", "task", "time [floors]", "error"], rows))
 
 
-if __name__ == "__main__":
-    main()
+QUESTION = Question(
+    "vibration-floor", "Statics and vibrations of many poses, in units of NumPy's own eigenproblems", answer
+)

@@ -3,13 +3,12 @@
 import numpy as np
 
 import fem_reference as fem
-from cdpr_struct.dynamics.catenary_expansion import expand_catenaries
-from cdpr_struct.statics.cable_state import CableStates, cable_stiffness
+from cdpr_struct.dynamics.clamped_catenary import clamped_frequencies
+from cdpr_struct.statics.cable_state import CableStates
 
 MESHES = (40, 80, 160, 320)
 """Numbers of elements from which the FEM is extrapolated."""
 _ORDER, _PER_MODE, _SAG, _HIGHEST = 40, 4, 8, 400  # of polynomials: of a taut cable, more a mode and a unit of w L / T
-_STATIONS = 33
 
 
 def pulled_cable(
@@ -27,11 +26,9 @@ def catenary_frequencies(cable: CableStates, density: float, count: int) -> dict
     """The first `count` of each plane [Hz], of the linearised elastic catenary: any sag, any inclination."""
     slack = float((cable.weight * cable.length / cable.tension).max())
     order = min(_HIGHEST, _ORDER + _PER_MODE * count + int(_SAG * slack))
-    found = expand_catenaries(cable, np.array([density]), order, cable_stiffness(cable))
-    hertz = np.sqrt(found.omega_squared[0]) / (2.0 * np.pi)
-    energy = (found.shapes(np.linspace(0.0, 1.0, _STATIONS)[1:-1])[1][0] ** 2).sum(axis=1)
-    across = energy[:, 1] > 0.5 * energy.sum(axis=1)
-    return {"out_of_plane": hertz[across][:count].tolist(), "in_plane": hertz[~across][:count].tolist()}
+    in_plane, across = clamped_frequencies(cable, np.array([density]), order)
+    hertz = {"out_of_plane": across, "in_plane": in_plane}
+    return {plane: (omega[0, :count] / (2.0 * np.pi)).tolist() for plane, omega in hertz.items()}
 
 
 def fem_frequencies(cable: CableStates, density: float, gravity: float, count: int) -> list[float]:

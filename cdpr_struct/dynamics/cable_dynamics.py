@@ -24,6 +24,8 @@ from cdpr_struct.statics.cable_state import CableStates
 CableModel = Literal["static", "dsm", "exact"]
 CABLE_MODELS: tuple[CableModel, ...] = get_args(CableModel)
 _MAST_MODES = 4.0  # pairs of modes a half wave below the frequency, in the series of moving masts
+_TAUT = 0.2  # w L / T below which tension and tangent vary so little that fewer polynomials have the same digits
+_FEWEST, _FEW, _MANY, _KINKED = (6.0, 10.0), (10.0, 14.0), (16.0, 22.0), (24.0, 32.0)  # beyond the half waves, at least
 _SHORT = 1e-9  # of a cable's length: what is shorter gives way no more than a fixed point
 
 
@@ -66,7 +68,9 @@ def polynomial_order(point: OperatingPoint, highest_omega: float, rough: bool = 
     """Order of the polynomials with which "exact" is as accurate as `cable_dynamics` says."""
     half_waves = highest_omega / _first_frequency(point).min()
     kinks = point.arrays.bending_stiffness.any() or point.arrays.added_mass.any()  # at clamped ends, at the mass
-    spare, least = (10.0, 14.0) if rough else (24.0, 32.0) if kinks else (16.0, 22.0)
+    taut = not kinks and (point.cables.weight * point.cables.length < _TAUT * point.cables.tension).all()
+    fine = _KINKED if kinks else _FEW if taut else _MANY
+    spare, least = (_FEWEST if taut else _FEW) if rough else fine
     return int(np.clip(2.0 * half_waves + spare, least, 400.0))
 
 

@@ -84,7 +84,7 @@ def expand_catenaries(
     nodes, weights, values, slopes = on_gauss_nodes(order)
     coordinate = CatenaryCoordinate.of(cables)
     arc, rate = coordinate.arc(nodes)
-    density = _stiffness_density(cables, arc)
+    density = stiffness_density(cables, arc)
     scale = weights / rate
     mass = _products(values, linear_density[:, None] * rate * weights)
     bending = None
@@ -93,7 +93,7 @@ def expand_catenaries(
         mass = mass + extras.added_mass[:, None, None] * middle.T[:, :, None] * middle.T[:, None, :]
     if extras is not None and extras.bending_stiffness.any():
         ends = 2.0 * slenderness(extras.bending_stiffness, cables.tension, cables.chord)
-        density = _stiffness_density(cables, arc, (1.0 + ends + ends**2) ** 2)
+        density = stiffness_density(cables, arc, (1.0 + ends + ends**2) ** 2)
         bending = curvatures(nodes, order), extras.bending_stiffness[:, None] * weights / rate**3
         across = _across(cables, arc)
     directions = None if frame_ends is None else to_local @ frame_ends.directions
@@ -122,8 +122,10 @@ def expand_catenaries(
 
 
 def _frame(cables: CableStates) -> np.ndarray:
-    up = np.broadcast_to([0.0, 0.0, 1.0], cables.heading.shape)
-    return np.stack([cables.heading, np.cross(up, cables.heading), up], axis=-1)
+    frame = np.zeros((*cables.heading.shape, 3))
+    frame[..., 0] = cables.heading
+    frame[..., 0, 1], frame[..., 1, 1], frame[..., 2, 2] = -cables.heading[..., 1], cables.heading[..., 0], 1.0
+    return frame
 
 
 def _products(functions: np.ndarray, weights: np.ndarray) -> np.ndarray:
@@ -146,7 +148,7 @@ def _tangent(cables: CableStates, arc: np.ndarray) -> tuple[np.ndarray, np.ndarr
     return np.stack([horizontal, np.zeros_like(vertical), vertical], axis=-1) / tension[..., None], tension
 
 
-def _stiffness_density(cables: CableStates, arc: np.ndarray, tightened: np.ndarray | None = None) -> np.ndarray:
+def stiffness_density(cables: CableStates, arc: np.ndarray, tightened: np.ndarray | None = None) -> np.ndarray:
     """D (m, q, 3, 3) at unstrained arc lengths (m, q) from the frame [m], local axes (heading, across, up) [N].
 
     tightened : (m,) factor on the tension across the cable, None for 1

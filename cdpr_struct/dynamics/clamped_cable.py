@@ -9,6 +9,7 @@ import numpy as np
 from cdpr_struct.dynamics.taut_cables import TautCables
 from cdpr_struct.generated.cable_dsm import clamped_frequency_function
 
+_SAME = 4.0 * float(np.finfo(float).eps)  # relative: two roots in a row that differ by rounding
 _ROOT_STEPS = 60
 
 
@@ -43,21 +44,30 @@ def _symmetric_count(parameter: np.ndarray, lambda2: np.ndarray) -> np.ndarray:
 def symmetric_roots(lambda2: np.ndarray, count: int) -> np.ndarray:
     """First `count` symmetric in-plane frequency parameters Omega (..., count): roots of Irvine's equation.
 
-    False position in the interval that holds exactly one root, the stuck end's value halved (Illinois).
+    False position in the interval that holds exactly one root; the value at an end that stays twice is halved
+    (Illinois).
     """
     number = np.arange(1, count + 1)
     lambda2 = np.asarray(lambda2)[..., None]
     low = np.broadcast_to((2 * number - 1) * np.pi, (*lambda2.shape[:-1], count)).copy()
     high = low + 2.0 * np.pi
     below, above = clamped_frequency_function(low, lambda2), clamped_frequency_function(high, lambda2)
+    start, at_start = (
+        low,
+        np.abs(below) <= _SAME * low,
+    )  # with hardly any sag both ends are zeros; the root is the first
+    root, first, last_left = low, True, np.zeros(low.shape, dtype=bool)
     for _ in range(_ROOT_STEPS):
-        root = np.clip((low * above - high * below) / (above - below), low, high)
+        rise = above - below
+        crossing = (low * above - high * below) / np.where(rise == 0.0, 1.0, rise)
+        before, root = root, np.where(rise == 0.0, root, np.clip(crossing, low, high))
         value = clamped_frequency_function(root, lambda2)
         left = value * above < 0.0
-        below = np.where(left, value, 0.5 * below)
-        above = np.where(left, 0.5 * above, value)
-        moved = np.where(left, root - low, high - root)
+        stuck = (left == last_left) & (not first)
+        below = np.where(left, value, np.where(stuck, 0.5 * below, below))
+        above = np.where(left, np.where(stuck, 0.5 * above, above), value)
         low, high = np.where(left, root, low), np.where(left, high, root)
-        if (moved <= 1e-15 * root).all() or (value == 0.0).all():
+        if (np.abs(root - before) <= _SAME * root).all():
             break
-    return root
+        first, last_left = False, left
+    return np.where(at_start, start, root)

@@ -10,10 +10,14 @@ from cdpr_struct.dynamics.damping import DampingLaw
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ports import Port, ReadyPorts, ready_ports
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
-from cdpr_struct.dynamics.swept_stiffness import SweptStiffness, swept_stiffness
+from cdpr_struct.dynamics.swept_stiffness import UPPER, SweptStiffness, swept_stiffness
+from cdpr_struct.statics.small_systems import eliminate, substituted_back
 
 Quantity = Literal["displacement", "velocity", "acceleration"]
 QUANTITIES: tuple[Quantity, ...] = get_args(Quantity)
+_BLOCK = 1024  # frequencies that are eliminated together
+_SMALL = 1e-4  # of its row's largest entry: a pivot below it may cost digits
+_EVERY = np.arange(6)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,8 +54,7 @@ class DirectResponse:
     def at(self, hertz: np.ndarray) -> np.ndarray:
         omega = 2.0 * np.pi * hertz
         ports = self.ports.at(omega)
-        force = np.broadcast_to(ports.twist[:, 0, :, None], (len(omega), 6, 1))
-        motion = np.linalg.solve(self.stiffness.at(omega), force)
+        motion = symmetric_solutions(self.stiffness.upper(omega), ports.twist[:, 0].T).T[..., None]
         displacement = (ports.twist[:, 1:] @ motion)[..., 0] + ports.direct[:, 1:, 0]
         return np.asarray(displacement * derivative_factor(self.quantity, omega))
 
@@ -94,6 +97,42 @@ def frequency_response(
     band = float(hertz[0]), float(hertz[-1])
     function = direct_response(point, cables, law, excite, respond, band, quantity, assembly)
     return FrequencyResponse(hertz, function.at(hertz), excite, respond, quantity)
+
+
+def symmetric_solutions(upper: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """Motion (6, f) of complex symmetric matrices, given as upper triangles (21, f), under forces (6, f) or (6, 1).
+
+    Eliminated without exchange of rows, all frequencies at once; where a pivot is small, by LAPACK.
+    """
+    count = upper.shape[1]
+    motion = np.empty((6, count), dtype=complex)
+    for start in range(0, count, _BLOCK):
+        part = slice(start, start + _BLOCK)
+        push = force[:, part] if force.shape[1] == count else force
+        motion[:, part] = _eliminated(upper[:, part], push)
+    return motion
+
+
+def _eliminated(upper: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """The same for few enough frequencies to stay near the processor."""
+    matrix = np.zeros((6, 6, upper.shape[1]), dtype=complex)
+    matrix[UPPER] = upper
+    sizes = np.maximum(np.abs(upper.real), np.abs(upper.imag))
+    largest = np.array([sizes[(UPPER[0] == k) | (UPPER[1] == k)].max(axis=0) for k in range(6)])
+    with np.errstate(all="ignore"):
+        shares = eliminate(matrix, 6)
+        motion = np.array(np.broadcast_to(force, (6, upper.shape[1])), dtype=complex)
+        for k in range(5):
+            motion[k + 1 :] -= shares[k] * motion[k]
+        pivots = matrix[_EVERY, _EVERY]
+        motion = substituted_back(shares, (motion / pivots)[:, None])[:, 0]
+        doubtful = np.flatnonzero(~(np.abs(pivots) > _SMALL * largest).all(axis=0))
+    if doubtful.size:
+        full = np.zeros((doubtful.size, 6, 6), dtype=complex)
+        full[:, *UPPER] = full[:, *UPPER[::-1]] = upper[:, doubtful].T
+        push = np.broadcast_to(force, (6, upper.shape[1]))[:, doubtful].T[..., None]
+        motion[:, doubtful] = np.linalg.solve(full, push)[..., 0].T
+    return motion
 
 
 def derivative_factor(quantity: Quantity, omega: np.ndarray) -> np.ndarray:

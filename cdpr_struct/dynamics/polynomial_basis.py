@@ -17,9 +17,18 @@ def polynomial_basis(xi: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray
 
 
 @cache
+def gauss_rule(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes and weights (q,) of Gauss and Legendre's rule on -1..1, found once; read-only."""
+    nodes, weights = legendre.leggauss(count)
+    nodes.setflags(write=False)
+    weights.setflags(write=False)
+    return nodes, weights
+
+
+@cache
 def on_gauss_nodes(order: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Nodes and weights (q,), values and slopes (order + 1, q) of `polynomial_basis` there; 2 order + 24 nodes."""
-    nodes, weights = legendre.leggauss(2 * order + 24)
+    nodes, weights = gauss_rule(2 * order + 24)
     return nodes, weights, *polynomial_basis(nodes, order)
 
 

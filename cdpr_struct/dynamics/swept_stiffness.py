@@ -28,10 +28,11 @@ _POLES_PER_SEGMENT = 12
 _NEAR = 2.5  # poles within this many half widths of a segment's centre are summed one by one
 _HALVINGS = 4
 _BLOCK = 64
-_UPPER = np.triu_indices(6)
-_DIAGONAL = np.flatnonzero(_UPPER[0] == _UPPER[1])
+UPPER = np.triu_indices(6)
+"""Rows and columns of the 21 entries of an upper triangle."""
+_DIAGONAL = np.flatnonzero(UPPER[0] == UPPER[1])
 _FULL = np.array(
-    [[np.flatnonzero((_UPPER[0] == min(i, j)) & (_UPPER[1] == max(i, j)))[0] for j in range(6)] for i in range(6)]
+    [[np.flatnonzero((UPPER[0] == min(i, j)) & (UPPER[1] == max(i, j)))[0] for j in range(6)] for i in range(6)]
 )
 
 
@@ -78,21 +79,28 @@ class SweptStiffness:
     poles: "_Poles | None"
 
     def at(self, omega: np.ndarray) -> np.ndarray:
-        """(f, 6, 6) as `dynamic_stiffness`, to `RELATIVE_TOLERANCE` of the largest entries; omega (f,) ascending.
+        """(f, 6, 6) as `dynamic_stiffness`, to `RELATIVE_TOLERANCE` of the largest entries; omega (f,) ascending."""
+        return np.ascontiguousarray(np.moveaxis(self.upper(omega)[_FULL], -1, 0))
+
+    def upper(self, omega: np.ndarray) -> np.ndarray:
+        """(21, f) upper triangles of `at`, row by row.
 
         The bottom of the band, where a law may jump at rest, and what no piece covers are evaluated in full.
         """
-        matrices = np.empty((len(omega), 6, 6), dtype=complex)
+        entries = np.empty((21, len(omega)), dtype=complex)
         left = np.ones(len(omega), dtype=bool)
         for piece in self.pieces:
             part = slice(*np.searchsorted(omega, [piece.low, piece.high]))
             if self.poles is not None and part.start < part.stop:
-                matrices[part] = piece.at(omega[part], self.law, self.poles)
+                entries[:, part] = piece.at(omega[part], self.law, self.poles)
                 left[part] = False
         left |= omega <= self.low
         if left.any():
-            matrices[left] = _of_rigid_platform(self.point, self.cables, self.law, omega[left], self.assembly)
-        return matrices - internal_reaction(self.point.arrays, self.point.rotation, omega**2)
+            full = _of_rigid_platform(self.point, self.cables, self.law, omega[left], self.assembly)
+            entries[:, left] = full[:, *UPPER].T
+        if self.point.arrays.has_internal_mass:
+            entries -= internal_reaction(self.point.arrays, self.point.rotation, omega**2)[:, *UPPER].T
+        return entries
 
 
 def swept_stiffness(
@@ -151,13 +159,16 @@ class _Piece:
         """The last coefficients are small against the diagonal entries of their row and column."""
         sizes = np.abs(self.coefficients)
         diagonal = np.sqrt(sizes[:, _DIAGONAL].max(axis=0))
-        return bool((sizes[-2:] < RELATIVE_TOLERANCE * diagonal[_UPPER[0]] * diagonal[_UPPER[1]]).all())
+        return bool((sizes[-2:] < RELATIVE_TOLERANCE * diagonal[UPPER[0]] * diagonal[UPPER[1]]).all())
 
     def at(self, omega: np.ndarray, law: DampingLaw, poles: "_Poles") -> np.ndarray:
-        """(f, 6, 6) at frequencies inside."""
+        """(21, f) at frequencies inside."""
         x = (2.0 * omega - self.low - self.high) / (self.high - self.low)
-        smooth = (chebyshev.chebvander(x, _NODES - 1) @ self.coefficients.view(float)).view(complex)
-        return (smooth + poles.sum(self.near, law, omega))[:, _FULL]
+        powers = np.ascontiguousarray(chebyshev.chebvander(x, _NODES - 1).T)
+        found = poles.sum(self.near, law, omega)
+        found.real += self.coefficients.real.T @ powers
+        found.imag += self.coefficients.imag.T @ powers
+        return found
 
 
 def _interpolate(
@@ -178,7 +189,7 @@ def _interpolate(
     pieces = []
     for k, (low, high) in enumerate(segments.tolist()):
         near = np.flatnonzero(np.abs(place - middle[k]) < _NEAR * half[k])
-        smooth = values[k] - poles.sum(near, law, nodes[k])
+        smooth = values[k] - poles.sum(near, law, nodes[k]).T
         pieces.append(_Piece(low, high, to_coefficients @ smooth, near))
     return pieces
 
@@ -202,19 +213,20 @@ class _Poles:
     first_frequency: np.ndarray
 
     def sum(self, chosen: np.ndarray, law: DampingLaw, omega: np.ndarray) -> np.ndarray:
-        """(f, 21) part of the platform's stiffness that the chosen poles make."""
-        inertia = law.inertia(omega[:, None], self.first_frequency)
-        elasticity = law.elasticity(omega[:, None], self.first_frequency)
-        cable = self.cable[chosen]
-        gap = elasticity[:, cable] * self.omega_squared[chosen] - inertia[:, cable]
-        scale = np.finfo(float).eps * self.omega_squared[chosen]
-        gain = -(inertia**2)[:, cable] / np.where(gap == 0.0, scale, gap)
-        strength = self.strength[chosen]
+        """(21, f) part of the platform's stiffness that the chosen poles make."""
+        factors = (
+            law.inertia(omega[:, None], self.first_frequency),
+            law.elasticity(omega[:, None], self.first_frequency),
+        )
+        inertia, elasticity = (np.ascontiguousarray(np.transpose(factor)) for factor in factors)
+        cable, squared = self.cable[chosen], self.omega_squared[chosen][:, None]
+        gap = elasticity[cable] * squared - inertia[cable]
+        gap = np.where(gap == 0.0, np.finfo(float).eps * squared, gap)
+        gain = -(inertia**2)[cable] / gap
+        strength = np.ascontiguousarray(self.strength[chosen].T)
         if not np.iscomplexobj(gain):
-            return (gain @ strength).astype(complex)
-        total = np.empty((len(omega), 21), dtype=complex)
-        total.real, total.imag = gain.real @ strength, gain.imag @ strength
-        return total
+            return np.asarray((strength @ gain).astype(complex))
+        return np.asarray((strength @ gain.view(float)).view(complex))
 
 
 def _poles(point: OperatingPoint, cables: CableDynamics, highest: float) -> _Poles:
@@ -225,9 +237,9 @@ def _poles(point: OperatingPoint, cables: CableDynamics, highest: float) -> _Pol
     return _Poles(
         omega_squared,
         np.repeat(np.arange(len(arms)), arms.shape[1]),
-        (arms[..., _UPPER[0]] * arms[..., _UPPER[1]]).reshape(len(omega_squared), 21),
-        (np.swapaxes(to_cable, 1, 2) @ expansion.static_stiffness @ to_cable)[:, *_UPPER],
-        (np.swapaxes(to_cable, 1, 2) @ expansion.end_mass @ to_cable)[:, *_UPPER],
+        (arms[..., UPPER[0]] * arms[..., UPPER[1]]).reshape(len(omega_squared), 21),
+        (np.swapaxes(to_cable, 1, 2) @ expansion.static_stiffness @ to_cable)[:, *UPPER],
+        (np.swapaxes(to_cable, 1, 2) @ expansion.end_mass @ to_cable)[:, *UPPER],
         cables.first_frequency,
     )
 
@@ -242,13 +254,13 @@ def _at_nodes(
 ) -> np.ndarray:
     """(f, 21) full matrices. The closed form is evaluated as such: its modal expansion is only a truncated series."""
     if isinstance(cables, ClosedFormCables):
-        return _of_rigid_platform(point, cables, law, omega, assembly)[:, *_UPPER]
-    rigid = assemble(point, np.zeros((len(poles.static), 3, 3)), assembly)[_UPPER]
-    mass = platform_mass_matrix(point.arrays, point.rotation)[_UPPER]
+        return _of_rigid_platform(point, cables, law, omega, assembly)[:, *UPPER]
+    rigid = assemble(point, np.zeros((len(poles.static), 3, 3)), assembly)[UPPER]
+    mass = platform_mass_matrix(point.arrays, point.rotation)[UPPER]
     inertia = law.inertia(omega[:, None], poles.first_frequency)
     elasticity = law.elasticity(omega[:, None], poles.first_frequency)
     smooth = elasticity @ poles.static - inertia @ poles.mass + rigid - (omega**2)[:, None] * mass
-    return smooth + poles.sum(np.arange(len(poles.omega_squared)), law, omega)
+    return smooth + poles.sum(np.arange(len(poles.omega_squared)), law, omega).T
 
 
 def _cable_part(

@@ -4,6 +4,7 @@ import numpy as np
 
 from cdpr_struct.dynamics.clamped_cable import symmetric_roots
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
+from cdpr_struct.dynamics.polynomial_basis import gauss_rule
 from cdpr_struct.dynamics.taut_cables import TautCables
 
 
@@ -14,7 +15,7 @@ def expand_taut_cables(cables: TautCables, pairs: int) -> ModalExpansion:
     Motion along the chord carries no mass in this model; its shape is linear.
     """
     symmetric = symmetric_roots(cables.lambda_squared, pairs)
-    nodes, weights = np.polynomial.legendre.leggauss(24 + 8 * pairs)
+    nodes, weights = gauss_rule(24 + 8 * pairs)
     xi, weights = 0.5 * (nodes + 1.0), 0.5 * weights
     mass = cables.linear_density * cables.chord
     raw = _clamped_shapes(symmetric, xi)

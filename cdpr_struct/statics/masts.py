@@ -145,7 +145,9 @@ def behind_masts(
     cable_ends : (..., m, 3, n) their motion per motion of the body
     inertia : in vibration; None at rest
     """
-    own = np.einsum("...mai,...mab,...mbj->...ij", cable_ends, stiffness, cable_ends, optimize=True)
+    pulls, n = stiffness @ cable_ends, cable_ends.shape[-1]
+    ends = np.swapaxes(cable_ends.reshape((*cable_ends.shape[:-3], -1, n)), -1, -2)
+    own = np.asarray(ends @ pulls.reshape((*pulls.shape[:-3], -1, n)))
     if not arrays.has_masts:
         return own
     on_mast, junction = _mast_blocks(stiffness, cable_ends, arrays, inertia)

@@ -90,7 +90,7 @@ def test_version(capsys):
 
 @pytest.mark.parametrize(
     ("words", "code"),
-    [(["examples/free_motion_campaign.py", "/nonexistent", "x"], 2), (["-m", "benchmarks.distribution", "-h"], 0)],
+    [(["examples/free_motion_campaign.py", "/nonexistent", "x"], 2), (["-m", "benchmarks", "-h"], 0)],
 )
 def test_scripts_neither_trace_back_nor_run_when_asked_for_help(words, code):
     called = subprocess.run([sys.executable, *words], capture_output=True, text=True, cwd=ROOT, check=False)
