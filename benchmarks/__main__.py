@@ -16,6 +16,7 @@ from benchmarks import (
     distribution,
     frf,
     geometric_term,
+    growth,
     pose_batch,
     robot_modes,
     single_cable,
@@ -37,6 +38,7 @@ QUESTIONS: tuple[Question, ...] = tuple(
         frf,
         distribution,
         geometric_term,
+        growth,
     )
 )
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import exact_cable, geometric_term, pose_batch, robot_modes, single_cable
+from benchmarks import exact_cable, geometric_term, growth, pose_batch, robot_modes, single_cable
 from benchmarks import statics_forward_kinematics as kinematics
 from benchmarks.__main__ import QUESTIONS, main
 from benchmarks.distribution import GeneralSolver, HelixDistribution
@@ -164,3 +164,23 @@ def test_one_question_prints_its_table(capsys):
 def test_a_page_without_the_section_is_refused():
     with pytest.raises(ValueError, match="the page has no <!-- growth -->"):
         put("text", "growth", "table")
+
+
+def test_an_exponent_is_the_slope_of_the_larger_sizes():
+    sizes = np.array([1.0, 2.0, 4.0, 8.0, 16.0])
+    assert growth.exponent(sizes, 3.0 * sizes**1.5) == pytest.approx(1.5)
+    assert growth.exponent(sizes, np.where(sizes < 4.0, 100.0, sizes)) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("name", [n for n in growth.GROWTHS if n not in ("map-poses", "diagnosis-readings")])
+def test_the_smallest_size_of_every_task_of_growth_runs(name, monkeypatch):
+    monkeypatch.setattr(growth, "REPETITIONS", 1)
+    seconds, megabytes = growth.alone(name, growth.GROWTHS[name].sizes[0])
+    assert 0.0 < seconds < 60.0
+    assert megabytes > 10.0
+
+
+def test_a_size_runs_in_a_process_of_its_own():
+    seconds, megabytes = growth.measured("map-poses", 100)
+    assert seconds > 0.0
+    assert 20.0 < megabytes < 1000.0
