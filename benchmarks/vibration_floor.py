@@ -11,6 +11,7 @@ import os
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -23,9 +24,11 @@ from cdpr_struct.dynamics.many_poses import poses_of
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.workspace.grid import Grid
+from cdpr_struct.workspace.mode_map import ModeMap
 from cdpr_struct.workspace.vibration import first_frequencies
 
-POSES, RUNS, CHECKED, COUNT = 625, 7, 12, 12
+POSES, RUNS, CHECKED, COUNT, FOLLOWED = 625, 7, 12, 12, 3
 ROBOTS = ("thesis-3-1", "thesis-3-1-8mm", "cogiro", "thesis-5")
 
 
@@ -66,6 +69,13 @@ class VibrationFloor:
 
     def time_map(self) -> None:
         first_frequencies(self.robot, self.positions, np.eye(3))
+
+    def time_mode(self, number: int = FOLLOWED) -> None:
+        """One mode, followed over a square of as many poses in the plane of home."""
+        x, y, z = self.robot.home.position
+        steps = np.linspace(-1.0, 1.0, round(len(self.positions) ** 0.5))
+        grid, what = Grid(x + steps, y + steps, np.array([z]), np.zeros(3)), ModeMap(number)
+        what.finish(self.robot, grid, what.evaluate(self.robot, grid.positions, grid.rotation))
 
     def errors(self) -> dict[str, str]:
         """Largest relative errors and the widths that are proved, of the first poses."""
@@ -108,6 +118,8 @@ def main() -> None:
             "first frequency": bench.time_first,
             f"{COUNT} modes": bench.time_many,
             "map of first frequencies": bench.time_map,
+            "map of mode 1": partial(bench.time_mode, 1),
+            f"map of mode {FOLLOWED}": bench.time_mode,
         }
         found, errors = medians(tasks), bench.errors()
         print(f"{name}, {poses} poses, {1e6 * found['floor'] / poses:.0f} us a floor")
