@@ -11,7 +11,7 @@ from cdpr_struct.workspace import shaped_modes as module
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.inserted_poses import InsertedPoses
 from cdpr_struct.workspace.mode_following import FollowedMode, Following
-from cdpr_struct.workspace.mode_map import ModeMap
+from cdpr_struct.workspace.mode_map import ModeMap, reference
 from cdpr_struct.workspace.mode_matching import SAME, matched, unlike_neighbours
 from cdpr_struct.workspace.quantities import quantity_of
 from cdpr_struct.workspace.shaped_modes import ShapedModes, shaped_modes
@@ -279,10 +279,18 @@ def test_a_closed_loop_without_marks_comes_back_to_the_same_mode():
 
 
 def test_the_reference_is_the_pose_next_to_home_at_which_the_mode_is_single():
-    """At the centre of thesis-5 two modes coincide by symmetry."""
     poses, found = mapped("thesis-3-1", 1, 1.0, 5, 0.5)
     start = np.flatnonzero(found["followed_from"] == 0)
     np.testing.assert_allclose(poses.positions[start], [[0.0, 0.0, 0.5]], atol=1e-12)
+    robot, line = load_robot("thesis-3-1"), grid(np.linspace(-0.2, 0.2, 5), 0.0, 0.5)
+    hertz = np.tile([2.0, 3.0, 4.0], (5, 1))
+    hertz[2] = [2.0, 3.0, 3.0 + 1e-5]
+    assert reference(robot, line, hertz, 0) == 2
+    assert reference(robot, line, hertz, 1) in (1, 3)
+    hertz[3] = np.nan
+    assert reference(robot, line, hertz, 1) == 1
+    hertz[:] = np.nan
+    assert reference(robot, line, hertz, 1) == -1
     away = grid(np.linspace(1.0, 2.0, 5), 0.0, 0.5)  # home lies outside
     assert np.flatnonzero(columns_of("thesis-3-1", "mode-1", away)["followed_from"] == 0).tolist() == [2]
 
