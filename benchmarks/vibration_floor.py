@@ -7,6 +7,8 @@ alternately in one thread, by processor time; printed are medians and their rati
 certified modes of single poses.
 """
 
+from functools import partial
+
 import numpy as np
 
 from benchmarks.markdown_page import table
@@ -18,9 +20,11 @@ from cdpr_struct.dynamics.many_poses import poses_of
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.workspace.grid import Grid
+from cdpr_struct.workspace.mode_map import ModeMap
 from cdpr_struct.workspace.vibration import first_frequencies
 
-POSES, RUNS, CHECKED, COUNT = 625, 7, 12, 12
+POSES, RUNS, CHECKED, COUNT, FOLLOWED = 625, 7, 12, 12, 3
 ROBOTS = ("thesis-3-1", "thesis-3-1-8mm", "cogiro", "thesis-5")
 
 
@@ -62,6 +66,13 @@ class VibrationFloor:
     def time_map(self) -> None:
         first_frequencies(self.robot, self.positions, np.eye(3))
 
+    def time_mode(self, number: int = FOLLOWED) -> None:
+        """One mode, followed over a square of as many poses in the plane of home."""
+        x, y, z = self.robot.home.position
+        steps = np.linspace(-1.0, 1.0, round(len(self.positions) ** 0.5))
+        grid, what = Grid(x + steps, y + steps, np.array([z]), np.zeros(3)), ModeMap(number)
+        what.finish(self.robot, grid, what.evaluate(self.robot, grid.positions, grid.rotation))
+
     def errors(self) -> dict[str, str]:
         """Largest relative errors and the widths that are proved, of the first poses."""
         point = poses_of(self.point, np.arange(CHECKED))
@@ -91,6 +102,8 @@ def answer(quick: bool) -> Answer:
             "first frequency": bench.time_first,
             f"{COUNT} modes": bench.time_many,
             "map of first frequencies": bench.time_map,
+            "map of mode 1": partial(bench.time_mode, 1),
+            f"map of mode {FOLLOWED}": bench.time_mode,
         }
         found, errors = medians({"floor": bench.time_floor} | tasks, 1 if quick else RUNS), bench.errors()
         rows += [[name, task, f"{found[task] / found['floor']:.3f}", errors.get(task, "")] for task in tasks]

@@ -55,13 +55,20 @@ def run(
     check_workers(workers, scheduler)
     machine, poses = read_robot(robot, payload, mass, lower_bound, upper_bound), read_grid(grid)
     from cdpr_struct.reports import statics_map as report
-    from cdpr_struct.workspace.quantities import QUANTITIES
+    from cdpr_struct.workspace.quantities import quantity_of
     from cdpr_struct.workspace.sweep import sweep
 
-    if quantity is None or quantity not in QUANTITIES:
-        raise InputError("--quantity", "", quantity or "nothing", f"one of: {', '.join(QUANTITIES)}")
+    quantity = quantity or "nothing"
+    try:
+        what = quantity_of(quantity)
+    except KeyError as error:
+        raise InputError("--quantity", "", quantity, error.args[0]) from None
+    if what.most_poses is not None and poses.size > (most := what.most_poses(machine)):
+        right = f"at most {most} poses for {quantity}, which keeps the mode shapes of all poses in memory"
+        raise InputError("--grid", "", f"{poses.size} poses", right)
     batches = sweep(quantity, machine, poses, chunk)
     columns, resumed = run_batches(batches, (workers, scheduler), output)
+    columns = what.finished(machine, poses, columns)
     result = report.map_json(machine, quantity, poses, columns) | {"resumed_chunks": resumed}
     result = with_extensions(result, machine, _kin(quantity))
     output.deliver(
@@ -77,4 +84,4 @@ def _kin(quantity: str) -> str:
     """The command that knows the extensions which this quantity knows."""
     if quantity.startswith("pose-error"):
         return "pose-error"
-    return NAME if quantity.startswith("first-") else "inverse"
+    return NAME if quantity.startswith(("first-", "mode-")) or quantity == "frequencies" else "inverse"

@@ -11,6 +11,7 @@ import numpy as np
 from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, HangingCables, condensed
 from cdpr_struct.dynamics.condensed_robot import Platform, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, most_below
+from cdpr_struct.dynamics.mode_shapes import condensed_shapes, shape_size
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.string_functions import string_functions
 from cdpr_struct.statics.slack_cables import hangs_slack
@@ -143,35 +144,49 @@ def first_mode(batch: Batch, near: np.ndarray | None = None) -> Enclosed:
 
 
 def lowest_modes(batch: Batch, count: int) -> Enclosed:
-    """Squared frequencies (n, count), ascending, of stable poses; nan where they are not proved.
+    """Squared frequencies (n, count), ascending, of stable poses; nan where they are not proved."""
+    return lowest_shapes(batch, count, 0)[0]
+
+
+def lowest_shapes(batch: Batch, count: int, harmonics: int) -> tuple[Enclosed, np.ndarray]:
+    """The same, and the modes' shapes (n, count, d), see `mode_shapes`.
 
     One shift a pose serves most; where it does not, more leads, more polynomials and a shift by what is known by then.
     """
     n, lowest = batch.cables.length.shape[1], batch.lowest_string
     found = np.full((n, count), np.nan)
-    harmonics = np.sort(np.concatenate([k**2 * batch.strings for k in range(1, _HARMONICS + 1)] * 2), axis=0)
-    first, top = lowest.copy(), harmonics[min(count, len(harmonics)) - 1].copy()
+    shapes = np.zeros((n, count, shape_size(len(batch.strings), harmonics)))
+    strings = np.sort(np.concatenate([k**2 * batch.strings for k in range(1, _HARMONICS + 1)] * 2), axis=0)
+    first, top = lowest.copy(), strings[min(count, len(strings)) - 1].copy()
     for leads, order in _MANY:
         hopeless = (top > (0.5 * (order - _RESOLVED)) ** 2 * lowest) & (leads < _MANY[-1][0])
-        todo = np.flatnonzero(~np.isfinite(found).all(axis=1) & ~hopeless)
+        enough = 6 + 2 * leads * len(batch.strings) >= count
+        todo = np.flatnonzero(~np.isfinite(found).all(axis=1) & ~hopeless & enough)
         for own in pieces(todo):
             shift = np.minimum(_LOW * first[own] + _HIGH * top[own], REACH * (leads + 1) ** 2 * lowest[own])
-            guess, proved = _about(batch.take(own), shift, count, (leads, max(order, batch.order)))
-            found[own] = np.where(proved & ~np.isfinite(found[own]), guess, found[own])
+            size = leads, max(order, batch.order)
+            guess, proved, shape = _about(batch.take(own), shift, count, size, harmonics)
+            new = proved & ~np.isfinite(found[own])
+            found[own], shapes[own] = np.where(new, guess, found[own]), np.where(new[..., None], shape, shapes[own])
             first[own], top[own] = guess[:, 0], guess[:, -1]
-    return Enclosed(found, found * (1.0 - 2.0 * PROVED))
+    return Enclosed(found, found * (1.0 - 2.0 * PROVED)), shapes
 
 
-def _about(batch: Batch, shift: np.ndarray, count: int, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
-    """The first `count` squared frequencies (n, count) from one shift, and which are proved (n, count)."""
+def _about(
+    batch: Batch, shift: np.ndarray, count: int, size: tuple[int, int], harmonics: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The first `count` squared frequencies (n, count) from one shift, which are proved (n, count), and shapes."""
     leads, order = size
-    own = condensed(batch.cables, shift, string_functions(order), leads, HIGHEST_TERM)
+    functions = string_functions(order)
+    own = condensed(batch.cables, shift, functions, leads, HIGHEST_TERM)
     small = pencil(batch.platform, own, shift)
     d, vectors = small.modes
     chosen = slice(0, count + _SPARE)
-    squared, _ = corrected(batch.platform, own, small, d[:, chosen], vectors[:, :, chosen])
+    squared, motion, turned = corrected(batch.platform, own, small, d[:, chosen], vectors[:, :, chosen])
+    kept = vectors[:, 6:, chosen] @ turned[:, :, :count]
+    shapes = condensed_shapes(batch.platform, motion[:, :, :count], kept, functions, harmonics)
     squared = squared[:, :count]
     low = squared * (1.0 - 2.0 * PROVED)
     few = [most_below(batch.platform, own, shift, low[:, i]) <= i for i in range(count)]
     half_waves = np.sqrt(np.maximum(squared, 0.0) / batch.lowest_string[:, None])
-    return squared, np.stack(few, axis=1) & (2.0 * half_waves <= order - _RESOLVED)
+    return squared, np.stack(few, axis=1) & (2.0 * half_waves <= order - _RESOLVED), shapes

@@ -22,8 +22,9 @@ _FARTHEST = 0.7  # of lambda_c - sigma: no trial motion is followed further than
 @quietly
 def corrected(
     platform: Platform, cables: CondensedCables, own: Pencil, d: np.ndarray, vectors: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Squared frequencies (n, s), ascending, and their platform motions (n, 6, s) of unit modal mass.
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Squared frequencies (n, s), ascending, their platform motions (n, 6, s) of unit modal mass, and what (n, s, s)
+    turns the pencil's modes into them: its columns.
 
     cables : with terms up to the fifth power
     d, vectors : (n, s), (n, k, s) of some modes of the pencil
@@ -34,8 +35,8 @@ def corrected(
     stiffness, mass = _trial(d, np.clip(d, -far, far), terms)
     inverse = np.linalg.inv(np.linalg.cholesky(_positive(mass)))
     values, turn = np.linalg.eigh(inverse @ stiffness @ np.swapaxes(inverse, 1, 2))
-    motion = np.moveaxis(platform_motion, -1, 0) @ np.swapaxes(inverse, 1, 2) @ turn
-    return own.shift[:, None] + values, motion
+    turned = np.swapaxes(inverse, 1, 2) @ turn
+    return own.shift[:, None] + values, np.moveaxis(platform_motion, -1, 0) @ turned, turned
 
 
 def _in_modes(platform: Platform, cables: CondensedCables, motion: np.ndarray, vectors: np.ndarray) -> list[np.ndarray]:

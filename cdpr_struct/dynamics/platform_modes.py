@@ -8,11 +8,13 @@ from cdpr_struct.dynamics.batched_modes import PROVED, REACH, Batch, pieces
 from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, condensed
 from cdpr_struct.dynamics.condensed_robot import Pencil, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, least_below, most_below
+from cdpr_struct.dynamics.mode_shapes import condensed_shapes, shape_size
 from cdpr_struct.dynamics.string_functions import string_functions
 
 _ATTEMPTS = ((1, 2.4), (2, 4.5), (3, 8.0), (6, np.inf), (8, np.inf))
 """Leads, and below which ratio of the squared massless frequency to the lowest string's they are tried."""
 _WINDOW = 8
+HARMONICS = 4  # of each cable, in the mode's shape
 _PAST = 1.05  # the shift towards the platform's mode, over the squared massless frequency
 _SEEN = 0.85  # of the eliminated motions' lowest squared frequency: so far modes are taken for known
 
@@ -24,11 +26,13 @@ class PlatformMode:
     squared : (n,) its squared frequency, nan where it is not proved
     share   : (n,) of that motion that it holds, by kinetic energy [-]; the rest is in other modes
     first   : (n,) about the squared first frequency of all modes, nan where even that is not known
+    shape   : (n, d) see `mode_shapes`; nan where the mode is not proved
     """
 
     squared: np.ndarray
     share: np.ndarray
     first: np.ndarray
+    shape: np.ndarray
 
 
 def platform_mode(batch: Batch, massless: np.ndarray, momentum: np.ndarray, among: int) -> PlatformMode:
@@ -39,26 +43,28 @@ def platform_mode(batch: Batch, massless: np.ndarray, momentum: np.ndarray, amon
     """
     n = len(massless)
     found, share, first = (np.full(n, np.nan) for _ in range(3))
+    shape = np.full((n, shape_size(len(batch.strings), HARMONICS)), np.nan)
     ratio = massless / batch.lowest_string
     for leads, most in _ATTEMPTS:
         todo = np.flatnonzero(~np.isfinite(found) & (ratio < most))
         for own in pieces(todo):
             wanted = massless[own], momentum[own]
             best = _most_alike(batch.take(own), wanted, leads, among)
-            found[own], share[own], first[own] = best.squared, best.share, best.first
-    return PlatformMode(found, share, first)
+            found[own], share[own], first[own], shape[own] = best.squared, best.share, best.first, best.shape
+    return PlatformMode(found, share, first, shape)
 
 
 def _most_alike(batch: Batch, wanted: tuple[np.ndarray, np.ndarray], leads: int, among: int) -> PlatformMode:
     massless, momentum = wanted
     string = batch.lowest_string
     shift = np.minimum(_PAST * massless, REACH * (leads + 1) ** 2 * string)
-    own = condensed(batch.cables, shift, string_functions(max(batch.order, 2 * leads + 5)), leads, HIGHEST_TERM)
+    functions = string_functions(max(batch.order, 2 * leads + 5))
+    own = condensed(batch.cables, shift, functions, leads, HIGHEST_TERM)
     small = pencil(batch.platform, own, shift)
     d, vectors = small.modes
     chosen, sure = _window(small, (d, vectors), momentum, among)
     values, shapes = np.take_along_axis(d, chosen, axis=1), np.take_along_axis(vectors, chosen[:, None], axis=2)
-    squared, motion = corrected(batch.platform, own, small, values, shapes)
+    squared, motion, turned = corrected(batch.platform, own, small, values, shapes)
     alike = np.einsum("ni,nis->ns", momentum, motion) ** 2
     best = alike.argmax(axis=1)[:, None]
     rank = np.take_along_axis(chosen, best, axis=1)[:, 0]
@@ -68,7 +74,10 @@ def _most_alike(batch: Batch, wanted: tuple[np.ndarray, np.ndarray], leads: int,
     proved = sure & above & below
     share = np.take_along_axis(alike, best, axis=1)[:, 0]
     first = np.where(shift < own.lowest, squared[:, 0], np.nan)
-    return PlatformMode(np.where(proved, found, np.nan), np.where(proved, share, np.nan), first)
+    turned, moved = (np.take_along_axis(part, best[:, None], axis=2) for part in (turned, motion))
+    shape = condensed_shapes(batch.platform, moved, shapes[:, 6:] @ turned, functions, HARMONICS)[:, 0]
+    found, share = (np.where(proved, values, np.nan) for values in (found, share))
+    return PlatformMode(found, share, first, np.where(proved[:, None], shape, np.nan))
 
 
 def _window(

@@ -11,7 +11,7 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import shared_cure
 from cdpr_struct.statics.sufficient_bound import shared_bound_of_pose_errors, shared_lower_bound
 from cdpr_struct.workspace.grid import AXES, Grid
-from cdpr_struct.workspace.quantities import QUANTITIES
+from cdpr_struct.workspace.quantities import quantity_of
 from cdpr_struct.workspace.work_list import Columns
 
 _MOST_HELD, _MOST_RELEASED = 64, 16  # poses with slack cables at which a cure is searched; a release takes longer
@@ -32,7 +32,7 @@ def map_table(grid: Grid, columns: Columns) -> LongTable:
 
 def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str, Any]:
     """Result of a map of one quantity. Where cables hang slack, the lower bound that would cure it is searched."""
-    quantity = QUANTITIES[name]
+    quantity = quantity_of(name)
     value = map_values(name, columns)
     some = bool(np.isfinite(value).any())
     ends = {
@@ -54,14 +54,28 @@ def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str,
         **ends,
         "slack_poses": len(slack_poses(columns)),
         **({"shared_poses": int(shared(name, columns).sum())} if quantity.shared else {}),
+        **followed(grid, columns),
         "warnings": slack_warnings(robot, grid, columns, released=name.startswith("pose-error")),
     }
 
 
 def shared(name: str, columns: Columns) -> np.ndarray:
     """(n,) bool: what the quantity describes is shared by modes of which none holds most."""
-    column = QUANTITIES[name].shared
+    column = quantity_of(name).shared
     return columns[column] < 0.5 if column else np.zeros(len(columns["held"]), dtype=bool)
+
+
+def followed(grid: Grid, columns: Columns) -> dict[str, Any]:
+    """Where a mode was followed from, and at how many poses that is in doubt; nothing for other quantities."""
+    if "veering" not in columns:
+        return {}
+    counts = {"veering_poses": int(columns["veering"].sum())}
+    if "followed_from" not in columns:
+        return counts
+    start = np.flatnonzero((columns["followed_from"] == 0) & np.isfinite(columns["mode_Hz"]))
+    places = [{"position_m": grid.positions[i], "mode_Hz": float(columns["mode_Hz"][i])} for i in start]
+    behind = int(columns["behind_veering"].sum())
+    return {"reference": places[0] if places else None, **counts, "behind_veering_poses": behind}
 
 
 def slack_poses(columns: Columns) -> np.ndarray:
@@ -89,7 +103,7 @@ def slack_warnings(robot: Robot, grid: Grid, columns: Columns, released: bool = 
 def map_values(name: str, columns: Columns) -> np.ndarray:
     """(n,) the quantity; nan where the pose is not held or not stable."""
     good = columns["held"] & columns.get("stable", columns["held"])
-    return np.where(good, columns[QUANTITIES[name].column], np.nan)
+    return np.where(good, columns[quantity_of(name).column], np.nan)
 
 
 def map_files(
@@ -100,7 +114,7 @@ def map_files(
 
     plates = [_map_plate(robot, name, grid, columns)] if workspace_map.drawable(grid) else []
     page = Page(
-        title=f"{robot.name}: {QUANTITIES[name].label}" + (" over the workspace" if grid.size > 1 else " at a pose"),
+        title=f"{robot.name}: {quantity_of(name).label}" + (" over the workspace" if grid.size > 1 else " at a pose"),
         subtitle=f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg" + _comma(grid.fixed_text()),
         verdict=[map_sentence(result)],
         holds=result["held"] == result["poses"] and not result["unstable"],
@@ -115,7 +129,7 @@ def map_files(
 
 def map_sentence(result: Mapping[str, Any]) -> str:
     """The outcome in words."""
-    label = QUANTITIES[result["quantity"]].label
+    label = quantity_of(result["quantity"]).label
     if result["mean"] is None:
         count = "The pose is not" if result["poses"] == 1 else f"None of the {result['poses']} poses is"
         return f"{count} held by the cables and stable.{_few_cables(result)}"
@@ -126,11 +140,25 @@ def map_sentence(result: Mapping[str, Any]) -> str:
     missing = {"cannot be held": result["poses"] - result["held"], "would not be stable": result["unstable"]}
     held = "".join(f" {n} pose{'s' if n > 1 else ''} {what}." for what, n in missing.items() if n)
     if several := result.get("shared_poses"):
-        held += f" At {several} of {result['poses']} poses modes veer: none holds half of the platform's motion."
+        held += f" At {several} poses no mode holds half of the platform's motion."
+    held += _veering(result)
     return (
         f"{label[0].upper()}{label[1:]}: {low['value']:.4g} {result['unit']} at {at[0]} to {high['value']:.4g} "
         f"{result['unit']} at {at[1]}, {result['mean']:.4g} {result['unit']} on average.{held}"
     )
+
+
+def _veering(result: Mapping[str, Any]) -> str:
+    """Where the mode was followed from, and where it could not be followed for sure."""
+    said, several = "", result.get("veering_poses")
+    if start := result.get("reference"):
+        place = ", ".join(f"{v:g}" for v in start["position_m"])
+        said = f" Followed from ({place}) m, where it has {start['mode_Hz']:.4g} Hz."
+    if several:
+        said += f" At {several} of {result['poses']} poses modes veer, and the frequency may step to another mode."
+    if several := result.get("behind_veering_poses"):
+        said += f" {several} poses are reached only across such poses: there it may be another mode."
+    return said
 
 
 def _few_cables(result: Mapping[str, Any]) -> str:
@@ -146,7 +174,7 @@ def _map_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
         return [held]
     unit = result["unit"]
     if result["poses"] == 1:
-        return [(f"{result['mean']:.4g} {unit}", QUANTITIES[result["quantity"]].label)]
+        return [(f"{result['mean']:.4g} {unit}", quantity_of(result["quantity"]).label)]
     ends = [(f"{result[key]['value']:.4g} {unit}", key) for key in ("smallest", "largest")]
     return [*ends, (f"{result['mean']:.4g} {unit}", "mean"), held]
 
@@ -154,10 +182,12 @@ def _map_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
 def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
     from cdpr_struct.reports.figures import style, workspace_map, workspace_slices
 
-    quantity, value = QUANTITIES[name], map_values(name, columns)
+    quantity, value = quantity_of(name), map_values(name, columns)
     marked, mark = columns.get("more_stable_pose"), workspace_map.OTHER
     if marked is None:
         marked, mark = shared(name, columns), "no mode holds half of the platform's motion"
+    if "veering" in columns:
+        marked, mark = columns["veering"], "modes veer: the step to a neighbour may lead to another mode"
     signed = name.startswith("pose-error")
     layer = workspace_map.Layer(quantity.label, quantity.unit, value, marked, signed, mark)
     solid = len(grid.free) == 3
@@ -167,7 +197,8 @@ def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
     hatched = " Hatched: poses that cannot be held or are not stable." if np.isnan(value).any() else ""
     which = f"{robot.name}, {robot.platform.mass:g} kg{_comma(grid.fixed_text())}"
     slices = f" {workspace_slices.Slices.of(grid).said()}" if solid else ""
-    caption = f"{which}: {quantity.meaning} [{quantity.unit}].{slices}{hatched}"
+    veer = " Triangles: modes veer, the frequency may step there." if "veering" in columns and marked.any() else ""
+    caption = f"{which}: {quantity.meaning} [{quantity.unit}].{slices}{hatched}{veer}"
     return Plate("map", f"{quantity.label[0].upper()}{quantity.label[1:]}", picture, caption)
 
 

@@ -61,6 +61,17 @@ class Grid:
         """(3, 3) platform to world."""
         return rotation_from_angles(*self.angles)
 
+    @property
+    def neighbours(self) -> np.ndarray:
+        """(n, 6) numbers of the next poses along x (ahead, back), y and z; -1 where the grid ends."""
+        number = np.arange(self.size).reshape(self.shape)
+        found = np.full((*self.shape, 6), -1)
+        for axis in range(3):
+            ahead, back = np.moveaxis(found[..., 2 * axis : 2 * axis + 2], axis, 0).transpose(3, 0, 1, 2)
+            along = np.moveaxis(number, axis, 0)
+            ahead[:-1], back[1:] = along[1:], along[:-1]
+        return found.reshape(-1, 6)
+
     def fixed_text(self) -> str:
         """The coordinates that all poses share, like `z = 0.5 m`; empty if there are none."""
         parts = [f"{AXES[i]} = {self.axes[i][0]:g} m" for i in range(3) if i not in self.free]

@@ -1,7 +1,8 @@
 """What can be mapped over the workspace: a registry of quantities, one function a kind.
 
 To add one: write a function of robot, positions (n, 3) and rotation (3, 3) that returns columns of n values, `held`
-among them, computed for all poses at once, and enter it in `QUANTITIES`.
+among them, computed for all poses at once, and enter it in `QUANTITIES`. What needs the whole grid is a function of
+robot, grid and these columns, `finish`.
 """
 
 from collections.abc import Callable
@@ -17,7 +18,10 @@ from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.statics.static_stiffness import static_stiffness
-from cdpr_struct.workspace.vibration import SHARE, first_frequencies
+from cdpr_struct.workspace.grid import Grid
+from cdpr_struct.workspace.lowest import LOWEST, lowest
+from cdpr_struct.workspace.mode_map import MOST_MODES, ModeMap
+from cdpr_struct.workspace.vibration import SHARE, first_frequencies, marked_frequencies, shaped_frequencies
 from cdpr_struct.workspace.work_list import Columns
 
 
@@ -32,6 +36,8 @@ class Quantity:
                   the pose cannot be held, and the quantity then is nan or does not count
     chunk       : poses that are best computed at once
     shared      : column of the share of what the quantity describes, "" if it is never shared
+    finish      : (robot, grid, columns) -> the columns of the map, from those of all its poses
+    most_poses  : (robot) -> poses of the largest grid that can be finished
     """
 
     label: str
@@ -41,11 +47,46 @@ class Quantity:
     evaluate: Callable[[Robot, np.ndarray, np.ndarray], Columns]
     chunk: int = 256
     shared: str = ""
+    finish: Callable[[Robot, Grid, Columns], Columns] | None = None
+    most_poses: Callable[[Robot], int] | None = None
+
+    def finished(self, robot: Robot, grid: Grid, columns: Columns) -> Columns:
+        """The columns of the map, from those that `evaluate` gave over the whole grid."""
+        return columns if self.finish is None else self.finish(robot, grid, columns)
+
+
+def quantity_of(name: str) -> Quantity:
+    """The quantity of a name: one of `QUANTITIES`, or `mode-K`.
+
+    Raises
+    ------
+    KeyError : there is none; the message says which there are.
+    """
+    if name in QUANTITIES:
+        return QUANTITIES[name]
+    kind, _, number = name.partition("-")
+    if kind == "mode" and number.isdecimal() and number == str(int(number)) and 1 <= int(number) <= MOST_MODES:
+        return _followed(int(number))
+    raise KeyError(f"one of: {', '.join(QUANTITIES)}, mode-K with K from 1 to {MOST_MODES}")
+
+
+def _followed(number: int) -> Quantity:
+    own = ModeMap(number)
+    return Quantity(
+        f"mode {number}",
+        "Hz",
+        f"frequency of mode {number} at the reference pose, followed by its shape from pose to pose",
+        "mode_Hz",
+        own.evaluate,
+        chunk=1024,
+        finish=own.finish,
+        most_poses=own.most_poses,
+    )
 
 
 def evaluate(name: str, robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
     """Columns of a quantity at poses; a plain function of plain things, so that any worker can run it."""
-    return QUANTITIES[name].evaluate(robot, positions, rotation)
+    return quantity_of(name).evaluate(robot, positions, rotation)
 
 
 def pose_errors(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
@@ -169,9 +210,17 @@ QUANTITIES: dict[str, Quantity] = {
         "Hz",
         "frequency of the mode most like the platform's first on massless cables, cables vibrating",
         "platform_Hz",
-        first_frequencies,
+        shaped_frequencies,
         chunk=2048,
         shared=SHARE,
+        finish=marked_frequencies,
+    ),
+    "frequencies": Quantity(
+        "first frequency",
+        "Hz",
+        f"first of the lowest {LOWEST} natural frequencies of the robot, cables vibrating",
+        "f1_Hz",
+        lowest,
     ),
     "tension-max": Quantity("largest tension", "N", "largest cable tension at the platform", "tension_max_N", tensions),
     "tension-min": Quantity(

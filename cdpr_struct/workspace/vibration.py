@@ -7,21 +7,24 @@ from cdpr_struct.dynamics.cable_dynamics import expand_catenaries_at
 from cdpr_struct.dynamics.internal_mass import with_internal_mass
 from cdpr_struct.dynamics.lowest_clamped import lowest_clamped
 from cdpr_struct.dynamics.many_poses import poses_of
+from cdpr_struct.dynamics.mode_shapes import ritz_shapes, shape_size
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.dynamics.platform_modes import platform_mode
+from cdpr_struct.dynamics.platform_modes import HARMONICS, platform_mode
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix, platform_static_stiffness
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.slack_cables import slack_count
+from cdpr_struct.workspace.grid import Grid
+from cdpr_struct.workspace.mode_matching import unlike_neighbours
+from cdpr_struct.workspace.mode_records import as_records, of_records, unit_shapes
+from cdpr_struct.workspace.work_list import Columns
 
-SHARE = "platform_share"
+SHARE, SHAPE = "platform_share", "platform_shape"
 AMONG = 60  # first modes of the robot, of which one is the platform's
 _CHUNK, _GENERAL_CHUNK = 2048, 32  # poses at once
 _ORDER = 24
 _HALF_WAVES = 2.5
-
-Columns = dict[str, np.ndarray]
 
 
 def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
@@ -33,14 +36,29 @@ def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray)
     cable's frequency is that with both ends held. Minimum-norm tensions within the robot's force limits. nan where the
     platform is not held, or balanced but not stable. slack_cables: number of cables that hang slack where it is held.
     """
+    found = shaped_frequencies(robot, positions, rotation)
+    return {name: values for name, values in found.items() if name != SHAPE}
+
+
+def shaped_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
+    """The same, and a column of records: the shape of the platform's mode, of length one, see `mode_records`."""
     starts = range(0, max(len(positions), 1), _CHUNK)
     parts = [_of_chunk(robot, positions[start : start + _CHUNK], rotation) for start in starts]
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
+def marked_frequencies(robot: Robot, grid: Grid, columns: Columns) -> Columns:
+    """The columns over a whole grid, and `veering`: the platform's mode holds less than half of its motion, or that
+    of a neighbour has a shape that is not half alike. Between two poses without this mark the mode is the same."""
+    shapes = of_records(columns[SHAPE])
+    there = np.isfinite(columns[SHARE])
+    veering = (columns[SHARE] < 0.5) | unlike_neighbours(shapes, there, grid.neighbours)
+    return {**{name: values for name, values in columns.items() if name != SHAPE}, "veering": veering}
+
+
 def _of_chunk(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
     solution = inverse(robot, positions, rotation, allow_unheld=True)
-    columns = {name: np.full(len(positions), np.nan) for name in _names(robot)}
+    columns = _empty(robot, len(positions))
     held = np.flatnonzero(solution.held)
     if held.size:
         point = _points(robot, positions, rotation, solution, held)
@@ -48,13 +66,20 @@ def _of_chunk(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Colu
         stable = np.flatnonzero(massless > 0.0)
         found = _at_rest(poses_of(point, stable), massless[stable], momentum[stable])
         for name, values in found.items():
-            columns[name][held[stable]] = values if name == SHARE else np.sqrt(values) / (2.0 * np.pi)
+            columns[name][held[stable]] = values if name in (SHARE, SHAPE) else np.sqrt(values) / (2.0 * np.pi)
+    columns[SHAPE] = as_records(unit_shapes(columns[SHAPE]))
     return {**columns, "slack_cables": slack_count(solution.cables, solution.held), "held": solution.held}
 
 
 def _names(robot: Robot) -> list[str]:
     cables = (f"cable_{i + 1}_Hz" for i in range(len(robot.cables)))
     return ["first_Hz", "platform_Hz", SHARE, "platform_massless_Hz", *cables]
+
+
+def _empty(robot: Robot, n: int) -> Columns:
+    """Columns without values; the shape's is (n, d)."""
+    columns = {name: np.full(n, np.nan) for name in _names(robot)}
+    return {**columns, SHAPE: np.full((n, shape_size(len(robot.cables), HARMONICS)), np.nan)}
 
 
 def _points(
@@ -80,7 +105,7 @@ def _first_static_mode(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
 def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> Columns:
     """Squared frequencies by name, and the share, at stable poses: the fast path's, else the general solver's."""
     names = _names(point.entered)
-    found = {name: np.full(len(massless), np.nan) for name in names}
+    found = _empty(point.entered, len(massless))
     found["platform_massless_Hz"] = massless
     fast = np.flatnonzero(fits(point))
     if fast.size:
@@ -102,10 +127,10 @@ def _fast(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> 
         batch = whole.take(group)
         platform = platform_mode(batch, massless[group], momentum[group], AMONG)
         first = first_mode(batch, platform.first).squared
-        columns = {"first_Hz": first, "platform_Hz": platform.squared, SHARE: platform.share}
+        columns = {"first_Hz": first, "platform_Hz": platform.squared, SHARE: platform.share, SHAPE: platform.shape}
         columns |= _of_cables(lowest_clamped(batch.cables, batch.order))
         for name, values in columns.items():
-            found.setdefault(name, np.full(len(massless), np.nan))[group] = values
+            found.setdefault(name, np.full((len(massless), *values.shape[1:]), np.nan))[group] = values
     return found
 
 
@@ -119,7 +144,9 @@ def _general(point: OperatingPoint, momentum: np.ndarray) -> Columns:
     alike = np.einsum("nki,ni->nk", moved, momentum) ** 2
     best = alike.argmax(axis=-1)[:, None]
     omega, share = (np.take_along_axis(values, best, axis=-1)[:, 0] for values in (modes.omega, alike))
-    return {"first_Hz": modes.omega[:, 0] ** 2, "platform_Hz": omega**2, SHARE: share} | _of_cables(clamped.T)
+    shape = np.take_along_axis(ritz_shapes(point, modes, HARMONICS), best[:, :, None], axis=1)[:, 0]
+    found = {"first_Hz": modes.omega[:, 0] ** 2, "platform_Hz": omega**2, SHARE: share, SHAPE: shape}
+    return found | _of_cables(clamped.T)
 
 
 def _of_cables(squared: np.ndarray) -> Columns:

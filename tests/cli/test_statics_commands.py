@@ -135,7 +135,7 @@ def test_pose_error_writes_every_file(tmp_path):
     assert names == tables | {"pose_error.svg", "sufficient_load.svg", "report.html"}
 
 
-@pytest.mark.parametrize("name", list(quantities.QUANTITIES))
+@pytest.mark.parametrize("name", [*quantities.QUANTITIES, "mode-1"])
 def test_every_quantity_can_be_mapped(name, tmp_path):
     out = tmp_path / name
     assert run(["map", "thesis-3-1", "--grid=-2:2:3,-2:2:3,0.5", "--quantity", name, "--out", str(out)]) == 0
