@@ -4,15 +4,17 @@ The fast path: pencils about frequency shifts near the modes that are wanted. It
 taut and runs from a fixed point to the platform; what does not fit, or is not proved, is the general solver's.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, HangingCables, condensed
+from cdpr_struct.dynamics.cables_of_poses import HangingCables
+from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, condensed
 from cdpr_struct.dynamics.condensed_robot import Platform, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, most_below
+from cdpr_struct.dynamics.frame_springs import FrameSprings
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.dynamics.string_functions import string_functions
+from cdpr_struct.dynamics.string_functions import StringFunctions, string_functions
 from cdpr_struct.statics.slack_cables import hangs_slack
 
 PROVED = 1e-7  # relative width, of a frequency, that counts as its proof
@@ -46,9 +48,7 @@ def reasons_against(point: OperatingPoint) -> list[str]:
     """What the robot has that the fast path does not know."""
     robot = point.arrays
     known = {
-        "pulleys": robot.has_pulleys,
         "masts": robot.has_masts,
-        "elasticity in line": bool(robot.series_compliance.any()),
         "bending stiffness": bool(robot.bending_stiffness.any()),
         "masses at mid-cable": bool(robot.added_mass.any()),
         "an internal mass": robot.has_internal_mass,
@@ -78,7 +78,8 @@ class Batch:
 
     @classmethod
     def of(cls, point: OperatingPoint) -> "Batch":
-        cables = HangingCables.of(point.cables, point.arrays.linear_density)
+        fixed = HangingCables.of(point.cables, point.arrays.linear_density)
+        cables = replace(fixed, frame=FrameSprings.of(point, fixed.axes(point.cables.heading)))
         return cls(cables, Platform.of(point, cables))
 
     def take(self, index: np.ndarray) -> "Batch":
@@ -91,6 +92,10 @@ class Batch:
     def order(self) -> int:
         """Degree of the polynomials that serve all these cables."""
         return _ORDER if self.cables.sag_ratio.max(initial=0.0) < _SAGGING else _SAGGING_ORDER
+
+    def functions(self, order: int) -> StringFunctions:
+        """Those that these cables move in."""
+        return string_functions(order, self.cables.frame is not None)
 
     @property
     def groups(self) -> list[np.ndarray]:
@@ -111,7 +116,7 @@ class Batch:
     def first(self, shift: np.ndarray, chosen: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
         """The first value of the pencil of some poses, and the lower end of its interval; shift (n,) of all."""
         part, own = self.take(chosen), shift[chosen]
-        small = pencil(part.platform, condensed(part.cables, own, string_functions(order), 1), own)
+        small = pencil(part.platform, condensed(part.cables, own, self.functions(order), 1), own)
         value = small.squared[:, 0]
         return value, small.enclosed(value)
 
@@ -165,7 +170,7 @@ def lowest_modes(batch: Batch, count: int) -> Enclosed:
 def _about(batch: Batch, shift: np.ndarray, count: int, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
     """The first `count` squared frequencies (n, count) from one shift, and which are proved (n, count)."""
     leads, order = size
-    own = condensed(batch.cables, shift, string_functions(order), leads, HIGHEST_TERM)
+    own = condensed(batch.cables, shift, batch.functions(order), leads, HIGHEST_TERM)
     small = pencil(batch.platform, own, shift)
     d, vectors = small.modes
     chosen = slice(0, count + _SPARE)

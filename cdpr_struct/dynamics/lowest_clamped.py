@@ -3,28 +3,40 @@
 The equation of motion is (D u')' + mu omega^2 u = 0 with D = EA t t^T + G (1 - t t^T), t the tangent, T the tension and
 G = T / (1 + T / EA). Since G < EA, D - G is nowhere negative: no frequency in the plane lies below the lowest out of
 it, which is that of the string (G u')' + mu omega^2 u = 0.
+
+Where the frame end gives way, it may be held more firmly out of the plane than in it. Then the first functions across
+the cable in both directions are kept, all else is condensed at a shift, and the lowest eigenvalue of what is left is
+the next shift.
 """
 
 import numpy as np
 
-from cdpr_struct.dynamics.condensed_cables import HangingCables
+from cdpr_struct.dynamics.cables_of_poses import HangingCables
+from cdpr_struct.dynamics.condensed_cables import condensed
+from cdpr_struct.dynamics.frame_springs import softened
 from cdpr_struct.dynamics.string_functions import string_functions
 from cdpr_struct.statics.small_systems import eliminate, substituted_back
 
 _STEPS = 6
 _SAME = 1e-14
+_NEAR = 1e-7  # of the squared frequency: the error that a step leaves is about the square of that before it
 
 
 def lowest_clamped(cables: HangingCables, order: int) -> np.ndarray:
-    """Lowest squared frequencies (m, n) [rad^2/s^2], by polynomials up to degree `order`.
+    """Lowest squared frequencies (m, n) [rad^2/s^2], by polynomials up to degree `order`; nan where the frame end gives
+    way so much that it is not known to be the lowest."""
+    if cables.frame is None:
+        return _out_of_plane(cables, order)
+    return _on_springs(cables, order, cables.frame.along_axes)
 
-    Rayleigh quotients of the string's first function with what follows it at the last quotient: from above, each error
-    about the cube of the one before.
-    """
+
+def _out_of_plane(cables: HangingCables, order: int) -> np.ndarray:
+    """Rayleigh quotients of the string's first function with what follows it at the last quotient: from above, each
+    error about the cube of the one before."""
     functions = string_functions(order)
     across = cables.out_of_plane(functions.nodes)
     blocks = (functions.pairs @ across.reshape(len(across), -1)).reshape((-1, *cables.length.shape))
-    turned = np.r_[1 : functions.count - 1, 0]
+    turned = np.r_[1 : functions.bubbles, 0]
     whole = blocks[functions.pair[np.ix_(turned, turned)]]
     every = np.arange(len(turned))
     squared = whole[-1, -1]
@@ -39,3 +51,25 @@ def lowest_clamped(cables: HangingCables, order: int) -> np.ndarray:
         if (np.abs(step) <= _SAME * squared).all():
             break
     return np.asarray(squared / cables.per_squared)
+
+
+def _on_springs(cables: HangingCables, order: int, springs: np.ndarray) -> np.ndarray:
+    functions = string_functions(order, True)
+    across = 0.5 * cables.length * np.minimum(springs[1], springs[2]) / cables.tension
+    squared = cables.tension * softened(across, order, 0) / cables.per_squared
+    for _ in range(_STEPS):
+        own = condensed(cables, squared, functions, 1)
+        step = np.min([_smallest(part.leads_own[0]) for part in own.parts], axis=0)
+        squared = squared + step
+        if (np.abs(step) <= _NEAR * squared).all():
+            break
+    known = (np.abs(step) <= _NEAR * squared) & (squared < own.of_cables)
+    return np.where(known, squared, np.nan)
+
+
+def _smallest(block: np.ndarray) -> np.ndarray:
+    """Smallest eigenvalue (...) of symmetric matrices (1, 1, ...) or (2, 2, ...)."""
+    if len(block) == 1:
+        return np.asarray(block[0, 0])
+    mean, half = 0.5 * (block[0, 0] + block[1, 1]), 0.5 * (block[0, 0] - block[1, 1])
+    return np.asarray(mean - np.hypot(half, block[0, 1]))

@@ -8,7 +8,6 @@ from cdpr_struct.dynamics.batched_modes import PROVED, REACH, Batch, pieces
 from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, condensed
 from cdpr_struct.dynamics.condensed_robot import Pencil, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, least_below, most_below
-from cdpr_struct.dynamics.string_functions import string_functions
 
 _ATTEMPTS = ((1, 2.4), (2, 4.5), (3, 8.0), (6, np.inf), (8, np.inf))
 """Leads, and below which ratio of the squared massless frequency to the lowest string's they are tried."""
@@ -53,7 +52,7 @@ def _most_alike(batch: Batch, wanted: tuple[np.ndarray, np.ndarray], leads: int,
     massless, momentum = wanted
     string = batch.lowest_string
     shift = np.minimum(_PAST * massless, REACH * (leads + 1) ** 2 * string)
-    own = condensed(batch.cables, shift, string_functions(max(batch.order, 2 * leads + 5)), leads, HIGHEST_TERM)
+    own = condensed(batch.cables, shift, batch.functions(max(batch.order, 2 * leads + 5)), leads, HIGHEST_TERM)
     small = pencil(batch.platform, own, shift)
     d, vectors = small.modes
     chosen, sure = _window(small, (d, vectors), momentum, among)
