@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cdpr_struct.dynamics.cables_of_poses import HangingCables
+from cdpr_struct.dynamics.cables_of_poses import HangingCables, pieces
 from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, condensed
 from cdpr_struct.dynamics.condensed_robot import Platform, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, most_below
@@ -27,7 +27,6 @@ _MANY = ((2, 10), (3, 12), (6, 16))  # leads and order of the attempts at many m
 _RESOLVED = 6.2  # so much must the order exceed twice the half waves of the lowest string that it resolves
 _SPARE = 4
 _HARMONICS = 5  # of each string, among which the highest mode is expected
-_PIECE = 256
 _LOW, _HIGH = 0.45, 0.55  # share of the first and of the last squared frequency in the shift
 
 
@@ -62,11 +61,6 @@ def fits(point: OperatingPoint) -> np.ndarray:
     if reasons_against(point):
         return np.zeros(len(point.position), dtype=bool)
     return np.asarray(~hangs_slack(point.cables).any(axis=-1))
-
-
-def pieces(chosen: np.ndarray) -> list[np.ndarray]:
-    """Poses in as many parts as the processor's memory asks for."""
-    return np.array_split(chosen, -(-chosen.size // _PIECE)) if chosen.size else []
 
 
 @dataclass(frozen=True, slots=True, eq=False)

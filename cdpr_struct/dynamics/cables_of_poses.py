@@ -13,6 +13,8 @@ import numpy as np
 from cdpr_struct.dynamics.frame_springs import PLANES, FrameSprings, Groups
 from cdpr_struct.statics.cable_state import CableStates
 
+_PIECE = 256
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HangingCables:
@@ -98,3 +100,8 @@ class HangingCables:
         cos, sin = self.direction
         change = 0.5 * self.weight * self.length * nodes[:, None, None]
         return self.tension + sin * change, cos * change
+
+
+def pieces(chosen: np.ndarray) -> list[np.ndarray]:
+    """Poses in as many parts as the processor's memory asks for."""
+    return np.array_split(chosen, -(-chosen.size // _PIECE)) if chosen.size else []

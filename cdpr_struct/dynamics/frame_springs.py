@@ -2,8 +2,8 @@
 
 What a frame end gives way, along the cable and across the wheel of its pulley, is `frame_give.py`. A spring
 k_j in the direction w_j stores k_j x_j^2 / 2. With the compliances B = sum_j w_j w_j^T / k_j that is never less than
-springs along the axes alone, whose compliances are the sums of the magnitudes in the rows of B, spring by spring: such a diagonal matrix
-less B is diagonally dominant, hence positive.
+springs along the axes alone, whose compliances are the sums of the magnitudes in the rows of B, spring by spring: such
+a diagonal matrix less B is diagonally dominant, hence positive.
 """
 
 from dataclasses import dataclass
@@ -64,6 +64,14 @@ class FrameSprings:
                 give[list(axes)] += own * own.sum(axis=0) / self.stiffness[j]
         with np.errstate(divide="ignore"):
             return np.asarray(1.0 / give)
+
+    @property
+    def give_across(self) -> np.ndarray:
+        """(m, n) largest compliance across the chord, in any direction [m/N]."""
+        n, y = self.directions[1], self.directions[2]
+        mean = 0.5 * ((n**2 + y**2) / self.stiffness).sum(axis=0)
+        half = 0.5 * ((n**2 - y**2) / self.stiffness).sum(axis=0)
+        return np.asarray(mean + np.hypot(half, (n * y / self.stiffness).sum(axis=0)))
 
 
 def _groups(upright: bool, count: int) -> Groups:

@@ -6,20 +6,20 @@ it, which is that of the string (G u')' + mu omega^2 u = 0.
 
 Where the frame end gives way, it may be held more firmly out of the plane than in it. Then the first functions across
 the cable in both directions are kept, all else is condensed at a shift, and the lowest eigenvalue of what is left is
-the next shift.
+the next shift, until the interval that it encloses is narrow (`condensed_robot.py`).
 """
 
 import numpy as np
 
-from cdpr_struct.dynamics.cables_of_poses import HangingCables
-from cdpr_struct.dynamics.condensed_cables import condensed
-from cdpr_struct.dynamics.frame_springs import softened
+from cdpr_struct.dynamics.cables_of_poses import HangingCables, pieces
+from cdpr_struct.dynamics.condensed_cables import condensed, quietly
+from cdpr_struct.dynamics.frame_springs import FrameSprings, softened
 from cdpr_struct.dynamics.string_functions import string_functions
 from cdpr_struct.statics.small_systems import eliminate, substituted_back
 
 _STEPS = 6
 _SAME = 1e-14
-_NEAR = 1e-7  # of the squared frequency: the error that a step leaves is about the square of that before it
+_PROVED = 1e-10  # relative, of the squared frequency: width of the interval that a shift encloses it in
 
 
 def lowest_clamped(cables: HangingCables, order: int) -> np.ndarray:
@@ -27,7 +27,7 @@ def lowest_clamped(cables: HangingCables, order: int) -> np.ndarray:
     way so much that it is not known to be the lowest."""
     if cables.frame is None:
         return _out_of_plane(cables, order)
-    return _on_springs(cables, order, cables.frame.along_axes)
+    return _on_springs(cables, order, cables.frame)
 
 
 def _out_of_plane(cables: HangingCables, order: int) -> np.ndarray:
@@ -53,18 +53,24 @@ def _out_of_plane(cables: HangingCables, order: int) -> np.ndarray:
     return np.asarray(squared / cables.per_squared)
 
 
-def _on_springs(cables: HangingCables, order: int, springs: np.ndarray) -> np.ndarray:
+@quietly
+def _on_springs(cables: HangingCables, order: int, frame: FrameSprings) -> np.ndarray:
     functions = string_functions(order, True)
-    across = 0.5 * cables.length * np.minimum(springs[1], springs[2]) / cables.tension
+    across = 0.5 * cables.length / (frame.give_across * cables.tension)
     squared = cables.tension * softened(across, order, 0) / cables.per_squared
+    found, todo = np.full(squared.shape, np.nan), np.arange(squared.shape[1])
     for _ in range(_STEPS):
-        own = condensed(cables, squared, functions, 1)
-        step = np.min([_smallest(part.leads_own[0]) for part in own.parts], axis=0)
-        squared = squared + step
-        if (np.abs(step) <= _NEAR * squared).all():
+        for own in pieces(todo):
+            condensed_here = condensed(cables.take(own), squared[:, own], functions, 1)
+            step = np.min([_smallest(part.leads_own[0]) for part in condensed_here.parts], axis=0)
+            left = condensed_here.of_cables - squared[:, own]
+            squared[:, own] += step
+            known = (left > 0.0) & (left + step > 0.0) & (step**2 <= _PROVED * squared[:, own] * (left + step))
+            found[:, own] = np.where(known, squared[:, own], np.nan)
+        todo = todo[~np.isfinite(found[:, todo]).all(axis=0)]
+        if not todo.size:
             break
-    known = (np.abs(step) <= _NEAR * squared) & (squared < own.of_cables)
-    return np.where(known, squared, np.nan)
+    return found
 
 
 def _smallest(block: np.ndarray) -> np.ndarray:

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.dynamics.batched_modes import PROVED, REACH, Batch, pieces
+from cdpr_struct.dynamics.batched_modes import PROVED, REACH, Batch
+from cdpr_struct.dynamics.cables_of_poses import pieces
 from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, condensed
 from cdpr_struct.dynamics.condensed_robot import Pencil, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, least_below, most_below
