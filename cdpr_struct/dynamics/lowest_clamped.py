@@ -18,6 +18,7 @@ from cdpr_struct.dynamics.string_functions import string_functions
 from cdpr_struct.statics.small_systems import eliminate, substituted_back
 
 _STEPS = 6
+_ROUGH = 5  # order of the first step
 _SAME = 1e-14
 _PROVED = 1e-10  # relative, of the squared frequency: width of the interval that a shift encloses it in
 
@@ -55,17 +56,22 @@ def _out_of_plane(cables: HangingCables, order: int) -> np.ndarray:
 
 @quietly
 def _on_springs(cables: HangingCables, order: int, frame: FrameSprings) -> np.ndarray:
-    functions = string_functions(order, True)
     across = 0.5 * cables.length / (frame.give_across * cables.tension)
     squared = cables.tension * softened(across, order, 0) / cables.per_squared
     found, todo = np.full(squared.shape, np.nan), np.arange(squared.shape[1])
-    for _ in range(_STEPS):
+    for count in range(_STEPS):
+        functions = string_functions(order if count else _ROUGH, True)
         for own in pieces(todo):
             condensed_here = condensed(cables.take(own), squared[:, own], functions, 1)
             step = np.min([_smallest(part.leads_own[0]) for part in condensed_here.parts], axis=0)
             left = condensed_here.of_cables - squared[:, own]
             squared[:, own] += step
-            known = (left > 0.0) & (left + step > 0.0) & (step**2 <= _PROVED * squared[:, own] * (left + step))
+            known = (
+                (count > 0)
+                & (left > 0.0)
+                & (left + step > 0.0)
+                & (step**2 <= _PROVED * squared[:, own] * (left + step))
+            )
             found[:, own] = np.where(known, squared[:, own], np.nan)
         todo = todo[~np.isfinite(found[:, todo]).all(axis=0)]
         if not todo.size:
