@@ -74,7 +74,10 @@ class Platform:
 
     def _moved(self, row: np.ndarray, axes: tuple[int, ...]) -> np.ndarray:
         """(6, m, n) of pulls (e, m, n) along some axes."""
-        return np.asarray(sum(pull * self.motion[axis] for pull, axis in zip(row, axes, strict=True)))
+        found = row[0] * self.motion[axes[0]]
+        for pull, axis in zip(row[1:], axes[1:], strict=True):
+            found += pull * self.motion[axis]
+        return np.asarray(found)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -48,9 +48,11 @@ class TautGeometry:
             self, offset=offset, span=np.maximum(span, STEEPEST * chord), rise=rise, chord=chord, heading=heading
         )
 
-    def pulls(self, along: np.ndarray, across: np.ndarray | float, up: np.ndarray) -> np.ndarray:
-        """(3, m, n), world, of parts (m, n) along the headings, across them to the left, and up."""
+    def pulls(self, along: np.ndarray, across: np.ndarray | None, up: np.ndarray) -> np.ndarray:
+        """(3, m, n), world, of parts (m, n) along the headings, across them to the left (None for none), and up."""
         x, y = self.heading
+        if across is None:
+            return np.stack([along * x, along * y, up])
         return np.stack([along * x - across * y, along * y + across * x, up])
 
     def in_own_axes(self, vectors: np.ndarray) -> np.ndarray:
@@ -60,9 +62,11 @@ class TautGeometry:
 
     def columns(self, pulls: np.ndarray) -> np.ndarray:
         """Wrenches (6, m, n) on the platform of pulls (3, m, n) on the cables' platform ends."""
-        x, y, z = -pulls
         a, b, c = self.arm
-        return np.stack([x, y, z, b * z - c * y, c * x - a * z, a * y - b * x])
+        found = np.empty((6, *pulls.shape[1:]))
+        x, y, z = np.negative(pulls, out=found[:3])
+        found[3], found[4], found[5] = b * z - c * y, c * x - a * z, a * y - b * x
+        return found
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,10 +101,10 @@ class ClosingStep:
 @dataclass(frozen=True, slots=True, eq=False)
 class Rates:
     """What changes with the chord tension: the pull at the platform along the heading, across it to the left and up,
-    V and L, all (m, n)."""
+    V and L, all (m, n). None across where the pull stays in the cable's plane."""
 
     along: np.ndarray
-    across: np.ndarray | float
+    across: np.ndarray | None
     up: np.ndarray
     vertical: np.ndarray
     length: np.ndarray
@@ -109,7 +113,7 @@ class Rates:
     def from_fixed(cls, pose: TautGeometry, step: ClosingStep) -> "Rates":
         """Of cables that start at fixed points."""
         up = step.vertical_rate + 0.5 * pose.weight * step.length_rate
-        return cls(pose.span / pose.chord, 0.0, up, step.vertical_rate, step.length_rate)
+        return cls(pose.span / pose.chord, None, up, step.vertical_rate, step.length_rate)
 
 
 def closing_step(pose: TautGeometry, tau: np.ndarray, vertical: np.ndarray, length: np.ndarray) -> ClosingStep:

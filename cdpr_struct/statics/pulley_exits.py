@@ -110,7 +110,8 @@ class MovingExits:
         """Geometry after a step (m, n) of the chord tension where poses are `moving` (n,), and by how much of the chord
         that moves an exit, the most of any cable (n,)."""
         pose, half = self.pose, 0.5 * self.pose.weight
-        change = np.stack([rates.along * step, rates.across * step, (rates.vertical - half * rates.length) * step])
+        across = np.zeros_like(step) if rates.across is None else rates.across
+        change = np.stack([rates.along * step, across * step, (rates.vertical - half * rates.length) * step])
         offset, _ = self.exits.leaving(pose.pulls(*(self.pull + change)))
         missed = pose.in_own_axes(pose.offset - offset) - self._by(change)
         offset = offset - pose.pulls(*self._moved(-self._pulled(missed)))

@@ -157,7 +157,7 @@ def _start(pose: TautGeometry, cos: np.ndarray) -> tuple[np.ndarray, ...]:
     """tau, V, L of straight cables (m, n), parabolas in length, their bounds' sides, and where there are none (n,)."""
     ones, sin = np.ones_like(cos), pose.rise / pose.chord
     low = np.maximum(pose.low, _TAUTEST * pose.weight * pose.chord)
-    matrix = pose.columns(pose.pulls(cos, 0.0, sin))
+    matrix = pose.columns(pose.pulls(cos, None, sin))
     program = StepProgram(ones, np.zeros_like(cos), matrix, pose.load, low, np.maximum(pose.high, low))
     tau, dual, side = least_norm(program, np.zeros(cos.shape, dtype=int))
     hopeless = ~np.isfinite(tau).all(axis=0)
@@ -172,10 +172,12 @@ def _program(pose: TautGeometry, rates: Rates, cable: Cable, bend: np.ndarray, d
     level = tau * (pose.span / pose.chord)
     top = vertical + 0.5 * pose.weight * length
     up = dual[2] + dual[3] * pose.arm[1] - dual[4] * pose.arm[0]
-    first = rates.along**2 + rates.across**2 + rates.up**2
+    first = rates.along**2 + rates.up**2
+    if rates.across is not None:
+        first = first + rates.across**2
     gradient = level * rates.along + top * rates.up
     curvature = np.maximum(first + (top + up) * bend, 0.1 * first)
-    left = pose.columns(pose.pulls(level, 0.0, top)).sum(axis=1) + pose.load
+    left = pose.columns(pose.pulls(level, None, top)).sum(axis=1) + pose.load
     tension = np.hypot(level, top)
     pace = tension / np.where(gradient > _RISING * tension, gradient, np.nan)
     low, high = ((bound - tension) * pace for bound in (pose.low, pose.high))
@@ -197,7 +199,7 @@ def _states(problem: HoldingProblem, pose: TautGeometry, exits: PulleyExits | No
     bottom, stiff = np.hypot(level, vertical - half).T, pose.stiff.T
     wrapped = np.zeros(bottom.shape)
     if exits is not None:
-        wrapped = exits.leaving(pose.pulls(level, 0.0, vertical - half))[1].T / (1.0 + bottom / stiff)
+        wrapped = exits.leaving(pose.pulls(level, None, vertical - half))[1].T / (1.0 + bottom / stiff)
     passed = np.broadcast_to(let_out(problem.arrays, bottom, stiff), bottom.shape)
     status = np.full(bottom.shape, CableStatus.CONVERGED, dtype=int)
     offset = np.moveaxis(pose.offset, (2, 1, 0), (0, 1, 2))
