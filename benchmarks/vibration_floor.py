@@ -7,6 +7,8 @@ alternately in one thread, by processor time; printed are medians and their rati
 certified modes of single poses.
 """
 
+from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -18,6 +20,9 @@ from cdpr_struct.dynamics.batched_modes import Batch, first_mode, lowest_modes
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.many_poses import poses_of
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.robot.cable import Pulley
+from cdpr_struct.robot.extensions import Extensions
+from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.workspace.grid import Grid
@@ -25,7 +30,28 @@ from cdpr_struct.workspace.mode_map import ModeMap
 from cdpr_struct.workspace.vibration import first_frequencies
 
 POSES, RUNS, CHECKED, COUNT, FOLLOWED = 625, 7, 12, 12, 3
-ROBOTS = ("thesis-3-1", "thesis-3-1-8mm", "cogiro", "thesis-5")
+RADIUS, TILTED, IN_LINE = 0.05, (1.0, 0.5, 1.0), 2e-5  # m; axis; m/N
+
+
+def on_pulleys(name: str, axis: tuple[float, float, float] = (0.0, 0.0, 1.0)) -> Robot:
+    """The robot with pulleys at all frame anchors."""
+    robot = load_robot(name)
+    return replace(robot, pulleys=(Pulley(RADIUS, np.array(axis)),) * len(robot.cables))
+
+
+def elastic_in_line(name: str) -> Robot:
+    """The robot with an elastic element in line with every cable."""
+    robot = load_robot(name)
+    return replace(robot, extensions=Extensions.of(len(robot.cables), {"series_compliance": IN_LINE}))
+
+
+ROBOTS: dict[str, Callable[[], Robot]] = {
+    **{name: partial(load_robot, name) for name in ("thesis-3-1", "thesis-3-1-8mm", "cogiro", "thesis-5")},
+    "thesis-3-1, 2e-5 m/N in line": partial(elastic_in_line, "thesis-3-1"),
+    "thesis-3-1, 50 mm pulleys": partial(on_pulleys, "thesis-3-1"),
+    "cogiro, 50 mm pulleys": partial(on_pulleys, "cogiro"),
+    "thesis-3-1, 50 mm pulleys on oblique axes": partial(on_pulleys, "thesis-3-1", TILTED),
+}
 
 
 class VibrationFloor:
@@ -35,7 +61,7 @@ class VibrationFloor:
     param_names = ("robot",)
 
     def setup(self, name: str, poses: int = POSES) -> None:
-        self.robot = load_robot(name)
+        self.robot = ROBOTS[name]()
         rng = np.random.default_rng(1)
         spread = np.array([1.5, 1.5, 0.3])
         self.positions = self.robot.home.position + rng.uniform(-1.0, 1.0, (poses, 3)) * spread

@@ -4,16 +4,18 @@ The fast path: pencils about frequency shifts near the modes that are wanted. It
 taut and runs from a fixed point to the platform; what does not fit, or is not proved, is the general solver's.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, HangingCables, condensed
+from cdpr_struct.dynamics.cables_of_poses import HangingCables, pieces
+from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, condensed
 from cdpr_struct.dynamics.condensed_robot import Platform, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, most_below
+from cdpr_struct.dynamics.frame_springs import FrameSprings
 from cdpr_struct.dynamics.mode_shapes import condensed_shapes, shape_size
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.dynamics.string_functions import string_functions
+from cdpr_struct.dynamics.string_functions import StringFunctions, string_functions
 from cdpr_struct.statics.slack_cables import hangs_slack
 
 PROVED = 1e-7  # relative width, of a frequency, that counts as its proof
@@ -26,7 +28,6 @@ _MANY = ((2, 10), (3, 12), (6, 16))  # leads and order of the attempts at many m
 _RESOLVED = 6.2  # so much must the order exceed twice the half waves of the lowest string that it resolves
 _SPARE = 4
 _HARMONICS = 5  # of each string, among which the highest mode is expected
-_PIECE = 256
 _LOW, _HIGH = 0.45, 0.55  # share of the first and of the last squared frequency in the shift
 
 
@@ -47,9 +48,7 @@ def reasons_against(point: OperatingPoint) -> list[str]:
     """What the robot has that the fast path does not know."""
     robot = point.arrays
     known = {
-        "pulleys": robot.has_pulleys,
         "masts": robot.has_masts,
-        "elasticity in line": bool(robot.series_compliance.any()),
         "bending stiffness": bool(robot.bending_stiffness.any()),
         "masses at mid-cable": bool(robot.added_mass.any()),
         "an internal mass": robot.has_internal_mass,
@@ -65,11 +64,6 @@ def fits(point: OperatingPoint) -> np.ndarray:
     return np.asarray(~hangs_slack(point.cables).any(axis=-1))
 
 
-def pieces(chosen: np.ndarray) -> list[np.ndarray]:
-    """Poses in as many parts as the processor's memory asks for."""
-    return np.array_split(chosen, -(-chosen.size // _PIECE)) if chosen.size else []
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Batch:
     """Poses (n) that fit."""
@@ -79,7 +73,8 @@ class Batch:
 
     @classmethod
     def of(cls, point: OperatingPoint) -> "Batch":
-        cables = HangingCables.of(point.cables, point.arrays.linear_density)
+        fixed = HangingCables.of(point.cables, point.arrays.linear_density)
+        cables = replace(fixed, frame=FrameSprings.of(point, fixed.axes(point.cables.heading)))
         return cls(cables, Platform.of(point, cables))
 
     def take(self, index: np.ndarray) -> "Batch":
@@ -92,6 +87,10 @@ class Batch:
     def order(self) -> int:
         """Degree of the polynomials that serve all these cables."""
         return _ORDER if self.cables.sag_ratio.max(initial=0.0) < _SAGGING else _SAGGING_ORDER
+
+    def functions(self, order: int) -> StringFunctions:
+        """Those that these cables move in."""
+        return string_functions(order, self.cables.frame is not None)
 
     @property
     def groups(self) -> list[np.ndarray]:
@@ -112,7 +111,7 @@ class Batch:
     def first(self, shift: np.ndarray, chosen: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
         """The first value of the pencil of some poses, and the lower end of its interval; shift (n,) of all."""
         part, own = self.take(chosen), shift[chosen]
-        small = pencil(part.platform, condensed(part.cables, own, string_functions(order), 1), own)
+        small = pencil(part.platform, condensed(part.cables, own, self.functions(order), 1), own)
         value = small.squared[:, 0]
         return value, small.enclosed(value)
 
@@ -177,7 +176,7 @@ def _about(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The first `count` squared frequencies (n, count) from one shift, which are proved (n, count), and shapes."""
     leads, order = size
-    functions = string_functions(order)
+    functions = batch.functions(order)
     own = condensed(batch.cables, shift, functions, leads, HIGHEST_TERM)
     small = pencil(batch.platform, own, shift)
     d, vectors = small.modes

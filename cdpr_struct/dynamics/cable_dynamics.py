@@ -12,13 +12,12 @@ import numpy as np
 
 from cdpr_struct.dynamics.catenary_expansion import CableExtras, FrameEnds, expand_catenaries
 from cdpr_struct.dynamics.clamped_cable import clamped_count
+from cdpr_struct.dynamics.frame_give import frame_give
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.taut_cable_expansion import expand_taut_cables
 from cdpr_struct.dynamics.taut_cables import TautCables, closed_form_stiffness, taut_cables
 from cdpr_struct.generated.cable_dsm import damped_omega_squared
-from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
 
 CableModel = Literal["static", "dsm", "exact"]
@@ -26,7 +25,6 @@ CABLE_MODELS: tuple[CableModel, ...] = get_args(CableModel)
 _MAST_MODES = 4.0  # pairs of modes a half wave below the frequency, in the series of moving masts
 _TAUT = 0.2  # w L / T below which tension and tangent vary so little that fewer polynomials have the same digits
 _FEWEST, _FEW, _MANY, _KINKED = (6.0, 10.0), (10.0, 14.0), (16.0, 22.0), (24.0, 32.0)  # beyond the half waves, at least
-_SHORT = 1e-9  # of a cable's length: what is shorter gives way no more than a fixed point
 
 
 class CableDynamics(Protocol):
@@ -78,7 +76,7 @@ def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
     """Modal expansion (..., m) of the exact catenaries at a batch (...) of poses, pulleys included."""
     cables, robot = point.cables, point.arrays
     shape = cables.length.shape
-    stiffness = end_stiffness(robot, cables).reshape(-1, 3, 3)
+    stiffness = point.end_stiffness.reshape(-1, 3, 3)
     density = np.broadcast_to(robot.linear_density, shape).reshape(-1)
     extras = CableExtras(
         *(np.broadcast_to(value, shape).reshape(-1) for value in (robot.bending_stiffness, robot.added_mass))
@@ -122,52 +120,6 @@ def frame_ends(point: OperatingPoint) -> FrameEnds | None:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FrameGive:
-    """How far frame ends give way: directions (..., m, 3, q), orthonormal, and compliance (..., m, q) [m/N] along them.
-
-    least : (..., m, q) compliance that counts as none
-    """
-
-    directions: np.ndarray
-    compliance: np.ndarray
-    least: np.ndarray
-
-
-def frame_give(point: OperatingPoint) -> FrameGive | None:
-    """Along the cable, by what is elastic in line and the stretch of cable on a pulley; across it where pulleys swivel.
-
-    None where all frame ends are fixed points.
-    """
-    arrays, cables = point.arrays, point.cables
-    if not arrays.has_yielding_frame_ends:
-        return None
-    tension, stiff = cables.tension_at_frame, cables.axial_stiffness
-    tangent = cables.force_at_frame / tension[..., None]
-    short = _SHORT * cables.length
-    directions, least = [tangent], [short / stiff]
-    gives = [cables.wrapped_length / stiff + arrays.series_compliance / (1.0 + tension / stiff)]
-    if arrays.has_pulleys:
-        across, per_arm, arm = _swivel(arrays, tension, tangent)
-        directions.append(across)
-        gives.append(per_arm * arm)
-        least.append(per_arm * short)
-    stacked = (np.stack(np.broadcast_arrays(*parts), axis=-1) for parts in (directions, gives, least))
-    return FrameGive(*stacked)
-
-
-def _swivel(arrays: RobotArrays, tension: np.ndarray, tangent: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Direction (..., m, 3) across the wheel's plane; compliance there (..., m) [m/N] per lever arm, and that arm [m].
-
-    A cable that leaves the wheel at the angle phi from the axis pulls it back with T sin(phi) / (R (1 - cos(phi))). In
-    the wheel's plane, rolling on or off the wheel is of second order: the exit is a fixed point.
-    """
-    cos = np.einsum("...mi,...mi->...m", tangent, arrays.pulley_axis)
-    across = np.cross(arrays.pulley_axis, tangent)
-    sin = np.linalg.norm(across, axis=-1)
-    return across / sin[..., None], 1.0 / (tension * sin), arrays.pulley_radius * (1.0 - cos)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class StaticCables:
     """Massless cables."""
 
@@ -204,7 +156,7 @@ class StaticCables:
 
     @property
     def _ends(self) -> np.ndarray:
-        return end_stiffness(self.point.arrays, self.point.cables)
+        return self.point.end_stiffness
 
 
 @dataclass(frozen=True, slots=True, eq=False)

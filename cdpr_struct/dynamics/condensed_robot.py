@@ -15,9 +15,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.dynamics.condensed_cables import CondensedCables, HangingCables, Terms, quietly
+from cdpr_struct.dynamics.cables_of_poses import HangingCables
+from cdpr_struct.dynamics.condensed_cables import CondensedCables, Terms, quietly
+from cdpr_struct.dynamics.frame_springs import beside_springs
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.dynamics.robot_dynamic_stiffness import geometric_stiffness, platform_mass_matrix
+from cdpr_struct.dynamics.robot_dynamic_stiffness import attachment, geometric_stiffness, platform_mass_matrix
 from cdpr_struct.statics.small_systems import cholesky, forward
 
 
@@ -26,7 +28,7 @@ class Platform:
     """The platform of a batch of poses.
 
     motion : (3, 6, m, n) motion of the cable ends along their a, n and y per motion of the platform
-    mass, held : (6, 6, n or 1) mass; stiffness beside the cables' ends
+    mass, held : (6, 6, n) mass; stiffness beside the cables' ends
     """
 
     motion: np.ndarray
@@ -37,41 +39,45 @@ class Platform:
     def of(cls, point: OperatingPoint, cables: HangingCables) -> "Platform":
         """At poses (n)."""
         n = cables.length.shape[1]
-        arrays, heading = point.arrays, np.moveaxis(point.cables.heading, -1, 0).swapaxes(1, 2)
+        arrays = point.arrays
         arms = arrays.platform_anchors @ np.swapaxes(point.rotation, -1, -2)
         arm = np.moveaxis(np.broadcast_to(arms, point.cables.heading.shape), -1, 0).swapaxes(1, 2)
-        cos, sin = cables.direction
-        x, y, none = heading[0], heading[1], np.zeros_like(cos)
-        axes = np.stack([[cos * x, cos * y, sin], [-sin * x, -sin * y, cos], [-y, x, none]])
+        axes = cables.axes(point.cables.heading)
         motion = np.concatenate([axes, np.cross(arm[None], axes, axis=1)], axis=1)
         mass = np.moveaxis(np.broadcast_to(platform_mass_matrix(arrays, point.rotation), (n, 6, 6)), 0, -1)
         held = np.zeros((6, 6, n))
         held[3:, 3:] = np.moveaxis(np.broadcast_to(geometric_stiffness(point), (n, 3, 3)), 0, -1)
         held[range(3), range(3)] += arrays.hose
+        rest = beside_springs(point)
+        if rest is not None:
+            ends = np.moveaxis(attachment(point), -3, -4)
+            held += np.moveaxis(np.swapaxes(ends, -1, -2) @ np.moveaxis(rest, 0, 1) @ ends, 1, -1).sum(axis=0)
         return cls(motion, np.ascontiguousarray(mass), held)
 
     def take(self, index: np.ndarray) -> "Platform":
         """Some poses."""
         return Platform(self.motion[..., index], self.mass[..., index], self.held[..., index])
 
-    def of_ends(self, in_plane: np.ndarray, out_of_plane: np.ndarray) -> np.ndarray:
-        """(6, 6, n), lower triangle, from end blocks (2, 2, m, n) and (1, 1, m, n)."""
-        a, n, y = self.motion
-        moved = (
-            in_plane[0, 0] * a + in_plane[0, 1] * n,
-            in_plane[1, 0] * a + in_plane[1, 1] * n,
-            out_of_plane[0, 0] * y,
-        )
-        total = np.zeros((6, 6, in_plane.shape[-1]))
-        for i in range(6):
-            for own, other in zip(self.motion, moved, strict=True):
-                total[i, : i + 1] += (own[i] * other[: i + 1]).sum(axis=1)
+    def of_ends(self, parts: "list[tuple[tuple[int, ...], np.ndarray]]") -> np.ndarray:
+        """(6, 6, n), lower triangle, from axes and blocks (e, e, m, n) of the ends in them."""
+        total = np.zeros((6, 6, self.motion.shape[-1]))
+        for axes, block in parts:
+            for row, axis in zip(block, axes, strict=True):
+                moved = self._moved(row, axes)
+                for i in range(6):
+                    total[i, : i + 1] += (self.motion[axis, i] * moved[: i + 1]).sum(axis=1)
         return total
 
-    def of_leads(self, coupling: np.ndarray, out_of_plane: np.ndarray) -> np.ndarray:
-        """(6, 2 p, m, n) from blocks (p, 2, m, n) and (p, 1, m, n) of leads and ends."""
-        a, n, y = self.motion[:, :, None]
-        return np.concatenate([coupling[:, 0] * a + coupling[:, 1] * n, out_of_plane[:, 0] * y], axis=1)
+    def of_leads(self, parts: "list[tuple[tuple[int, ...], np.ndarray]]") -> np.ndarray:
+        """(6, 2 p, m, n) from axes of the ends and blocks (p, e, m, n) of leads and ends."""
+        return np.stack([self._moved(row, axes) for axes, block in parts for row in block], axis=1)
+
+    def _moved(self, row: np.ndarray, axes: tuple[int, ...]) -> np.ndarray:
+        """(6, m, n) of pulls (e, m, n) along some axes."""
+        found = row[0] * self.motion[axes[0]]
+        for pull, axis in zip(row[1:], axes[1:], strict=True):
+            found += pull * self.motion[axis]
+        return np.asarray(found)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -123,15 +129,15 @@ class Pencil:
 @quietly
 def pencil(platform: Platform, cables: CondensedCables, shift: np.ndarray) -> Pencil:
     """The robot's pencil at omega^2 = shift (n,)."""
-    plane, across = cables.in_plane, cables.out_of_plane
-    mass = platform.mass + platform.of_ends(plane.end[1], across.end[1])
-    stiffness = platform.of_ends(plane.end[0], across.end[0]) + platform.held - shift * platform.mass
-    stiffness = _mirrored(stiffness)
+    parts = cables.parts
+    mass = platform.mass + platform.of_ends([(part.axes, part.end[1]) for part in parts])
+    ends = platform.of_ends([(part.axes, part.end[0]) for part in parts])
+    stiffness = _mirrored(ends + platform.held - shift * platform.mass)
     lower = cholesky(mass)
     own = forward(lower, np.swapaxes(forward(lower, stiffness), 0, 1))
-    leads = platform.of_leads(plane.coupling[0], across.coupling[0])
+    leads = platform.of_leads([(part.axes, part.coupling[0]) for part in parts])
     coupling = forward(lower, leads)
-    return Pencil(_dense(own, coupling, (plane, across)), lower, shift, cables.lowest)
+    return Pencil(_dense(own, coupling, parts), lower, shift, cables.lowest)
 
 
 def _mirrored(lower: np.ndarray) -> np.ndarray:
@@ -142,17 +148,18 @@ def _mirrored(lower: np.ndarray) -> np.ndarray:
     return whole
 
 
-def _dense(own: np.ndarray, coupling: np.ndarray, planes: tuple[Terms, Terms], power: int = 0) -> np.ndarray:
+def _dense(own: np.ndarray, coupling: np.ndarray, parts: tuple[Terms, ...]) -> np.ndarray:
     """(n, k, k), lower triangle."""
     _, two, m, n = coupling.shape
-    p, k = two // 2, 6 + two * m
+    k = 6 + two * m
     matrix = np.zeros((k, k, n))
     matrix[:6, :6] = own
     matrix[6:, :6] = np.swapaxes(coupling.reshape(6, two * m, n), 0, 1)
-    cable = np.arange(m)
-    for plane, terms in enumerate(planes):
-        block = terms.leads_own[power]
-        for i in range(p):
+    cable, start = np.arange(m), 6
+    for part in parts:
+        block = part.leads_own[0]
+        for i in range(part.leads):
             for j in range(i + 1):
-                matrix[6 + (plane * p + i) * m + cable, 6 + (plane * p + j) * m + cable] = block[i, j]
+                matrix[start + i * m + cable, start + j * m + cable] = block[i, j]
+        start += part.leads * m
     return np.ascontiguousarray(np.moveaxis(matrix, -1, 0))

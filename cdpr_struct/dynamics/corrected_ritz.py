@@ -42,16 +42,18 @@ def corrected(
 def _in_modes(platform: Platform, cables: CondensedCables, motion: np.ndarray, vectors: np.ndarray) -> list[np.ndarray]:
     """(n, s, s) of C^T Y, Y^T Y, ... between modes whose platform moves by (6, s, n)."""
     s, n = motion.shape[1:]
-    m, p = platform.motion.shape[2], cables.in_plane.leads
+    m = platform.motion.shape[2]
     ends = np.stack([_end_motion(axis, motion) for axis in platform.motion])
-    leads = np.moveaxis(vectors[:, 6:].reshape(n, 2, p, m, s), (1, 2, 4, 3, 0), (0, 1, 2, 3, 4))
-    planes = (np.concatenate([leads[0], ends[:2]]), np.concatenate([leads[1], ends[2:]]))
-    whole = _rows(planes)
+    leads = np.moveaxis(vectors[:, 6:].reshape(n, -1, m, s), (1, 3, 2, 0), (0, 1, 2, 3))
+    starts = np.cumsum([0, *(part.leads for part in cables.parts)])
+    kept = [
+        np.concatenate([leads[start : start + part.leads], ends[list(part.axes)]])
+        for start, part in zip(starts, cables.parts, strict=False)
+    ]
+    whole = _rows(kept)
     found = []
-    for power in range(2, len(cables.in_plane.of_power)):
-        parts = [
-            _times(t.of_power[power], v) for t, v in zip((cables.in_plane, cables.out_of_plane), planes, strict=True)
-        ]
+    for power in range(2, len(cables.parts[0].of_power)):
+        parts = [_times(t.of_power[power], v) for t, v in zip(cables.parts, kept, strict=True)]
         found.append(np.swapaxes(whole, 1, 2) @ _rows(parts))
     return found
 
@@ -66,9 +68,9 @@ def _times(term: np.ndarray, modes: np.ndarray) -> np.ndarray:
     return np.stack([sum(term[i, j] * modes[j] for j in range(len(modes))) for i in range(len(modes))])
 
 
-def _rows(planes: "list[np.ndarray] | tuple[np.ndarray, ...]") -> np.ndarray:
+def _rows(parts: list[np.ndarray]) -> np.ndarray:
     """(n, rows, s) of parts (r, s, m, n)."""
-    both = np.concatenate(planes)
+    both = np.concatenate(parts)
     r, s, m, n = both.shape
     return np.ascontiguousarray(np.moveaxis(both, (3, 0, 2, 1), (0, 1, 2, 3))).reshape(n, r * m, s)
 
@@ -112,15 +114,15 @@ def _negative(
     platform: Platform, cables: CondensedCables, shift: np.ndarray, squared: np.ndarray, last: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Negative eigenvalues (n,) at `squared`, the last term times `last`, and whether they are numbers at all (n,)."""
-    d, count = squared - shift, len(cables.in_plane.of_power)
+    d, count = squared - shift, len(cables.parts[0].of_power)
     powers = [np.ones_like(d)] + [-(d**k) for k in range(1, count)]
     powers[-1] = powers[-1] * last
     negative, ends = np.zeros(len(d), dtype=int), []
-    for terms in (cables.in_plane, cables.out_of_plane):
+    for terms in cables.parts:
         of_leads, end = _without_leads(terms, powers)
         negative += of_leads
-        ends.append(end)
-    whole = np.moveaxis(platform.of_ends(*ends) + platform.held - squared * platform.mass, -1, 0)
+        ends.append((terms.axes, end))
+    whole = np.moveaxis(platform.of_ends(ends) + platform.held - squared * platform.mass, -1, 0)
     counted = np.isfinite(whole).all(axis=(1, 2))
     own = np.linalg.eigvalsh(np.where(counted[:, None, None], whole, np.eye(6)))
     return negative + (own < 0.0).sum(axis=1), counted

@@ -13,8 +13,8 @@ from numpy.polynomial import legendre
 from scipy.linalg import eigh
 
 from cdpr_struct.dynamics.cable_dynamics import flattened
+from cdpr_struct.dynamics.cables_of_poses import HangingCables
 from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
-from cdpr_struct.dynamics.condensed_cables import HangingCables
 from cdpr_struct.dynamics.lowest_clamped import lowest_clamped
 from cdpr_struct.dynamics.lowest_eigenvalue import lowest_eigenvalue
 from cdpr_struct.dynamics.polynomial_basis import polynomial_basis

@@ -8,7 +8,7 @@ this depends on the order of frequencies, on how the modes were computed, or on 
 
 import numpy as np
 
-from cdpr_struct.dynamics.condensed_cables import HangingCables
+from cdpr_struct.dynamics.cables_of_poses import HangingCables
 from cdpr_struct.dynamics.condensed_robot import Platform
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import RitzModes

@@ -6,6 +6,7 @@ import numpy as np
 
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
 
 
@@ -28,6 +29,18 @@ class OperatingPoint:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "arrays", RobotArrays.of(self.robot))
+
+    @property
+    def end_stiffness(self) -> np.ndarray:
+        """(..., m, 3, 3) static stiffness of the cables' platform ends, with pulleys and what is in line, world [N/m].
+
+        Its symmetric part, that of an energy: statics leaves out the weight of the cable on a wheel, and the rest, w R
+        per turn of the exit at most, has no meaning in vibration.
+        """
+        stiffness = end_stiffness(self.arrays, self.cables)
+        if not self.arrays.has_yielding_frame_ends:
+            return stiffness
+        return np.asarray(0.5 * (stiffness + np.swapaxes(stiffness, -1, -2)))
 
     @property
     def entered(self) -> Robot:

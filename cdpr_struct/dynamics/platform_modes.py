@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.dynamics.batched_modes import PROVED, REACH, Batch, pieces
+from cdpr_struct.dynamics.batched_modes import PROVED, REACH, Batch
+from cdpr_struct.dynamics.cables_of_poses import pieces
 from cdpr_struct.dynamics.condensed_cables import HIGHEST_TERM, condensed
 from cdpr_struct.dynamics.condensed_robot import Pencil, pencil
 from cdpr_struct.dynamics.corrected_ritz import corrected, least_below, most_below
 from cdpr_struct.dynamics.mode_shapes import condensed_shapes, shape_size
-from cdpr_struct.dynamics.string_functions import string_functions
 
 _ATTEMPTS = ((1, 2.4), (2, 4.5), (3, 8.0), (6, np.inf), (8, np.inf))
 """Leads, and below which ratio of the squared massless frequency to the lowest string's they are tried."""
@@ -58,7 +58,7 @@ def _most_alike(batch: Batch, wanted: tuple[np.ndarray, np.ndarray], leads: int,
     massless, momentum = wanted
     string = batch.lowest_string
     shift = np.minimum(_PAST * massless, REACH * (leads + 1) ** 2 * string)
-    functions = string_functions(max(batch.order, 2 * leads + 5))
+    functions = batch.functions(max(batch.order, 2 * leads + 5))
     own = condensed(batch.cables, shift, functions, leads, HIGHEST_TERM)
     small = pencil(batch.platform, own, shift)
     d, vectors = small.modes

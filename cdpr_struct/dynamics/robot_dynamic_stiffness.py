@@ -10,7 +10,6 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.generated import platform as generated
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.equilibrium import weight_force
 from cdpr_struct.statics.masts import Inertia, behind_masts
 
@@ -87,7 +86,7 @@ def geometric_stiffness(point: OperatingPoint) -> np.ndarray:
 
 def platform_static_stiffness(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
     """(..., 6, 6) stiffness with massless cable dynamics (K_static of the thesis, eqs 2.29 and 3.8)."""
-    return assemble(point, end_stiffness(point.arrays, point.cables), assembly)
+    return assemble(point, point.end_stiffness, assembly)
 
 
 def platform_dynamic_stiffness(

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.dynamics.cable_dynamics import frame_give
+from cdpr_struct.dynamics.frame_give import frame_give
 from cdpr_struct.dynamics.internal_mass import internal_coupling, internal_omega
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, geometric_stiffness, platform_mass_matrix
