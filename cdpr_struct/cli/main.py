@@ -30,7 +30,7 @@ from cdpr_struct.cli import (
 )
 from cdpr_struct.cli.command import examples, register
 from cdpr_struct.cli.interruption import Interrupted
-from cdpr_struct.errors import CdprError, InputError
+from cdpr_struct.errors import InputError, told
 
 app = typer.Typer(
     add_completion=False,
@@ -96,18 +96,14 @@ def run(arguments: list[str] | None) -> int:
         return _fail(2, _complaint(error))
     except InputError as error:
         return _fail(2, str(error))
-    except CdprError as error:
-        return _fail(1, str(error))
     except Interrupted as stop:
         return _fail(interruption.CODE, str(stop))
     except (Abort, KeyboardInterrupt):
         return _fail(interruption.CODE, "interrupted; nothing was written")
     except Exception as error:
-        if type(error).__module__.partition(".")[0] == "fem_reference":
-            return _fail(1, f"FEM reference: {error}")
-        if isinstance(error, ArithmeticError) or type(error).__name__ == "LinAlgError":
-            return _fail(1, f"cannot be computed ({error}): check the size of masses, lengths and forces")
-        raise
+        if (known := told(error)) is None:
+            raise
+        return _fail(1, str(known))
 
 
 def _complaint(error: TyperException) -> str:

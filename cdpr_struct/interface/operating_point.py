@@ -1,0 +1,119 @@
+"""The robot at rest: at a pose that it holds, or at locked cable lengths."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.errors import CdprError, ConvergenceError, InputError, UnholdablePoseError, UnstableEquilibriumError
+from cdpr_struct.interface.arguments import read_lengths, read_pose
+from cdpr_struct.interface.given import Numbers, PoseLike
+from cdpr_struct.reports.locked_rest import locked_json, locked_warnings
+from cdpr_struct.robot.pose import Pose, angles_from_rotation
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.bound_advice import bound_hint, outside_limits, slack_warning
+from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
+from cdpr_struct.statics.locked_rest import LockedRest, locked_rest
+from cdpr_struct.statics.slack_cables import hangs_slack, slack_sentence
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AtRest:
+    """The robot at rest, and how the pose was found if the lengths were given instead of it."""
+
+    point: OperatingPoint
+    locked: LockedRest | None = None
+
+    @contextmanager
+    def advised(self) -> Iterator[None]:
+        """Work about the state of rest; should it be unstable where a lower bound would cure it, the message names it.
+
+        Locked lengths are what they are, so for them no bound is named.
+        """
+        try:
+            yield
+        except UnstableEquilibriumError as error:
+            point = self.point
+            hint = "" if self.locked is not None else bound_hint(point.entered, point.position, point.rotation)
+            raise UnstableEquilibriumError(f"{error}.{hint}" if hint else str(error)) from error
+
+    def told(self, *warnings: str) -> dict[str, Any]:
+        """What every result says of the state of rest: `warnings`, and `locked` if the lengths were given."""
+        if self.locked is None:
+            return {"warnings": [*warnings, *self._warnings()]}
+        said = [*warnings, *locked_warnings(self.locked), *self._warnings()]
+        return {"warnings": said, "locked": locked_json(self.locked)}
+
+    def _warnings(self) -> list[str]:
+        """Sentences on cables that hang slack, and on locked cables outside the robot's force limits."""
+        point = self.point
+        if self.locked is None:
+            said = slack_warning(point.entered, point.position, point.rotation, point.cables)
+            return [] if said is None else [said]
+        slack = slack_sentence(hangs_slack(point.cables))
+        outside = outside_limits(point.entered, point.cables.tension_at_platform)
+        return [*([] if slack is None else [f"{slack}."]), *outside]
+
+
+def rest(robot: Robot, pose: PoseLike | None, lengths: Numbers | None, start: PoseLike | None = None) -> AtRest:
+    """The robot at rest with sagging cables.
+
+    Parameters
+    ----------
+    pose : the cables hold it with the least norm of tensions within the robot's force limits; None: the home pose
+    lengths : unstrained lengths at which it is locked [m]; only one of the two may be given
+    start : where to look, only with lengths
+
+    Raises
+    ------
+    InputError : both given, or an unusable number.
+    CdprError : the pose cannot be held, or the lengths lead to no stable equilibrium.
+    """
+    if lengths is None:
+        if start is not None:
+            raise InputError("start", "", start, "it belongs to `lengths`; leave it out")
+        where = read_pose(pose, robot)
+        return AtRest(OperatingPoint(robot, where.position, where.rotation, held(robot, where).cables))
+    if pose is not None:
+        raise InputError("lengths", "", lengths, "give either `pose` or `lengths`, not both")
+    return _locked(robot, lengths, start)
+
+
+def held(
+    robot: Robot, where: Pose, model: str = "sagging", external_wrench: list[float] | None = None
+) -> InverseSolution:
+    """Tensions and lengths that hold a pose; a refusal that another lower bound would cure names the bound.
+
+    Raises
+    ------
+    CdprError : the pose cannot be held, or the search for tensions was cut short.
+    """
+    try:
+        return inverse(robot, where.position, where.rotation, model, external_wrench)
+    except (UnholdablePoseError, ConvergenceError) as error:
+        hint = bound_hint(robot, where.position, where.rotation, external_wrench)
+        if not hint:
+            raise
+        if isinstance(error, UnholdablePoseError):
+            raise UnholdablePoseError(str(error) + hint, error.cable, error.amount) from error
+        raise CdprError(str(error) + hint) from error
+
+
+def _locked(robot: Robot, lengths: Numbers, start: PoseLike | None) -> AtRest:
+    begin = None if start is None else read_pose(start, robot, "start")
+    found = locked_rest(robot, read_lengths(lengths, robot), begin)
+    solution = found.solution
+    if not bool(solution.stable):
+        raise CdprError(
+            f"at these lengths the platform has no stable equilibrium here (least {solution.least_stiffness:.3g} N/m); "
+            f"stable ones elsewhere: {found.others.count}"
+        )
+    return AtRest(OperatingPoint(robot, solution.position, solution.rotation, solution.cables), found)
+
+
+def pose_in_degrees(point: OperatingPoint) -> list[float]:
+    """[x, y, z, rx, ry, rz] of an operating point, m and deg."""
+    return [*point.position.tolist(), *np.degrees(angles_from_rotation(point.rotation)).tolist()]

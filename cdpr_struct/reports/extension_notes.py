@@ -1,0 +1,85 @@
+"""Which extensions of a robot file act in a command, and which do not and why: nothing is ignored silently."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from cdpr_struct.robot.robot import Robot
+
+_READINGS = "this describes readings, which only diagnose and plan compare"
+_VIBRATION = "this concerns vibration only"
+_NO_BENDING = "this cable model has none; --model exact does"
+_AT_REST = ("inverse", "forward", "pose-error")
+_CABLES_ONLY = ("bending_stiffness", "added_mass")
+_INTERNAL = "internal_mass"
+_ELASTIC = ("series_compliance", "frame_compliance", "mast_bending", "nonlinearity")
+
+
+def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, model: str = "") -> dict[str, Any]:
+    """The result, and what became of the robot's extensions if it has any.
+
+    model : cable model of a vibration command, "" if there is no choice
+    """
+    active = robot.extensions.active
+    if not active:
+        return dict(result)
+    idle = {name: reason for name in active if (reason := _why_idle(name, command, model))}
+    acting = [name for name in active if name not in idle]
+    sentences = [f"Extensions of the robot file that act: {', '.join(acting) or 'none'}."]
+    for reason in dict.fromkeys(idle.values()):
+        names = [name for name in idle if idle[name] == reason]
+        sentences.append(f"No effect here: {', '.join(names)}; {reason}.")
+    sentences += [text for name, text in _particulars(command, model).items() if name in acting]
+    said = {"acting": acting, "idle": idle, "sentences": sentences}
+    return {**result, "extensions": said}
+
+
+def _why_idle(name: str, command: str, model: str) -> str:
+    from cdpr_struct.robot.parameters import SENSORS
+
+    if command in ("diagnose", "plan"):
+        return ""
+    if name in SENSORS:
+        return _READINGS
+    if name == _INTERNAL:
+        return _why_rigid(command, model)
+    if command == "distribute":
+        return "forces are distributed with EA as entered" if name == "nonlinearity" else ""
+    if name not in _CABLES_ONLY:
+        return "inextensible cables on rigid masts know none" if model == "ideal" and name in _ELASTIC else ""
+    if command in _AT_REST:
+        return _VIBRATION
+    if command == "audit":
+        return "the printed limits know nothing of it"
+    if command == "verify":
+        return "the bars of the referee have none, so it is left out on both sides"
+    if model == "fem":
+        return "the bars of the referee have none; --model exact does"
+    return _NO_BENDING if model in ("static", "dsm") else ""
+
+
+def _why_rigid(command: str, model: str) -> str:
+    """Why the platform is rigid in a command although a part of it sits on an elastic mount."""
+    if command in (*_AT_REST, "distribute"):
+        return _VIBRATION
+    if command == "audit":
+        return "the printed limits know nothing of it"
+    if command == "verify":
+        return "the referee's platform is rigid, so it is left out on both sides"
+    return "the referee's platform is rigid; --model exact does" if model == "fem" else ""
+
+
+def _particulars(command: str, model: str) -> dict[str, str]:
+    """What is to be known about extensions that act."""
+    said = {"tilt": "tilt turns the weight of the platform; that of the cables stays vertical."}
+    if command in ("frf", "transient", "modes", "map", "distribute"):
+        said["added_mass"] = "added_mass takes part in vibration; its weight does not bend the cable."
+    if command in ("frf", "transient"):
+        said[_INTERNAL] = "The mount of internal_mass has no damping of its own."
+    if command == "frf":
+        still = "Points of cables are shaken and watched as if their masts stood still."
+        said |= {"frame_compliance": still, "mast_bending": still}
+    if command == "pose-error":
+        wrong = "enters the axial part: spring and sagging cables get the same wrong length."
+        said |= {name: f"{name} {wrong}" for name in ("length_offset", "length_scale")}
+    return said
