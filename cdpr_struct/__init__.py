@@ -46,12 +46,12 @@ Predictions and checks:
   reproduce                 Recompute tables and figures of the thesis and show the deviations.
 
 Measured data:
-  load_campaign             Campaign of a TOML file with the data files it names, all checked.
+  load_campaign             Read a campaign file and the data files it names, all checked.
+  causes                    List the causes that a diagnosis looks for, by name, those of installed packages among
+                            them.
   diagnose                  Name the cause of differences between a simulation and measured data.
   plan                      Tell before measuring which causes a campaign can find, which it confuses, and what to
                             measure next.
-  causes                    List the causes that a diagnosis looks for, by name, those of installed packages among
-                            them.
   Campaign                  A measuring campaign and the simulation under test.
 
 Values:
@@ -84,7 +84,7 @@ if TYPE_CHECKING:
     )
     from cdpr_struct.interface.audit import audit
     from cdpr_struct.interface.cable import cable
-    from cdpr_struct.interface.campaigns import causes
+    from cdpr_struct.interface.campaigns import causes, load_campaign
     from cdpr_struct.interface.diagnose import diagnose
     from cdpr_struct.interface.distribute import distribute
     from cdpr_struct.interface.forward import forward
@@ -102,7 +102,6 @@ if TYPE_CHECKING:
     from cdpr_struct.interface.transient import transient
     from cdpr_struct.interface.verify import verify
     from cdpr_struct.measurement.campaign import Campaign
-    from cdpr_struct.measurement.campaign_file import load_campaign
     from cdpr_struct.robot.cable import Cable, Pulley
     from cdpr_struct.robot.platform import Platform
     from cdpr_struct.robot.pose import Pose
@@ -127,10 +126,9 @@ _HOMES = {
     "interface.audit": ("audit",),
     "interface.limits": ("limits",),
     "interface.distribute": ("distribute",),
-    "measurement.campaign_file": ("load_campaign",),
+    "interface.campaigns": ("load_campaign", "causes"),
     "interface.diagnose": ("diagnose",),
     "interface.plan": ("plan",),
-    "interface.campaigns": ("causes",),
     "interface.reproduce": ("reproduce",),
     "robot.robot": ("Robot",),
     "robot.platform": ("Platform",),

@@ -57,8 +57,7 @@ class PoseErrorResult(Result):
         """Columns of pose_error.csv; of sufficient_load.csv without a grid."""
         if self.errors is not None:
             return map_table(self.errors.grid, self.errors.columns).columns
-        assert self.load is not None
-        return statics_pose_error.load_columns(self.load[0])
+        return {} if self.load is None else statics_pose_error.load_columns(self.load[0])
 
     def figure(self) -> "tuple[Draw, tuple[float, float]]":
         """The error over the grid; over the load without a grid.

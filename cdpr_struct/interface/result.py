@@ -36,8 +36,7 @@ class Result(ABC):
 
     def to_json(self) -> dict[str, Any]:
         """The keys and values of the command's result.json: lists, numbers, text; None where a number is nan or inf."""
-        found = plain(self.answer)
-        assert isinstance(found, dict)
+        found: dict[str, Any] = plain(self.answer)
         return found
 
     def frame(self) -> "pd.DataFrame":

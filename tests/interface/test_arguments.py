@@ -1,5 +1,6 @@
 """What arguments may be, and what is said of those that cannot be used."""
 
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -47,16 +48,25 @@ def test_lengths_of_one_result_are_arguments_of_another():
     np.testing.assert_allclose(modes.modes.hertz, cs.modes("thesis-3-1", POSE, model="static").modes.hertz, rtol=1e-8)
 
 
-def test_a_grid_of_arrays_and_an_executor():
-    from concurrent.futures import ThreadPoolExecutor
+class Counting(ThreadPoolExecutor):
+    """Counts what it is given to do."""
 
+    given = 0
+
+    def submit(self, function, /, *arguments, **named):
+        self.given += 1
+        return super().submit(function, *arguments, **named)
+
+
+def test_a_grid_of_arrays_and_an_executor():
     axis = np.linspace(-1.0, 1.0, 3)
     grid = cs.Grid(axis, axis, np.array([0.5]), np.zeros(3))
     steps: list[str] = []
     alone = cs.map("thesis-3-1", grid, "tension-max", chunk=4, progress=steps.append)
-    with ThreadPoolExecutor(2) as pool:
+    with Counting(2) as pool:
         shared = cs.map("thesis-3-1", "-1:1:3,-1:1:3,0.5", "tension-max", chunk=4, executor=pool)
     assert alone.to_json() == shared.to_json()
+    assert pool.given == 3
     assert steps == ["9 poses"] * 4
 
 

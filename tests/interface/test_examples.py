@@ -31,7 +31,9 @@ def test_the_first_lines_run(page, capsys):
     (code,) = blocks(page)
     exec(compile(code, page, "exec"), {})
     if page == "README.md":
-        assert "2.483092" in capsys.readouterr().out
+        shown = capsys.readouterr().out
+        assert "2.483092" in shown
+        assert len(shown.splitlines()) == 1 + 12
         assert "thesis-3-1: eigenfrequencies" in Path("modes.svg").read_text("utf-8")
         assert len([line for line in code.splitlines() if line]) == 5
 
