@@ -1,14 +1,202 @@
-"""Cable-driven parallel robots: predict deflection and vibration, check the prediction, diagnose measurements."""
+"""Cable-driven parallel robots: predict deflection and vibration, check the prediction, diagnose measurements.
 
-from typing import Any
+    import cdpr_struct as cs
 
-__all__ = ["__version__"]
+    robot = cs.load_robot("thesis-3-1")  # a built-in name, or the path of a robot file
+    modes = cs.modes(robot, count=12)
+    print(modes)
+
+Functions are named like the commands of `cdpr-struct`, arguments like their options. Every result has `.frame()`
+(pandas), `.plot()` (matplotlib axes) and `.to_json()` (the keys of the command's result.json), shows itself in a
+terminal and in a notebook, and holds the numerics' own objects. SI units; degrees where a pose is
+given by numbers. More: docs/python.md.
+
+Robots:
+  load_robot                Robot from a built-in name or a path to a robot file.
+  robots                    List the robots that come with the package.
+  write_robot               Write a robot to a robot file, which `load_robot` and every command read again, and return
+                            its path.
+  Robot                     Cable-driven parallel robot with m cables.
+  Platform                  Rigid platform, all in its own frame.
+  Cable                     Uniform elastic cable.
+  Pulley                    Swivelling pulley at the frame end of a cable.
+  Pose                      Pose of the platform frame in the world frame.
+
+Predictions and checks:
+  cable                     Describe one cable under an end force: shape, stiffness, validity of the DSM, natural
+                            frequencies.
+  inverse                   Find the cable lengths and tensions that hold a pose, of least norm where there is a
+                            choice.
+  forward                   Find the pose that the platform takes at locked cable lengths, and other stable ones.
+  pose_error                Compute the static pose error over a grid, split into what sag adds and what stretch adds.
+  map                       Map a quantity over a grid of poses.
+  modes                     Compute the eigenfrequencies of a robot at rest, none missing, with their kind.
+  frf                       Compute frequency responses, with the certified eigenfrequencies beside their peaks.
+  transient                 Predict the vibration after an emergency stop, or along a trajectory, by modal
+                            superposition.
+  spectrogram               Show measured accelerations over time and frequency, beside the robot's certified
+                            eigenfrequencies.
+  verify                    Compare the DSM's eigenfrequencies with those of the finite-element referee; `holds` says
+                            whether they agree.
+  audit                     Check each cable at each pose against the printed validity limits of the closed form;
+                            `valid`: none is broken.
+  limits                    Try the printed validity limits themselves against the catenary and the FEM (`audit
+                            --limits`).
+  distribute                Distribute cable forces of least cost along a trajectory, above a lower bound.
+  reproduce                 Recompute tables and figures of the thesis and show the deviations.
+
+Measured data:
+  load_campaign             Read a campaign file and the data files it names, all checked.
+  causes                    List the causes that a diagnosis looks for, by name, those of installed packages among
+                            them.
+  diagnose                  Name the cause of differences between a simulation and measured data.
+  plan                      Tell before measuring which causes a campaign can find, which it confuses, and what to
+                            measure next.
+  Campaign                  A measuring campaign and the simulation under test.
+
+Values:
+  Grid                      Every combination of positions x, y, z at one orientation.
+  Trajectory                Motion of the platform frame at k instants, world axes.
+  Result                    An answer of this package, which shows itself as text, table, figure and JSON.
+
+Errors:
+  CdprError                 What this package raises on purpose; if it is no `InputError`, the request is well-posed
+                            but cannot be met.
+  InputError                Unusable input: where it is, what it was, and what would be right.
+  UnholdablePoseError       No tension distribution above the lower bound balances the load at this pose.
+  UnstableEquilibriumError  The platform is balanced, but a small motion would grow: there are no vibrations about
+                            this state.
+  ConvergenceError          An iteration stopped before it converged; holds the last residual.
+  OutsideValidityError      The closed-form DSM is asked for cables outside its printed limits.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from cdpr_struct.crosscheck.robot_modes import OutsideValidityError
+    from cdpr_struct.errors import (
+        CdprError,
+        ConvergenceError,
+        InputError,
+        UnholdablePoseError,
+        UnstableEquilibriumError,
+    )
+    from cdpr_struct.interface.audit import audit
+    from cdpr_struct.interface.cable import cable
+    from cdpr_struct.interface.campaigns import causes, load_campaign
+    from cdpr_struct.interface.diagnose import diagnose
+    from cdpr_struct.interface.distribute import distribute
+    from cdpr_struct.interface.forward import forward
+    from cdpr_struct.interface.frf import frf
+    from cdpr_struct.interface.inverse import inverse
+    from cdpr_struct.interface.limits import limits
+    from cdpr_struct.interface.map import map
+    from cdpr_struct.interface.modes import modes
+    from cdpr_struct.interface.plan import plan
+    from cdpr_struct.interface.pose_error import pose_error
+    from cdpr_struct.interface.reproduce import reproduce
+    from cdpr_struct.interface.result import Result
+    from cdpr_struct.interface.robots import robots, write_robot
+    from cdpr_struct.interface.spectrogram import spectrogram
+    from cdpr_struct.interface.transient import transient
+    from cdpr_struct.interface.verify import verify
+    from cdpr_struct.measurement.campaign import Campaign
+    from cdpr_struct.robot.cable import Cable, Pulley
+    from cdpr_struct.robot.platform import Platform
+    from cdpr_struct.robot.pose import Pose
+    from cdpr_struct.robot.robot import Robot
+    from cdpr_struct.robot.robot_file import load_robot
+    from cdpr_struct.statics.trajectory import Trajectory
+    from cdpr_struct.workspace.grid import Grid
+
+_HOMES = {
+    "robot.robot_file": ("load_robot",),
+    "interface.robots": ("robots", "write_robot"),
+    "interface.cable": ("cable",),
+    "interface.inverse": ("inverse",),
+    "interface.forward": ("forward",),
+    "interface.pose_error": ("pose_error",),
+    "interface.map": ("map",),
+    "interface.modes": ("modes",),
+    "interface.frf": ("frf",),
+    "interface.transient": ("transient",),
+    "interface.spectrogram": ("spectrogram",),
+    "interface.verify": ("verify",),
+    "interface.audit": ("audit",),
+    "interface.limits": ("limits",),
+    "interface.distribute": ("distribute",),
+    "interface.campaigns": ("load_campaign", "causes"),
+    "interface.diagnose": ("diagnose",),
+    "interface.plan": ("plan",),
+    "interface.reproduce": ("reproduce",),
+    "robot.robot": ("Robot",),
+    "robot.platform": ("Platform",),
+    "robot.cable": ("Cable", "Pulley"),
+    "robot.pose": ("Pose",),
+    "workspace.grid": ("Grid",),
+    "statics.trajectory": ("Trajectory",),
+    "measurement.campaign": ("Campaign",),
+    "interface.result": ("Result",),
+    "errors": ("CdprError", "InputError", "UnholdablePoseError", "UnstableEquilibriumError", "ConvergenceError"),
+    "crosscheck.robot_modes": ("OutsideValidityError",),
+}
+"""Modules that public names come from when they are first asked for: importing this package loads nothing else."""
+_HOME = {name: f"cdpr_struct.{module}" for module, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "Cable",
+    "Campaign",
+    "CdprError",
+    "ConvergenceError",
+    "Grid",
+    "InputError",
+    "OutsideValidityError",
+    "Platform",
+    "Pose",
+    "Pulley",
+    "Result",
+    "Robot",
+    "Trajectory",
+    "UnholdablePoseError",
+    "UnstableEquilibriumError",
+    "__version__",
+    "audit",
+    "cable",
+    "causes",
+    "diagnose",
+    "distribute",
+    "forward",
+    "frf",
+    "inverse",
+    "limits",
+    "load_campaign",
+    "load_robot",
+    "map",
+    "modes",
+    "plan",
+    "pose_error",
+    "reproduce",
+    "robots",
+    "spectrogram",
+    "transient",
+    "verify",
+    "write_robot",
+]
 
 
 def __getattr__(name: str) -> Any:
-    """`__version__`, looked up when it is asked for."""
+    """A public name, loaded when it is first asked for."""
     if name == "__version__":
         from importlib.metadata import version
 
         return version("cdpr-struct")
-    raise AttributeError(f"module 'cdpr_struct' has no attribute {name!r}")
+    if name not in _HOME:
+        raise AttributeError(f"module 'cdpr_struct' has no attribute {name!r}")
+    value = globals()[name] = getattr(import_module(_HOME[name]), name)
+    return value
+
+
+def __dir__() -> list[str]:
+    """What is there already, and all public names."""
+    return sorted({*globals(), *__all__})

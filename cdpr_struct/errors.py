@@ -1,7 +1,7 @@
 """The errors that this package raises on purpose.
 
-`InputError` means that what the user gave cannot be used, `CdprError` that physics says no. Both carry the
-numbers and the next step; the command line turns them into exit codes 2 and 1.
+All are of one family, `CdprError`. `InputError` means that what the user gave cannot be used, every other one that
+physics says no. They carry the numbers and the next step; the command line turns them into exit codes 2 and 1.
 """
 
 from collections.abc import Sequence
@@ -9,15 +9,15 @@ from difflib import get_close_matches
 
 
 class CdprError(Exception):
-    """The request is well-posed, but the robot cannot do it."""
+    """What this package raises on purpose; if it is no `InputError`, the request is well-posed but cannot be met."""
 
 
-class InputError(ValueError):
+class InputError(CdprError, ValueError):
     """Unusable input: where it is, what it was, and what would be right.
 
     Parameters
     ----------
-    source : file or command-line option.
+    source : file, command-line option, or argument of a function.
     field : the name inside the source ("" if the source as a whole is meant).
     value : what was given.
     expected : what would be right.
@@ -28,6 +28,17 @@ class InputError(ValueError):
         place = f"{source}: {field}" if field else source
         plain = value.item() if type(value).__module__ == "numpy" and hasattr(value, "item") else value
         super().__init__(f"{place}: got {plain!r}; {expected}")
+
+
+def told(error: Exception) -> CdprError | None:
+    """An error of numerics or of the finite-element referee as one of this package; None if it is a defect."""
+    if isinstance(error, CdprError):
+        return error
+    if type(error).__module__.partition(".")[0] == "fem_reference":
+        return CdprError(f"FEM reference: {error}")
+    if isinstance(error, ArithmeticError) or type(error).__name__ == "LinAlgError":
+        return CdprError(f"cannot be computed ({error}): check the size of masses, lengths and forces")
+    return None
 
 
 def not_utf8(source: str, error: UnicodeDecodeError) -> InputError:

@@ -4,9 +4,9 @@ from typing import Annotated
 
 import typer
 
-from cdpr_struct.cli.options import SMALLEST, number, read_numbers
-from cdpr_struct.cli.output import Files, Output
-from cdpr_struct.errors import InputError
+import cdpr_struct as cs
+from cdpr_struct.cli.options import number
+from cdpr_struct.cli.output import Output
 
 NAME = "cable"
 EXAMPLES = (
@@ -26,23 +26,6 @@ def run(
     output: Output,
 ) -> int:
     """One cable: end point, sag, elongation, stiffness, validity of the DSM, natural frequencies."""
-    force_x, force_z = read_numbers(force, "--force", (2,), "numbers FX,FZ in N")
-    for option, value in (("--length", length), ("--EA", axial_stiffness), ("--rho", density), ("--gravity", gravity)):
-        if not 0.0 < value < float("inf"):
-            raise InputError(option, "", value, "give a finite number above zero")
-    if abs(force_x) < SMALLEST:
-        raise InputError(
-            "--force", "FX", force_x, "give a horizontal force that is not zero (a vertical cable has no plane)"
-        )
-    from cdpr_struct.crosscheck.single_cable import describe_cable
-
-    result = describe_cable(force_x, force_z, length, axial_stiffness, density, gravity, fem)
-    from cdpr_struct.reports.text import cable_text
-
-    def files() -> Files:
-        from cdpr_struct.reports.cable_page import cable_files
-
-        return cable_files(result)
-
-    output.deliver(result, lambda: cable_text(result), files)
+    found = cs.cable(force=force, length=length, EA=axial_stiffness, rho=density, gravity=gravity, fem=fem)
+    output.give(found)
     return 0

@@ -2,6 +2,7 @@
 
 import functools
 import inspect
+import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import ModuleType
@@ -11,6 +12,7 @@ import typer
 
 from cdpr_struct.cli.options import directory
 from cdpr_struct.cli.output import Output, repeating
+from cdpr_struct.errors import InputError
 
 _OUT = Annotated[
     Path | None,
@@ -46,7 +48,10 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
         flags = (bool(where["json"]), bool(where["quiet"]), bool(where["overwrite"]))
         output = Output(out, *flags, repeating(context.obj or ()))
         output.check()
-        return run(**given, output=output)
+        try:
+            return run(**given, output=output)
+        except InputError as error:
+            raise _of_option(error, own) from error
 
     shown = [inspect.Parameter("context", keyword, annotation=typer.Context)]
     shown += [p.replace(kind=keyword) for p in own]
@@ -54,6 +59,23 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
     command.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
     command.__annotations__ = {p.name: p.annotation for p in shown}
     return command
+
+
+def _of_option(error: InputError, own: Sequence[inspect.Parameter]) -> InputError:
+    """A complaint about an argument as one about the option, or the word, that it was given by."""
+    options = {parameter.name: _shown(parameter) for parameter in own}
+    known = options | {option.removeprefix("--").replace("-", "_"): option for option in options.values()}
+    if error.source not in known:
+        return error
+    expected = re.sub(r"`(\w+)`", lambda name: known.get(name[1], name[0]), error.expected)
+    return InputError(known[error.source], error.field, error.value, expected)
+
+
+def _shown(parameter: inspect.Parameter) -> str:
+    """An option as it is typed, or the word that the help has for an argument."""
+    declared = parameter.annotation.__metadata__[0]
+    words = [word for word in (declared.default, *(declared.param_decls or ())) if str(word).startswith("--")]
+    return words[0] if words else (declared.metavar or parameter.name.upper()).strip("[").split(".")[0].strip()
 
 
 def examples(lines: Sequence[str]) -> str:

@@ -2,34 +2,28 @@
 
 from concurrent.futures import BrokenExecutor
 
+from typer import BadParameter
 from typer.exceptions import TyperException
 
-from cdpr_struct.errors import CdprError, InputError
+from cdpr_struct.errors import InputError, told
 
 
 def complaint(error: Exception) -> tuple[int, str] | None:
-    """Exit code and one line; None for what is a fault of the program."""
+    """Exit code and one line; None for what is a defect of the program."""
     if isinstance(error, TyperException):
         return 2, _words(error)
     if isinstance(error, InputError):
         return 2, str(error)
-    if isinstance(error, CdprError):
-        return 1, str(error)
-    if type(error).__module__.partition(".")[0] == "fem_reference":
-        return 1, f"FEM reference: {error}"
     if isinstance(error, BrokenExecutor):
         return 1, "a worker process was ended from outside (too little memory, for instance); give fewer --workers"
     if type(error).__module__.partition(".")[0] == "distributed":
         return 1, f"the cluster gave up ({type(error).__name__}: {error})".replace("\n", " ")[:400]
-    if isinstance(error, ArithmeticError) or type(error).__name__ == "LinAlgError":
-        return 1, f"cannot be computed ({error}): check the size of masses, lengths and forces"
-    return None
+    known = told(error)
+    return None if known is None else (1, str(known))
 
 
 def _words(error: TyperException) -> str:
     """What is wrong with the words of the command line, in one line."""
-    import typer
-
-    if isinstance(error, typer.BadParameter) and error.param is not None and error.message.startswith("got "):
+    if isinstance(error, BadParameter) and error.param is not None and error.message.startswith("got "):
         return f"{error.param.opts[0]}: {error.message}"
     return f"{error.format_message().replace(chr(10), ' ').rstrip('.')}. See cdpr-struct --help."

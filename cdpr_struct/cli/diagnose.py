@@ -1,20 +1,16 @@
 """`cdpr-struct diagnose`: what the simulation gets wrong, why, and what a better model gains."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
+import cdpr_struct as cs
 from cdpr_struct.cli.executors import Scheduler, Where, Workers, check_workers
-from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.many_inputs import ManyInputs, answer_all, forget, require_different, worst_code
 from cdpr_struct.cli.options import LowerBound, UpperBound, read_bounds, require_file
 from cdpr_struct.cli.output import Files, Output
-from cdpr_struct.cli.progress import Begin, silent
 from cdpr_struct.errors import InputError
-
-if TYPE_CHECKING:
-    from cdpr_struct.diagnosis.diagnosis import Diagnosis
 
 NAME = "diagnose"
 EXAMPLES = (
@@ -44,39 +40,18 @@ def run(
     bounds = read_bounds(lower_bound, upper_bound)
     if len(campaigns) > 1:
         return _many(tuple(campaigns), budget, bounds, (workers, scheduler), output)
-    from cdpr_struct.reports.diagnose.text import result_text
-
     with output.steps(5) as progress:
-        found, result = _diagnosed(campaigns[0], budget, bounds, progress)
-
-    def files() -> Files:
-        from cdpr_struct.reports.diagnose.page import result_files
-
-        return result_files(found, result)
-
-    output.deliver(result, lambda: result_text(result), files)
+        found = cs.diagnose(
+            campaigns[0], budget=budget, lower_bound=bounds[0], upper_bound=bounds[1], progress=progress
+        )
+    output.give(found)
     return 0
 
 
 def answer(campaign: str, budget: str, bounds: Bounds) -> tuple[Mapping[str, Any], Files]:
     """Result and files of one campaign."""
-    from cdpr_struct.reports.diagnose.page import result_files
-
-    found, result = _diagnosed(campaign, budget, bounds, silent)
-    return result, result_files(found, result)
-
-
-def _diagnosed(campaign: str, budget: str, bounds: Bounds, progress: Begin) -> "tuple[Diagnosis, dict[str, Any]]":
-    from cdpr_struct.diagnosis.diagnosing import diagnosed
-    from cdpr_struct.measurement.campaign_file import load_campaign
-    from cdpr_struct.planning.recommendations import recommendations
-    from cdpr_struct.reports.diagnose.result import result_json
-
-    measured = load_campaign(campaign, *bounds)
-    found = diagnosed(measured, budget, progress)
-    progress("simulating the next measurement")
-    simulated = recommendations(found)
-    return found, with_extensions(result_json(found, simulated), measured.robot, NAME)
+    found = cs.diagnose(campaign, budget=budget, lower_bound=bounds[0], upper_bound=bounds[1])
+    return found.answer, found.files()
 
 
 def _many(campaigns: tuple[str, ...], budget: str, bounds: Bounds, where: Where, output: Output) -> int:

@@ -2,14 +2,12 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from cdpr_struct.cli.executors import Scheduler, Where, Workers, check_workers
-from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.many_inputs import ManyInputs, answer_all, forget, require_different, worst_code
 from cdpr_struct.cli.options import (
     LowerBound,
@@ -18,19 +16,14 @@ from cdpr_struct.cli.options import (
     RobotName,
     UpperBound,
     number,
-    read_numbers,
-    read_robot,
     whole_number,
 )
 from cdpr_struct.cli.output import Files, Output
-from cdpr_struct.cli.progress import Begin, silent
-from cdpr_struct.cli.trajectory_input import FORMS, read_trajectory
 from cdpr_struct.errors import InputError
+from cdpr_struct.interface.trajectory import FORMS
 
 if TYPE_CHECKING:
-    from cdpr_struct.dynamics.trajectory_distribution import BoundRule, TrajectoryDistribution
-    from cdpr_struct.robot.robot import Robot
-    from cdpr_struct.statics.tension_cost import TensionCost
+    from cdpr_struct.interface.distribute import DistributeQuestion
 
 NAME = "distribute"
 EXAMPLES = (
@@ -39,7 +32,6 @@ EXAMPLES = (
 )
 BOUNDS = ("fixed", "pose-dependent", "frequency")
 COSTS = ("norm", "p-norm", "middle", "centre")
-_POSITIVE = ("--b", "--longest", "--max-speed", "--max-acceleration")
 MODELS = ("sagging", "spring", "ideal")
 _TRAJECTORY = f"{FORMS}; or a directory of such files. May be given several times."
 
@@ -82,68 +74,27 @@ def run(
     output: Output,
 ) -> int:
     """Cable forces of least cost along a trajectory, above a lower bound; several trajectories give a table, too."""
-    rules = _rules(bound, compare)
-    _require_positive(b, longest, max_speed, max_acceleration)
-    if model not in MODELS:
-        raise InputError("--model", "", model, f"one of: {', '.join(MODELS)}")
     check_workers(workers, scheduler)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
-    price = _cost(cost, weights, power, machine)
-    asked = Asked(machine, tuple(rules), b, longest, price, model, max_speed, max_acceleration, instants)
+    from cdpr_struct.interface.distribute import distribute_question
+
+    asked = distribute_question(
+        robot, bound=bound, b=b, cost=cost, weights=weights, power=power, lower_bound=lower_bound,
+        upper_bound=upper_bound, longest=longest, model=model, max_speed=max_speed,
+        max_acceleration=max_acceleration, instants=instants, compare=compare or (), payload=payload, mass=mass,
+    )  # fmt: skip
     paths = trajectories_of(trajectory)
     if len(paths) > 1:
         return _many(asked, trajectory, paths, f"{cost} {weights} {power}", (workers, scheduler), output)
-    from cdpr_struct.reports.distribution_text import distribution_text
-
-    with output.steps(len(rules)) as progress:
-        found, result = asked.along(paths[0], progress)
-
-    def files() -> Files:
-        from cdpr_struct.reports.distribution_page import distribution_files
-
-        return distribution_files(found)
-
-    output.deliver(result, lambda: distribution_text(found), files)
+    with output.steps(len(asked.rules)) as progress:
+        found = asked.along(paths[0], progress)
+    output.give(found)
     return 0
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Asked:
-    """What the options ask of every trajectory."""
-
-    robot: "Robot"
-    rules: "tuple[BoundRule, ...]"
-    b: float
-    longest: float
-    cost: "TensionCost"
-    model: str
-    max_speed: float
-    max_acceleration: float
-    instants: int | None
-
-    def along(self, text: str, progress: Begin) -> "tuple[list[TrajectoryDistribution], dict[str, Any]]":
-        """Distributions for all lower bounds, and result.json."""
-        from cdpr_struct.dynamics.trajectory_distribution import distribute_along
-        from cdpr_struct.reports.distribution_result import distribution_json
-
-        path, assumed = read_trajectory(text, self.instants)
-        path.require_within(self.max_speed, self.max_acceleration)
-        found = []
-        for rule in self.rules:
-            progress(f"{rule} bound")
-            found.append(
-                distribute_along(self.robot, path, rule, self.b, longest=self.longest, cost=self.cost, model=self.model)
-            )
-        told = distribution_json(found[0], found[1:]) | {"warnings": assumed}
-        return found, with_extensions(told, self.robot, NAME, self.model)
-
-
-def answer(text: str, asked: Asked) -> tuple[Mapping[str, Any], Files]:
+def answer(text: str, asked: "DistributeQuestion") -> tuple[Mapping[str, Any], Files]:
     """Result and files of one trajectory of several."""
-    from cdpr_struct.reports.distribution_page import distribution_files
-
-    found, result = asked.along(text, silent)
-    return result, distribution_files(found)
+    found = asked.along(text)
+    return found.answer, found.files()
 
 
 def trajectories_of(texts: Sequence[str]) -> tuple[str, ...]:
@@ -162,7 +113,9 @@ def trajectories_of(texts: Sequence[str]) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _many(asked: Asked, typed: Sequence[str], paths: tuple[str, ...], cost: str, where: Where, output: Output) -> int:
+def _many(
+    asked: "DistributeQuestion", typed: Sequence[str], paths: tuple[str, ...], cost: str, where: Where, output: Output
+) -> int:
     """All trajectories, each with files of its own, and a table of what their forces are."""
     require_different(paths, "--trajectory")
     if asked.instants is not None and any(Path(path).is_file() for path in paths):
@@ -181,48 +134,3 @@ def _many(asked: Asked, typed: Sequence[str], paths: tuple[str, ...], cost: str,
     output.deliver(result, lambda: report.trajectories_text(result), lambda: report.trajectories_files(result))
     forget(work, output)
     return worst_code(rows)
-
-
-def _require_positive(*values: float) -> None:
-    for option, value in zip(_POSITIVE, values, strict=True):
-        if not value > 0.0 or (option == "--b" and not value < math.inf):
-            raise InputError(option, "", value, "give a number above zero")
-
-
-def _rules(bound: str, compare: str | None) -> "list[BoundRule]":
-    from cdpr_struct.dynamics.trajectory_distribution import BOUND_RULES
-
-    rules: list[BoundRule] = []
-    given = [("--bound", bound), *(("--compare", name) for name in (compare.split(",") if compare else ()))]
-    for option, name in given:
-        found = [rule for rule in BOUND_RULES if rule == name]
-        if not found:
-            raise InputError(option, "", name, f"one of: {', '.join(BOUNDS)}")
-        rules += [rule for rule in found if rule not in rules]
-    return rules
-
-
-def _cost(name: str, weights: str | None, power: float, robot: "Robot") -> "TensionCost":
-    from cdpr_struct.statics.tension_cost import Centre, EuclideanNorm, Middle, PowerNorm
-
-    if name not in COSTS:
-        raise InputError("--cost", "", name, f"one of: {', '.join(COSTS)}")
-    if weights is not None and name != "norm":
-        raise InputError("--weights", "", weights, "weights belong to --cost norm")
-    if name in ("middle", "centre") and not (robot.force_max < math.inf).all():
-        hint = f"--cost {name} needs a finite upper bound, here or as force_max in the robot file"
-        raise InputError("--upper-bound", "", "nothing", hint)
-    if name == "p-norm":
-        if not 1.1 <= power <= 6.0:
-            raise InputError("--power", "", power, "give a number from 1.1 to 6")
-        return PowerNorm(power)
-    if name != "norm":
-        return Middle() if name == "middle" else Centre()
-    if weights is None:
-        return EuclideanNorm()
-    import numpy as np
-
-    values = np.array(read_numbers(weights, "--weights", (len(robot.cables),), "weights, one per cable"))
-    if not (values > 0.0).all():
-        raise InputError("--weights", "", weights, "weights must be above zero")
-    return EuclideanNorm(values)

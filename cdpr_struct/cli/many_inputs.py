@@ -11,9 +11,9 @@ import numpy as np
 from cdpr_struct.cli.complaints import complaint
 from cdpr_struct.cli.executors import Where
 from cdpr_struct.cli.output import Files, Output
-from cdpr_struct.cli.plain_json import plain
 from cdpr_struct.cli.sweeping import clear_checkpoint, run_work
 from cdpr_struct.errors import InputError
+from cdpr_struct.reports.plain_json import plain
 
 Answer = Callable[..., tuple[Mapping[str, Any], Files]]
 """(input, *options) -> result.json and the other files of the command for one input; any process can run it."""

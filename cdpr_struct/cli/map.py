@@ -5,7 +5,6 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.executors import Scheduler, Workers, check_workers
-from cdpr_struct.cli.extension_notes import with_extensions
 from cdpr_struct.cli.options import (
     GridText,
     LowerBound,
@@ -13,13 +12,10 @@ from cdpr_struct.cli.options import (
     Payload,
     RobotName,
     UpperBound,
-    read_grid,
-    read_robot,
     whole_number,
 )
 from cdpr_struct.cli.output import Output
 from cdpr_struct.cli.sweeping import clear_checkpoint, run_batches
-from cdpr_struct.errors import InputError
 
 NAME = "map"
 EXAMPLES = (
@@ -48,40 +44,12 @@ def run(
     output: Output,
 ) -> int:
     """Map a quantity over a grid of poses; with --out, an interrupted run continues where it stopped."""
-    if grid is None:
-        raise InputError("--grid", "", "nothing", "give X0:X1:NX,Y0:Y1:NY,Z, like -3:3:13,-3:3:13,0.5")
-    if chunk is not None and not 1 <= chunk <= 100_000:
-        raise InputError("--chunk", "", chunk, "give a number from 1 to 100000")
     check_workers(workers, scheduler)
-    machine, poses = read_robot(robot, payload, mass, lower_bound, upper_bound), read_grid(grid)
-    from cdpr_struct.reports import statics_map as report
-    from cdpr_struct.workspace.quantities import quantity_of
-    from cdpr_struct.workspace.sweep import sweep
+    from cdpr_struct.interface.map import map_question
 
-    quantity = quantity or "nothing"
-    try:
-        what = quantity_of(quantity)
-    except KeyError as error:
-        raise InputError("--quantity", "", quantity, error.args[0]) from None
-    if what.most_poses is not None and poses.size > (most := what.most_poses(machine)):
-        right = f"at most {most} poses for {quantity}, which keeps the mode shapes of all poses in memory"
-        raise InputError("--grid", "", f"{poses.size} poses", right)
-    batches = sweep(quantity, machine, poses, chunk)
-    columns, resumed = run_batches(batches, (workers, scheduler), output)
-    columns = what.finished(machine, poses, columns)
-    result = report.map_json(machine, quantity, poses, columns) | {"resumed_chunks": resumed}
-    result = with_extensions(result, machine, _kin(quantity))
-    output.deliver(
-        result,
-        lambda: report.map_sentence(result),
-        lambda: report.map_files(machine, quantity, poses, columns, result),
-    )
+    asked = map_question(robot, grid, quantity, payload, mass, lower_bound, upper_bound, chunk)
+    batches = asked.batches
+    found = asked.answered(*run_batches(batches, (workers, scheduler), output))
+    output.give(found)
     clear_checkpoint(batches, output.directory)
-    return 0 if result["held"] > result["unstable"] else 1
-
-
-def _kin(quantity: str) -> str:
-    """The command that knows the extensions which this quantity knows."""
-    if quantity.startswith("pose-error"):
-        return "pose-error"
-    return NAME if quantity.startswith(("first-", "mode-")) or quantity == "frequencies" else "inverse"
+    return 0 if found.answer["held"] > found.answer["unstable"] else 1

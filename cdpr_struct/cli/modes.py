@@ -4,8 +4,7 @@ from typing import Annotated
 
 import typer
 
-from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import pose_in_degrees, rest
+import cdpr_struct as cs
 from cdpr_struct.cli.options import (
     AssemblyName,
     Lengths,
@@ -16,12 +15,9 @@ from cdpr_struct.cli.options import (
     RobotName,
     Start,
     UpperBound,
-    read_assembly,
-    read_robot,
     whole_number,
 )
-from cdpr_struct.cli.output import Files, Output
-from cdpr_struct.errors import InputError
+from cdpr_struct.cli.output import Output
 
 NAME = "modes"
 EXAMPLES = (
@@ -48,45 +44,9 @@ def run(
     output: Output,
 ) -> int:
     """Eigenfrequencies of the robot at rest, with their kind."""
-    if not 1 <= count <= 500:
-        raise InputError("--count", "", count, "give a number from 1 to 500")
-    if not 2 <= elements <= 2000:
-        raise InputError("--elements", "", elements, "give a number from 2 to 2000")
-    way = read_assembly(assembly)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
-    from cdpr_struct.crosscheck.robot_modes import MODELS, require_validity, robot_modes
-    from cdpr_struct.robot.robot_arrays import RobotArrays
-
-    name = next((m for m in MODELS if m == model), None)
-    if name is None:
-        raise InputError("--model", "", model, f"one of: {', '.join(MODELS)}")
-    state = rest(machine, pose, lengths, start)
-    point = state.point
-    if name == "dsm" and not force:
-        require_validity(point)
-    with state.advised():
-        found = robot_modes(point, name, min(count, 6) if name == "static" else count, way, elements)
-    result = {
-        "robot": machine.name,
-        "pose": pose_in_degrees(point),
-        "model": name,
-        "assembly": way,
-        "frequencies_hz": found.hertz,
-        "count_certified": found.count_certified,
-        "kinds": found.kinds(),
-        "platform_energy": found.platform_energy,
-        "tensions_N": point.cables.tension_at_platform,
-        "lengths_m": RobotArrays.of(machine).reading(point.cables.total_length),
-        **state.told(),
-    }
-    result = with_extensions(result, machine, NAME, name)
-
-    from cdpr_struct.reports.modes_text import modes_text
-
-    def files() -> Files:
-        from cdpr_struct.reports.modes_page import modes_files
-
-        return modes_files(point, result)
-
-    output.deliver(result, lambda: modes_text(result), files)
+    found = cs.modes(
+        robot, pose, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound, payload=payload,
+        mass=mass, model=model, assembly=assembly, elements=elements, count=count, force=force,
+    )  # fmt: skip
+    output.give(found)
     return 0

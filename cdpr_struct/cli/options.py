@@ -1,23 +1,21 @@
-"""Options that several commands share, and how their text is read."""
+"""Options that several commands share; what their text stands for is read by `interface.arguments`."""
 
 import os
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from cdpr_struct.errors import InputError
+from cdpr_struct.interface.arguments import (
+    LARGEST,
+    SMALLEST,
+    read_bounds,
+    read_numbers,
+    require_file,
+)
 
-if TYPE_CHECKING:
-    from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
-    from cdpr_struct.robot.pose import Pose
-    from cdpr_struct.robot.robot import Robot
-    from cdpr_struct.workspace.grid import Grid
-
-
-_LOOKS_LIKE_MM = 50.0  # times the robot's width
-LARGEST, SMALLEST = 1e12, 1e-12  # of single numbers; beyond them squares and products leave what can be computed
+__all__ = ["read_bounds", "read_numbers", "require_file"]
 
 
 def number(text: str) -> float:
@@ -51,31 +49,6 @@ def directory(text: str) -> Path:
     except OSError as error:
         raise typer.BadParameter(f"got {text!r}; give a directory that can be written ({error.strerror})") from error
     return Path(text)
-
-
-def require_file(path: str) -> None:
-    """Refuse a campaign that is not there before anything slow is loaded.
-
-    Raises
-    ------
-    InputError : no such file.
-    """
-    if not Path(path).is_file():
-        raise InputError("CAMPAIGN", "", path, "no such file" if not Path(path).is_dir() else "a file, not a folder")
-
-
-def require_metres(values: list[float], robot: "Robot", option: str = "--lengths") -> None:
-    """Refuse lengths that look like mm.
-
-    Raises
-    ------
-    InputError : even the shortest is many times as long as the robot is wide.
-    """
-    import numpy as np
-
-    wide = float(np.linalg.norm(np.ptp(robot.frame_anchors, axis=0)))
-    if wide > 0.0 and min(values) > _LOOKS_LIKE_MM * wide:
-        raise InputError(option, "", values[0], f"lengths in m; these look like mm (the robot is {wide:.3g} m wide)")
 
 
 RobotName = Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in name or path to a robot file.")]
@@ -119,136 +92,7 @@ Mass = Annotated[
 ]
 
 
-def read_numbers(text: str, option: str, counts: tuple[int, ...] | None = None, what: str = "numbers") -> list[float]:
-    """Finite numbers of a comma-separated option.
-
-    Raises
-    ------
-    InputError : not numbers, not finite, or not as many as `counts` admits.
-    """
-    wanted = "" if counts is None else " or ".join(map(str, counts)) + " "
-    expected = f"give {wanted}comma-separated {what}"
-    try:
-        values = [float(part) for part in text.split(",")]
-    except ValueError as error:
-        raise InputError(option, "", text, expected) from error
-    if any(LARGEST < abs(v) < float("inf") for v in values):
-        raise InputError(option, "", text, f"{expected}, none above {LARGEST:g} in size")
-    if not all(abs(v) < float("inf") for v in values) or (counts is not None and len(values) not in counts):
-        raise InputError(option, "", text, expected)
-    return values
-
-
-def read_robot(
-    name: str,
-    payload: float = 0.0,
-    mass: float | None = None,
-    lower_bound: float | None = None,
-    upper_bound: float | None = None,
-) -> "Robot":
-    """The robot with its load, its force limits replaced where an option gives others.
-
-    Raises
-    ------
-    InputError : no such robot, or a number out of range.
-    """
-    from cdpr_struct.robot.robot_file import load_robot
-
-    if not 0.0 <= payload < float("inf"):
-        raise InputError("--payload", "", payload, "give a mass in kg, zero or more")
-    if mass is not None and not 0.0 < mass < float("inf"):
-        raise InputError("--mass", "", mass, "give a mass in kg above zero")
-    read_bounds(lower_bound, upper_bound)
-    entered = load_robot(name)
-    try:
-        robot = entered.with_load(payload, mass)
-    except ValueError as error:
-        raise InputError("--mass", "", mass, str(error)) from error
-    try:
-        return robot.with_force_limits(lower_bound, upper_bound)
-    except ValueError as error:
-        crossed = ("--upper-bound", upper_bound) if upper_bound is not None else ("--lower-bound", lower_bound)
-        raise InputError(crossed[0], "", crossed[1], str(error)) from error
-
-
-def read_bounds(lower_bound: float | None, upper_bound: float | None) -> tuple[float | None, float | None]:
-    """The bounds of cable force that options give, each a force of its own.
-
-    Raises
-    ------
-    InputError : negative, not finite, or the upper one not above zero.
-    """
-    if lower_bound is not None and not 0.0 <= lower_bound < float("inf"):
-        raise InputError("--lower-bound", "", lower_bound, "give a force in N, zero or more")
-    if upper_bound is not None and not upper_bound > 0.0:
-        raise InputError("--upper-bound", "", upper_bound, "give a force in N above zero")
-    return lower_bound, upper_bound
-
-
-def read_pose(text: str | None, robot: "Robot", option: str = "--pose") -> "Pose":
-    """The pose that the option names, or the robot's home pose."""
-    from cdpr_struct.robot.pose import Pose
-
-    if text is not None:
-        return Pose.from_degrees(read_numbers(text, option, (3, 6), "numbers x,y,z[,rx,ry,rz] in m and deg"))
-    if robot.home is None:
-        raise InputError(option, "", "nothing", f"robot {robot.name} has no home_pose, so give x,y,z[,rx,ry,rz]")
-    return robot.home
-
-
-def read_assembly(text: str) -> "Assembly":
-    """The way the platform's stiffness is assembled.
-
-    Raises
-    ------
-    InputError : neither consistent nor thesis.
-    """
-    if text == "consistent":
-        return "consistent"
-    if text == "thesis":
-        return "thesis"
-    raise InputError("--assembly", "", text, "consistent or thesis")
-
-
 GridText = Annotated[
     str | None,
     typer.Option("--grid", metavar="X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ]", help="Poses [m, deg]; x, y, z: value or range."),
 ]  # fmt: skip
-_GRID_FORM = "give X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ] in m and deg, each of x, y, z a number or a range like -3:3:7"
-_MOST_POSES = 4_000_000
-
-
-def read_grid(text: str) -> "Grid":
-    """The grid of poses that the option describes.
-
-    Raises
-    ------
-    InputError : not the form, not ascending, not finite, or too many poses.
-    """
-    import numpy as np
-
-    from cdpr_struct.workspace.grid import Grid
-
-    parts = text.split(",")
-    if len(parts) not in (3, 6):
-        raise InputError("--grid", "", text, _GRID_FORM)
-    axes = [_axis(part, text) for part in parts[:3]]
-    angles = read_numbers(",".join(parts[3:]), "--grid", (3,), "angles rx,ry,rz in deg") if parts[3:] else [0.0] * 3
-    if np.prod([float(count) for _, _, count in axes]) > _MOST_POSES:
-        raise InputError("--grid", "", text, f"at most {_MOST_POSES} poses")
-    x, y, z = (np.linspace(*axis) for axis in axes)
-    return Grid(x, y, z, np.radians(angles))
-
-
-def _axis(part: str, text: str) -> tuple[float, float, int]:
-    numbers = part.split(":")
-    try:
-        low, high = float(numbers[0]), float(numbers[1]) if len(numbers) == 3 else float(numbers[0])
-        count = int(numbers[2]) if len(numbers) == 3 else 1
-    except ValueError as error:
-        raise InputError("--grid", "", text, _GRID_FORM) from error
-    if len(numbers) not in (1, 3) or not (abs(low) <= LARGEST and abs(high) <= LARGEST):
-        raise InputError("--grid", "", text, _GRID_FORM)
-    if len(numbers) == 3 and not (high > low and count >= 2):
-        raise InputError("--grid", part, part, "a range ascends and has at least 2 values, like -3:3:7")
-    return low, high, count

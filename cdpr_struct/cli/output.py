@@ -7,11 +7,15 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from cdpr_struct.cli.plain_json import json_text
 from cdpr_struct.cli.progress import Begin, silent, steps
 from cdpr_struct.cli.written_files import RESULT, Content, refuse_foreign, replace_files
+from cdpr_struct.reports.plain_json import json_text
+from cdpr_struct.reports.remarks import extensions_of, locked_of, remarks, warnings_of
+
+if TYPE_CHECKING:
+    from cdpr_struct.interface.result import Result
 
 Files = Mapping[str, Content]
 
@@ -49,6 +53,11 @@ class Output:
         with steps(total) as begin:
             yield begin
 
+    def give(self, found: "Result") -> None:
+        """Deliver what a function of the interface answered; a result that says how it is repeated gets the command."""
+        repeat = {"command": self.words} if "command" in found.answer else {}
+        self.deliver({**found.answer, **repeat}, found.text, found.files)
+
     def deliver(self, result: Mapping[str, Any], text: Callable[[], str], files: Callable[[], Files]) -> None:
         """Write the files, then print: JSON and nothing else, or `text` with warnings and notes on extensions.
 
@@ -62,7 +71,7 @@ class Output:
         if self.json:
             _print(json_text(result), sys.stdout)
         elif not self.quiet:
-            _print("\n\n".join([text(), *_remarks(result)]) + "\n", sys.stdout)
+            _print("\n\n".join([text(), *remarks(result)]) + "\n", sys.stdout)
 
     def write(self, result: Mapping[str, Any], files: Files) -> None:
         """Write the files, if --out is given."""
@@ -99,27 +108,6 @@ def repeating(typed: Sequence[str]) -> tuple[str, ...]:
 
 
 _FLAGS, _WITH_VALUE = ("--json", "--quiet", "-q", "--overwrite"), ("--out", "--scheduler")
-
-
-def warnings_of(result: Mapping[str, Any]) -> list[str]:
-    """Sentences that a reader of the result must not miss."""
-    return list(result.get("warnings", ()))
-
-
-def extensions_of(result: Mapping[str, Any]) -> list[str]:
-    """Sentences on the extensions of the robot file."""
-    return list(result.get("extensions", {}).get("sentences", ()))
-
-
-def locked_of(result: Mapping[str, Any]) -> list[str]:
-    """Sentences on how the rest at locked lengths was found."""
-    return list(result.get("locked", {}).get("sentences", ()))
-
-
-def _remarks(result: Mapping[str, Any]) -> list[str]:
-    warnings = [f"Warning: {sentence}" for sentence in warnings_of(result)]
-    parts = ["\n".join(part) for part in (locked_of(result), warnings, extensions_of(result))]
-    return [part for part in parts if part]
 
 
 def _print(text: str, stream: Any) -> None:

@@ -4,11 +4,12 @@ from typing import Annotated
 
 import typer
 
-from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.options import LowerBound, UpperBound, read_bounds, require_file
-from cdpr_struct.cli.output import Files, Output
+import cdpr_struct as cs
+from cdpr_struct.cli.options import LowerBound, UpperBound, require_file
+from cdpr_struct.cli.output import Output
 
 NAME = "plan"
+_STEPS = 3
 EXAMPLES = (
     "cdpr-struct plan examples/table-4-4/campaign.toml --out results/plan",
     "cdpr-struct plan examples/table-4-4/level.toml --json",
@@ -24,20 +25,7 @@ def run(
 ) -> int:
     """Smallest detectable size of each cause, which causes look alike, and which measurement would separate them."""
     require_file(campaign)
-    from cdpr_struct.measurement.campaign_file import load_campaign
-    from cdpr_struct.planning.campaign_plan import STEPS, planned
-    from cdpr_struct.reports.plan.result import plan_json
-    from cdpr_struct.reports.plan.text import plan_text
-
-    entered = load_campaign(campaign, *read_bounds(lower_bound, upper_bound))
-    with output.steps(STEPS) as progress:
-        found = planned(entered, progress)
-    result = with_extensions(plan_json(found) | {"warnings": list(entered.notes)}, entered.robot, NAME)
-
-    def files() -> Files:
-        from cdpr_struct.reports.plan.page import plan_files
-
-        return plan_files(result)
-
-    output.deliver(result, lambda: plan_text(result), files)
+    with output.steps(_STEPS) as progress:
+        found = cs.plan(campaign, lower_bound=lower_bound, upper_bound=upper_bound, progress=progress)
+    output.give(found)
     return 0

@@ -9,21 +9,31 @@ Begin = Callable[[str], None]
 
 @contextmanager
 def steps(total: int) -> Iterator[Begin]:
-    """A bar of `total` steps; call what it yields with the name of the step that begins. Vanishes when done."""
+    """A bar of `total` steps; call what it yields with the name of the step that begins.
+
+    It is there from the first step on, so that complaints about input stand alone, and vanishes when done.
+    """
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("starting", total=total)
-        begun = False
+    bar = Progress(*columns, console=Console(stderr=True), transient=True)
+    task = bar.add_task("starting", total=total, start=False)
+    begun = False
 
-        def begin(name: str) -> None:
-            nonlocal begun
-            bar.update(task, description=name, advance=1 if begun else 0)
-            begun = True
+    def begin(name: str) -> None:
+        nonlocal begun
+        if not begun:
+            bar.start()
+            bar.start_task(task)
+        bar.update(task, description=name, advance=1 if begun else 0)
+        begun = True
 
+    try:
         yield begin
+    finally:
+        if begun:
+            bar.stop()
 
 
 def silent(name: str) -> None:

@@ -5,12 +5,10 @@ from typing import Annotated
 
 import typer
 
-from cdpr_struct.cli.cable_model import Force, ModelName, read_model, require_valid
-from cdpr_struct.cli.extension_notes import with_extensions
-from cdpr_struct.cli.operating_point import rest
-from cdpr_struct.cli.options import Lengths, LowerBound, Mass, Payload, PoseText, Start, UpperBound, number, read_robot
+import cdpr_struct as cs
+from cdpr_struct.cli.options import Lengths, LowerBound, Mass, Payload, PoseText, Start, UpperBound, number
 from cdpr_struct.cli.output import Output
-from cdpr_struct.errors import InputError
+from cdpr_struct.cli.vibration_options import Force, ModelName
 
 NAME = "spectrogram"
 EXAMPLES = (
@@ -41,23 +39,9 @@ def run(
     output: Output,
 ) -> int:
     """Spectrogram of measured accelerations, with the robot's certified eigenfrequencies."""
-    from cdpr_struct.measurement.time_series import read_accelerations
-
-    time, acceleration = read_accelerations(file)
-    half_rate = 0.5 * (len(time) - 1) / (time[-1] - time[0])
-    if not 0.0 < highest <= half_rate:
-        raise InputError("--highest", "", highest, f"a frequency up to half of the sampling rate, {half_rate:.6g} Hz")
-    if window is not None and not 8.0 <= window * 2.0 * half_rate <= len(time):
-        raise InputError("--window", "", window, f"between {4.0 / half_rate:.4g} and {time[-1] - time[0]:.4g} s")
-    cable_model, machine = read_model(model), read_robot(robot, payload, mass, lower_bound, upper_bound)
-    state = rest(machine, pose, lengths, start)
-    point = state.point
-    require_valid(cable_model, point, force)
-    from cdpr_struct.reports.transient_measured import measured_files, measured_json, measured_text
-
-    with state.advised():
-        result = measured_json(time, acceleration, point, cable_model, highest)
-    result |= state.told()
-    result = with_extensions(result, machine, NAME, cable_model)
-    output.deliver(result, lambda: measured_text(result), lambda: measured_files(time, acceleration, result, window))
+    found = cs.spectrogram(
+        file, robot, pose, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
+        payload=payload, mass=mass, highest=highest, window=window, model=model, force=force,
+    )  # fmt: skip
+    output.give(found)
     return 0

@@ -13,8 +13,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from cdpr_struct.cli.plain_json import json_text
 from cdpr_struct.errors import InputError
+from cdpr_struct.reports.plain_json import json_text
 
 Content = str | bytes | Iterable[bytes]
 """What a file holds; a long one in parts."""

@@ -3,7 +3,8 @@
 from cdpr_struct.crosscheck.limits_domain import MAX_STRAIN
 from cdpr_struct.crosscheck.limits_trial import LimitsTrial
 from cdpr_struct.reports import audit_limits_text as text
-from cdpr_struct.reports.audit_limits_result import MEANINGS, cables_csv, veering_csv
+from cdpr_struct.reports.audit_limits_result import MEANINGS, cable_columns, veering_csv
+from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import audit_error_map, audit_evidence, audit_veering
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
@@ -19,7 +20,7 @@ def limits_trial_files(trial: LimitsTrial) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name; equal results give equal bytes."""
     plates = _plates(trial)
     return {
-        "cables.csv": cables_csv(trial),
+        "cables.csv": csv_text(cable_columns(trial)),
         "veering.csv": veering_csv(trial),
         **{f"{plate.name}.svg": plate.svg for plate in plates},
         "report.html": render_page(_page(trial, plates)),

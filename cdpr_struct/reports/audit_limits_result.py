@@ -109,10 +109,10 @@ def sample_json(trial: LimitsTrial, quantity: str, cable: int, sample: int) -> d
     }
 
 
-def cables_csv(trial: LimitsTrial) -> str:
-    """Every cable of the domain with its worst errors and the limits it breaks."""
+def cable_columns(trial: LimitsTrial) -> dict[str, Any]:
+    """Columns of cables.csv: every cable of the domain with its worst errors and the limits it breaks."""
     broken, one = broken_limits(trial.groups), trial.groups
-    columns: dict[str, Any] = {
+    return {
         "alpha_deg": one.inclination_deg,
         "epsilon": one.epsilon,
         "lambda2": one.lambda_squared,
@@ -121,7 +121,6 @@ def cables_csv(trial: LimitsTrial) -> str:
         **{f"{quantity}_error": trial.error(quantity) for quantity in QUANTITIES},
         "breaks": [";".join(name for name in broken if broken[name][i]) for i in range(len(one))],
     }
-    return csv_text(columns)
 
 
 def veering_csv(trial: LimitsTrial) -> str:

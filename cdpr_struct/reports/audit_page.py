@@ -4,17 +4,19 @@ import numpy as np
 
 from cdpr_struct.crosscheck.limits_poses import PoseAudit
 from cdpr_struct.crosscheck.validity_limits import ValidityLimits, limit_violations
+from cdpr_struct.errors import UnholdablePoseError
 from cdpr_struct.reports.audit_result import (
     CABLE_COLUMNS,
     COUNT_COLUMNS,
-    audit_csv,
+    audit_columns,
     cable_rows,
     count_rows,
     poses_in_degrees,
     sentences,
 )
+from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import audit_map, limits
-from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.figures.style import Draw, svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 from cdpr_struct.reports.text import place
 from cdpr_struct.workspace.grid import AXES, Grid
@@ -47,7 +49,7 @@ def audit_files(audit: PoseAudit, grid: Grid | None = None, time: np.ndarray | N
         notes=[("The limits", _NOTES)],
     )
     figures = {f"{plate.name}.svg": plate.svg for plate in plates}
-    return {"audit.csv": audit_csv(audit, time), **figures, "report.html": render_page(page)}
+    return {"audit.csv": csv_text(audit_columns(audit, time)), **figures, "report.html": render_page(page)}
 
 
 def _facts(audit: PoseAudit) -> list[tuple[str, str]]:
@@ -65,16 +67,32 @@ def _facts(audit: PoseAudit) -> list[tuple[str, str]]:
 def _plates(audit: PoseAudit, grid: Grid | None, time: np.ndarray | None) -> list[Plate]:
     if not audit.held.any():
         return []
+    draw, size = audit_figure(audit, grid, time)
+    if len(audit.held) == 1:
+        caption = limits.limits_caption(_one_pose(audit))
+        return [Plate("limits", "Cables against the printed limits", svg("limits", size, draw), caption)]
+    if grid is not None and len(grid.free) == 2:
+        caption = audit_map.audit_map_caption(audit)
+        return [Plate("map", "Broken limits over the workspace", svg("map", size, draw), caption)]
+    return [Plate("course", "Limits along the way", svg("course", size, draw), audit_map.audit_course_caption(audit))]
+
+
+def audit_figure(audit: PoseAudit, grid: Grid | None, time: np.ndarray | None) -> tuple[Draw, tuple[float, float]]:
+    """What draws the limits of one pose, over two axes of the grid, or along the way, and its size [inch].
+
+    Raises
+    ------
+    UnholdablePoseError : no pose is held, so there is nothing to draw.
+    """
+    if not audit.held.any():
+        raise UnholdablePoseError("no pose is held by the cables: there is nothing to draw")
     if len(audit.held) == 1:
         shown = _one_pose(audit)
-        picture = svg("limits", limits.SIZE, lambda f: limits.draw_limits(f, shown))
-        return [Plate("limits", "Cables against the printed limits", picture, limits.limits_caption(shown))]
+        return lambda f: limits.draw_limits(f, shown), limits.SIZE
     if grid is not None and len(grid.free) == 2:
-        picture = svg("map", audit_map.MAP_SIZE, lambda f: audit_map.draw_audit_map(f, audit, grid))
-        return [Plate("map", "Broken limits over the workspace", picture, audit_map.audit_map_caption(audit))]
+        return lambda f: audit_map.draw_audit_map(f, audit, grid), audit_map.MAP_SIZE
     course, label = _course(audit, grid, time)
-    picture = svg("course", audit_map.COURSE_SIZE, lambda f: audit_map.draw_audit_course(f, audit, course, label))
-    return [Plate("course", "Limits along the way", picture, audit_map.audit_course_caption(audit))]
+    return lambda f: audit_map.draw_audit_course(f, audit, course, label), audit_map.COURSE_SIZE
 
 
 def _course(audit: PoseAudit, grid: Grid | None, time: np.ndarray | None) -> tuple[np.ndarray, str]:

@@ -11,7 +11,6 @@ from cdpr_struct.crosscheck.validity_limits import (
     LAMBDA_SQUARED_LIMIT,
     SAG_RATIO_LIMIT,
 )
-from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.text import paragraphs, place, plain_table
 from cdpr_struct.robot.pose import angles_from_rotation
 
@@ -47,14 +46,14 @@ def poses_in_degrees(audit: PoseAudit) -> list[list[float]]:
     return np.concatenate([audit.position, degrees], axis=1).tolist()
 
 
-def audit_csv(audit: PoseAudit, time: np.ndarray | None = None) -> str:
-    """One row a pose and cable."""
+def audit_columns(audit: PoseAudit, time: np.ndarray | None = None) -> dict[str, Any]:
+    """Columns of audit.csv, one row a pose and cable."""
     m = audit.tension.shape[1]
     poses = np.repeat(poses_in_degrees(audit), m, axis=0)
     names = ("x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg")
     when = {} if time is None else {"time_s": np.repeat(time, m)}
     broken = np.stack([audit.broken[name].ravel() for name in PARAMETERS], axis=1)
-    columns: dict[str, Any] = {
+    return {
         **when,
         **dict(zip(names, poses.T, strict=True)),
         "cable": np.tile(np.arange(1, m + 1), len(audit.held)),
@@ -64,7 +63,6 @@ def audit_csv(audit: PoseAudit, time: np.ndarray | None = None) -> str:
         "epsilon_limit": audit.limit["epsilon"].ravel(),
         "violates": [";".join(n for n, b in zip(PARAMETERS, row, strict=True) if b) for row in broken],
     }
-    return csv_text(columns)
 
 
 def audit_text(audit: PoseAudit) -> str:

@@ -15,17 +15,9 @@ from cdpr_struct.reports.text import cable_frequencies
 def cable_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name; `result` as `describe_cable` gives it."""
     plates = cable_plates(result)
-    profile, trace = single_cable.cable_profile(result), single_cable.stiffness_trace(result)
+    trace = single_cable.stiffness_trace(result)
     return {
-        "profile.csv": csv_text(
-            {
-                "s_m": profile.s,
-                "x_m": profile.x,
-                "z_m": profile.z,
-                "along_chord_m": profile.along,
-                "below_chord_m": profile.below,
-            }
-        ),
+        "profile.csv": csv_text(profile_columns(result)),
         "stiffness_trace.csv": csv_text(
             {
                 "frequency_hz": trace.hertz,
@@ -35,6 +27,18 @@ def cable_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
         ),
         **{f"{plate.name}.svg": plate.svg for plate in plates},
         "report.html": render_page(cable_page(result, plates)),
+    }
+
+
+def profile_columns(result: Mapping[str, Any]) -> dict[str, Any]:
+    """Columns of profile.csv, one row a point of the cable."""
+    profile = single_cable.cable_profile(result)
+    return {
+        "s_m": profile.s,
+        "x_m": profile.x,
+        "z_m": profile.z,
+        "along_chord_m": profile.along,
+        "below_chord_m": profile.below,
     }
 
 
@@ -65,7 +69,7 @@ def cable_page(result: Mapping[str, Any], plates: list[Plate]) -> Page:
             f"unstrained {given['length_m']:g} m, EA {given['axial_stiffness_N']:g} N, "
             f"{given['linear_density_kg_m']:g} kg/m, gravity {given['gravity_m_s2']:g} m/s²"
         ),
-        verdict=[_verdict(validity)],
+        verdict=[validity_sentence(validity)],
         holds=validity["valid"],
         facts=[
             (f"{result['chord_m']:.3f} m", "chord"),
@@ -88,7 +92,8 @@ _NOTES = (
 )
 
 
-def _verdict(validity: Mapping[str, Any]) -> str:
+def validity_sentence(validity: Mapping[str, Any]) -> str:
+    """Whether the closed form is within its printed limits, or which it breaks."""
     if validity["valid"]:
         return "The closed-form dynamic stiffness is within its printed limits."
     broken = "; ".join(f"{v['parameter']} {v['value']:.4g} against {v['limit']:.4g}" for v in validity["violations"])

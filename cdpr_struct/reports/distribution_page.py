@@ -7,7 +7,7 @@ import numpy as np
 from cdpr_struct.dynamics.trajectory_distribution import TrajectoryDistribution
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.distribution_notes import distribution_notes
-from cdpr_struct.reports.distribution_result import missed_json
+from cdpr_struct.reports.distribution_result import force_columns, missed_json
 from cdpr_struct.reports.distribution_text import BOUND_NAMES, frequency_sentence, saving_sentence
 from cdpr_struct.reports.figures import distribution as figures
 from cdpr_struct.reports.figures.style import svg
@@ -20,7 +20,7 @@ def distribution_files(found: Found) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name; the first entry is the bound that was asked for."""
     plates = distribution_plates(found)
     return {
-        **{f"forces_{f.rule.replace('-', '_')}.csv": _forces_csv(f) for f in found},
+        **{f"forces_{f.rule.replace('-', '_')}.csv": csv_text(force_columns(f)) for f in found},
         **{f"{plate.name}.svg": plate.svg for plate in plates},
         "report.html": render_page(distribution_page(found, plates)),
     }
@@ -133,16 +133,3 @@ def _bound_table(found: Found) -> HtmlTable:
     )
     note += f"{found[0].b / (2.0 * np.pi):.4f} Hz, of {len(found[0].trajectory)}."
     return HtmlTable("The lower bounds", columns, rows, note, frozenset(marked))
-
-
-def _forces_csv(found: TrajectoryDistribution) -> str:
-    d, path = found.distribution, found.trajectory
-    columns: dict[str, np.ndarray] = {"time_s": path.time}
-    columns |= dict(zip(("x_m", "y_m", "z_m"), path.position.T, strict=True))
-    for name, values in (
-        ("force_{}_N", d.tensions), ("lower_bound_{}_N", d.lower), ("length_{}_m", d.lengths),
-        ("frequency_{}_hz", found.frequency / (2.0 * np.pi)), ("winch_power_{}_W", found.work.winch_power),
-    ):  # fmt: skip
-        columns |= {name.format(i + 1): values[:, i] for i in range(values.shape[1])}
-    columns |= {"energy_J": found.work.spent, "cost": d.cost, "kkt_residual": d.kkt_residual}
-    return csv_text(columns)

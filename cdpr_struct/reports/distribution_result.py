@@ -1,4 +1,4 @@
-"""result.json of a force distribution along a trajectory."""
+"""result.json of a force distribution along a trajectory, and its columns as a table."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -102,3 +102,17 @@ def limit_stretches(found: TrajectoryDistribution) -> list[dict[str, Any]]:
         }
         for i in np.flatnonzero(at.any(axis=0))
     ]
+
+
+def force_columns(found: TrajectoryDistribution) -> dict[str, np.ndarray]:
+    """Columns of the CSV file of one lower bound, one row an instant."""
+    d, path = found.distribution, found.trajectory
+    columns: dict[str, np.ndarray] = {"time_s": path.time}
+    columns |= dict(zip(("x_m", "y_m", "z_m"), path.position.T, strict=True))
+    for name, values in (
+        ("force_{}_N", d.tensions), ("lower_bound_{}_N", d.lower), ("length_{}_m", d.lengths),
+        ("frequency_{}_hz", found.frequency / (2.0 * np.pi)), ("winch_power_{}_W", found.work.winch_power),
+    ):  # fmt: skip
+        columns |= {name.format(i + 1): values[:, i] for i in range(values.shape[1])}
+    columns |= {"energy_J": found.work.spent, "cost": d.cost, "kkt_residual": d.kkt_residual}
+    return columns

@@ -10,6 +10,7 @@ from cdpr_struct.measurement.universal_file import universal_file
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import frf
 from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.frf_result import frf_columns
 from cdpr_struct.reports.frf_text import RATIO, SILENT, WIDTH, frf_summary, peak_rows
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 
@@ -27,27 +28,12 @@ def frf_files(sweep: ResponseSweep, result: Mapping[str, Any]) -> dict[str, str 
         frf.frf_caption(sweep),
     )
     return {
-        "frf.csv": frf_csv(sweep),
+        "frf.csv": csv_text(frf_columns(sweep)),
         "frf.uff": universal_file(sweep.evenly, sweep.point.entered.name, axes),
         "modes.csv": csv_text({"frequency_hz": sweep.modes.hertz, "kind": sweep.modes.kinds}),
         "frf.svg": plate.svg,
         "report.html": render_page(_page(sweep, result, plate)),
     }
-
-
-def frf_csv(sweep: ResponseSweep) -> str:
-    """frequency_hz, real, imag, respond, excite: the form in which measured responses are read, SI units."""
-    found = sweep.response
-    count = len(found.respond)
-    return csv_text(
-        {
-            "frequency_hz": np.tile(found.hertz, count),
-            "real": found.response.real.T.ravel(),
-            "imag": found.response.imag.T.ravel(),
-            "respond": np.repeat([port.name for port in found.respond], len(found.hertz)),
-            "excite": [found.excite.name] * (count * len(found.hertz)),
-        }
-    )
 
 
 def _page(sweep: ResponseSweep, result: Mapping[str, Any], plate: Plate) -> Page:

@@ -1,4 +1,4 @@
-"""result.json of a frequency response."""
+"""result.json of a frequency response, and its columns as a table."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -63,3 +63,16 @@ def _merged(sweep: ResponseSweep) -> list[float]:
         if not merged or hertz - merged[-1] > width:
             merged.append(hertz)
     return merged
+
+
+def frf_columns(sweep: ResponseSweep) -> dict[str, Any]:
+    """Columns of frf.csv, one row a line and response: the form in which measured responses are read, SI units."""
+    found = sweep.response
+    count = len(found.respond)
+    return {
+        "frequency_hz": np.tile(found.hertz, count),
+        "real": found.response.real.T.ravel(),
+        "imag": found.response.imag.T.ravel(),
+        "respond": np.repeat([port.name for port in found.respond], len(found.hertz)),
+        "excite": [found.excite.name] * (count * len(found.hertz)),
+    }

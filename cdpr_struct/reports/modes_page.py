@@ -10,7 +10,7 @@ from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import interactive, mode_ladder, robot_drawing
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
-from cdpr_struct.reports.modes_text import modes_csv
+from cdpr_struct.reports.modes_text import modes_columns, modes_sentence
 from cdpr_struct.reports.text import place
 
 
@@ -23,7 +23,7 @@ def modes_files(point: OperatingPoint, result: Mapping[str, Any]) -> dict[str, s
     plates = _plates(point, result)
     lengths, tensions = result["lengths_m"], result["tensions_N"]
     return {
-        "modes.csv": modes_csv(result),
+        "modes.csv": csv_text(modes_columns(result)),
         "cables.csv": csv_text({"cable": range(1, len(lengths) + 1), "length_m": lengths, "tension_N": tensions}),
         **{f"{plate.name}.svg": plate.svg for plate in plates},
         "report.html": render_page(_page(point, result, plates), interactive.plotly_packed()),
@@ -56,7 +56,7 @@ def _page(point: OperatingPoint, result: Mapping[str, Any], plates: list[Plate])
             f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg at {place(point.position)}; "
             f"cable model {result['model']}, assembly {result['assembly']}"
         ),
-        verdict=[_verdict(result)],
+        verdict=[modes_sentence(result)],
         holds=bool(result["count_certified"]),
         facts=_facts(result),
         plates=plates,
@@ -83,16 +83,6 @@ _ASSUMED = (
     "Assumed: small undamped vibrations about the rest pose, rigid platform, winches that hold their lengths, linear "
     "elastic cables."
 )
-
-
-def _verdict(result: Mapping[str, Any]) -> str:
-    hertz, count = result["frequencies_hz"], len(result["frequencies_hz"])
-    range_text = f"The first {count} eigenfrequencies lie between {hertz[0]:.4g} and {hertz[-1]:.4g} Hz"
-    if count == 1:
-        range_text = f"The first eigenfrequency is {hertz[0]:.4g} Hz"
-    if result["count_certified"]:
-        return f"{range_text}; the count is certified, none below the last one is missing."
-    return f"{range_text}; the count could not be certified, some may be missing."
 
 
 def _facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -1,9 +1,8 @@
-"""Modes of a robot as text and CSV."""
+"""Modes of a robot as text and as columns of a table."""
 
 from collections.abc import Mapping
 from typing import Any
 
-from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.text import paragraphs, plain_table
 
 
@@ -25,13 +24,22 @@ def modes_text(result: Mapping[str, Any]) -> str:
     return paragraphs(plain_table(title, ["mode", "[Hz]", "platform energy [%]", "kind"], rows), certified)
 
 
-def modes_csv(result: Mapping[str, Any]) -> str:
-    """mode, frequency_hz, platform_energy, kind."""
-    return csv_text(
-        {
-            "mode": range(1, len(result["frequencies_hz"]) + 1),
-            "frequency_hz": result["frequencies_hz"],
-            "platform_energy": result["platform_energy"],
-            "kind": result["kinds"],
-        }
-    )
+def modes_sentence(result: Mapping[str, Any]) -> str:
+    """The range of the frequencies, and whether their count is certified."""
+    hertz, count = result["frequencies_hz"], len(result["frequencies_hz"])
+    range_text = f"The first {count} eigenfrequencies lie between {hertz[0]:.4g} and {hertz[-1]:.4g} Hz"
+    if count == 1:
+        range_text = f"The first eigenfrequency is {hertz[0]:.4g} Hz"
+    if result["count_certified"]:
+        return f"{range_text}; the count is certified, none below the last one is missing."
+    return f"{range_text}; the count could not be certified, some may be missing."
+
+
+def modes_columns(result: Mapping[str, Any]) -> dict[str, Any]:
+    """Columns of modes.csv, one row a mode."""
+    return {
+        "mode": range(1, len(result["frequencies_hz"]) + 1),
+        "frequency_hz": result["frequencies_hz"],
+        "platform_energy": result["platform_energy"],
+        "kind": result["kinds"],
+    }

@@ -43,7 +43,7 @@ def reproduction_text(item: Reproduction) -> str:
 
 def reproduction_files(items: Sequence[Reproduction]) -> dict[str, str | bytes]:
     """CSV, figures and page."""
-    files: dict[str, str | bytes] = {f"{item.id}.csv": _cells_csv(item) for item in items}
+    files: dict[str, str | bytes] = {f"{item.id}.csv": csv_text(cell_columns(item)) for item in items}
     files |= {f"{item.id}-data.csv": csv_text(item.columns) for item in items if item.columns}
     plates = [_plate(item) for item in items if item.id in FIGURES]
     files |= {f"{plate.name}.svg": plate.svg for plate in plates}
@@ -57,7 +57,7 @@ def _page(items: Sequence[Reproduction], plates: list[Plate]) -> Page:
     return Page(
         title="The thesis, recomputed",
         subtitle="Yuan, Static and Dynamic Stiffness Analysis of Cable-Driven Parallel Robots; printed beside ours",
-        verdict=_verdict(items),
+        verdict=reproduction_sentences(items),
         holds=all(item.holds for item in items),
         facts=[
             (str(len(items)), "tables and figures"),
@@ -70,7 +70,8 @@ def _page(items: Sequence[Reproduction], plates: list[Plate]) -> Page:
     )
 
 
-def _verdict(items: Sequence[Reproduction]) -> list[str]:
+def reproduction_sentences(items: Sequence[Reproduction]) -> list[str]:
+    """How many items agree with the print, and which do not."""
     met = [item.id for item in items if item.holds]
     other = [item.id for item in items if not item.holds]
     first = f"{len(met)} of {len(items)} items agree with the print in every number and statement."
@@ -125,16 +126,15 @@ def _cell_json(cell: Cell) -> dict[str, Any]:
     }
 
 
-def _cells_csv(item: Reproduction) -> str:
+def cell_columns(item: Reproduction) -> dict[str, Any]:
+    """Columns of an item's CSV file, one row a number of the thesis."""
     cells = item.cells
-    return csv_text(
-        {
-            "row": [c.row for c in cells],
-            "column": [c.column for c in cells],
-            "printed": [c.printed for c in cells],
-            "ours": [c.ours for c in cells],
-            "tolerance": [c.allowed for c in cells],
-            "within": [int(c.within) for c in cells],
-            "converged": [float("nan") if c.converged is None else c.converged for c in cells],
-        }
-    )
+    return {
+        "row": [c.row for c in cells],
+        "column": [c.column for c in cells],
+        "printed": [c.printed for c in cells],
+        "ours": [c.ours for c in cells],
+        "tolerance": [c.allowed for c in cells],
+        "within": [int(c.within) for c in cells],
+        "converged": [float("nan") if c.converged is None else c.converged for c in cells],
+    }

@@ -13,6 +13,7 @@ from cdpr_struct.reports.figures import robot_drawing
 from cdpr_struct.reports.figures.robot_geometry import robot_geometry, unloaded_geometry
 from cdpr_struct.reports.figures.style import BLUE, GREY, svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.robots_result import frame_size, robots_columns, robots_sentence
 from cdpr_struct.reports.text import place
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
@@ -29,35 +30,10 @@ def robots_files(robots: Sequence[Robot], rows: Sequence[Mapping[str, Any]]) -> 
     """
     plates = [_plate(robot) for robot in robots]
     return {
-        "robots.csv": _robots_csv(robots, rows),
+        "robots.csv": csv_text(robots_columns(robots)),
         **{f"{plate.name}.svg": plate.svg for plate in plates},
         "report.html": render_page(_page(robots, rows, plates)),
     }
-
-
-def _robots_csv(robots: Sequence[Robot], rows: Sequence[Mapping[str, Any]]) -> str:
-    size = np.array([_frame_size(robot) for robot in robots])
-    return csv_text(
-        {
-            "name": [row["name"] for row in rows],
-            "cables": [row["cables"] for row in rows],
-            "platform_mass_kg": [robot.platform.mass for robot in robots],
-            "axial_stiffness_N": [_common(robot.axial_stiffness) for robot in robots],
-            "linear_density_kg_m": [_common(robot.linear_density) for robot in robots],
-            **{f"frame_{name}_m": size[:, i] for i, name in enumerate("xyz")},
-            "description": [row["description"] for row in rows],
-        }
-    )
-
-
-def _common(values: np.ndarray) -> float:
-    """The value of all cables; nan where they differ."""
-    return float(values[0]) if np.ptp(values) == 0.0 else float("nan")
-
-
-def _frame_size(robot: Robot) -> np.ndarray:
-    """(3,) extent of the frame anchors [m]."""
-    return np.ptp(robot.frame_anchors, axis=0)
 
 
 def _plate(robot: Robot) -> Plate:
@@ -101,11 +77,11 @@ def _at_home(robot: Robot) -> OperatingPoint | None:
 
 def _page(robots: Sequence[Robot], rows: Sequence[Mapping[str, Any]], plates: Sequence[Plate]) -> Page:
     masses = [robot.platform.mass for robot in robots]
-    widest = max(float(_frame_size(robot)[:2].max()) for robot in robots)
+    widest = max(float(frame_size(robot)[:2].max()) for robot in robots)
     return Page(
         title="Built-in robots",
         subtitle="robots that come with the package; every command takes their names",
-        verdict=[f"{len(robots)} robots: {', '.join(row['name'] for row in rows)}."],
+        verdict=[robots_sentence(rows)],
         holds=True,
         facts=[
             (f"{len(robots)}", "robots"),
@@ -136,7 +112,7 @@ def _table(robots: Sequence[Robot], rows: Sequence[Mapping[str, Any]]) -> HtmlTa
             f"{robot.platform.mass:g}",
             _ends(robot.axial_stiffness, 1e3),
             _ends(robot.linear_density, 1.0),
-            " × ".join(f"{size:.2f}" for size in _frame_size(robot)),
+            " × ".join(f"{size:.2f}" for size in frame_size(robot)),
             row["description"],
         ]
         for robot, row in zip(robots, rows, strict=True)

@@ -1,7 +1,8 @@
 """The files of a map of one quantity over the workspace: result, table, figure, report page."""
 
 from collections.abc import Mapping
-from typing import Any
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from cdpr_struct.statics.sufficient_bound import shared_bound_of_pose_errors, sh
 from cdpr_struct.workspace.grid import AXES, Grid
 from cdpr_struct.workspace.quantities import quantity_of
 from cdpr_struct.workspace.work_list import Columns
+
+if TYPE_CHECKING:
+    from cdpr_struct.reports.figures.style import Draw
 
 _MOST_HELD, _MOST_RELEASED = 64, 16  # poses with slack cables at which a cure is searched; a release takes longer
 _NOTE = (
@@ -179,8 +183,9 @@ def _map_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
     return [*ends, (f"{result['mean']:.4g} {unit}", "mean"), held]
 
 
-def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
-    from cdpr_struct.reports.figures import style, workspace_map, workspace_slices
+def map_figure(name: str, grid: Grid, columns: Columns) -> tuple["Draw", tuple[float, float]]:
+    """What draws a map over one to three axes into an empty figure, and its size [inch]."""
+    from cdpr_struct.reports.figures import workspace_map, workspace_slices
 
     quantity, value = quantity_of(name), map_values(name, columns)
     marked, mark = columns.get("more_stable_pose"), workspace_map.OTHER
@@ -193,11 +198,20 @@ def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
     solid = len(grid.free) == 3
     size = workspace_slices.slices_size(grid) if solid else workspace_map.map_size(grid)
     draw = workspace_slices.draw_slices if solid else workspace_map.draw_map
-    picture = style.svg("map", size, lambda f: draw(f, grid, layer))
+    return partial(draw, grid=grid, layer=layer), size
+
+
+def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
+    from cdpr_struct.reports.figures import style, workspace_slices
+
+    quantity, value = quantity_of(name), map_values(name, columns)
+    draw, size = map_figure(name, grid, columns)
+    picture = style.svg("map", size, draw)
     hatched = " Hatched: poses that cannot be held or are not stable." if np.isnan(value).any() else ""
     which = f"{robot.name}, {robot.platform.mass:g} kg{_comma(grid.fixed_text())}"
-    slices = f" {workspace_slices.Slices.of(grid).said()}" if solid else ""
-    veer = " Triangles: modes veer, the frequency may step there." if "veering" in columns and marked.any() else ""
+    slices = f" {workspace_slices.Slices.of(grid).said()}" if len(grid.free) == 3 else ""
+    veers = "veering" in columns and columns["veering"].any()
+    veer = " Triangles: modes veer, the frequency may step there." if veers else ""
     caption = f"{which}: {quantity.meaning} [{quantity.unit}].{slices}{hatched}{veer}"
     return Plate("map", f"{quantity.label[0].upper()}{quantity.label[1:]}", picture, caption)
 

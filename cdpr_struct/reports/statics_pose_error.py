@@ -7,7 +7,7 @@ import numpy as np
 from cdpr_struct.reports.csv_table import LongTable, csv_text
 from cdpr_struct.reports.figures import pose_error as pose_error_figure
 from cdpr_struct.reports.figures import workspace_map
-from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.figures.style import Draw, svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 from cdpr_struct.reports.statics_map import map_table, slack_poses, slack_warnings
 from cdpr_struct.reports.text import place, rounded
@@ -62,8 +62,8 @@ def pose_error_files(
         tables["pose_error.csv"] = map_table(errors.grid, errors.columns)
         plates += _pose_error_plates(errors)
     if load is not None:
-        tables["sufficient_load.csv"] = _ladder_csv(load[0])
-        plates.append(_ladder_plate(load[0]))
+        tables["sufficient_load.csv"] = csv_text(load_columns(load[0]))
+        plates.append(_ladder_plate(*load))
     page = Page(
         title=f"{robot.name}: static pose error",
         subtitle=f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg",
@@ -109,15 +109,25 @@ def _load_sentence(found: SufficientLoad, pose: Pose) -> str:
 def _pose_error_plates(errors: PoseErrorMap) -> list[Plate]:
     if not workspace_map.drawable(errors.grid):
         return []
-    size = pose_error_figure.pose_error_size(errors)
-    picture = svg("pose_error", size, lambda f: pose_error_figure.draw_pose_error(f, errors))
+    draw, size = main_figure(errors, None)
+    picture = svg("pose_error", size, draw)
     return [Plate("pose_error", "Pose error along z", picture, pose_error_figure.pose_error_caption(errors))]
 
 
-def _ladder_plate(found: SufficientLoad) -> Plate:
-    picture = svg(
-        "sufficient_load", pose_error_figure.LOAD_SIZE, lambda f: pose_error_figure.draw_load_ladder(f, found)
-    )
+def main_figure(
+    errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None
+) -> tuple[Draw, tuple[float, float]]:
+    """What draws the errors over the grid (without one, over the load) into an empty figure, and its size [inch]."""
+    if errors is not None:
+        return lambda f: pose_error_figure.draw_pose_error(f, errors), pose_error_figure.pose_error_size(errors)
+    if load is None:
+        raise ValueError("main_figure needs errors or a load")
+    return lambda f: pose_error_figure.draw_load_ladder(f, load[0]), pose_error_figure.LOAD_SIZE
+
+
+def _ladder_plate(found: SufficientLoad, pose: Pose) -> Plate:
+    draw, size = main_figure(None, (found, pose))
+    picture = svg("sufficient_load", size, draw)
     return Plate(
         "sufficient_load",
         "From which load on will the spring model do?",
@@ -126,10 +136,11 @@ def _ladder_plate(found: SufficientLoad) -> Plate:
     )
 
 
-def _ladder_csv(found: SufficientLoad) -> str:
+def load_columns(found: SufficientLoad) -> dict[str, Any]:
+    """Columns of sufficient_load.csv, one row a mass."""
     parts = {"sag": found.sag_error, "axial": found.axial_error, "global": found.global_error}
     errors = {f"{part}_{axis}_mm": 1e3 * value[:, i] for part, value in parts.items() for i, axis in enumerate("xyz")}
-    return csv_text({"mass_kg": found.masses, **errors})
+    return {"mass_kg": found.masses, **errors}
 
 
 def _facts(errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None) -> list[tuple[str, str]]:

@@ -98,13 +98,15 @@ def inverse_files(
     robot: Robot, pose: Pose, solution: InverseSolution, result: Mapping[str, Any]
 ) -> dict[str, str | bytes]:
     """CSV, picture and page of a held pose."""
-    tension = solution.tensions
-    verdict = (
-        f"Tensions of {tension.min():.4g} to {tension.max():.4g} N hold the pose "
-        f"({', '.join(f'{v:g}' for v in result['pose'][:3])}) m."
-    )
     point = OperatingPoint(robot, pose.position, pose.rotation, solution.cables)
-    return _files(point, result, [verdict, residual_sentence(result)], True)
+    return _files(point, result, inverse_sentences(result), True)
+
+
+def inverse_sentences(result: Mapping[str, Any]) -> list[str]:
+    """The outcome at a held pose in words."""
+    tension, where = np.asarray(result["tensions_N"]), ", ".join(f"{v:g}" for v in result["pose"][:3])
+    held = f"Tensions of {tension.min():.4g} to {tension.max():.4g} N hold the pose ({where}) m."
+    return [held, residual_sentence(result)]
 
 
 def forward_files(
@@ -113,9 +115,14 @@ def forward_files(
     """CSV, picture and page of the pose at locked lengths; with `equilibria`, pictures of other stable poses, too."""
     solution = found.solution
     point = OperatingPoint(robot, solution.position, solution.rotation, solution.cables)
+    more = _others(robot, found.others) if equilibria else []
+    return _files(point, result, forward_sentences(result), result["stable"], more)
+
+
+def forward_sentences(result: Mapping[str, Any]) -> list[str]:
+    """The outcome at locked lengths in words."""
     stiffness = f"Least stiffness {result['least_stiffness_N_m']:.4g} N/m, rotations as arcs at the anchors."
-    verdict = [pose_sentence(result), stiffness, residual_sentence(result)]
-    return _files(point, result, verdict, result["stable"], _others(robot, found.others) if equilibria else [])
+    return [pose_sentence(result), stiffness, residual_sentence(result)]
 
 
 def _others(robot: Robot, others: Equilibria) -> list[Plate]:
@@ -162,7 +169,7 @@ def _files(
         notes=[("How it was computed", how)],
     )
     return {
-        "cables.csv": _cables_csv(point.cables),
+        "cables.csv": csv_text(cable_columns(point.cables)),
         **{f"{each.name}.svg": each.svg for each in (plate, *more)},
         "report.html": render_page(page, interactive.plotly_packed()),
     }
@@ -195,20 +202,19 @@ def _rows(cables: CableStates) -> list[list[str]]:
     ]
 
 
-def _cables_csv(cables: CableStates) -> str:
-    return csv_text(
-        {
-            "cable": range(1, len(cables.length) + 1),
-            "length_m": cables.total_length,
-            "tension_N": cables.tension_at_platform,
-            "tension_at_frame_N": cables.tension_at_frame,
-            "chord_m": cables.chord,
-            "inclination_deg": np.degrees(cables.inclination),
-            "sag_m": cables.sag,
-            "elongation_m": cables.elongation,
-            "slack": cables.slack.astype(int),
-        }
-    )
+def cable_columns(cables: CableStates) -> dict[str, Any]:
+    """Columns of cables.csv, one row a cable."""
+    return {
+        "cable": range(1, len(cables.length) + 1),
+        "length_m": cables.total_length,
+        "tension_N": cables.tension_at_platform,
+        "tension_at_frame_N": cables.tension_at_frame,
+        "chord_m": cables.chord,
+        "inclination_deg": np.degrees(cables.inclination),
+        "sag_m": cables.sag,
+        "elongation_m": cables.elongation,
+        "slack": cables.slack.astype(int),
+    }
 
 
 def _cable_text(result: Mapping[str, Any]) -> str:

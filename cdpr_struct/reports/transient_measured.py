@@ -11,7 +11,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.measurement.spectrogram import Spectrogram, dominant_frequency, spectrogram
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import spectrogram as figure
-from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.figures.style import Draw, svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 from cdpr_struct.reports.text import place
 from cdpr_struct.reports.transient_page import spectrogram_csv
@@ -59,26 +59,44 @@ def measured_files(
     time: np.ndarray, acceleration: np.ndarray, result: Mapping[str, Any], window: float | None
 ) -> dict[str, str | bytes]:
     """Spectrogram as SVG and CSV, the modes, and the report page."""
-    spectrum = spectrogram(time, acceleration, window)
-    highest = float(result["highest_hz"])
-    modes = ModesInBand(result["natural_frequencies_hz"], result["kinds"], result["count_certified"], True)
+    draw, size, spectrum = _drawn(time, acceleration, result, window)
     plate = Plate(
         "spectrogram",
         "Measured acceleration and predicted modes",
-        svg(
-            "spectrogram",
-            figure.SIZE,
-            lambda f: figure.draw_vibration(f, time, acceleration, _CHANNELS, spectrum, modes, highest),
-        ),
+        svg("spectrogram", size, draw),
         f"Above: the record. Below: {figure.vibration_caption(spectrum)} Bright lines without a mark beside them are "
         "vibrations that the model does not predict.",
     )
     return {
         "spectrogram.svg": plate.svg,
-        "spectrogram.csv": spectrogram_csv(spectrum, highest),
-        "modes.csv": csv_text({"frequency_hz": modes.hertz, "kind": modes.kinds}),
+        "spectrogram.csv": spectrogram_csv(spectrum, float(result["highest_hz"])),
+        "modes.csv": csv_text(measured_mode_columns(result)),
         "report.html": render_page(_page(result, spectrum, plate)),
     }
+
+
+def measured_mode_columns(result: Mapping[str, Any]) -> dict[str, Any]:
+    """Columns of modes.csv, one row a predicted mode."""
+    return {"frequency_hz": result["natural_frequencies_hz"], "kind": result["kinds"]}
+
+
+def measured_figure(
+    time: np.ndarray, acceleration: np.ndarray, result: Mapping[str, Any], window: float | None
+) -> tuple[Draw, tuple[float, float]]:
+    """What draws record and spectrogram into an empty figure, and its size [inch]."""
+    return _drawn(time, acceleration, result, window)[:2]
+
+
+def _drawn(
+    time: np.ndarray, acceleration: np.ndarray, result: Mapping[str, Any], window: float | None
+) -> tuple[Draw, tuple[float, float], Spectrogram]:
+    spectrum, highest = spectrogram(time, acceleration, window), float(result["highest_hz"])
+    modes = ModesInBand(result["natural_frequencies_hz"], result["kinds"], result["count_certified"], True)
+
+    def draw(empty: Any) -> None:
+        figure.draw_vibration(empty, time, acceleration, _CHANNELS, spectrum, modes, highest)
+
+    return draw, figure.SIZE, spectrum
 
 
 def _page(result: Mapping[str, Any], spectrum: Spectrogram, plate: Plate) -> Page:
@@ -88,7 +106,7 @@ def _page(result: Mapping[str, Any], spectrum: Spectrogram, plate: Plate) -> Pag
             f"{result['samples']} samples in {_duration(result):.4g} s, robot at {place(result['pose'][:3])}; "
             f"cable model {result['model']}"
         ),
-        verdict=[_verdict(result)],
+        verdict=[measured_sentence(result)],
         holds=bool(result["count_certified"]),
         facts=[
             (_hertz(result["dominant_hz"]), "dominant frequency of the record"),
@@ -112,7 +130,8 @@ _NOTES = (
 )
 
 
-def _verdict(result: Mapping[str, Any]) -> str:
+def measured_sentence(result: Mapping[str, Any]) -> str:
+    """The record's dominant frequency, and the predicted mode next to it."""
     dominant, nearest = result["dominant_hz"], result["nearest_mode_hz"]
     if not np.isfinite(dominant):
         return "The record holds no vibration: all channels are constant."

@@ -9,8 +9,9 @@ from cdpr_struct.dynamics.vibration_record import VibrationRecord
 from cdpr_struct.measurement.spectrogram import Spectrogram, spectrogram
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import spectrogram as figure
-from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.figures.style import Draw, svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.transient_result import transient_columns
 from cdpr_struct.reports.transient_text import port_rows, transient_summary
 
 
@@ -18,21 +19,11 @@ def transient_files(
     record: VibrationRecord, result: Mapping[str, Any], window: float | None = None
 ) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name; `result` as `transient_json` gives it."""
-    time, signal = record.vibration.time, record.vibration.acceleration[:, :3]
-    spectrum = spectrogram(time, signal, window)
-    names = [port.name for port in record.ports[:3]]
-    plate = Plate(
-        "vibration",
-        "Acceleration of the platform",
-        svg(
-            "vibration",
-            figure.SIZE,
-            lambda f: figure.draw_vibration(f, time, signal, names, spectrum, record.modes, record.highest_hertz),
-        ),
-        figure.vibration_caption(spectrum),
-    )
+    draw, size, spectrum = _drawn(record, window)
+    caption = figure.vibration_caption(spectrum)
+    plate = Plate("vibration", "Acceleration of the platform", svg("vibration", size, draw), caption)
     return {
-        "transient.csv": transient_csv(record),
+        "transient.csv": csv_text(transient_columns(record)),
         "spectrogram.csv": spectrogram_csv(spectrum, record.highest_hertz),
         "modes.csv": csv_text({"frequency_hz": record.modes.hertz, "kind": record.modes.kinds}),
         "vibration.svg": plate.svg,
@@ -40,19 +31,17 @@ def transient_files(
     }
 
 
-def transient_csv(record: VibrationRecord) -> str:
-    """time_s, then of every port displacement, velocity and acceleration, then energy_J."""
-    vibration = record.vibration
-    columns: dict[str, Any] = {"time_s": vibration.time}
-    for index, port in enumerate(record.ports):
-        length = "rad" if port.turns else "m"
-        columns[f"{port.name}_{length}"] = vibration.displacement[:, index]
-        columns[f"{port.name}_{length}_s"] = vibration.velocity[:, index]
-        columns[f"{port.name}_{length}_s2"] = vibration.acceleration[:, index]
-    if np.abs(record.nominal).max() > 0.0:
-        for index, name in enumerate(("x", "y", "z")):
-            columns[f"nominal_{name}_m_s2"] = record.nominal[:, index]
-    return csv_text({**columns, "energy_J": vibration.energy})
+def vibration_figure(record: VibrationRecord, window: float | None = None) -> tuple[Draw, tuple[float, float]]:
+    """What draws accelerations and spectrogram into an empty figure, and its size [inch]."""
+    return _drawn(record, window)[:2]
+
+
+def _drawn(record: VibrationRecord, window: float | None) -> tuple[Draw, tuple[float, float], Spectrogram]:
+    time, signal = record.vibration.time, record.vibration.acceleration[:, :3]
+    spectrum = spectrogram(time, signal, window)
+    names = [port.name for port in record.ports[:3]]
+    modes, highest = record.modes, record.highest_hertz
+    return lambda f: figure.draw_vibration(f, time, signal, names, spectrum, modes, highest), figure.SIZE, spectrum
 
 
 def spectrogram_csv(spectrum: Spectrogram, highest_hertz: float) -> str:

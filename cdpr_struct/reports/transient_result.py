@@ -1,4 +1,4 @@
-"""result.json of a predicted vibration."""
+"""result.json of a predicted vibration, and its columns as a table."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -60,3 +60,18 @@ def is_silent(record: VibrationRecord) -> np.ndarray:
     arms = np.array([gyration if port.turns else 1.0 for port in record.ports])
     moved = np.abs(record.vibration.displacement).max(axis=0) * arms
     return np.asarray(moved <= max(1e-12, 1e-9 * float(moved.max())))
+
+
+def transient_columns(record: VibrationRecord) -> dict[str, Any]:
+    """Columns of transient.csv: time_s, then of every port displacement, velocity and acceleration, then energy_J."""
+    vibration = record.vibration
+    columns: dict[str, Any] = {"time_s": vibration.time}
+    for index, port in enumerate(record.ports):
+        length = "rad" if port.turns else "m"
+        columns[f"{port.name}_{length}"] = vibration.displacement[:, index]
+        columns[f"{port.name}_{length}_s"] = vibration.velocity[:, index]
+        columns[f"{port.name}_{length}_s2"] = vibration.acceleration[:, index]
+    if np.abs(record.nominal).max() > 0.0:
+        for index, name in enumerate(("x", "y", "z")):
+            columns[f"nominal_{name}_m_s2"] = record.nominal[:, index]
+    return {**columns, "energy_J": vibration.energy}

@@ -8,6 +8,7 @@ from cdpr_struct.reports.figures import convergence, determinant, interactive, l
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import Page, Plate, render_page
 from cdpr_struct.reports.verification_notes import verification_notes
+from cdpr_struct.reports.verification_result import eigenfrequency_columns
 from cdpr_struct.reports.verification_tables import verification_tables
 from cdpr_struct.reports.verification_text import verdict
 
@@ -17,7 +18,7 @@ def verification_files(trial: Verification) -> dict[str, str | bytes]:
     plates = verification_plates(trial)
     page = render_page(verification_page(trial, plates), interactive.plotly_packed())
     return {
-        "eigenfrequencies.csv": _eigenfrequencies_csv(trial),
+        "eigenfrequencies.csv": csv_text(eigenfrequency_columns(trial)),
         "convergence.csv": _convergence_csv(trial),
         "cables.csv": _cables_csv(trial),
         "determinant_scan.csv": _determinant_csv(trial),
@@ -90,24 +91,6 @@ def _facts(trial: Verification) -> list[tuple[str, str]]:
         (f"{trial.missed_by_scan} of {len(trial.kinds)}", "modes that the determinant scan misses"),
         (f"{cables} of {len(trial.limits.epsilon)}", "cables outside a printed limit"),
     ]
-
-
-def _eigenfrequencies_csv(trial: Verification) -> str:
-    return csv_text(
-        {
-            "mode": range(1, len(trial.kinds) + 1),
-            "kind": trial.kinds,
-            "fem_hz": trial.fem_limit_hertz,
-            "fem_uncertainty_hz": trial.fem_uncertainty_hertz,
-            "dsm_hz": trial.dsm_hertz,
-            "relative_error": trial.relative_error,
-            "exact_hz": trial.exact_hertz,
-            "static_hz": trial.static_hertz,
-            "determinant_minimum_hz": trial.determinant_hertz,
-            "shape_share": trial.assurance,
-            "observed_order": trial.observed_order,
-        }
-    )
 
 
 def _convergence_csv(trial: Verification) -> str:

@@ -1,6 +1,7 @@
 """A function of very many poses, cut into batches."""
 
 from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any
 
@@ -8,7 +9,7 @@ import numpy as np
 
 from cdpr_struct.robot.fingerprint import fingerprint
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.workspace.work_list import Columns
+from cdpr_struct.workspace.work_list import Columns, run_parts
 
 Evaluate = Callable[[Robot, np.ndarray, np.ndarray], Columns]
 
@@ -62,7 +63,23 @@ class PoseBatches:
         batches = [found[number] for number in range(self.parts)]
         return {name: np.concatenate([batch[name] for batch in batches]) for name in batches[0]}
 
-    def here(self) -> Columns:
-        """Columns over all poses, computed in this process."""
-        calls = [self.call(number) for number in range(self.parts)]
-        return self.joined({number: evaluate(*given) for number, (evaluate, given) in enumerate(calls)})
+    def here(self, executor: Executor | None = None, progress: Callable[[str], None] = lambda about: None) -> Columns:
+        """Columns over all poses, computed now.
+
+        executor : that shares the batches; None: this process, in this thread
+        progress : called once a batch, and once before the first
+        """
+        progress(self.about)
+        found: dict[int, Columns] = {}
+
+        def finished(number: int, part: Columns) -> None:
+            found[number] = part
+            progress(self.about)
+
+        if executor is not None:
+            run_parts(self, executor, range(self.parts), finished)
+            return self.joined(found)
+        for number in range(self.parts):
+            evaluate, given = self.call(number)
+            finished(number, evaluate(*given))
+        return self.joined(found)

@@ -38,6 +38,19 @@ MAY_IMPORT = {
         "workspace",
         "thesis",
     },
+    "interface": {
+        "robot",
+        "statics",
+        "dynamics",
+        "crosscheck",
+        "measurement",
+        "hypotheses",
+        "diagnosis",
+        "planning",
+        "workspace",
+        "thesis",
+        "reports",
+    },
     "cli": {
         "robot",
         "statics",
@@ -49,11 +62,13 @@ MAY_IMPORT = {
         "workspace",
         "thesis",
         "reports",
+        "interface",
     },
 }
 NUMERICS = ("generated", "statics", "dynamics", "crosscheck", "workspace", "residuals", "hypotheses")
 SCREEN_AND_FILES = {"matplotlib", "plotly", "rich", "typer", "jinja2", "pathlib", "json", "csv"}
 MAY_IMPORT_THE_REFEREE = {"crosscheck"}
+MAY_IMPORT_THE_PACKAGE = {"cli"}
 
 
 def imports_of(path: Path) -> set[str]:
@@ -81,6 +96,12 @@ def test_rooms_import_only_what_lies_below(room):
             parts = name.split(".")
             if parts[0] == "cdpr_struct" and len(parts) > 1:
                 assert parts[1] in allowed, f"{path.relative_to(ROOT)} imports {name}"
+
+
+@pytest.mark.parametrize("room", MAY_IMPORT.keys() - MAY_IMPORT_THE_PACKAGE)
+def test_no_room_below_the_command_line_imports_the_public_names(room):
+    for path in files_of(room):
+        assert "cdpr_struct" not in imports_of(path), path
 
 
 @pytest.mark.parametrize("room", NUMERICS)

@@ -9,7 +9,6 @@ import pytest
 
 import cdpr_struct.crosscheck.limits_errors as errors
 import fem_reference as fem
-from cdpr_struct.cli.plain_json import plain
 from cdpr_struct.crosscheck.limits_causes import candidates, causes_of, rounded_down, sample_groups
 from cdpr_struct.crosscheck.limits_closed_form import closed_form_planes
 from cdpr_struct.crosscheck.limits_domain import Domain
@@ -23,6 +22,7 @@ from cdpr_struct.crosscheck.limits_veering import veering
 from cdpr_struct.crosscheck.validity_limits import crossover_distance
 from cdpr_struct.reports.audit_limits_result import limits_trial_json
 from cdpr_struct.reports.audit_limits_text import limits_trial_text
+from cdpr_struct.reports.plain_json import plain
 
 TINY_EXTENT = Extent(
     Domain(np.array([0.0, 60.0]), np.array([0.05, 0.1]), np.array([0.5, 4.0, 20.0])), random=8, judged=1, curve=12

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from cdpr_struct.cli.main import run
-from cdpr_struct.cli.trajectory_input import read_trajectory
 from cdpr_struct.errors import InputError
+from cdpr_struct.interface.trajectory import read_trajectory
 from cdpr_struct.measurement.campaign_file import load_campaign
 from tests.robustness.test_campaign_files import CAMPAIGN, HEAD, ROWS
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from cdpr_struct.cli.main import run
-from cdpr_struct.cli.options import read_grid
 from cdpr_struct.errors import InputError
+from cdpr_struct.interface.arguments import read_grid
 
 EIGHT = "9,9,9,9,9,9,9,9"
 
@@ -127,5 +127,5 @@ def test_grid_text():
     assert grid.free == (0, 1)
     np.testing.assert_allclose(grid.positions[[0, 1, -1]], [[-3, -1, 0.5], [-3, 0, 0.5], [3, 1, 0.5]])
     assert grid.fixed_text() == "z = 0.5 m, rx = 10°, rz = -5°"
-    with pytest.raises(InputError, match="--grid"):
+    with pytest.raises(InputError, match=r"^grid: "):
         read_grid("")

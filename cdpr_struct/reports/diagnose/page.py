@@ -1,17 +1,14 @@
 """The files of a diagnosis: residuals as CSV, figures, extended robot, and the report page."""
 
-from collections import defaultdict
-from collections.abc import Iterator, Mapping
-from itertools import count
+from collections.abc import Mapping
 from typing import Any
-
-import numpy as np
 
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.diagnose import tables
-from cdpr_struct.reports.diagnose.result import KINDS
+from cdpr_struct.reports.diagnose.residual_table import residual_columns
 from cdpr_struct.reports.diagnose.signals import signal_plates, signal_table
+from cdpr_struct.reports.diagnose.text import diagnosis_sentences
 from cdpr_struct.reports.figures import diagnose as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
@@ -31,7 +28,7 @@ def result_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, str |
     """Contents of every file of the report, by name."""
     shown = plates(found, result)
     files: dict[str, str | bytes] = {
-        "residuals.csv": _residuals_csv(found),
+        "residuals.csv": csv_text(residual_columns(found)),
         **{f"{plate.name}.svg": plate.svg for plate in shown},
         "report.html": render_page(page(found, result, shown)),
     }
@@ -96,14 +93,12 @@ def _without_place(found: Diagnosis) -> list[str]:
 def page(found: Diagnosis, result: Mapping[str, Any], shown: list[Plate]) -> Page:
     """The report page."""
     said = result["verdict"]
-    more = [line[:1].upper() + line[1:] for line in tables.standing(result)]
-    more += [f"Where: {said['location']}."] if said["location"] else []
     states = len(found.campaign.states.names)
     counted = "1 state" if states == 1 else f"{states} states"
     return Page(
         title=f"{found.campaign.robot_name}: what the simulation gets wrong, and why",
         subtitle=f"model {found.campaign.model}, {counted}, {found.campaign.source}",
-        verdict=[said["sentence"], *more],
+        verdict=diagnosis_sentences(result),
         holds=said["status"] == "adequate",
         facts=_facts(result),
         plates=shown,
@@ -144,23 +139,3 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
         signal_table(result),
     )
     return [table for table in shown if table]
-
-
-def _residuals_csv(found: Diagnosis) -> str:
-    """Residuals as entered and with the causes, one kind of row after another; rows are numbered within each kind."""
-    rows, after = found.recorded, found.residuals
-    counted: defaultdict[tuple[str, int], Iterator[int]] = defaultdict(lambda: count(1))
-    factor = np.array([KINDS[kind][1] for kind in rows.kind])
-    same = len(after.kind) == len(rows.kind)
-    return csv_text(
-        {
-            "block": rows.kind,
-            "case": [found.campaign.states.names[i] for i in rows.state],
-            "row": [next(counted[place]) for place in zip(rows.kind.tolist(), rows.state.tolist(), strict=True)],
-            "cable": [cable + 1 if cable >= 0 else "" for cable in rows.cable.tolist()],
-            "residual": factor * rows.before,
-            "unit": [KINDS[kind][2] for kind in rows.kind],
-            "sigma": factor * rows.sigma,
-            "with_causes": factor * after.after if same else np.full(len(rows.kind), np.nan),
-        }
-    )

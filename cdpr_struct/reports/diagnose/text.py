@@ -25,6 +25,13 @@ def result_text(result: Mapping[str, Any]) -> str:
     return paragraphs(*blocks)
 
 
+def diagnosis_sentences(result: Mapping[str, Any]) -> list[str]:
+    """The verdict, how far it can be relied on, and where the error sits."""
+    said = result["verdict"]
+    more = [line[:1].upper() + line[1:] for line in tables.standing(result)]
+    return [said["sentence"], *more, *([f"Where: {said['location']}."] if said["location"] else [])]
+
+
 def _shown(table: HtmlTable) -> str:
     """A table for a terminal, its note below."""
     text = plain_table(table.title, table.columns, table.rows)

@@ -10,11 +10,13 @@
 | limits.py           | cable parameters against the printed validity limits                   |
 | robot_geometry.py   | points, curves and faces of the robot's picture                        |
 | robot_drawing.py    | the robot with its sagging cables                                      |
+| footprints.py       | frames of several robots from above                                    |
 | single_cable.py     | profile and dynamic stiffness of one cable                             |
 | mode_ladder.py      | eigenfrequencies by kind, how close they lie, and the tensions         |
 | plan.py             | what a test plan would confuse, and what to measure next               |
 | workspace_map.py    | a quantity over one or two axes of the workspace                       |
 | workspace_slices.py | the same over three axes, as slices                                    |
 | pose_error.py       | static pose error over the workspace, and over the load                |
+| shown.py            | a figure on the screen, in a notebook or a window of its own           |
 | interactive.py      | the same data as plotly figures, and plotly.js itself                  |
 """

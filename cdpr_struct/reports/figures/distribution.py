@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cdpr_struct.dynamics.trajectory_distribution import TrajectoryDistribution
-from cdpr_struct.reports.figures.style import BLACK, BLUE, GREEN, VERMILLION, quiet
+from cdpr_struct.reports.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION, quiet
 
 PANEL_WIDTH, PANEL_HEIGHT = 2.4, 1.75
 ENERGY_SIZE = (9.6, 4.0)
@@ -17,6 +17,7 @@ LOOKS: dict[str, dict[str, Any]] = {
     "pose-dependent": {"color": VERMILLION, "linestyle": (0, (4, 2)), "label": "pose-dependent (5.15)"},
     "frequency": {"color": GREEN, "linestyle": (0, (1.5, 1.2)), "label": "frequency"},
 }
+CABLE_COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 FREQUENCY_RANGE = (0.8, 2.0)
 _COLUMNS = 4
 _POINTS = 600
@@ -36,6 +37,20 @@ def draw_bounds(figure: Figure, found: Sequence[TrajectoryDistribution]) -> None
 def draw_forces(figure: Figure, found: Sequence[TrajectoryDistribution]) -> None:
     """Force of each cable over time (fig. 5.5)."""
     _panels(figure, found, "cable force [N]", lambda f: f.distribution.tensions)
+
+
+def draw_together(figure: Figure, found: TrajectoryDistribution) -> None:
+    """Forces of all cables over time, in one plot."""
+    axes = figure.subplots()
+    time, forces = _thinned(found.trajectory.time), found.distribution.tensions
+    for i, force in enumerate(forces.T):
+        style = "-" if i < len(CABLE_COLOURS) else (0, (4, 2))
+        axes.plot(time, _thinned(force), color=CABLE_COLOURS[i % len(CABLE_COLOURS)], linestyle=style, label=f"{i + 1}")
+    axes.set_xlabel("time [s]")
+    axes.set_ylabel("cable force at the platform [N]")
+    axes.margins(x=0.0)
+    quiet(axes)
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside right upper", title="cable")
 
 
 def draw_frequencies(figure: Figure, found: Sequence[TrajectoryDistribution]) -> None:

@@ -22,7 +22,7 @@ KIND_MARKERS = {"platform": "s", "mixed": "D", "cable": "o"}
 
 FONT_STACK = "'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
 
-_STYLE: Any = {
+LOOK: Any = {
     "svg.fonttype": "none",
     "font.family": "DejaVu Sans",
     "font.size": 9.0,
@@ -54,7 +54,11 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
 
 
-def svg(name: str, size: tuple[float, float], draw: Callable[[Figure], None]) -> str:
+Draw = Callable[[Figure], None]
+"""Draws into an empty figure."""
+
+
+def svg(name: str, size: tuple[float, float], draw: Draw) -> str:
     """Draw a figure and return it as SVG: same input, same text; ids start with `name` so that pages can hold many.
 
     Parameters
@@ -62,7 +66,7 @@ def svg(name: str, size: tuple[float, float], draw: Callable[[Figure], None]) ->
     size : width and height [inch]
     draw : called with the empty figure
     """
-    with mpl.rc_context({**_STYLE, "svg.hashsalt": name}):
+    with mpl.rc_context({**LOOK, "svg.hashsalt": name}):
         figure = Figure(figsize=size, layout="constrained")
         canvas = FigureCanvasSVG(figure)
         draw(figure)

@@ -8,6 +8,8 @@ from cdpr_struct.reports.figures import plan as figures
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 from cdpr_struct.reports.plan.measurements import MANY
+from cdpr_struct.reports.plan.result import detectable_columns
+from cdpr_struct.reports.plan.text import plan_sentences
 
 
 def plan_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
@@ -24,16 +26,11 @@ def plan_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
 
 
 def _tables(result: Mapping[str, Any]) -> dict[str, str]:
-    sizes, pairs, gains = result["detectable"], result["confusable"], result["next"]
+    pairs, gains = result["confusable"], result["next"]
     hidden = sorted(result["not_testable"].items())
     separated = [(row["measurement"], s) for row in gains for s in row["separates"]]
     return {
-        "detectable.csv": csv_text(
-            {
-                "cause": [row["cause"] for row in sizes],
-                **{key: [row["minimum_detectable"][key] for row in sizes] for key in ("value", "unit", "pattern")},
-            }
-        ),
+        "detectable.csv": csv_text(detectable_columns(result)),
         "confusable.csv": csv_text(
             {"cause": [a for a, _ in pairs], "taken_for": [b for _, b in pairs], "nats": result["confusable_nats"]}
         ),
@@ -71,7 +68,7 @@ def _page(result: Mapping[str, Any], plates: list[Plate]) -> Page:
     return Page(
         title="Test plan: what this campaign can find",
         subtitle="computed before measuring, from the robot, the planned states and the sigmas of the campaign file",
-        verdict=_verdict(result),
+        verdict=plan_sentences(result),
         holds=found > 0,
         facts=[
             (f"{found}", "causes that would be found at their typical size"),
@@ -93,20 +90,6 @@ _NOTES = (
     "A gain is that of one simulated measurement with the stated accuracy, added to the campaign; the model is "
     "linearised about the nominal robot. Only the best measurement of each kind is listed.",
 )
-
-
-def _verdict(result: Mapping[str, Any]) -> list[str]:
-    found, pairs = len(result["detectable"]), len(result["confusable"])
-    total = found + len(result["not_testable"])
-    lines = [f"This campaign would find {found} of {total} causes at their typical size."]
-    if pairs:
-        noun = "pair of causes" if pairs == 1 else "pairs of causes"
-        lines.append(f"It would confuse {pairs} {noun}: the verdict would be a class, not a name.")
-    else:
-        lines.append("It would confuse no two causes.")
-    if result["next"]:
-        lines.append(f"Best next measurement: {result['next'][0]['sentence'].replace('_', ' ')}.")
-    return lines
 
 
 def _html_tables(result: Mapping[str, Any]) -> list[HtmlTable]:

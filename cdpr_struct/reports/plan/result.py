@@ -1,5 +1,6 @@
 """result.json of a test plan: detectable sizes, confusions, next measurements."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -41,3 +42,10 @@ def _next(gain: Gain) -> dict[str, Any]:
 
 def _state(place: Place) -> dict[str, Any]:
     return {"pose": [*place.position.tolist(), *np.degrees(place.angles).tolist()], "payload_kg": place.payload}
+
+
+def detectable_columns(result: Mapping[str, Any]) -> dict[str, Any]:
+    """Columns of detectable.csv, one row a cause."""
+    sizes = result["detectable"]
+    least = {key: [row["minimum_detectable"][key] for row in sizes] for key in ("value", "unit", "pattern")}
+    return {"cause": [row["cause"] for row in sizes], **least}

@@ -29,3 +29,18 @@ def plan_text(result: Mapping[str, Any]) -> str:
         helps = [f"{row['gain_nats']:.1f} nats: {row['sentence']}" for row in result["next"][:SHOWN]]
         blocks.append("\n".join([head, *helps]))
     return paragraphs(*blocks)
+
+
+def plan_sentences(result: Mapping[str, Any]) -> list[str]:
+    """What the campaign would find and confuse, and what to measure next, in words."""
+    found, pairs = len(result["detectable"]), len(result["confusable"])
+    total = found + len(result["not_testable"])
+    lines = [f"This campaign would find {found} of {total} causes at their typical size."]
+    if pairs:
+        noun = "pair of causes" if pairs == 1 else "pairs of causes"
+        lines.append(f"It would confuse {pairs} {noun}: the verdict would be a class, not a name.")
+    else:
+        lines.append("It would confuse no two causes.")
+    if result["next"]:
+        lines.append(f"Best next measurement: {result['next'][0]['sentence'].replace('_', ' ')}.")
+    return lines

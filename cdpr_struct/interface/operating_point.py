@@ -1,29 +1,31 @@
-"""From the options of a command to the robot at rest: at a pose that it holds, or at locked cable lengths."""
+"""The robot at rest: at a pose that it holds, or at locked cable lengths."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from cdpr_struct.cli.options import read_numbers, read_pose, require_metres
+from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import CdprError, ConvergenceError, InputError, UnholdablePoseError, UnstableEquilibriumError
-
-if TYPE_CHECKING:
-    from cdpr_struct.dynamics.operating_point import OperatingPoint
-    from cdpr_struct.robot.pose import Pose
-    from cdpr_struct.robot.robot import Robot
-    from cdpr_struct.statics.inverse_kinematics import InverseSolution
-    from cdpr_struct.statics.locked_rest import LockedRest
+from cdpr_struct.interface.arguments import read_lengths, read_pose
+from cdpr_struct.interface.given import Numbers, PoseLike
+from cdpr_struct.reports.locked_rest import locked_json, locked_warnings
+from cdpr_struct.robot.pose import Pose, angles_from_rotation
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.bound_advice import bound_hint, outside_limits, slack_warning
+from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
+from cdpr_struct.statics.locked_rest import LockedRest, locked_rest
+from cdpr_struct.statics.slack_cables import hangs_slack, slack_sentence
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AtRest:
     """The robot at rest, and how the pose was found if the lengths were given instead of it."""
 
-    point: "OperatingPoint"
-    locked: "LockedRest | None" = None
+    point: OperatingPoint
+    locked: LockedRest | None = None
 
     @contextmanager
     def advised(self) -> Iterator[None]:
@@ -34,26 +36,19 @@ class AtRest:
         try:
             yield
         except UnstableEquilibriumError as error:
-            from cdpr_struct.statics.bound_advice import bound_hint
-
             point = self.point
             hint = "" if self.locked is not None else bound_hint(point.entered, point.position, point.rotation)
-            raise CdprError(f"{error}.{hint}" if hint else str(error)) from error
+            raise UnstableEquilibriumError(f"{error}.{hint}" if hint else str(error)) from error
 
     def told(self, *warnings: str) -> dict[str, Any]:
         """What every result says of the state of rest: `warnings`, and `locked` if the lengths were given."""
         if self.locked is None:
             return {"warnings": [*warnings, *self._warnings()]}
-        from cdpr_struct.reports.locked_rest import locked_json, locked_warnings
-
         said = [*warnings, *locked_warnings(self.locked), *self._warnings()]
         return {"warnings": said, "locked": locked_json(self.locked)}
 
     def _warnings(self) -> list[str]:
         """Sentences on cables that hang slack, and on locked cables outside the robot's force limits."""
-        from cdpr_struct.statics.bound_advice import outside_limits, slack_warning
-        from cdpr_struct.statics.slack_cables import hangs_slack, slack_sentence
-
         point = self.point
         if self.locked is None:
             said = slack_warning(point.entered, point.position, point.rotation, point.cables)
@@ -63,76 +58,52 @@ class AtRest:
         return [*([] if slack is None else [f"{slack}."]), *outside]
 
 
-def rest(robot: "Robot", pose: str | None, lengths: str | None, start: str | None = None) -> AtRest:
+def rest(robot: Robot, pose: PoseLike | None, lengths: Numbers | None, start: PoseLike | None = None) -> AtRest:
     """The robot at rest with sagging cables.
 
     Parameters
     ----------
-    pose : text of --pose; the cables hold it with the least norm of tensions within the robot's force limits
-    lengths : text of --lengths, the unstrained lengths at which it is locked; only one of the two may be given
-    start : text of --start, only with lengths
+    pose : the cables hold it with the least norm of tensions within the robot's force limits; None: the home pose
+    lengths : unstrained lengths at which it is locked [m]; only one of the two may be given
+    start : where to look, only with lengths
 
     Raises
     ------
     InputError : both given, or an unusable number.
     CdprError : the pose cannot be held, or the lengths lead to no stable equilibrium.
     """
-    from cdpr_struct.dynamics.operating_point import OperatingPoint
-
     if lengths is None:
         if start is not None:
-            raise InputError("--start", "", start, "it belongs to --lengths; leave it out")
+            raise InputError("start", "", start, "it belongs to `lengths`; leave it out")
         where = read_pose(pose, robot)
         return AtRest(OperatingPoint(robot, where.position, where.rotation, held(robot, where).cables))
     if pose is not None:
-        raise InputError("--lengths", "", lengths, "give either --pose or --lengths, not both")
+        raise InputError("lengths", "", lengths, "give either `pose` or `lengths`, not both")
     return _locked(robot, lengths, start)
 
 
 def held(
-    robot: "Robot", where: "Pose", model: str = "sagging", external_wrench: "list[float] | None" = None
-) -> "InverseSolution":
+    robot: Robot, where: Pose, model: str = "sagging", external_wrench: list[float] | None = None
+) -> InverseSolution:
     """Tensions and lengths that hold a pose; a refusal that another lower bound would cure names the bound.
 
     Raises
     ------
     CdprError : the pose cannot be held, or the search for tensions was cut short.
     """
-    from cdpr_struct.statics.bound_advice import bound_hint
-    from cdpr_struct.statics.inverse_kinematics import inverse
-
     try:
         return inverse(robot, where.position, where.rotation, model, external_wrench)
     except (UnholdablePoseError, ConvergenceError) as error:
         hint = bound_hint(robot, where.position, where.rotation, external_wrench)
         if not hint:
             raise
+        if isinstance(error, UnholdablePoseError):
+            raise UnholdablePoseError(str(error) + hint, error.cable, error.amount) from error
         raise CdprError(str(error) + hint) from error
 
 
-def read_lengths(text: str | None, robot: "Robot") -> list[float]:
-    """Unstrained lengths of --lengths [m].
-
-    Raises
-    ------
-    InputError : missing, not one positive number per cable, or in mm.
-    """
-    count = len(robot.cables)
-    what = f"unstrained lengths in m, one per cable of {robot.name}"
-    if text is None:
-        raise InputError("--lengths", "", "nothing", f"give {count} {what}")
-    values = read_numbers(text, "--lengths", (count,), what)
-    if min(values) <= 0.0:
-        raise InputError("--lengths", "", text, "lengths must be above zero")
-    require_metres(values, robot)
-    return values
-
-
-def _locked(robot: "Robot", lengths: str, start: str | None) -> AtRest:
-    from cdpr_struct.dynamics.operating_point import OperatingPoint
-    from cdpr_struct.statics.locked_rest import locked_rest
-
-    begin = None if start is None else read_pose(start, robot, "--start")
+def _locked(robot: Robot, lengths: Numbers, start: PoseLike | None) -> AtRest:
+    begin = None if start is None else read_pose(start, robot, "start")
     found = locked_rest(robot, read_lengths(lengths, robot), begin)
     solution = found.solution
     if not bool(solution.stable):
@@ -143,8 +114,6 @@ def _locked(robot: "Robot", lengths: str, start: str | None) -> AtRest:
     return AtRest(OperatingPoint(robot, solution.position, solution.rotation, solution.cables), found)
 
 
-def pose_in_degrees(point: "OperatingPoint") -> list[float]:
+def pose_in_degrees(point: OperatingPoint) -> list[float]:
     """[x, y, z, rx, ry, rz] of an operating point, m and deg."""
-    from cdpr_struct.robot.pose import angles_from_rotation
-
     return [*point.position.tolist(), *np.degrees(angles_from_rotation(point.rotation)).tolist()]

@@ -1,0 +1,1 @@
+"""The functions behind `import cdpr_struct`: one a command, arguments named like its options."""

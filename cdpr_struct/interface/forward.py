@@ -1,0 +1,109 @@
+"""The pose that the platform takes at locked cable lengths."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.interface.answering import answered
+from cdpr_struct.interface.arguments import one_of, read_lengths, read_pose, read_robot
+from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
+from cdpr_struct.interface.inverse import MODELS
+from cdpr_struct.interface.result import Files, Result
+from cdpr_struct.reports import statics_rest
+from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.reports.locked_rest import equilibria_text, locked_json, locked_warnings
+from cdpr_struct.reports.text import paragraphs
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.bound_advice import outside_limits
+from cdpr_struct.statics.locked_rest import LockedRest, locked_rest
+
+if TYPE_CHECKING:
+    from cdpr_struct.reports.figures.shown import Draw
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ForwardResult(Result):
+    """The platform at rest at locked lengths.
+
+    robot : with its load;  rest : pose, cables, start and other stable poses;  equilibria : whether these are listed
+    """
+
+    robot: Robot
+    rest: LockedRest
+    equilibria: bool = False
+
+    @property
+    def stable(self) -> bool:
+        """Whether the platform is held there, not only balanced."""
+        return bool(self.rest.solution.stable)
+
+    @property
+    def point(self) -> OperatingPoint:
+        """The robot at rest."""
+        found = self.rest.solution
+        return OperatingPoint(self.robot, found.position, found.rotation, found.cables)
+
+    @property
+    def title(self) -> str:
+        """Whose pose."""
+        return f"{self.robot.name}: at locked lengths"
+
+    def text(self) -> str:
+        """Pose, stability, lengths and tensions."""
+        more = [equilibria_text(dict(self.answer))] if self.equilibria else []
+        return paragraphs(statics_rest.forward_text(self.answer), *more)
+
+    def sentences(self) -> Sequence[str]:
+        """Where the platform rests, how stiffly, and what is left unbalanced."""
+        return statics_rest.forward_sentences(self.answer)
+
+    def columns(self) -> Mapping[str, Any]:
+        """Columns of cables.csv."""
+        return statics_rest.cable_columns(self.rest.solution.cables)
+
+    def figure(self) -> "tuple[Draw, tuple[float, float]]":
+        """The robot at rest, cables coloured by tension."""
+        from cdpr_struct.reports.figures import robot_drawing
+
+        return lambda figure: robot_drawing.draw_robot(figure, self.point), robot_drawing.SIZE
+
+    def files(self) -> Files:
+        """Table, drawings and page."""
+        return statics_rest.forward_files(self.robot, self.rest, self.answer, self.equilibria)
+
+
+@answered
+def forward(
+    robot: RobotLike,
+    lengths: Numbers | None = None,
+    *,
+    payload: float = 0.0,
+    mass: float | None = None,
+    model: str = "sagging",
+    start: PoseLike | None = None,
+    equilibria: bool = False,
+) -> ForwardResult:
+    """Find the pose that the platform takes at locked cable lengths, and other stable ones.
+
+    Parameters
+    ----------
+    robot : Robot, built-in name, or path of a robot file
+    lengths : unstrained, one a cable [m]
+    payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    model : sagging, spring or ideal cables
+    start : Pose, or x, y, z[, rx, ry, rz] [m, deg], where to look; default: the way continues from the home pose
+    equilibria : print and draw the other stable poses, too
+
+    Raises
+    ------
+    InputError : an unusable argument.
+    CdprError : no equilibrium was found.
+    """
+    machine, chosen = read_robot(robot, payload, mass), one_of(model, "model", MODELS)
+    length = read_lengths(lengths, machine)
+    begin = None if start is None else read_pose(start, machine, "start")
+    found = locked_rest(machine, length, begin, chosen)
+    told = statics_rest.forward_json(machine, chosen, length, found.solution) | {"locked": locked_json(found)}
+    told |= {"warnings": [*locked_warnings(found), *outside_limits(machine, found.solution.tensions)]}
+    return ForwardResult(with_extensions(told, machine, "forward", chosen), machine, found, equilibria)

@@ -1,0 +1,105 @@
+"""Lengths and tensions that hold a pose."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.interface.answering import answered
+from cdpr_struct.interface.arguments import one_of, read_numbers, read_pose, read_robot
+from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
+from cdpr_struct.interface.operating_point import held
+from cdpr_struct.interface.result import Files, Result
+from cdpr_struct.reports import statics_rest
+from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.robot.pose import Pose
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.bound_advice import slack_warning
+from cdpr_struct.statics.inverse_kinematics import InverseSolution
+
+if TYPE_CHECKING:
+    from cdpr_struct.reports.figures.shown import Draw
+
+MODELS = ("sagging", "spring", "ideal")
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class InverseResult(Result):
+    """Lengths and tensions that hold a pose.
+
+    robot : with its load;  pose : that is held;  solution : lengths (m,) [m], tensions (m,) [N], cables, residual
+    """
+
+    robot: Robot
+    pose: Pose
+    solution: InverseSolution
+
+    @property
+    def point(self) -> OperatingPoint:
+        """The robot at rest."""
+        return OperatingPoint(self.robot, self.pose.position, self.pose.rotation, self.solution.cables)
+
+    @property
+    def title(self) -> str:
+        """Whose tensions."""
+        return f"{self.robot.name}: held at a pose"
+
+    def text(self) -> str:
+        """Lengths and tensions of every cable."""
+        return statics_rest.inverse_text(self.answer)
+
+    def sentences(self) -> Sequence[str]:
+        """Range of the tensions, and what is left unbalanced."""
+        return statics_rest.inverse_sentences(self.answer)
+
+    def columns(self) -> Mapping[str, Any]:
+        """Columns of cables.csv."""
+        return statics_rest.cable_columns(self.solution.cables)
+
+    def figure(self) -> "tuple[Draw, tuple[float, float]]":
+        """The robot at rest, cables coloured by tension."""
+        from cdpr_struct.reports.figures import robot_drawing
+
+        return lambda figure: robot_drawing.draw_robot(figure, self.point), robot_drawing.SIZE
+
+    def files(self) -> Files:
+        """Table, drawing and page."""
+        return statics_rest.inverse_files(self.robot, self.pose, self.solution, self.answer)
+
+
+@answered
+def inverse(
+    robot: RobotLike,
+    pose: PoseLike | None = None,
+    *,
+    payload: float = 0.0,
+    mass: float | None = None,
+    model: str = "sagging",
+    wrench: Numbers | None = None,
+    lower_bound: float | None = None,
+    upper_bound: float | None = None,
+) -> InverseResult:
+    """Find the cable lengths and tensions that hold a pose, of least norm where there is a choice.
+
+    Parameters
+    ----------
+    robot : Robot, built-in name, or path of a robot file
+    pose : Pose, or x, y, z[, rx, ry, rz] [m, deg]; default: the home pose
+    payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    model : sagging, spring or ideal cables
+    wrench : six numbers, extra force and moment on the platform [N, N m]
+    lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
+
+    Raises
+    ------
+    InputError : an unusable argument.
+    UnholdablePoseError : the cables cannot hold the pose.
+    """
+    chosen = one_of(model, "model", MODELS)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    where = read_pose(pose, machine)
+    extra = None if wrench is None else read_numbers(wrench, "wrench", (6,), "numbers in N and N m")
+    solution = held(machine, where, chosen, extra)
+    slack = slack_warning(machine, where.position, where.rotation, solution.cables, extra)
+    told = statics_rest.inverse_json(machine, chosen, where, solution) | {"warnings": [] if slack is None else [slack]}
+    return InverseResult(with_extensions(told, machine, "inverse", chosen), machine, where, solution)

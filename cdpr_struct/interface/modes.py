@@ -1,0 +1,122 @@
+"""Eigenfrequencies of the whole robot, none missing."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, get_args
+
+from cdpr_struct.crosscheck.robot_modes import MODELS, RobotModes, require_validity, robot_modes
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
+from cdpr_struct.interface.answering import answered
+from cdpr_struct.interface.arguments import one_of, read_robot, whole
+from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
+from cdpr_struct.interface.operating_point import pose_in_degrees, rest
+from cdpr_struct.interface.result import Files, Result
+from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.reports.modes_text import modes_columns, modes_sentence, modes_text
+from cdpr_struct.robot.robot_arrays import RobotArrays
+
+if TYPE_CHECKING:
+    from cdpr_struct.reports.figures.shown import Draw
+
+ASSEMBLIES: tuple[Assembly, ...] = get_args(Assembly)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ModesResult(Result):
+    """Eigenfrequencies of a robot at rest.
+
+    point : the robot at rest;  modes : hertz (k,) [Hz], platform (k, 6), energies, kinds(), count_certified
+    """
+
+    point: OperatingPoint
+    modes: RobotModes
+
+    @property
+    def title(self) -> str:
+        """Whose frequencies."""
+        return f"{self.point.entered.name}: eigenfrequencies"
+
+    def text(self) -> str:
+        """Table of modes, and whether the count is certified."""
+        return modes_text(self.answer)
+
+    def sentences(self) -> Sequence[str]:
+        """Range of the frequencies, and whether their count is certified."""
+        return [modes_sentence(self.answer)]
+
+    def columns(self) -> Mapping[str, Any]:
+        """Columns of modes.csv."""
+        return modes_columns(self.answer)
+
+    def figure(self) -> "tuple[Draw, tuple[float, float]]":
+        """The platform's share over frequency, crowding, and tensions."""
+        from cdpr_struct.reports.figures import mode_ladder
+
+        return lambda figure: mode_ladder.draw_ladder(figure, self.answer), mode_ladder.SIZE
+
+    def files(self) -> Files:
+        """Tables, figures and page."""
+        from cdpr_struct.reports.modes_page import modes_files
+
+        return modes_files(self.point, self.answer)
+
+
+@answered
+def modes(
+    robot: RobotLike,
+    pose: PoseLike | None = None,
+    *,
+    lengths: Numbers | None = None,
+    start: PoseLike | None = None,
+    lower_bound: float | None = None,
+    upper_bound: float | None = None,
+    payload: float = 0.0,
+    mass: float | None = None,
+    model: str = "exact",
+    assembly: str = "consistent",
+    elements: int = 80,
+    count: int = 40,
+    force: bool = False,
+) -> ModesResult:
+    """Compute the eigenfrequencies of a robot at rest, none missing, with their kind.
+
+    Parameters
+    ----------
+    robot : Robot, built-in name, or path of a robot file
+    pose : Pose, or x, y, z[, rx, ry, rz] [m, deg]; default: the home pose
+    lengths : locked unstrained lengths [m], in place of pose;  start : with lengths, the pose where to look
+    lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
+    payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    model : static, dsm, exact or fem;  assembly : consistent, or thesis (eq. 3.8 as printed)
+    elements : a cable, for fem;  count : how many eigenfrequencies;  force : dsm outside its validity limits, too
+
+    Raises
+    ------
+    InputError : an unusable argument.
+    CdprError : the robot cannot be at rest there, or dsm is outside its limits.
+    """
+    whole(count, "count", 1, 500)
+    whole(elements, "elements", 2, 2000)
+    way, name = one_of(assembly, "assembly", ASSEMBLIES), one_of(model, "model", MODELS)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    state = rest(machine, pose, lengths, start)
+    point = state.point
+    if name == "dsm" and not force:
+        require_validity(point)
+    with state.advised():
+        found = robot_modes(point, name, min(count, 6) if name == "static" else count, way, elements)
+    told = {
+        "robot": machine.name,
+        "pose": pose_in_degrees(point),
+        "model": name,
+        "assembly": way,
+        "frequencies_hz": found.hertz,
+        "count_certified": found.count_certified,
+        "kinds": found.kinds(),
+        "platform_energy": found.platform_energy,
+        "tensions_N": point.cables.tension_at_platform,
+        "lengths_m": RobotArrays.of(machine).reading(point.cables.total_length),
+        **state.told(),
+    }
+    return ModesResult(with_extensions(told, machine, "modes", name), point, found)
