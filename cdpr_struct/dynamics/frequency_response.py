@@ -16,7 +16,7 @@ from cdpr_struct.statics.small_systems import eliminate, substituted_back
 
 Quantity = Literal["displacement", "velocity", "acceleration"]
 QUANTITIES: tuple[Quantity, ...] = get_args(Quantity)
-_BLOCK = 5120  # frequencies that go through together, in memory that stays near the processor and is used again
+_BLOCK = 10_240  # frequencies that go through together: fewer cost more calls, more do not stay near the processor
 # C libraries hand freed memory back if it is more than twice the largest piece ever freed; to get it again from the
 # system costs as much as the arithmetic in it. One large piece that is freed untouched costs nothing and prevents that.
 _KEPT = 2**21

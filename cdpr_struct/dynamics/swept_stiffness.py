@@ -140,11 +140,11 @@ def swept_stiffness(
     segments = np.stack([edges[:-1], edges[1:]], axis=-1)
     for _ in range(_HALVINGS + 1):
         pieces = model.interpolated(segments)
-        kept += [piece for piece in pieces if piece.accurate]
-        refused = [(piece.low, piece.high) for piece in pieces if not piece.accurate]
-        if not refused:
+        accurate = np.array([piece.accurate for piece in pieces])
+        kept += [piece for piece, good in zip(pieces, accurate, strict=True) if good]
+        if accurate.all():
             break
-        segments = _halves(np.array(refused))
+        segments = _halves(segments[~accurate])
     return SweptStiffness(point, cables, law, assembly, low, kept, model)
 
 
