@@ -3,7 +3,7 @@
 from collections import Counter
 
 import numpy as np
-from scipy.stats import binom
+from scipy.special import betainc
 
 from cdpr_struct.diagnosis.diagnosis import Pile
 from cdpr_struct.diagnosis.set_aside import readings_by_group
@@ -34,5 +34,10 @@ def _pile(sensor: tuple[str, int], read: Counter[tuple[str, int]], outlying: Cou
     others = [other for other in read if other[0] == kind and other != sensor]
     expected = float(PSEUDO_COUNTS[KAPPA >= OUTLIER].sum()) + sum(outlying[other] for other in others)
     share = expected / (float(PSEUDO_COUNTS.sum()) + sum(read[other] for other in others))
-    p = len(read) * float(binom.sf(outlying[sensor] - 1, read[sensor], share))
+    p = len(read) * _at_least(outlying[sensor], read[sensor], share)
     return Pile(kind, cable, outlying[sensor], read[sensor], min(1.0, p))
+
+
+def _at_least(successes: int, trials: int, share: float) -> float:
+    """Probability of so many or more successes; of a binomial distribution, without the slow import of scipy.stats."""
+    return float(betainc(successes, trials - successes + 1, share)) if successes else 1.0

@@ -24,7 +24,10 @@ class DampingLaw(Protocol):
         """Whether `rates` are the same at every frequency: then the law is a differential equation in time."""
 
     def inertia(self, omega: np.ndarray, first_frequency: np.ndarray) -> np.ndarray:
-        """(..., m) complex factor of the cables' mass [rad^2/s^2]; omega (..., 1), first_frequency (m,) [rad/s]."""
+        """(..., m) complex factor of the cables' mass [rad^2/s^2].
+
+        omega : (..., 1), or (..., m) with the same value m times;  first_frequency : (m,); both [rad/s]
+        """
 
     def elasticity(self, omega: np.ndarray, first_frequency: np.ndarray) -> np.ndarray:
         """(..., m) complex factor of the cables' stiffness [-]."""

@@ -6,16 +6,20 @@ from typing import Literal, Protocol, get_args
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import CableDynamics
+from cdpr_struct.dynamics.cable_poles import UPPER
 from cdpr_struct.dynamics.damping import DampingLaw
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ports import Port, ReadyPorts, ready_ports
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
-from cdpr_struct.dynamics.swept_stiffness import UPPER, SweptStiffness, swept_stiffness
+from cdpr_struct.dynamics.swept_stiffness import SweptStiffness, swept_stiffness
 from cdpr_struct.statics.small_systems import eliminate, substituted_back
 
 Quantity = Literal["displacement", "velocity", "acceleration"]
 QUANTITIES: tuple[Quantity, ...] = get_args(Quantity)
-_BLOCK = 1024  # frequencies that are eliminated together
+_BLOCK = 10_240  # frequencies that go through together: fewer cost more calls, more do not stay near the processor
+# C libraries hand freed memory back if it is more than twice the largest piece ever freed; to get it again from the
+# system costs as much as the arithmetic in it. One large piece that is freed untouched costs nothing and prevents that.
+_KEPT = 2**21
 _SMALL = 1e-4  # of its row's largest entry: a pivot below it may cost digits
 _EVERY = np.arange(6)
 
@@ -52,10 +56,17 @@ class DirectResponse:
     quantity: Quantity
 
     def at(self, hertz: np.ndarray) -> np.ndarray:
-        omega = 2.0 * np.pi * hertz
+        np.empty(_KEPT)
+        found = np.empty((len(hertz), len(self.ports.ports) - 1), dtype=complex)
+        for start in range(0, len(hertz), _BLOCK):
+            part = slice(start, start + _BLOCK)
+            found[part] = self._of_block(2.0 * np.pi * hertz[part])
+        return found
+
+    def _of_block(self, omega: np.ndarray) -> np.ndarray:
         ports = self.ports.at(omega)
-        motion = symmetric_solutions(self.stiffness.upper(omega), ports.twist[:, 0].T).T[..., None]
-        displacement = (ports.twist[:, 1:] @ motion)[..., 0] + ports.direct[:, 1:, 0]
+        motion = symmetric_solutions(self.stiffness.upper(omega), ports.twist[:, 0].T)
+        displacement = ports.responses(motion) + ports.direct[:, 1:, 0]
         return np.asarray(displacement * derivative_factor(self.quantity, omega))
 
 
@@ -104,21 +115,11 @@ def symmetric_solutions(upper: np.ndarray, force: np.ndarray) -> np.ndarray:
 
     Eliminated without exchange of rows, all frequencies at once; where a pivot is small, by LAPACK.
     """
-    count = upper.shape[1]
-    motion = np.empty((6, count), dtype=complex)
-    for start in range(0, count, _BLOCK):
-        part = slice(start, start + _BLOCK)
-        push = force[:, part] if force.shape[1] == count else force
-        motion[:, part] = _eliminated(upper[:, part], push)
-    return motion
-
-
-def _eliminated(upper: np.ndarray, force: np.ndarray) -> np.ndarray:
-    """The same for few enough frequencies to stay near the processor."""
-    matrix = np.zeros((6, 6, upper.shape[1]), dtype=complex)
+    matrix = np.empty((6, 6, upper.shape[1]), dtype=complex)
     matrix[UPPER] = upper
-    sizes = np.maximum(np.abs(upper.real), np.abs(upper.imag))
-    largest = np.array([sizes[(UPPER[0] == k) | (UPPER[1] == k)].max(axis=0) for k in range(6)])
+    sizes = np.empty(matrix.shape)
+    sizes[UPPER] = sizes[UPPER[::-1]] = _size(upper)
+    largest = sizes.max(axis=0)
     with np.errstate(all="ignore"):
         shares = eliminate(matrix, 6)
         motion = np.array(np.broadcast_to(force, (6, upper.shape[1])), dtype=complex)
@@ -126,13 +127,17 @@ def _eliminated(upper: np.ndarray, force: np.ndarray) -> np.ndarray:
             motion[k + 1 :] -= shares[k] * motion[k]
         pivots = matrix[_EVERY, _EVERY]
         motion = substituted_back(shares, (motion / pivots)[:, None])[:, 0]
-        doubtful = np.flatnonzero(~(np.abs(pivots) > _SMALL * largest).all(axis=0))
+        doubtful = np.flatnonzero(~(_size(pivots) > _SMALL * largest).all(axis=0))
     if doubtful.size:
         full = np.zeros((doubtful.size, 6, 6), dtype=complex)
         full[:, *UPPER] = full[:, *UPPER[::-1]] = upper[:, doubtful].T
         push = np.broadcast_to(force, (6, upper.shape[1]))[:, doubtful].T[..., None]
         motion[:, doubtful] = np.linalg.solve(full, push)[..., 0].T
     return motion
+
+
+def _size(values: np.ndarray) -> np.ndarray:
+    return np.asarray(np.maximum(np.abs(values.real), np.abs(values.imag)))
 
 
 def derivative_factor(quantity: Quantity, omega: np.ndarray) -> np.ndarray:

@@ -64,6 +64,12 @@ class PortResponse:
     twist: np.ndarray
     direct: np.ndarray
 
+    def responses(self, motion: np.ndarray) -> np.ndarray:
+        """(f, n - 1) displacement of all ports but the first in motions (6, f) of the platform."""
+        if len(self.twist) == 1:
+            return np.asarray((self.twist[0, 1:] @ motion).T)
+        return np.einsum("fnk,kf->fn", self.twist[:, 1:], motion)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _CablePoint:

@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
+from cdpr_struct.dynamics.cable_poles import UPPER
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.damping import Viscous
 from cdpr_struct.dynamics.fundamental_frequency import fundamental_frequency
 from cdpr_struct.dynamics.natural_frequencies import natural_frequencies, static_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.stiff_cable import bending_factor, load_factor, slenderness
-from cdpr_struct.dynamics.swept_stiffness import UPPER, dynamic_stiffness, swept_dynamic_stiffness
+from cdpr_struct.dynamics.swept_stiffness import dynamic_stiffness, swept_dynamic_stiffness
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from cdpr_struct.dynamics.cable_poles import UPPER
 from cdpr_struct.dynamics.frequency_response import symmetric_solutions
-from cdpr_struct.dynamics.swept_stiffness import UPPER
 
 
 def systems(count: int) -> np.ndarray:
