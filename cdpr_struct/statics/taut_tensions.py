@@ -29,6 +29,7 @@ from cdpr_struct.statics.holding_tensions import HoldingProblem
 
 _ITERATIONS = 10
 _NEGLIGIBLE = 1e-13  # of the largest tension: the step after the last, as the last two foretell it
+_FOLLOWS = 30.0  # times the product of the last two, measured up to 22: multipliers lag one iteration behind
 _CHUNK = 640
 _ROUNDING = 1e-12  # of the tension: how far beyond its bound one may lie
 _TAUTEST = 0.7  # of the weight of a straight cable: least chord tension to begin from
@@ -69,12 +70,13 @@ def taut_tensions(problem: HoldingProblem) -> TautTensions:
     count = len(problem.load)
     if count == 1:  # twice: sums over vectors of one are rounded otherwise
         return taut_tensions(problem.take(np.zeros(2, dtype=int))).first
+    if count <= _CHUNK:
+        with np.errstate(all="ignore"):
+            return _solve(problem)
     parts = []
     for index in np.array_split(np.arange(count), -(-count // _CHUNK)):
         with np.errstate(all="ignore"):
             parts.append(_solve(problem.take(index)))
-    if len(parts) == 1:
-        return parts[0]
     names = CableStates.__slots__
     states = CableStates(*(np.concatenate([getattr(part.states, name) for part in parts]) for name in names))
     return TautTensions(
@@ -86,8 +88,8 @@ def taut_tensions(problem: HoldingProblem) -> TautTensions:
 class _Geometry:
     """A batch, cables first: span, rise, chord, stiff (EA), weight (m, n); cos, sin of the chord's inclination.
 
-    heading (2, m, n) horizontal; arm (3, m, n) in units of `unit` (n,); load (6, n) moments in these units;
-    low, high (m, n) bounds on the tension at the platform.
+    level, upright (6, m, n) wrenches of unit pulls along the heading and up on the platform ends, moments in units of
+    `unit` (n,); load (6, n) alike; low, high (m, n) bounds on the tension at the platform.
     """
 
     span: np.ndarray
@@ -95,18 +97,15 @@ class _Geometry:
     chord: np.ndarray
     stiff: np.ndarray
     weight: np.ndarray
-    heading: np.ndarray
-    arm: np.ndarray
+    level: np.ndarray
+    upright: np.ndarray
     load: np.ndarray
     low: np.ndarray
     high: np.ndarray
 
     def columns(self, along: np.ndarray, up: np.ndarray) -> np.ndarray:
         """Wrenches (6, m, n) of pulls with horizontal (m, n) and vertical (m, n) parts on the cables' platform ends."""
-        x, y = -along * self.heading[0], -along * self.heading[1]
-        z = -up
-        a, b, c = self.arm
-        return np.stack([x, y, z, b * z - c * y, c * x - a * z, a * y - b * x])
+        return along * self.level + up * self.upright
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -127,14 +126,16 @@ def _geometry(problem: HoldingProblem) -> tuple[_Geometry, np.ndarray, np.ndarra
     shape = span.shape
 
     def first(value: np.ndarray) -> np.ndarray:
-        return np.ascontiguousarray(np.broadcast_to(value, shape).T)
+        return np.ascontiguousarray((value if value.shape == shape else np.broadcast_to(value, shape)).T)
 
     rise = first(offset[..., 2])
     chord = np.hypot(first(span), rise)
-    arm = np.stack([first(problem.arms.arms[..., i]) for i in range(3)]) / unit[:, 3]
+    a, b, c = (first(problem.arms.arms[..., i]) / unit[:, 3] for i in range(3))
+    (x, y), one, none = (-first(heading[..., i]) for i in range(2)), np.ones(chord.shape), np.zeros(chord.shape)
     pose = _Geometry(
         np.maximum(first(span), STEEPEST * chord), rise, chord, first(arrays.axial_stiffness), first(arrays.weight),
-        np.stack([first(heading[..., i]) for i in range(2)]), arm, np.ascontiguousarray((problem.load / unit).T),
+        np.stack([x, y, none, -c * y, c * x, a * y - b * x]), np.stack([none, none, -one, -b, a, none]),
+        np.ascontiguousarray((problem.load / unit).T),
         first(problem.low), first(problem.high),
     )  # fmt: skip
     return pose, offset, heading
@@ -179,6 +180,8 @@ def _iterated(pose: _Geometry) -> tuple[np.ndarray, ...]:
     """H, V, L (m, n); settled with all cables taut (n,) and iterations (n,)."""
     cos = pose.span / pose.chord
     tau, vertical, length, side, settled, dual = _start(pose, cos)
+    first = _closed(pose, tau, vertical, length)
+    vertical, length = vertical + first.vertical, length + first.length
     bend = force_z_curvature(pose.span, pose.rise, tau, pose.weight)
     good, error = ~settled, np.full_like(tau, np.inf)
     before, iterations = np.zeros(len(settled)), np.zeros(len(settled), dtype=int)
@@ -191,8 +194,8 @@ def _iterated(pose: _Geometry) -> tuple[np.ndarray, ...]:
         tau = tau + step
         vertical, length = vertical + pull.vertical_rate * step, length + pull.length_rate * step
         iterations += moving
-        size = np.abs(step).max(axis=0)
-        small = size * np.fmin(size / before, 1.0) <= _NEGLIGIBLE * tau.max(axis=0)
+        size = np.abs(step).max(axis=0) / tau.max(axis=0)
+        small = size * np.fmin(np.fmax(size / before, _FOLLOWS * before), 1.0) <= _NEGLIGIBLE
         settled = settled | (small & (after == side).all(axis=0))
         before, side = size, after
         if settled.all():
@@ -202,10 +205,13 @@ def _iterated(pose: _Geometry) -> tuple[np.ndarray, ...]:
 
 
 def _start(pose: _Geometry, cos: np.ndarray) -> tuple[np.ndarray, ...]:
-    """tau, V, L of straight cables (m, n), parabolas in length, their bounds' sides, and where there are none (n,)."""
+    """tau, V, L of straight cables (m, n) with half of their weight at each end, parabolas in length, their bounds'
+    sides, and where there are none (n,)."""
     ones, sin = np.ones_like(cos), pose.rise / pose.chord
     low = np.maximum(pose.low, _TAUTEST * pose.weight * pose.chord)
-    program = StepProgram(ones, np.zeros_like(cos), pose.columns(cos, sin), pose.load, low, np.maximum(pose.high, low))
+    half = 0.5 * pose.weight * pose.chord
+    left = pose.load + pose.columns(np.zeros_like(cos), half).sum(axis=1)
+    program = StepProgram(ones, half * sin, pose.columns(cos, sin), left, low, np.maximum(pose.high, low))
     tau, dual, side = least_norm(program, np.zeros(cos.shape, dtype=int))
     hopeless = ~np.isfinite(tau).all(axis=0)
     tau = np.where(hopeless, low, np.clip(tau, low, program.high))
@@ -221,7 +227,7 @@ def _program(
     cos = pose.span / pose.chord
     top = vertical + 0.5 * pose.weight * length
     rate = pull.vertical_rate + 0.5 * pose.weight * pull.length_rate
-    up = dual[2] + dual[3] * pose.arm[1] - dual[4] * pose.arm[0]
+    up = dual[2] - dual[3] * pose.upright[3] - dual[4] * pose.upright[4]
     first, gradient = cos * cos + rate * rate, tau * cos * cos + top * rate
     curvature = np.maximum(first + (top + up) * bend, 0.1 * first)
     left = pose.columns(tau * cos, top).sum(axis=1) + pose.load
