@@ -14,7 +14,7 @@ from cdpr_struct.crosscheck.mode_pairing import modal_assurance, pair_modes, sha
 from cdpr_struct.crosscheck.stiffness_convergence import StiffnessConvergence, stiffness_convergence
 from cdpr_struct.crosscheck.validity_limits import ValidityLimits, check_limits
 from cdpr_struct.dynamics.cable_dynamics import CableModel
-from cdpr_struct.dynamics.certified_modes import certified_modes
+from cdpr_struct.dynamics.certified_modes import certified_frequencies, certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     Assembly,
@@ -181,10 +181,12 @@ def _geometric_effect(point: OperatingPoint, hertz: np.ndarray, assembly: Assemb
     hertz : (k,) those of `assembly`; the other assembly's are computed
     """
     try:
-        other = certified_modes(point, "exact", len(hertz), "thesis" if assembly == "consistent" else "consistent")
+        other = certified_frequencies(
+            point, "exact", len(hertz), "thesis" if assembly == "consistent" else "consistent"
+        )
     except CdprError:
         return float("nan")
-    ratio = other.frequencies.hertz / hertz if assembly == "consistent" else hertz / other.frequencies.hertz
+    ratio = other.hertz / hertz if assembly == "consistent" else hertz / other.hertz
     return float(np.abs(ratio - 1.0).max())
 
 

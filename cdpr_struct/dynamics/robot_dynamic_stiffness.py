@@ -60,16 +60,21 @@ def assemble(
     -------
     (..., 6, 6), world axes, rotations about the platform origin [N/m, N, N m].
     """
-    robot = point.arrays
-    cables = behind_masts(cable_stiffness, attachment(point), robot, mast_inertia)
-    held = np.zeros((*robot.hose.shape, 6, 6))
-    held[..., :3, :3] = robot.hose[..., None, None] * np.eye(3)
+    cables = behind_masts(cable_stiffness, attachment(point), point.arrays, mast_inertia)
+    return cables + beside_cables(point, assembly)
+
+
+def beside_cables(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
+    """(..., 6, 6) stiffness of the platform that its cables' ends have no part in; `assemble` says what that is."""
+    hose = point.arrays.hose
     if assembly == "thesis":
-        return cables + held
-    turned = geometric_stiffness(point)
-    geometric = np.zeros((*turned.shape[:-2], 6, 6))
-    geometric[..., 3:, 3:] = turned
-    return cables + held + geometric
+        held = np.zeros((*hose.shape, 6, 6))
+    else:
+        turned = geometric_stiffness(point)
+        held = np.zeros((*np.broadcast_shapes(hose.shape, turned.shape[:-2]), 6, 6))
+        held[..., 3:, 3:] = turned
+    held[..., range(3), range(3)] += hose[..., None]
+    return held
 
 
 def geometric_stiffness(point: OperatingPoint) -> np.ndarray:

@@ -164,10 +164,12 @@ class RobotArrays:
     @property
     def batch_shape(self) -> tuple[int, ...]:
         """Broadcast batch axes of all fields."""
-        return np.broadcast_shapes(*(_batch(self, f.name) for f in fields(self)))
+        return np.broadcast_shapes(*{_batch(self, f.name) for f in fields(self)})
 
     def flattened(self, shape: tuple[int, ...]) -> "RobotArrays":
         """The batch axes broadcast to `shape` and flattened to one; fields without batch axes keep none."""
+        if not self.batch_shape:
+            return self
         return replace(self, **{f.name: self._flat(f.name, shape) for f in fields(self)})
 
     def take(self, index: np.ndarray) -> "RobotArrays":

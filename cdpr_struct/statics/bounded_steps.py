@@ -8,10 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.statics.small_systems import backward, cholesky, forward
+from cdpr_struct.statics.small_systems import solve_positive
 
 EQUATIONS = 6
 _PASSES = 6
+_FEW = 16  # poses, at which a call costs more than what it computes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,13 +69,20 @@ def _between(program: StepProgram, side: np.ndarray) -> tuple[np.ndarray, np.nda
     free = (side == 0) if some else np.ones(1)
     bound = np.where(side < 0, program.low, np.where(side > 0, program.high, 0.0)) if some else np.zeros(1)
     weighted = program.matrix * (free / program.curvature)
-    count = len(program.left)
-    normal = np.zeros((count, count, program.left.shape[1]))
-    for i in range(count):
-        normal[i, : i + 1] = (weighted[i] * program.matrix[: i + 1]).sum(axis=1)
-    lower = cholesky(normal)
+    normal = _normal(weighted, program.matrix)
     right = (weighted * program.gradient).sum(axis=1) - program.left
     right = right - (program.matrix * bound).sum(axis=1) if some else right
-    dual = backward(lower, forward(lower, right))
+    dual = solve_positive(normal, right)
     step = ((program.matrix * dual[:, None]).sum(axis=0) - program.gradient) / program.curvature
     return np.where(free, step, bound) if some else step, dual
+
+
+def _normal(weighted: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    """Sums over m of products of (6, m, n) and (6, m, n): the lower triangle of (6, 6, n); at few poses in one call."""
+    count, _, poses = matrix.shape
+    if poses <= _FEW:
+        return np.asarray((weighted[:, None] * matrix).sum(axis=2))
+    normal = np.zeros((count, count, poses))
+    for i in range(count):
+        normal[i, : i + 1] = (weighted[i] * matrix[: i + 1]).sum(axis=1)
+    return normal

@@ -42,6 +42,26 @@ def backward(lower: np.ndarray, right: np.ndarray) -> np.ndarray:
     return solved
 
 
+def solve_positive(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Solution x (i, n) of A x = b, A symmetric and positive definite (i, j, n), b (i, n); nan where it is not.
+
+    Read is the lower triangle. In few calls, none of which adds up along an axis: an item's digits do not depend on
+    the others.
+    """
+    left, last = np.concatenate([matrix, right[None]]), len(matrix)
+    every = np.arange(last)
+    with np.errstate(all="ignore"):
+        for k in range(last):
+            row = left[k + 1 :, k]
+            share = row / left[k, k]
+            left[k + 1 :, k + 1 :] -= share[:, None] * row[:-1]
+            row[:] = share
+        solved = np.where((left[every, every] > 0.0).all(axis=0), left[last], np.nan)
+        for k in range(last - 1, 0, -1):
+            solved[:k] -= left[k, :k] * solved[k]
+    return solved
+
+
 def eliminate(matrix: np.ndarray, count: int) -> list[np.ndarray]:
     """Eliminate the first `count` unknowns of symmetric matrices (i, j, ...), of which the upper triangle is read.
 

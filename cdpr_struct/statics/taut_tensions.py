@@ -29,6 +29,7 @@ from cdpr_struct.statics.pulley_exits import MovingExits, PulleyExits
 
 _ITERATIONS = 10
 _NEGLIGIBLE = 1e-13  # of the largest tension: the step after the last, as the last two foretell it
+_FOLLOWS = 30.0  # times the product of the last two, measured up to 22: multipliers lag one iteration behind
 _ITERATIONS_OVER_PULLEYS = 16
 _SLOWEST = 1e-2  # by so much a step over pulleys is expected to shrink at most: where bounds act they shrink evenly
 _CHUNK = 640
@@ -74,12 +75,13 @@ def taut_tensions(problem: HoldingProblem) -> TautTensions:
     count = len(problem.load)
     if count == 1:  # twice: sums over vectors of one are rounded otherwise
         return taut_tensions(problem.take(np.zeros(2, dtype=int))).first
+    if count <= _CHUNK:
+        with np.errstate(all="ignore"):
+            return _solve(problem)
     parts = []
     for index in np.array_split(np.arange(count), -(-count // _CHUNK)):
         with np.errstate(all="ignore"):
             parts.append(_solve(problem.take(index)))
-    if len(parts) == 1:
-        return parts[0]
     names = CableStates.__slots__
     states = CableStates(*(np.concatenate([getattr(part.states, name) for part in parts]) for name in names))
     return TautTensions(
@@ -94,7 +96,7 @@ def _geometry(problem: HoldingProblem) -> TautGeometry:
     heading, span = heading_and_span(offset)
 
     def first(value: np.ndarray) -> np.ndarray:
-        return np.ascontiguousarray(np.broadcast_to(value, span.shape).T)
+        return np.ascontiguousarray((value if value.shape == span.shape else np.broadcast_to(value, span.shape)).T)
 
     along, rise = first(span), first(offset[..., 2])
     chord = np.hypot(along, rise)
@@ -124,6 +126,8 @@ def _solve(problem: HoldingProblem) -> TautTensions:
 def _iterated(pose: TautGeometry, exits: PulleyExits | None) -> tuple[TautGeometry, Cable, np.ndarray, np.ndarray]:
     """The cables' geometry; tau, V, L (m, n); settled with all cables taut (n,) and iterations (n,)."""
     tau, vertical, length, side, settled, dual = _start(pose, pose.span / pose.chord)
+    first = closing_step(pose, tau, vertical, length)
+    vertical, length = vertical + first.vertical, length + first.length
     bend = force_z_curvature(pose.span, pose.rise, tau, pose.weight)
     good, error = ~settled, np.full_like(tau, np.inf)
     before, iterations = np.zeros(len(settled)), np.zeros(len(settled), dtype=int)
@@ -143,8 +147,8 @@ def _iterated(pose: TautGeometry, exits: PulleyExits | None) -> tuple[TautGeomet
             size = np.maximum(size, moved)
         tau = tau + step
         iterations += moving
-        shrinking = np.fmin(size / before, 1.0) if exits is None else np.fmin(np.fmax(size / before, _SLOWEST), 1.0)
-        small = size * shrinking <= _NEGLIGIBLE
+        slowest = _FOLLOWS * before if exits is None else _SLOWEST
+        small = size * np.fmin(np.fmax(size / before, slowest), 1.0) <= _NEGLIGIBLE
         settled = settled | (small & (after == side).all(axis=0))
         before, side = size, after
         if settled.all():
@@ -154,11 +158,14 @@ def _iterated(pose: TautGeometry, exits: PulleyExits | None) -> tuple[TautGeomet
 
 
 def _start(pose: TautGeometry, cos: np.ndarray) -> tuple[np.ndarray, ...]:
-    """tau, V, L of straight cables (m, n), parabolas in length, their bounds' sides, and where there are none (n,)."""
+    """tau, V, L of straight cables (m, n) with half of their weight at each end, parabolas in length, their bounds'
+    sides, and where there are none (n,)."""
     ones, sin = np.ones_like(cos), pose.rise / pose.chord
     low = np.maximum(pose.low, _TAUTEST * pose.weight * pose.chord)
     matrix = pose.columns(pose.pulls(cos, None, sin))
-    program = StepProgram(ones, np.zeros_like(cos), matrix, pose.load, low, np.maximum(pose.high, low))
+    half, none = 0.5 * pose.weight * pose.chord, np.zeros_like(cos)
+    left = pose.load + pose.columns(pose.pulls(none, None, half)).sum(axis=1)
+    program = StepProgram(ones, half * sin, matrix, left, low, np.maximum(pose.high, low))
     tau, dual, side = least_norm(program, np.zeros(cos.shape, dtype=int))
     hopeless = ~np.isfinite(tau).all(axis=0)
     tau = np.where(hopeless, low, np.clip(tau, low, program.high))

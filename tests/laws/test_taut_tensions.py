@@ -13,7 +13,7 @@ from cdpr_struct.statics import inverse_kinematics
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.inverse_kinematics import inverse
-from cdpr_struct.statics.small_systems import backward, cholesky, forward
+from cdpr_struct.statics.small_systems import backward, cholesky, forward, solve_positive
 from cdpr_struct.statics.taut_tensions import suits, taut_tensions
 from tests.laws.fast_mode_cases import on_pulleys
 
@@ -174,3 +174,14 @@ def test_small_systems_are_solved():
     ours = backward(lower, forward(lower, right.T)).T
     np.testing.assert_allclose(ours, np.linalg.solve(matrix, right[..., None])[..., 0], rtol=1e-9)
     assert np.isnan(cholesky(-np.moveaxis(matrix, 0, -1))[-1, -1]).all()
+
+
+def test_positive_systems_are_solved_from_their_lower_triangle_and_others_refused():
+    rng = np.random.default_rng(3)
+    root = rng.normal(size=(7, 6, 6))
+    matrix, right = root @ np.swapaxes(root, 1, 2), rng.normal(size=(7, 6))
+    lower = np.moveaxis(np.where(np.tri(6, dtype=bool), matrix, np.nan), 0, -1)
+    ours = solve_positive(lower, right.T).T
+    np.testing.assert_allclose(ours, np.linalg.solve(matrix, right[..., None])[..., 0], rtol=1e-9)
+    lower[5, 5, 3] -= 2.0 / np.linalg.inv(matrix[3])[5, 5]  # the last pivot becomes negative
+    assert (np.isnan(solve_positive(lower, right.T)).any(axis=0) == (np.arange(7) == 3)).all()
