@@ -112,6 +112,7 @@ def page(sheet: str, formulas: list[Formula]) -> str:
         "Equation numbers are those of the thesis. *verified*: the derivation reproduces the print. *corrected*: it "
         "does not, and the note says why. The program evaluates the derived forms, rewritten so that no digits are "
         "lost.", "",
+        "Symbols: [glossary](../glossary.md). "
         f"Use: [explanation](../{EXPLAINED[sheet]}). What the corrections change: [findings](../thesis.md). "
         f"Other sheets: {others}. All on paper: [PDF](../building_the_docs.md).", "",
     ]  # fmt: skip
