@@ -12,6 +12,7 @@ import shutil
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -20,7 +21,7 @@ from cdpr_struct.cli.main import run
 ROOT = Path(__file__).parents[2]
 PAGES = (
     "tutorial_own_robot", "tutorial_model_right", "tutorial_diagnosis", "tutorial_trajectory", "pulleys", "ropes",
-    "recordings",
+    "recordings", "notebooks",
 )  # fmt: skip
 BLOCK = re.compile(
     r"((?:^<!-- [\w ]+ -->\n)*)^```sh\n(.*?)^```\n(?:\n^```text\n(.*?)^```\n)?", re.MULTILINE | re.DOTALL
@@ -87,6 +88,17 @@ def test_commands_of_the_page_do_what_it_says(page, tmp_path):
 )
 def test_long_commands_too(page, tmp_path):
     check(page, True, tmp_path)
+
+
+def test_the_notebook_reads_what_the_commands_wrote(tmp_path):
+    check("notebooks", False, tmp_path)
+    (cell,) = re.findall(r"^```python\n(.*?)^```\n", (ROOT / "docs/notebooks.md").read_text("utf-8"), re.M | re.DOTALL)
+    names: dict[str, Any] = {}
+    with contextlib.chdir(tmp_path):
+        exec(cell, names)
+    assert list(names["modes"].columns) == ["mode", "frequency_hz", "platform_energy", "kind"]
+    assert names["result"]["frequencies_hz"][0] == pytest.approx(names["modes"].frequency_hz[0], rel=1e-6)
+    assert {"x_m", "y_m", "z_m"} <= set(names["where"].columns)
 
 
 def test_every_page_has_commands():
