@@ -23,7 +23,7 @@ from cdpr_struct.errors import InputError
 
 NAME = "audit"
 EXAMPLES = (
-    "cdpr-struct audit thesis-3-1 --grid -3:3:5,-3:3:5,0.5 --workers 2",
+    "cdpr-struct audit thesis-3-1 --grid -3:3:5,-3:3:5,0.5",
     "cdpr-struct audit thesis-5 --trajectory line:0,0,2:1,0,2.5:4",
 )
 _TRAJECTORY = "helix, line:START:END:SECONDS, or a CSV file time_s,x_m,y_m,z_m[,rx_deg,ry_deg,rz_deg]."

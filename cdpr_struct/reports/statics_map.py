@@ -18,6 +18,7 @@ from cdpr_struct.workspace.work_list import Columns
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.style import Draw
 
+_SAME = 1e-9  # relative: values of poses that count as equal
 _MOST_HELD, _MOST_RELEASED = 64, 16  # poses with slack cables at which a cure is searched; a release takes longer
 _NOTE = (
     "Each value is computed at the reference pose, or for pose errors from it, as the quantity's line in the "
@@ -34,6 +35,12 @@ def map_table(grid: Grid, columns: Columns) -> LongTable:
     return LongTable({**place, **rest})
 
 
+def _where_largest(value: np.ndarray) -> int:
+    """The first pose of the largest value; rounding does not decide between poses that symmetry makes equal."""
+    top = np.nanmax(value)
+    return int(np.flatnonzero(value >= top - _SAME * abs(top))[0])
+
+
 def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str, Any]:
     """Result of a map of one quantity. Where cables hang slack, the lower bound that would cure it is searched."""
     quantity = quantity_of(name)
@@ -41,7 +48,7 @@ def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str,
     some = bool(np.isfinite(value).any())
     ends = {
         key: {"value": float(value[at]), "position_m": grid.positions[at]}
-        for key, at in (("smallest", int(np.nanargmin(value))), ("largest", int(np.nanargmax(value))))
+        for key, at in (("smallest", _where_largest(-value)), ("largest", _where_largest(value)))
     } if some else {}  # fmt: skip
     return {
         "robot": robot.name,

@@ -9,14 +9,12 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
-from contextlib import AbstractContextManager
+from contextlib import contextmanager
 from pathlib import Path
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
-from cdpr_struct.cli.executors import executor
 
 TIME_LIMIT = 900.0  # s
 RESULT, RECORD = "result.json", "run.json"
@@ -55,8 +53,16 @@ def diagnose_all(
     return len(todo)
 
 
-def _pool(workers: int, scheduler: str | None) -> AbstractContextManager[Executor]:
-    return ThreadPoolExecutor(workers) if scheduler is None else executor(1, scheduler)
+@contextmanager
+def _pool(workers: int, scheduler: str | None) -> Iterator[Executor]:
+    if scheduler is None:
+        with ThreadPoolExecutor(workers) as pool:
+            yield pool
+        return
+    from dask.distributed import Client
+
+    with Client(scheduler, timeout=10) as client:
+        yield client.get_executor()
 
 
 def diagnose(campaign: Path, answer: Path, budget: str, command: Sequence[str]) -> None:

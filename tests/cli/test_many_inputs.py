@@ -14,7 +14,7 @@ import pytest
 from cdpr_struct.cli import distribute
 from cdpr_struct.cli.main import run
 from cdpr_struct.cli.many_inputs import short_names
-from cdpr_struct.crosscheck import limits_trial
+from cdpr_struct.interface import limits
 from tests.blind.running import diagnose_all
 from tests.cli.conftest import ROOT
 from tests.cli.test_statics_commands import started, wait_for
@@ -201,7 +201,7 @@ def test_limits_whose_workers_are_killed_say_so(monkeypatch, capsys):
     def broken(*arguments):
         raise BrokenExecutor
 
-    monkeypatch.setattr(limits_trial, "try_limits", broken)
+    monkeypatch.setattr(limits, "try_limits", broken)
     assert run(["audit", "--limits", "--small"]) == 1
     assert "a worker process was ended from outside" in capsys.readouterr().err
 

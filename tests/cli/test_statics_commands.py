@@ -223,7 +223,7 @@ def test_a_torn_checkpoint_file_is_computed_again(tmp_path):
     assert list(store.parts(["000000", "000001", "000002"])) == [0]
 
 
-LONG = ["map", "six-cable-8mm", "--grid=-3:3:41,-3:3:41,0.5", "--quantity", "tension-max", "--chunk", "64"]
+LONG = ["map", "six-cable-8mm", "--grid=-3:3:41,-3:3:41,0.5", "--quantity", "tension-max", "--chunk", "16"]
 
 
 def started(*more: str, command: Sequence[str] = LONG) -> subprocess.Popen[str]:

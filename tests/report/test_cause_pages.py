@@ -20,4 +20,4 @@ def test_pages_are_current():
 def test_every_name_that_a_verdict_can_have_has_a_page():
     """What is tested, corrected or left out of a simulation, and the laws of damping."""
     names = {*LIBRARY, internal_force.CAUSE.name, *HANDLING, *SHORTCUTS, *NEEDS_SIGNALS}
-    assert {f"{name}.md" for name in names} == set(pages())
+    assert {"index.md", *(f"{name}.md" for name in names)} == set(pages())

@@ -100,11 +100,25 @@ def beside_page(name: str) -> str:
     return "\n".join(lines)
 
 
+def index_page() -> str:
+    """The table of all causes."""
+    titles = {cause.name: cause.title for cause in (*LIBRARY.values(), internal_force.CAUSE)}
+    titles |= {name: title for name, (title, *_) in BESIDE.items()}
+    rows = [f"| [{name}]({name}.md) | {title[:1].lower()}{title[1:]} |" for name, title in sorted(titles.items())]
+    lines = [
+        "# Library of causes", "",
+        "What [`diagnose`](../measuring.md) tests, and [how](../diagnosis.md). A cause that is missing here can be "
+        "[added](../own_cause.md).", "", "| cause | meaning |", "|---|---|", *rows, "",
+        "Generated from the library: `python -m cdpr_struct.reports.diagnose.cause_pages`.", "",
+    ]  # fmt: skip
+    return "\n".join(lines)
+
+
 def pages() -> dict[str, str]:
-    """File name to text, one page a cause."""
+    """File name to text: one page a cause, and the table of all."""
     found = {f"{name}.md": cause_page(cause) for name, cause in LIBRARY.items()}
     found |= {f"{name}.md": beside_page(name) for name in BESIDE}
-    return {**found, f"{internal_force.CAUSE.name}.md": internal_force_page()}
+    return {**found, f"{internal_force.CAUSE.name}.md": internal_force_page(), "index.md": index_page()}
 
 
 if __name__ == "__main__":
