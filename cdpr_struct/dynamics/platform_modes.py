@@ -13,6 +13,7 @@ from cdpr_struct.dynamics.mode_shapes import condensed_shapes, shape_size
 
 _ATTEMPTS = ((1, 2.4), (2, 4.5), (3, 8.0), (6, np.inf), (8, np.inf))
 """Leads, and below which ratio of the squared massless frequency to the lowest string's they are tried."""
+_LARGEST = 300  # order of an eigenproblem from which on the general solver is as fast
 _WINDOW = 8
 HARMONICS = 4  # of each cable, in the mode's shape
 _PAST = 1.05  # the shift towards the platform's mode, over the squared massless frequency
@@ -46,6 +47,8 @@ def platform_mode(batch: Batch, massless: np.ndarray, momentum: np.ndarray, amon
     shape = np.full((n, shape_size(len(batch.strings), HARMONICS)), np.nan)
     ratio = massless / batch.lowest_string
     for leads, most in _ATTEMPTS:
+        if 6 + 2 * leads * len(batch.strings) > _LARGEST:
+            break
         todo = np.flatnonzero(~np.isfinite(found) & (ratio < most))
         for own in pieces(todo):
             wanted = massless[own], momentum[own]

@@ -59,9 +59,9 @@ class PoseBatches:
         return self.evaluate, (self.robot, self.position[part], rotation)
 
     def joined(self, found: Mapping[int, Columns]) -> Columns:
-        """Columns over all poses, from all batches by number."""
+        """Columns over all poses, from all batches by number, which are used up: all is in memory once."""
         batches = [found[number] for number in range(self.parts)]
-        return {name: np.concatenate([batch[name] for batch in batches]) for name in batches[0]}
+        return {name: np.concatenate([batch.pop(name) for batch in batches]) for name in list(batches[0])}
 
     def here(self, executor: Executor | None = None, progress: Callable[[str], None] = lambda about: None) -> Columns:
         """Columns over all poses, computed now.

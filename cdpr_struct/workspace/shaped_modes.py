@@ -17,7 +17,8 @@ from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.workspace.mode_records import unit_shapes
 from cdpr_struct.workspace.work_list import Columns
 
-_CHUNK, _GENERAL_CHUNK = 1024, 32  # poses at once
+_CHUNK = 1024  # poses at once
+_GENERAL_CABLES = 256  # at once, of the general solver
 _ORDER, _HALF_WAVES = 24, 2.5  # of the general solver's expansions
 _FEW, _HARMONICS, _MORE_HARMONICS = 24, 4, 6  # up to so many modes, so many harmonics of each cable tell them apart
 
@@ -89,8 +90,9 @@ def _at_rest(point: OperatingPoint, count: int, parts: int) -> tuple[np.ndarray,
             found, shapes[fast[group]] = lowest_shapes(batch.take(group), count, parts)
             squared[fast[group]] = found.squared
     left = np.flatnonzero(~np.isfinite(squared).all(axis=1))
-    for start in range(0, left.size, _GENERAL_CHUNK):
-        own = left[start : start + _GENERAL_CHUNK]
+    size = max(1, _GENERAL_CABLES // point.cables.length.shape[-1])
+    for start in range(0, left.size, size):
+        own = left[start : start + size]
         squared[own], shapes[own] = _general(poses_of(point, own), count, parts)
     return squared, shapes
 

@@ -22,7 +22,8 @@ from cdpr_struct.workspace.work_list import Columns
 
 SHARE, SHAPE = "platform_share", "platform_shape"
 AMONG = 60  # first modes of the robot, of which one is the platform's
-_CHUNK, _GENERAL_CHUNK = 2048, 32  # poses at once
+_CHUNK = 2048  # poses at once
+_GENERAL_CABLES = 256  # at once, of the general solver
 _ORDER = 24
 _HALF_WAVES = 2.5
 
@@ -112,8 +113,9 @@ def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) 
         for name, values in _fast(poses_of(point, fast), massless[fast], momentum[fast]).items():
             found[name][fast] = values
     left = np.flatnonzero(~np.isfinite([found[name] for name in names]).all(axis=0))
-    for start in range(0, left.size, _GENERAL_CHUNK):
-        chosen = left[start : start + _GENERAL_CHUNK]
+    size = max(1, _GENERAL_CABLES // point.cables.length.shape[-1])
+    for start in range(0, left.size, size):
+        chosen = left[start : start + size]
         for name, values in _general(poses_of(point, chosen), momentum[chosen]).items():
             known = found[name][chosen]
             found[name][chosen] = np.where(np.isfinite(known), known, values)
