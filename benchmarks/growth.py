@@ -69,8 +69,8 @@ GROWTHS: dict[str, Growth] = {
     ),
     "modes-count": Growth(
         "certified modes, one pose", "modes", (12, 24, 48, 96, 192), certified_task,
-        "the polynomials of a cable grow with the band; the eigenproblems are still small enough to cost less than their "
-        "cube",
+        "the polynomials of a cable grow with the band; the eigenproblems are still small enough to cost less than "
+        "their cube",
     ),
     "frf-frequencies": Growth(
         "frequency response", "frequencies", (1000, 10_000, 100_000, 1_000_000), frequencies_task,
