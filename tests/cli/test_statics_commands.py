@@ -229,7 +229,14 @@ LONG = ["map", "six-cable-8mm", "--grid=-3:3:41,-3:3:41,0.5", "--quantity", "ten
 def started(*more: str, command: Sequence[str] = LONG) -> subprocess.Popen[str]:
     """A command, a long map if none is given, in a process of its own."""
     program = [sys.executable, "-c", "from cdpr_struct.cli.main import main; main()"]
-    return subprocess.Popen([*program, *command, *more], stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen(
+        [*program, *command, *more], stderr=subprocess.PIPE, text=True, preexec_fn=_heeds_interrupts
+    )
+
+
+def _heeds_interrupts() -> None:
+    """Ctrl-C stops the process, also where the tests run in the background of a shell, which ignores it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def wait_for(condition) -> None:
