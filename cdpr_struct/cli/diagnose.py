@@ -7,9 +7,10 @@ import typer
 
 import cdpr_struct as cs
 from cdpr_struct.cli.executors import Scheduler, Where, Workers, check_workers
-from cdpr_struct.cli.many_inputs import ManyInputs, answer_all, forget, require_different, worst_code
+from cdpr_struct.cli.many_inputs import ManyInputs, answer_all, require_different, worst_code
 from cdpr_struct.cli.options import LowerBound, UpperBound, read_bounds, require_file
 from cdpr_struct.cli.output import Files, Output
+from cdpr_struct.cli.sweeping import clear_checkpoint
 from cdpr_struct.errors import InputError
 
 NAME = "diagnose"
@@ -67,5 +68,5 @@ def _many(campaigns: tuple[str, ...], budget: str, bounds: Bounds, where: Where,
     rows = answer_all(work, where, output, report.campaign_row)
     result = {"campaigns": rows}
     output.deliver(result, lambda: report.campaigns_text(rows), lambda: report.campaigns_files(rows))
-    forget(work, output)
+    clear_checkpoint(work, output.directory)
     return worst_code(rows)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cdpr_struct.cli.executors import Scheduler, Where, Workers, check_workers
-from cdpr_struct.cli.many_inputs import ManyInputs, answer_all, forget, require_different, worst_code
+from cdpr_struct.cli.many_inputs import ManyInputs, answer_all, require_different, worst_code
 from cdpr_struct.cli.options import (
     LowerBound,
     Mass,
@@ -19,6 +19,7 @@ from cdpr_struct.cli.options import (
     whole_number,
 )
 from cdpr_struct.cli.output import Files, Output
+from cdpr_struct.cli.sweeping import clear_checkpoint
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.trajectory import FORMS
 
@@ -132,5 +133,5 @@ def _many(
     rows = answer_all(work, where, output, report.trajectory_row)
     result = {"robot": asked.robot.name, "bound": asked.rules[0], "trajectories": rows}
     output.deliver(result, lambda: report.trajectories_text(result), lambda: report.trajectories_files(result))
-    forget(work, output)
+    clear_checkpoint(work, output.directory)
     return worst_code(rows)

@@ -11,7 +11,7 @@ import numpy as np
 from cdpr_struct.cli.complaints import complaint
 from cdpr_struct.cli.executors import Where
 from cdpr_struct.cli.output import Files, Output
-from cdpr_struct.cli.sweeping import clear_checkpoint, run_work
+from cdpr_struct.cli.sweeping import run_work
 from cdpr_struct.errors import InputError
 from cdpr_struct.reports.plain_json import plain
 
@@ -109,11 +109,6 @@ def answer_all(work: ManyInputs, where: Where, output: Output, row: Callable[[Ma
 def worst_code(rows: Sequence[Row]) -> int:
     """2 where an input cannot be used, 1 where one cannot be answered, else 0."""
     return max(row["exit_code"] for row in rows)
-
-
-def forget(work: ManyInputs, output: Output) -> None:
-    """Forget what was kept to continue after an interruption; the results stand for it."""
-    clear_checkpoint(work, output.directory)
 
 
 def require_different(inputs: Sequence[str], name: str) -> None:
