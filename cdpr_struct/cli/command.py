@@ -23,7 +23,15 @@ _OUT = Annotated[
 _JSON = Annotated[bool, typer.Option("--json", help="Print result.json to stdout, nothing else.")]
 _QUIET = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar and no text; with --json the JSON only.")]
 _OVERWRITE = Annotated[bool, typer.Option("--overwrite", help="Replace files in DIR that this program did not write.")]
-_SHARED = {"out": (_OUT, None), "json": (_JSON, False), "quiet": (_QUIET, False), "overwrite": (_OVERWRITE, False)}
+_TABLES = Annotated[
+    str | None,
+    typer.Option("--tables", metavar="FORM", help="Write each CSV table as a table of a paper, too: md or latex."),
+]
+_SHARED = {
+    "out": (_OUT, None), "json": (_JSON, False), "quiet": (_QUIET, False), "overwrite": (_OVERWRITE, False),
+    "tables": (_TABLES, None),
+}  # fmt: skip
+_OF_RESULTS = ("out", "tables")  # a command that declares --out for itself writes no directory of results
 
 
 def register(app: typer.Typer, command: ModuleType) -> None:
@@ -37,16 +45,20 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
     A command that writes no directory of results declares some of these options itself.
     """
     own = [p for p in inspect.signature(run, eval_str=True).parameters.values() if p.name != "output"]
-    added = {name: pair for name, pair in _SHARED.items() if name not in {p.name for p in own}}
+    declared = {p.name for p in own}
+    left_out = declared | set(_OF_RESULTS) if "out" in declared else declared
+    added = {name: pair for name, pair in _SHARED.items() if name not in left_out}
     keyword = inspect.Parameter.KEYWORD_ONLY
 
     @functools.wraps(run)
     def command(context: typer.Context, **given: object) -> int:
         where = {name: given.pop(name) if name in added else given.get(name) for name in _SHARED}
+        if where["tables"] not in (None, "md", "latex"):
+            raise InputError("--tables", "", where["tables"], "md or latex")
         out = where["out"] if "out" in added else None
         assert out is None or isinstance(out, Path)
         flags = (bool(where["json"]), bool(where["quiet"]), bool(where["overwrite"]))
-        output = Output(out, *flags, repeating(context.obj or ()))
+        output = Output(out, *flags, repeating(context.obj or ()), where["tables"])  # type: ignore[arg-type]
         output.check()
         try:
             return run(**given, output=output)

@@ -14,7 +14,7 @@ from cdpr_struct.cli.command import with_output
 from cdpr_struct.cli.main import COMMANDS
 
 PAGE = Path("docs/commands.md")
-SHARED = ("out", "json", "quiet", "overwrite")
+SHARED = ("out", "json", "quiet", "overwrite", "tables")
 VALUES = {int: "INTEGER", float: "NUMBER", str: "TEXT", Path: "PATH"}
 MORE = {
     "robots": ("files.md", "robot file"),

@@ -23,6 +23,7 @@ from cdpr_struct.cli import (
     plan,
     pose_error,
     reproduce,
+    rerun,
     robots,
     spectrogram,
     transient,
@@ -33,7 +34,6 @@ from cdpr_struct.cli.complaints import complaint
 from cdpr_struct.cli.interruption import Interrupted
 
 app = typer.Typer(
-    add_completion=False,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
     help="Deflection and vibration of cable-driven parallel robots, checked against an independent FEM.",
@@ -58,6 +58,7 @@ COMMANDS = (
     audit,
     diagnose,
     plan,
+    rerun,
 )
 
 
