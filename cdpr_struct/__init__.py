@@ -93,6 +93,8 @@ if TYPE_CHECKING:
     from cdpr_struct.interface.limits import limits
     from cdpr_struct.interface.map import map
     from cdpr_struct.interface.modes import modes
+    from cdpr_struct.interface.new_campaign import new_campaign
+    from cdpr_struct.interface.new_robot import new_robot
     from cdpr_struct.interface.plan import plan
     from cdpr_struct.interface.pose_error import pose_error
     from cdpr_struct.interface.reproduce import reproduce
@@ -113,6 +115,8 @@ if TYPE_CHECKING:
 _HOMES = {
     "robot.robot_file": ("load_robot",),
     "interface.robots": ("robots", "write_robot"),
+    "interface.new_robot": ("new_robot",),
+    "interface.new_campaign": ("new_campaign",),
     "interface.cable": ("cable",),
     "interface.inverse": ("inverse",),
     "interface.forward": ("forward",),
@@ -174,6 +178,8 @@ __all__ = [
     "load_robot",
     "map",
     "modes",
+    "new_campaign",
+    "new_robot",
     "plan",
     "pose_error",
     "reproduce",

@@ -58,7 +58,7 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
         out = where["out"] if "out" in added else None
         assert out is None or isinstance(out, Path)
         flags = (bool(where["json"]), bool(where["quiet"]), bool(where["overwrite"]))
-        output = Output(out, *flags, repeating(context.obj or ()), where["tables"])  # type: ignore[arg-type]
+        output = Output(out, *flags, repeating(context.obj or ()), where["tables"])
         output.check()
         try:
             return run(**given, output=output)

@@ -20,6 +20,8 @@ from cdpr_struct.cli import (
     inverse,
     map,
     modes,
+    new_campaign,
+    new_robot,
     plan,
     pose_error,
     reproduce,
@@ -58,6 +60,8 @@ COMMANDS = (
     audit,
     diagnose,
     plan,
+    new_robot,
+    new_campaign,
     rerun,
 )
 

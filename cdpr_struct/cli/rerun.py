@@ -67,8 +67,9 @@ def run(
 
 def _recorded(was: Path) -> tuple[tuple[str, ...], Mapping[str, str]]:
     """The command of a result, and the digests of the files it read."""
-    record = read_result(was).get(RUN)
-    words = record.get("command") if isinstance(record, dict) else None
+    found = read_result(was).get(RUN)
+    record = found if isinstance(found, dict) else {}
+    words = record.get("command")
     if not isinstance(words, list) or len(words) < 3 or not all(isinstance(word, str) for word in words):
         expected = "a result that records its command; those written with 0.16.0 or earlier do not"
         raise InputError(str(was / RESULT), RUN, "no command", expected)
