@@ -87,6 +87,7 @@ if TYPE_CHECKING:
     from cdpr_struct.interface.campaigns import causes, load_campaign
     from cdpr_struct.interface.diagnose import diagnose
     from cdpr_struct.interface.distribute import distribute
+    from cdpr_struct.interface.export import export
     from cdpr_struct.interface.forward import forward
     from cdpr_struct.interface.frf import frf
     from cdpr_struct.interface.inverse import inverse
@@ -130,6 +131,7 @@ _HOMES = {
     "interface.audit": ("audit",),
     "interface.limits": ("limits",),
     "interface.distribute": ("distribute",),
+    "interface.export": ("export",),
     "interface.campaigns": ("load_campaign", "causes"),
     "interface.diagnose": ("diagnose",),
     "interface.plan": ("plan",),
@@ -170,6 +172,7 @@ __all__ = [
     "causes",
     "diagnose",
     "distribute",
+    "export",
     "forward",
     "frf",
     "inverse",

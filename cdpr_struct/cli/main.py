@@ -13,6 +13,7 @@ from cdpr_struct.cli import (
     derive,
     diagnose,
     distribute,
+    export,
     forward,
     frf,
     import_caspr,
@@ -62,6 +63,7 @@ COMMANDS = (
     plan,
     new_robot,
     new_campaign,
+    export,
     rerun,
 )
 

@@ -106,3 +106,4 @@ GridText = Annotated[
     str | None,
     typer.Option("--grid", metavar="X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ]", help="Poses [m, deg]; x, y, z: value or range."),
 ]  # fmt: skip
+UniversalFile = Annotated[bool, typer.Option("--uff", help="Write a universal file, too (pyuff and modal software).")]

@@ -16,11 +16,7 @@ from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 
 
 def frf_files(sweep: ResponseSweep, result: Mapping[str, Any]) -> dict[str, str | bytes]:
-    """Contents of every file of the report, by name; `result` as `frf_json` gives it.
-
-    The universal file has the even lines only: its format gives a frequency six digits, too few for narrow peaks.
-    """
-    axes = sweep.point.rotation if result["frame"] == "platform" else np.eye(3)
+    """Contents of every file of the report, by name; `result` as `frf_json` gives it."""
     plate = Plate(
         "frf",
         "Frequency response",
@@ -29,11 +25,17 @@ def frf_files(sweep: ResponseSweep, result: Mapping[str, Any]) -> dict[str, str 
     )
     return {
         "frf.csv": csv_text(frf_columns(sweep)),
-        "frf.uff": universal_file(sweep.evenly, sweep.point.entered.name, axes),
+        "frf.uff": response_file(sweep, result),
         "modes.csv": csv_text({"frequency_hz": sweep.modes.hertz, "kind": sweep.modes.kinds}),
         "frf.svg": plate.svg,
         "report.html": render_page(_page(sweep, result, plate)),
     }
+
+
+def response_file(sweep: ResponseSweep, result: Mapping[str, Any]) -> bytes:
+    """The even lines as a universal file: its format gives a frequency six digits, too few for narrow peaks."""
+    axes = sweep.point.rotation if result["frame"] == "platform" else np.eye(3)
+    return universal_file(sweep.evenly, sweep.point.entered.name, axes)
 
 
 def _page(sweep: ResponseSweep, result: Mapping[str, Any], plate: Plate) -> Page:
