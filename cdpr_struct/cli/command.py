@@ -4,6 +4,7 @@ import functools
 import inspect
 import re
 from collections.abc import Callable, Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
 from typing import Annotated
@@ -25,7 +26,7 @@ _QUIET = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar and
 _OVERWRITE = Annotated[bool, typer.Option("--overwrite", help="Replace files in DIR that this program did not write.")]
 _TABLES = Annotated[
     str | None,
-    typer.Option("--tables", metavar="FORM", help="Write each CSV table as a table of a paper, too: md or latex."),
+    typer.Option("--tables", metavar="FORM", help="Write each CSV table once more: md, latex or parquet."),
 ]
 _SHARED = {
     "out": (_OUT, None), "json": (_JSON, False), "quiet": (_QUIET, False), "overwrite": (_OVERWRITE, False),
@@ -53,8 +54,7 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
     @functools.wraps(run)
     def command(context: typer.Context, **given: object) -> int:
         where = {name: given.pop(name) if name in added else given.get(name) for name in _SHARED}
-        if where["tables"] not in (None, "md", "latex"):
-            raise InputError("--tables", "", where["tables"], "md or latex")
+        _check_tables(where["tables"])
         out = where["out"] if "out" in added else None
         assert out is None or isinstance(out, Path)
         flags = (bool(where["json"]), bool(where["quiet"]), bool(where["overwrite"]))
@@ -71,6 +71,13 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
     command.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
     command.__annotations__ = {p.name: p.annotation for p in shown}
     return command
+
+
+def _check_tables(form: object) -> None:
+    if form not in (None, "md", "latex", "parquet"):
+        raise InputError("--tables", "", form, "one of: md, latex, parquet")
+    if form == "parquet" and find_spec("pyarrow") is None:
+        raise InputError("--tables", "", form, "Parquet needs the extra: pip install 'cdpr-struct[parquet]'")
 
 
 def _of_option(error: InputError, own: Sequence[inspect.Parameter]) -> InputError:

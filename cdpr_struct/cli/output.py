@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from cdpr_struct.cli.progress import Begin, silent, steps
 from cdpr_struct.cli.run_record import RUN, run_record
@@ -36,7 +36,7 @@ class Output:
     quiet: bool
     overwrite: bool
     words: tuple[str, ...]
-    tables: "Form | None" = None
+    tables: 'Form | Literal["parquet"] | None' = None
 
     def check(self) -> None:
         """Refuse a directory with somebody else's results before any work is done.
@@ -101,10 +101,14 @@ class Output:
         page = completed(bare, shlex.join(self.words), warnings_of(result), extensions_of(result), locked_of(result))
         return {**files, "report.html": page, **self._tables(files)}
 
-    def _tables(self, files: Files) -> dict[str, str]:
+    def _tables(self, files: Files) -> Files:
         """The CSV tables once more, in the form of --tables."""
         if self.tables is None:
             return {}
+        if self.tables == "parquet":
+            from cdpr_struct.reports.parquet_table import parquet_tables
+
+            return parquet_tables(files)
         from cdpr_struct.reports.paper_table import paper_tables
 
         return paper_tables(files, self.tables)

@@ -1,8 +1,11 @@
 """CSV tables as Markdown and LaTeX: units in headings, digits that can be read, nothing lost."""
 
+import json
+
 import pandas as pd
 import pytest
 
+from cdpr_struct.cli import command
 from cdpr_struct.cli.main import run
 from cdpr_struct.reports.csv_table import LongTable, csv_text
 from cdpr_struct.reports.paper_table import LONGEST, heading, paper_table, paper_tables
@@ -81,9 +84,26 @@ def test_every_table_of_a_result_is_there_once_more(tmp_path):
 
 def test_an_unknown_form_is_refused(capsys):
     assert run(["robots", "--tables", "xls"]) == 2
-    assert "--tables: got 'xls'; md or latex" in capsys.readouterr().err
+    assert "--tables: got 'xls'; one of: md, latex, parquet" in capsys.readouterr().err
 
 
 def test_names_follow_the_csv_files():
     assert set(paper_tables({"a.csv": "x\n1\n", "b.svg": ""}, "latex")) == {"a.tex"}
     assert set(paper_tables({"a.csv": "x\n1\n", "b.svg": ""}, "md")) == {"a.md"}
+
+
+def test_parquet_has_the_numbers_of_the_csv_file(tmp_path):
+    pytest.importorskip("pyarrow", reason="the extra parquet is not installed")
+    words = ["modes", "thesis-3-1", "--count", "6", "--out", str(tmp_path), "--quiet", "--tables", "parquet"]
+    assert run(words) == 0
+    for path in tmp_path.glob("*.csv"):
+        pd.testing.assert_frame_equal(pd.read_parquet(path.with_suffix(".parquet")), pd.read_csv(path))
+    assert len(list(tmp_path.glob("*.parquet"))) == 2
+    told = json.loads((tmp_path / "result.json").read_text())["frequencies_hz"]
+    assert pd.read_parquet(tmp_path / "modes.parquet")["frequency_hz"].tolist() == pytest.approx(told, rel=1e-15)
+
+
+def test_parquet_without_its_package_is_one_sentence(capsys, monkeypatch):
+    monkeypatch.setattr(command, "find_spec", lambda name: None)
+    assert run(["robots", "--tables", "parquet"]) == 2
+    assert "cdpr-struct[parquet]" in capsys.readouterr().err
