@@ -16,6 +16,8 @@ Robots:
   robots                    List the robots that come with the package.
   write_robot               Write a robot to a robot file, which `load_robot` and every command read again, and return
                             its path.
+  new_robot                 Make a commented robot file to begin with, of a robot that holds its home pose.
+  export                    Make the input file of MoorPy or MoorDyn, or a glTF scene, of a robot at rest.
   Robot                     Cable-driven parallel robot with m cables.
   Platform                  Rigid platform, all in its own frame.
   Cable                     Uniform elastic cable.
@@ -46,6 +48,8 @@ Predictions and checks:
   reproduce                 Recompute tables and figures of the thesis and show the deviations.
 
 Measured data:
+  new_campaign              Make a campaign file and data files with the planned poses and what the simulation
+                            predicts, to be filled.
   load_campaign             Read a campaign file and the data files it names, all checked.
   causes                    List the causes that a diagnosis looks for, by name, those of installed packages among
                             them.
