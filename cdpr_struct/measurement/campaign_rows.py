@@ -1,7 +1,7 @@
 """Rows of a measured-data file, checked: columns known and present, numbers finite and in their range."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -70,10 +70,11 @@ class Rows:
         return np.full(len(self), default) if found is None else found
 
 
-def read_rows(kind: str, path: Path, cables: int) -> Rows:
+def read_rows(kind: str, path: Path, cables: int, planned: bool = False) -> Rows:
     """Checked rows of a CSV file of the given kind, for a robot with `cables` cables.
 
     A file with one row a pose and one column a cable gives the same rows as one with one row a cable.
+    planned : cells of a template hold what their columns of predictions say
 
     Raises
     ------
@@ -81,7 +82,7 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
     """
     if is_universal(path):
         return _universal(kind, path)
-    table = read_table(path)
+    table = _with_predictions(read_table(path)) if planned else read_table(path)
     names = [name for name in table.names if name not in COMMENTS and not name.startswith(PREDICTED)]
     _check_columns(kind, str(path), names, cables)
     table.require_rows()
@@ -95,6 +96,18 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
     if "case" not in words:
         words["case"] = [path.stem] * len(rows) if kind == "platform_motion" else _cases_from_poses(rows)
     return _long(rows, cables) if wide else rows
+
+
+def _with_predictions(table: DataTable) -> DataTable:
+    """The table with predictions in cells that are still to be filled, where it has them."""
+    names = table.names
+    told = [names.index(f"{PREDICTED}{name}") if f"{PREDICTED}{name}" in names else None for name in names]
+
+    def filled(row: Sequence[str]) -> list[str]:
+        pairs = zip(row, told, strict=True)
+        return [row[place] if cell == UNFILLED and place is not None else cell for cell, place in pairs]
+
+    return replace(table, rows=[filled(row) if len(row) == len(names) else row for row in table.rows])
 
 
 def _require_filled(table: DataTable, names: Sequence[str]) -> None:

@@ -9,6 +9,7 @@ import pytest
 
 import cdpr_struct as cs
 from cdpr_struct.cli.main import run
+from cdpr_struct.interface.campaigns import read_campaign
 from cdpr_struct.measurement.campaign_template import READINGS
 
 POSES = "0,0,1;1,0.5,1.2,0,0,3"
@@ -62,6 +63,23 @@ def test_filled_with_the_predictions_it_is_a_campaign(made):
     heavy = list(campaign.states.names).index("pose 1 with 20 kg")
     moved = cs.forward("cogiro", lengths=cs.inverse("cogiro", "0,0,1").solution.lengths, start="0,0,1", payload=20.0)
     np.testing.assert_allclose(campaign.states.position[heavy], moved.answer["pose"][:3], atol=1e-5)
+
+
+def test_a_plan_needs_no_readings(made):
+    """A template that is not filled stands for what it predicts, in all kinds of files."""
+    planned = read_campaign(made / "campaign.toml", None, None, planned=True)
+    filled(made)
+    entered = cs.load_campaign(made / "campaign.toml")
+    np.testing.assert_array_equal(planned.states.tension, entered.states.tension)
+    np.testing.assert_array_equal(planned.states.position, entered.states.position)
+    np.testing.assert_array_equal(planned.robot_frequencies.hertz, entered.robot_frequencies.hertz)
+    np.testing.assert_array_equal(planned.cable_frequencies.hertz, entered.cable_frequencies.hertz)
+
+
+@pytest.mark.slow
+def test_plan_takes_a_template(tmp_path):
+    assert run(["new-campaign", "cogiro", "--poses", POSES, "--out", str(tmp_path / "c"), "--quiet"]) == 0
+    assert run(["plan", str(tmp_path / "c" / "campaign.toml"), "--quiet"]) == 0
 
 
 def test_poses_come_from_a_file_and_robots_from_theirs(tmp_path, monkeypatch):
