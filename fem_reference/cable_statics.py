@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fem_reference.arrays import element_count, fixed_array
-from fem_reference.bar_element import internal_forces
-from fem_reference.cable import CableData, CableEquilibrium
-from fem_reference.errors import CableNotConvergedError, CompressedBarError, FemError, FoldedCableError
+from cdpr_struct.fem_reference.arrays import element_count, fixed_array
+from cdpr_struct.fem_reference.bar_element import internal_forces
+from cdpr_struct.fem_reference.cable import CableData, CableEquilibrium
+from cdpr_struct.fem_reference.errors import CableNotConvergedError, CompressedBarError, FemError, FoldedCableError
 
 STANDARD_GRAVITY = (0.0, 0.0, -9.81)
 MAX_ITERATIONS = 200
