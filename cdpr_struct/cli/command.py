@@ -12,7 +12,7 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.options import directory
-from cdpr_struct.cli.output import Output, repeating
+from cdpr_struct.cli.output import TABLE_FORMS, Output, TableForm, repeating
 from cdpr_struct.errors import InputError
 
 _OUT = Annotated[
@@ -54,11 +54,11 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
     @functools.wraps(run)
     def command(context: typer.Context, **given: object) -> int:
         where = {name: given.pop(name) if name in added else given.get(name) for name in _SHARED}
-        _check_tables(where["tables"])
+        tables = _table_form(where["tables"])
         out = where["out"] if "out" in added else None
         assert out is None or isinstance(out, Path)
         flags = (bool(where["json"]), bool(where["quiet"]), bool(where["overwrite"]))
-        output = Output(out, *flags, repeating(context.obj or ()), where["tables"])
+        output = Output(out, *flags, repeating(context.obj or ()), tables)
         output.check()
         try:
             return run(**given, output=output)
@@ -73,11 +73,14 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
     return command
 
 
-def _check_tables(form: object) -> None:
-    if form not in (None, "md", "latex", "parquet"):
-        raise InputError("--tables", "", form, "one of: md, latex, parquet")
+def _table_form(given: object) -> TableForm | None:
+    """The form that --tables names, if what writes it is installed."""
+    form = next((one for one in TABLE_FORMS if one == given), None)
+    if form is None and given is not None:
+        raise InputError("--tables", "", given, f"one of: {', '.join(TABLE_FORMS)}")
     if form == "parquet" and find_spec("pyarrow") is None:
         raise InputError("--tables", "", form, "Parquet needs the extra: pip install 'cdpr-struct[parquet]'")
+    return form
 
 
 def _of_option(error: InputError, own: Sequence[inspect.Parameter]) -> InputError:

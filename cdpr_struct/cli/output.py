@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from cdpr_struct.cli.progress import Begin, silent, steps
 from cdpr_struct.cli.run_record import RUN, run_record
@@ -17,9 +17,10 @@ from cdpr_struct.reports.remarks import extensions_of, locked_of, remarks, warni
 
 if TYPE_CHECKING:
     from cdpr_struct.interface.result import Result
-    from cdpr_struct.reports.paper_table import Form
 
 Files = Mapping[str, Content]
+TableForm = Literal["md", "latex", "parquet"]
+TABLE_FORMS: tuple[TableForm, ...] = get_args(TableForm)
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +37,7 @@ class Output:
     quiet: bool
     overwrite: bool
     words: tuple[str, ...]
-    tables: 'Form | Literal["parquet"] | None' = None
+    tables: TableForm | None = None
 
     def check(self) -> None:
         """Refuse a directory with somebody else's results before any work is done.

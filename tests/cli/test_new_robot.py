@@ -29,6 +29,8 @@ def test_options_arrive_in_the_file(tmp_path, capsys):
     robot = cs.load_robot(out)
     assert robot.name == "my robot"
     assert robot.platform.mass == 30.0
+    box = 30.0 / 12.0 * np.array([0.7**2 + 0.5**2, 0.9**2 + 0.5**2, 0.9**2 + 0.7**2])
+    np.testing.assert_allclose(robot.platform.inertia, np.diag(box), rtol=5e-3)  # printed with three digits
     np.testing.assert_allclose(np.ptp(robot.frame_anchors, axis=0)[2], 5.0)
     assert robot.axial_stiffness[0] == 919000.0  # docs/ropes.md
     assert {pulley.radius for pulley in robot.pulleys} == {0.05}
