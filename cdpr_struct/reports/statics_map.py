@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cdpr_struct.reports.csv_table import LongTable
-from cdpr_struct.reports.html import Page, Plate, render_page
+from cdpr_struct.reports.html import Page, Plate, page_files
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import shared_cure
 from cdpr_struct.statics.sufficient_bound import shared_bound_of_pose_errors, shared_lower_bound
@@ -125,6 +125,7 @@ def map_files(
 
     plates = [_map_plate(robot, name, grid, columns)] if workspace_map.drawable(grid) else []
     page = Page(
+        robot=robot.name,
         title=f"{robot.name}: {quantity_of(name).label}" + (" over the workspace" if grid.size > 1 else " at a pose"),
         subtitle=f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg" + _comma(grid.fixed_text()),
         verdict=[map_sentence(result)],
@@ -134,8 +135,7 @@ def map_files(
         tables=[],
         notes=[("How it was computed", _NOTE)],
     )
-    figures = {f"{plate.name}.svg": plate.svg for plate in plates}
-    return {"map.csv": map_table(grid, columns), **figures, "report.html": render_page(page)}
+    return {"map.csv": map_table(grid, columns), **page_files(page)}
 
 
 def map_sentence(result: Mapping[str, Any]) -> str:
@@ -209,11 +209,12 @@ def map_figure(name: str, grid: Grid, columns: Columns) -> tuple["Draw", tuple[f
 
 
 def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
-    from cdpr_struct.reports.figures import style, workspace_slices
+    from cdpr_struct.reports.figures import workspace_slices
+    from cdpr_struct.reports.figures.drawing import Drawing
 
     quantity, value = quantity_of(name), map_values(name, columns)
     draw, size = map_figure(name, grid, columns)
-    picture = style.svg("map", size, draw)
+    picture = Drawing("map", size, draw)
     hatched = " Hatched: poses that cannot be held or are not stable." if np.isnan(value).any() else ""
     which = f"{robot.name}, {robot.platform.mass:g} kg{_comma(grid.fixed_text())}"
     slices = f" {workspace_slices.Slices.of(grid).said()}" if len(grid.free) == 3 else ""

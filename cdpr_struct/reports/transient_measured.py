@@ -11,8 +11,9 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.measurement.spectrogram import Spectrogram, dominant_frequency, spectrogram
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import spectrogram as figure
-from cdpr_struct.reports.figures.style import Draw, svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.style import Draw
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.text import place
 from cdpr_struct.reports.transient_page import spectrogram_csv
 from cdpr_struct.robot.pose import angles_from_rotation
@@ -63,15 +64,14 @@ def measured_files(
     plate = Plate(
         "spectrogram",
         "Measured acceleration and predicted modes",
-        svg("spectrogram", size, draw),
+        Drawing("spectrogram", size, draw),
         f"Above: the record. Below: {figure.vibration_caption(spectrum)} Bright lines without a mark beside them are "
         "vibrations that the model does not predict.",
     )
     return {
-        "spectrogram.svg": plate.svg,
         "spectrogram.csv": spectrogram_csv(spectrum, float(result["highest_hz"])),
         "modes.csv": csv_text(measured_mode_columns(result)),
-        "report.html": render_page(_page(result, spectrum, plate)),
+        **page_files(_page(result, spectrum, plate)),
     }
 
 
@@ -101,6 +101,7 @@ def _drawn(
 
 def _page(result: Mapping[str, Any], spectrum: Spectrogram, plate: Plate) -> Page:
     return Page(
+        robot=result["robot"],
         title=f"{result['robot']}: measured vibration",
         subtitle=(
             f"{result['samples']} samples in {_duration(result):.4g} s, robot at {place(result['pose'][:3])}; "

@@ -9,8 +9,9 @@ from cdpr_struct.dynamics.vibration_record import VibrationRecord
 from cdpr_struct.measurement.spectrogram import Spectrogram, spectrogram
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import spectrogram as figure
-from cdpr_struct.reports.figures.style import Draw, svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.style import Draw
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.transient_result import transient_columns
 from cdpr_struct.reports.transient_text import port_rows, transient_summary
 
@@ -21,13 +22,12 @@ def transient_files(
     """Contents of every file of the report, by name; `result` as `transient_json` gives it."""
     draw, size, spectrum = _drawn(record, window)
     caption = figure.vibration_caption(spectrum)
-    plate = Plate("vibration", "Acceleration of the platform", svg("vibration", size, draw), caption)
+    plate = Plate("vibration", "Acceleration of the platform", Drawing("vibration", size, draw), caption)
     return {
         "transient.csv": csv_text(transient_columns(record)),
         "spectrogram.csv": spectrogram_csv(spectrum, record.highest_hertz),
         "modes.csv": csv_text({"frequency_hz": record.modes.hertz, "kind": record.modes.kinds}),
-        "vibration.svg": plate.svg,
-        "report.html": render_page(_page(record, result, plate)),
+        **page_files(_page(record, result, plate)),
     }
 
 
@@ -61,6 +61,7 @@ def _page(record: VibrationRecord, result: Mapping[str, Any], plate: Plate) -> P
     robot, (x, y, z) = record.point.entered, record.point.position
     summary = transient_summary(result)
     return Page(
+        robot=robot.name,
         title=f"{robot.name}: vibration in time",
         subtitle=(
             f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg at ({x:.4g}, {y:.4g}, {z:.4g}) m; "

@@ -15,6 +15,7 @@ from cdpr_struct.reports.figures.style import (
     SKY,
     VERMILLION,
     kind_group,
+    plain_ticks,
     quiet,
 )
 
@@ -40,9 +41,10 @@ def draw_frf(figure: Figure, sweep: ResponseSweep) -> None:
         upper.plot(hertz, np.where(size[thin] > 0.0, size[thin], np.nan), color=colour, linewidth=1.1, label=name)
         lower.plot(hertz, np.degrees(np.angle(values[thin])), color=colour, linewidth=0.8)
     upper.set_yscale("log")
+    plain_ticks(upper.yaxis)
     shared = units[0] if len(set(units)) == 1 else "unit in the legend"
     upper.set_ylabel(f"{found.quantity} under {found.excite.name} [{shared}]")
-    upper.legend(loc="upper right", ncols=3)
+    figure.legend(*upper.get_legend_handles_labels(), loc="outside upper right", ncols=3)
     draw_mode_ticks(ticks, sweep.modes)
     lower.set_ylabel("phase [deg]")
     lower.set_ylim(-190.0, 190.0)

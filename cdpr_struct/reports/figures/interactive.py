@@ -1,12 +1,9 @@
-"""Plotly figures of the report page, as the plain data that plotly.js draws, and plotly.js itself.
+"""Plotly figures of the report page, as the plain data that plotly.js draws.
 
 Plain data rather than plotly's Python objects: importing and validating those takes longer than the report itself; the
 tests validate the data instead.
 """
 
-import base64
-import gzip
-from importlib import resources
 from typing import Any
 
 import numpy as np
@@ -22,12 +19,6 @@ from cdpr_struct.reports.figures.style import BAD, BLACK, BLUE, FONT_STACK, GOOD
 Plot = dict[str, Any]
 _STACKS_ACROSS = 130
 _TENSION_SCALE = "Viridis"
-
-
-def plotly_packed() -> str:
-    """plotly.js, gzipped, in base64: a third of its size, and no markup of the page can clash with it."""
-    source = resources.files("plotly").joinpath("package_data", "plotly.min.js").read_bytes()
-    return base64.b64encode(gzip.compress(source, compresslevel=6, mtime=0)).decode("ascii")
 
 
 def determinant_plot(trial: Verification) -> Plot:

@@ -32,7 +32,7 @@ def draw_vibration(
         colour = _COLOURS[channel % len(_COLOURS)]
         upper.plot(time[::stride], acceleration[::stride, channel], color=colour, linewidth=0.8, label=name)
     upper.set_ylabel("acceleration [m/s²]")
-    upper.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=6)
+    figure.legend(*upper.get_legend_handles_labels(), loc="outside upper right", ncols=6)
     quiet(upper)
     shown = spectrum.hertz <= highest_hertz
     density = spectrum.total()[shown]
