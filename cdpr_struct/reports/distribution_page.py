@@ -11,6 +11,7 @@ from cdpr_struct.reports.distribution_result import force_columns, missed_json
 from cdpr_struct.reports.distribution_text import BOUND_NAMES, frequency_sentence, saving_sentence
 from cdpr_struct.reports.figures import distribution as figures
 from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.interactive_forces import forces_plot
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 
 Found = Sequence[TrajectoryDistribution]
@@ -26,27 +27,31 @@ def distribution_files(found: Found) -> dict[str, str | bytes]:
 
 
 def distribution_plates(found: Found) -> list[Plate]:
-    """The figures, in the order of the page."""
-    return [*thesis_plates(found), _frequency_plate(found)]
-
-
-def thesis_plates(found: Found) -> list[Plate]:
-    """Figures 5.4 to 5.6 of the thesis."""
+    """The figures, in the order of the page (thesis figs 5.5, 5.4 and 5.6, and the frequencies that are behind)."""
     size = figures.panels_size(found)
     return [
-        Plate(
-            "lower_bounds",
-            "Lower bound of each cable",
-            Drawing("lower_bounds", size, lambda f: figures.draw_bounds(f, found)),
-            "What each cable must carry at least. Longer cables need more; the fixed bound takes the largest demand of "
-            "all cables and instants for everyone (thesis fig. 5.4).",
-        ),
         Plate(
             "cable_forces",
             "Force of each cable at the platform",
             Drawing("cable_forces", size, lambda f: figures.draw_forces(f, found)),
             "The forces of least cost that balance weight and inertia of the platform above the bounds (thesis "
             "fig. 5.5).",
+            forces_plot(found),
+        ),
+        Plate(
+            "cable_frequencies",
+            "Does each cable vibrate as fast as wanted?",
+            Drawing("cable_frequencies", size, lambda f: figures.draw_frequencies(f, found)),
+            "Lowest natural frequency of each cable held at both ends, exact model with sag, over the wanted "
+            f"{found[0].b / (2.0 * np.pi):.4g} Hz (black line), on a logarithmic scale. Below the line the bound does "
+            "not keep its promise.",
+        ),
+        Plate(
+            "lower_bounds",
+            "Lower bound of each cable",
+            Drawing("lower_bounds", size, lambda f: figures.draw_bounds(f, found)),
+            "What each cable must carry at least. Longer cables need more; the fixed bound takes the largest demand of "
+            "all cables and instants for everyone (thesis fig. 5.4).",
         ),
         Plate(
             "energy",
@@ -56,17 +61,6 @@ def thesis_plates(found: Found) -> list[Plate]:
             "length|, all cables (thesis fig. 5.6).",
         ),
     ]
-
-
-def _frequency_plate(found: Found) -> Plate:
-    return Plate(
-        "cable_frequencies",
-        "Does each cable vibrate as fast as wanted?",
-        Drawing("cable_frequencies", figures.panels_size(found), lambda f: figures.draw_frequencies(f, found)),
-        f"Lowest natural frequency of each cable held at both ends, exact model with sag, over the wanted "
-        f"{found[0].b / (2.0 * np.pi):.4g} Hz (black line). Below it the bound does not keep its promise. Cut off "
-        f"at {figures.FREQUENCY_RANGE[1]:g}.",
-    )
 
 
 def distribution_page(found: Found, plates: list[Plate]) -> Page:

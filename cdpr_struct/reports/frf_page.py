@@ -10,6 +10,7 @@ from cdpr_struct.measurement.universal_file import universal_file
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import frf
 from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.interactive_frf import frf_plot
 from cdpr_struct.reports.frf_result import frf_columns
 from cdpr_struct.reports.frf_text import RATIO, SILENT, WIDTH, frf_summary, peak_rows
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
@@ -26,6 +27,7 @@ def frf_files(sweep: ResponseSweep, result: Mapping[str, Any]) -> dict[str, str 
         "Frequency response",
         Drawing("frf", frf.SIZE, lambda figure: frf.draw_frf(figure, sweep)),
         frf.frf_caption(sweep),
+        frf_plot(sweep),
     )
     return {
         "frf.csv": csv_text(frf_columns(sweep)),

@@ -11,6 +11,7 @@ from cdpr_struct.reports.diagnose.signals import signal_plates, signal_table
 from cdpr_struct.reports.diagnose.text import diagnosis_sentences
 from cdpr_struct.reports.figures import diagnose as figures
 from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.interactive_residuals import residuals_plot
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.robot.robot_writing import robot_toml
 
@@ -48,6 +49,7 @@ def plates(found: Diagnosis, result: Mapping[str, Any]) -> list[Plate]:
             "deviation under noise and tolerances. Look for points outside the shaded band of +-2 sigma, and for "
             "several points inside it with the same trend; a single point inside it means nothing. Faint lines "
             "separate the states, named above where there is room. Values of all points: residuals.csv.",
+            residuals_plot(residual_columns(found), figures.ROW_NAMES),
         )
     ]
     if result["candidates"]:

@@ -20,7 +20,7 @@ from cdpr_struct.reports.figures.style import (
 )
 
 SIZE = (9.6, 6.2)
-_COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, SKY, BLACK)
+COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, SKY, BLACK)
 _MOST_POINTS = 4000
 
 
@@ -30,13 +30,13 @@ def draw_frf(figure: Figure, sweep: ResponseSweep) -> None:
     found = sweep.response
     units = [response_unit(port, found.excite, found.quantity) for port in found.respond]
     for column, (port, unit) in enumerate(zip(found.respond, units, strict=True)):
-        colour = _COLOURS[column % len(_COLOURS)]
+        colour = COLOURS[column % len(COLOURS)]
         if sweep.silent[column]:
             upper.plot([], [], color=colour, linewidth=1.1, label=f"{port.name}: no answer")
             continue
         values = found.response[:, column]
         size = np.abs(values)
-        hertz, thin = _thinned(found.hertz, size)
+        hertz, thin = thinned(found.hertz, size)
         name = port.name if len(set(units)) == 1 else f"{port.name} [{unit}]"
         upper.plot(hertz, np.where(size[thin] > 0.0, size[thin], np.nan), color=colour, linewidth=1.1, label=name)
         lower.plot(hertz, np.degrees(np.angle(values[thin])), color=colour, linewidth=0.8)
@@ -55,7 +55,7 @@ def draw_frf(figure: Figure, sweep: ResponseSweep) -> None:
     quiet(lower)
 
 
-def _thinned(hertz: np.ndarray, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def thinned(hertz: np.ndarray, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Frequencies and their numbers: of each bundle of a long sweep the largest and the smallest response."""
     bundle = -(-2 * len(hertz) // _MOST_POINTS)
     if bundle <= 2:

@@ -5,10 +5,11 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.category import StrCategoryLocator
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.text import Text
-from matplotlib.ticker import FixedFormatter
+from matplotlib.ticker import FixedLocator
 from matplotlib.transforms import Bbox
 
 WIDTH = 4.2
@@ -18,6 +19,8 @@ _LOWEST = 0.72  # of the height on a wide page, at least; less would press curve
 _PANEL_LOWEST = 1.9  # height of a panel that is as wide as the figure [inch]
 _MANY = 6  # panels from which on two stand side by side
 _LETTER, _HANDLE = 4.9, 36.0  # widths in a legend [pt]
+_LINE, _AROUND = 0.13, 0.9  # height of a line of names, and of what is above and below them [inch]
+_SPREAD = 0.56  # width of a letter over its size
 _MARGIN = 0.04  # around what is shown [inch]
 _LETTERS = 26  # of a name beside an axis, before it is broken into lines
 
@@ -34,8 +37,8 @@ class NarrowFigure(Figure):
 
     def subplots(self, nrows: int = 1, ncols: int = 1, **options: Any) -> Any:
         """As on a wide page, and returned in that shape, but one or two panels wide."""
-        if ncols == 1:
-            return super().subplots(nrows, ncols, **options)
+        if ncols == 1 or options.get("sharex") == "col" or options.get("sharey") == "row":
+            return super().subplots(nrows, ncols, **options)  # each row and column means something
         count = nrows * ncols
         across = 2 if count >= _MANY else 1
         rows = -(-count // across)
@@ -44,9 +47,6 @@ class NarrowFigure(Figure):
         heights = options.pop("height_ratios", None)
         if heights is not None and across == 1:
             options["height_ratios"] = np.repeat(heights, ncols)
-        for shared in ("sharex", "sharey"):
-            if options.get(shared) in ("row", "col"):
-                options[shared] = False
         self.set_figheight(self._height(rows / nrows, ncols / across, rows))
         panels = super().subplots(rows, across, squeeze=False, **options).ravel()
         for spare in panels[count:]:
@@ -85,6 +85,7 @@ def make_legible(figure: Figure) -> None:
     for axes in figure.axes:
         _break_names(axes)
         _break_title(axes)
+        _break_labels(axes)
 
 
 def extent(figure: Figure) -> Bbox:
@@ -95,11 +96,18 @@ def extent(figure: Figure) -> Bbox:
 
 
 def _break_names(axes: Axes) -> None:
-    """Names beside an axis in several lines."""
-    formatter = axes.yaxis.get_major_formatter()
-    if isinstance(formatter, FixedFormatter):
-        names = [textwrap.fill(name, _LETTERS) for name in formatter.seq]
-        axes.set_yticks(axes.get_yticks(), names, linespacing=0.95)
+    """Names beside an axis in several lines, and room for these."""
+    if not isinstance(axes.yaxis.get_major_locator(), FixedLocator | StrCategoryLocator):
+        return
+    places = axes.get_yticks()
+    names = axes.yaxis.get_major_formatter().format_ticks(list(places))
+    lines = [textwrap.wrap(name, _LETTERS) for name in names]
+    if any(len(each) > 1 for each in lines):
+        axes.set_yticks(places, ["\n".join(each) for each in lines], linespacing=0.95)
+        figure = axes.get_figure()
+        if isinstance(figure, Figure):
+            room = len(lines) * max(map(len, lines)) * _LINE + _AROUND
+            figure.set_figheight(max(figure.get_figheight(), room))
 
 
 def _break_title(axes: Axes) -> None:
@@ -108,5 +116,15 @@ def _break_title(axes: Axes) -> None:
         title = axes.get_title(loc=where)
         size = float(axes.title.get_fontsize())
         if title:
-            lines = [textwrap.fill(line, max(int(share / (0.56 * size)), 16)) for line in title.split("\n")]
+            lines = [textwrap.fill(line, max(int(share / (_SPREAD * size)), 16)) for line in title.split("\n")]
             axes.set_title("\n".join(lines), loc=where)
+
+
+def _break_labels(axes: Axes) -> None:
+    """Names of the axes in lines no longer than the axis."""
+    box, size = axes.get_position(), axes.xaxis.label.get_fontsize()
+    figure = axes.get_figure()
+    height = figure.get_size_inches()[1] if isinstance(figure, Figure) else WIDTH
+    for label, length in ((axes.xaxis.label, box.width * WIDTH), (axes.yaxis.label, box.height * height)):
+        letters = max(int(72.0 * length / (_SPREAD * float(size))), 12)
+        label.set_text("\n".join(textwrap.fill(line, letters) for line in label.get_text().split("\n")))

@@ -14,6 +14,8 @@ from matplotlib.transforms import Bbox
 
 # Okabe and Ito's palette, distinguishable with any colour vision.
 BLACK, GREY, LIGHT = "#222222", "#8a8f98", "#e3e6ea"
+ON_MAP = "#1a1a1a"
+"""Lines and letters on coloured areas, which stay light where the page is dark."""
 BLUE, SKY, GREEN = "#0072B2", "#56B4E9", "#009E73"
 ORANGE, VERMILLION, PURPLE = "#E69F00", "#D55E00", "#CC79A7"
 

@@ -42,6 +42,8 @@
     small.font = { ...small.font, size: 11 };
     small.margin = layout.scene ? { l: 0, r: 0, t: 10, b: 70 } : { l: 48, r: 8, t: 60, b: 44 };
     small.height = Math.min(layout.height, layout.scene ? 420 : 520);
+    const eye = small.scene?.camera?.eye;
+    for (const each of Object.keys(eye ?? {})) eye[each] *= 1.4;
     for (const [key, axis] of Object.entries(small)) if (/^[xy]axis/.test(key) && axis.title) axis.title.font = { size: 11 };
     const parts = data.map((trace) => ({ ...below(trace), ...(trace.marker && { marker: below(trace.marker) }) }));
     return { data: parts, layout: merged(small, narrow ?? {}) };
@@ -68,8 +70,12 @@
     plot.hidden = false;
     place.classList.add("live");
     shown.push([plot, figure]);
-    await draw(shown.at(-1));
   }
-  for (const change of [scheme, phone]) change.addEventListener("change", () => shown.forEach(draw));
-  document.documentElement.dataset.drawn = "all";
+  async function drawAll() {
+    document.documentElement.dataset.drawn = "";
+    for (const each of shown) await draw(each);
+    document.documentElement.dataset.drawn = "all";
+  }
+  for (const change of [scheme, phone]) change.addEventListener("change", drawAll);
+  await drawAll();
 })();
