@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _SAME = 1e-9  # relative: values of poses that count as equal
 _MOST_HELD, _MOST_RELEASED = 64, 16  # poses with slack cables at which a cure is searched; a release takes longer
 _FRAME = (
-    " In the frame: the mapped rectangle in blue, the numbered frame anchors with the line around them, and the "
+    " In the frame (or with the button): the mapped rectangle in blue, the numbered frame anchors with the line around them, and the "
     "platform in the middle of the map."
 )
 _NOTE = (

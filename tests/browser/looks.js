@@ -13,7 +13,7 @@
     for (const text of figure.querySelectorAll("svg text")) {
       const shown = box(text);
       const colour = getComputedStyle(text).fill;
-      if (!shown.width || !text.textContent.trim() || colour === "none" || /, 0\)$/.test(colour)) continue;
+      if (!shown.width || !text.textContent.trim() || colour === "none" || getComputedStyle(text).fillOpacity === "0") continue;
       const scale = Math.hypot(text.getScreenCTM().a, text.getScreenCTM().b);
       const size = parseFloat(getComputedStyle(text).fontSize) * scale;
       if (size < 9) found.push(`figure ${figure.id}: "${text.textContent.trim()}" is ${size.toFixed(1)} px high`);

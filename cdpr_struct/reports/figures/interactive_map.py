@@ -8,12 +8,12 @@ import numpy as np
 
 from cdpr_struct.reports.figures.frame_plan import FramePlan
 from cdpr_struct.reports.figures.plot_parts import Plot, colour_bar, plot_axis, plot_layout, plot_line, short
-from cdpr_struct.reports.figures.style import BLACK, BLUE, GREY, LIGHT, VERMILLION
+from cdpr_struct.reports.figures.style import BLACK, BLUE, GREY, LIGHT, ON_MAP, VERMILLION
 from cdpr_struct.reports.figures.workspace_map import Layer, colour_scale
-from cdpr_struct.reports.figures.workspace_slices import Slices
+from cdpr_struct.reports.figures.workspace_slices import Slices, shared_levels
 from cdpr_struct.workspace.grid import AXES, Grid
 
-_HEIGHT = 620
+_HEIGHT = 660
 _MOST = 200
 _SHADES = 24
 
@@ -55,7 +55,11 @@ def map_plot(grid: Grid, layers: Sequence[Layer], plan: FramePlan) -> Plot:
     steps = scenes(grid, layers)
     across, up = steps[0].grid.free
     first = 0 if len(grid.free) == 2 else len(steps) // len(layers) // 2
-    heats = [{**_heat(scene, across, up), "visible": i == first} for i, scene in enumerate(steps)]
+    heats = [
+        {**trace, "visible": i == first}
+        for i, scene in enumerate(steps)
+        for trace in (_heat(scene, across, up), _levels(scene, across, up))
+    ]
     frame = _frame(plan, across, up)
     x, y = grid.axes[across], grid.axes[up]
     layout = {
@@ -88,6 +92,23 @@ def _heat(scene: Scene, across: int, up: int) -> Plot:
         "z": short(value), "zmin": float(scale.vmin or 0.0), "zmax": float(scale.vmax or 0.0), "colorscale": steps,
         "colorbar": colour_bar(f"{scene.of.title} [{layer.unit}]"), "hoverongaps": False,
         "hovertemplate": f"{names}<br>%{{z:.5g}} {layer.unit}<extra></extra>",
+    }  # fmt: skip
+
+
+def _levels(scene: Scene, across: int, up: int) -> Plot:
+    """Lines of equal value with their values, the same in all slices."""
+    grid, levels = scene.grid, shared_levels(scene.of)
+    value = scene.layer.values.reshape(grid.shape[across], grid.shape[up]).T
+    step = float(levels[1] - levels[0]) if len(levels) > 1 else 1.0
+    ends = (float(levels[0]), float(levels[-1])) if len(levels) > 1 else (0.0, 0.0)
+    return {
+        "type": "contour", "x": short(grid.axes[across]), "y": short(grid.axes[up]), "z": short(value),
+        "showscale": False, "hoverinfo": "skip", "line": {"width": 1 if len(levels) > 1 else 0, "smoothing": 0},
+        "colorscale": [[0, ON_MAP], [1, ON_MAP]], "opacity": 0.75,
+        "contours": {
+            "coloring": "lines", "showlabels": True, "labelfont": {"size": 11, "color": ON_MAP},
+            "start": ends[0], "end": ends[1], "size": step,
+        },
     }  # fmt: skip
 
 
@@ -136,7 +157,7 @@ def _slider(labels: Sequence[str], more: int, first: int) -> Plot:
     steps = [
         {
             "label": label, "method": "restyle",
-            "args": [{"visible": [*(i == j for j in range(count)), *[True] * more]}],
+            "args": [{"visible": [*(i == j for j in range(count) for _ in range(2)), *[True] * more]}],
         }
         for i, label in enumerate(labels)
     ]  # fmt: skip

@@ -20,7 +20,7 @@
   // The colours of paper, ink and lines, which the page's style names; data keep theirs.
   function coloured(value) {
     const style = getComputedStyle(document.documentElement);
-    const named = { "#222222": "--ink", "#ffffff": "--paper", "white": "--paper", "#e3e6ea": "--line" };
+    const named = { "#222222": "--ink", "#ffffff": "--paper", "white": "--paper", "#e3e6ea": "--line", "#0072b2": "--accent", "#0072B2": "--accent" };
     const swap = (item) => {
       if (typeof item === "string") return item in named ? style.getPropertyValue(named[item]).trim() : item;
       if (Array.isArray(item)) return typeof item[0] === "number" ? item : item.map(swap);
@@ -42,6 +42,11 @@
     small.font = { ...small.font, size: 11 };
     small.margin = layout.scene ? { l: 0, r: 0, t: 10, b: 70 } : { l: 48, r: 8, t: 60, b: 44 };
     small.height = Math.min(layout.height, layout.scene ? 420 : 520);
+    for (const slider of small.sliders ?? []) {  // below the colour bar
+      slider.pad = { t: 95 };
+      small.margin.b = 150;
+      small.height = 590;
+    }
     const eye = small.scene?.camera?.eye;
     for (const each of Object.keys(eye ?? {})) eye[each] *= 1.4;
     for (const [key, axis] of Object.entries(small)) if (/^[xy]axis/.test(key) && axis.title) axis.title.font = { size: 11 };
