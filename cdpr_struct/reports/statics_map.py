@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 _SAME = 1e-9  # relative: values of poses that count as equal
 _MOST_HELD, _MOST_RELEASED = 64, 16  # poses with slack cables at which a cure is searched; a release takes longer
 _FRAME = (
-    " In the frame (or with the button): the mapped rectangle in blue, the numbered frame anchors with the line around them, and the "
-    "platform in the middle of the map."
+    " In the frame (or with the button): the mapped rectangle in blue, the numbered frame anchors with the line around "
+    "them, and the platform in the middle of the map."
 )
 _NOTE = (
     "Each value is computed at the reference pose, or for pose errors from it, as the quantity's line in the "
