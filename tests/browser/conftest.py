@@ -5,7 +5,6 @@ import os
 import shutil
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -53,20 +52,25 @@ def browser():
         running.close()
 
 
+class Folders:
+    """The folder of each command's files, made by the command line as a user runs it, when it is first asked for."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+
+    def __getitem__(self, name: str) -> Path:
+        folder = self.root / name
+        if not folder.exists():
+            environment = {**os.environ, "PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+            words = [sys.executable, "-m", "cdpr_struct", *COMMANDS[name].split(), f"--out={folder}", "--quiet"]
+            done = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+            assert (folder / "result.json").exists(), done.stderr
+        return folder
+
+
 @pytest.fixture(scope="session")
-def folders(browser, tmp_path_factory) -> dict[str, Path]:
-    """The folder of each command's files, made by the command line as a user runs it, two at a time."""
-    folder = tmp_path_factory.mktemp("pages")
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-
-    def made(name: str) -> Path:
-        words = [sys.executable, "-m", "cdpr_struct", *COMMANDS[name].split(), f"--out={folder / name}", "--quiet"]
-        done = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
-        assert (folder / name / "result.json").exists(), done.stderr
-        return folder / name
-
-    with ThreadPoolExecutor(2) as pool:
-        return dict(zip(COMMANDS, pool.map(made, COMMANDS), strict=True))
+def folders(browser, tmp_path_factory) -> Folders:
+    return Folders(tmp_path_factory.mktemp("pages"))
 
 
 @pytest.fixture

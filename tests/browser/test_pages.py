@@ -79,7 +79,6 @@ def test_the_slider_goes_through_the_slices(browser, folders):
     with Sight(browser, folders["map-of-three-axes"] / "report.html", 1400, "light") as sight:
         shown = "document.querySelector('.plot').data.map((trace) => trace.visible !== false)"
         before = sight.page.evaluate(shown)
-        sight.page.evaluate("Plotly.relayout(document.querySelector('.plot'), {'sliders[0].active': 0})")
         handle = sight.page.locator(".slider-rail-touch-rect").bounding_box()
         sight.page.mouse.click(handle["x"] + 4, handle["y"] + 4)
         sight.page.wait_for_timeout(300)
