@@ -1,4 +1,4 @@
-"""mkdocs hook: the formula sheet as a PDF where pdflatex with its extra packages is installed; else the build says so."""
+"""mkdocs hook: the formula sheet as a PDF where pdflatex and its packages are installed; else the build says so."""
 
 import logging
 import shutil

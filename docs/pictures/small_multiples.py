@@ -80,7 +80,7 @@ def _response(axes: Axes, effect: Effect) -> None:
 
 
 def _decay(axes: Axes, effect: Effect) -> None:
-    axes.set_title("decay of z after a blow [(m/s²)/(N s)] over s", fontsize=8.5, fontweight="normal")
+    axes.set_title("decay of z [(m/s²)/(N s)] over s", fontsize=8.5, fontweight="normal")
     for answer, colour, width, _ in _curves(effect):
         time, acceleration = answer.decay
         shown = (time > 0.03) & (time < _SECONDS)
