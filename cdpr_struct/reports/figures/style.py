@@ -92,7 +92,7 @@ def shown_part(text: str, height: float, part: Bbox) -> str:
 
 def _portable(text: str, name: str) -> str:
     """Fonts that every system has, ids of this figure only."""
-    text = text.replace("'DejaVu Sans'", FONT_STACK).replace("DejaVu Sans", FONT_STACK)
+    text = re.sub(r"'?DejaVu Sans'?(, sans-serif)?", FONT_STACK, text)
     text = re.sub(r'\bid="', f'id="{name}-', text)
     text = re.sub(r"url\(#", f"url(#{name}-", text)
     return re.sub(r'href="#', f'href="#{name}-', text)
