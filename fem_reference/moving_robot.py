@@ -42,7 +42,7 @@ class MovingRobot:
     mass, inertia              : [kg], (3, 3) [kg m^2] of the body, body axes
     center                     : (3,) [m] centre of mass from the reference point, body axes
     anchors, load_point        : (m, 3), (3,) [m] from the centre of mass, body axes
-    load                       : (3,) [N] constant force at the load point
+    load, moment               : (3,) [N] constant force at the load point, (3,) [N m] constant moment, world
     """
 
     starts: np.ndarray
@@ -57,6 +57,7 @@ class MovingRobot:
     center: np.ndarray
     anchors: np.ndarray
     load: np.ndarray
+    moment: np.ndarray
     load_point: np.ndarray
 
     @classmethod
@@ -79,6 +80,7 @@ class MovingRobot:
             center,
             robot.platform_anchors - center,
             np.zeros(3) if push is None else push.force,
+            np.zeros(3) if push is None else push.moment,
             -center if push is None else push.point - center,
         )
 
@@ -88,7 +90,7 @@ class MovingRobot:
         return np.concatenate([self.starts[:, None], nodes, ends[:, None]], axis=1)
 
     def energy(self, state: MovingState) -> float:
-        """Kinetic and potential energy [J]; the height of the potential is arbitrary."""
+        """Kinetic and potential energy [J]; the height of the potential is arbitrary. A moment has none."""
         spans = np.linalg.norm(np.diff(self.points(state.nodes, state.center, state.rotation), axis=1), axis=-1)
         stretch = np.maximum(spans - self.natural_length, 0.0)
         strain = (0.5 * self.bar_rate * stretch**2).sum()

@@ -158,5 +158,5 @@ def body_wrench(robot: MovingRobot, rotation: np.ndarray, ends: np.ndarray, wren
     """Force and moment (6,) about the centre of mass, from cables (m, 3) [N], loads and a wrench (6,)."""
     arms = np.vstack([robot.anchors, robot.load_point, -robot.center]) @ rotation.T
     forces = np.vstack([ends, robot.load, wrench[:3]])
-    moment = np.cross(arms, forces).sum(axis=0) + wrench[3:]
+    moment = np.cross(arms, forces).sum(axis=0) + robot.moment + wrench[3:]
     return np.concatenate([forces.sum(axis=0) + robot.mass * robot.gravity, moment])

@@ -60,39 +60,46 @@ class RobotData:
 
 @dataclass(frozen=True, eq=False)
 class PointForce:
-    """A constant force on the platform.
+    """A constant force on the platform, and a constant moment if there is one.
 
-    force : (3,) [N], world; keeps its direction when the platform turns
-    point : (3,) [m], where it acts, platform frame
+    force  : (3,) [N], world; keeps its direction when the platform turns
+    point  : (3,) [m], where it acts, platform frame
+    moment : (3,) [N m], world; keeps its axes when the platform turns, so it has no potential
     """
 
     force: np.ndarray
     point: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    moment: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     def __post_init__(self) -> None:
-        for name in ("force", "point"):
+        for name in ("force", "point", "moment"):
             object.__setattr__(self, name, fixed_array(f"PointForce.{name}", getattr(self, name), (3,)))
 
 
 @dataclass(frozen=True, eq=False)
 class DeadLoads:
-    """Constant forces (k, 3) [N], world, at platform points (k, 3) [m], platform frame; the weight first."""
+    """Constant forces (k, 3) [N], world, at platform points (k, 3) [m], platform frame; the weight first.
+
+    moment : (3,) [N m], constant, world
+    """
 
     forces: np.ndarray
     points: np.ndarray
+    moment: np.ndarray
 
     @classmethod
     def on(cls, robot: RobotData, external_force: PointForce | None) -> DeadLoads:
         """Weight of the platform at its centre of mass, and the external force if there is one."""
         own = robot.surroundings.platform_gravity
         forces = [robot.platform.mass * (robot.gravity if own is None else own)]
-        points = [robot.platform.center_of_mass]
+        points, moment = [robot.platform.center_of_mass], np.zeros(3)
         if external_force is not None:
             if not isinstance(external_force, PointForce):
                 raise ValueError(f"external_force must be a PointForce or None, got {external_force!r}")
             forces.append(external_force.force)
             points.append(external_force.point)
-        return cls(np.array(forces), np.array(points))
+            moment = external_force.moment
+        return cls(np.array(forces), np.array(points), moment)
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,8 +139,9 @@ class RobotEquilibrium:
     def geometric_stiffness(self) -> np.ndarray:
         """Stiffness (6, 6) of the turning lever arms of cable forces, weight and external force, and of a tether.
 
-        Symmetric part only: the rest is half the unbalanced moment, which vanishes at rest, and no
-        conservative support could supply it to a platform that is held.
+        Symmetric part only: the rest is half the moment of all forces on their arms, which vanishes at rest, and no
+        conservative support could supply it to a platform that is held. A constant external moment is what these
+        forces balance; it does no work that depends on the pose only, and its half stays out of vibration likewise.
         """
         loads = DeadLoads.on(self.robot, self.external_force)
         arms = np.vstack([self.arms, loads.points @ self.rotation.T])

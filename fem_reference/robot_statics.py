@@ -74,6 +74,7 @@ def platform_state(
     forces, levers = np.vstack([pulls, loads.forces]), np.vstack([arms, load_arms])
     wrench = np.concatenate([forces.sum(axis=0), np.cross(levers, forces).sum(axis=0)])
     away = position - around.tether_point
+    wrench[3:] += loads.moment
     wrench[:3] -= around.tether_stiffness * away
     motion = point_motion(arms)
     if around.bending:
@@ -105,7 +106,7 @@ def _tolerances(
 ) -> tuple[float, float]:
     """Force [N] and moment [N m] below which a wrench is round-off, for the present forces."""
     tensions = np.linalg.norm(state.chains.tension_vectors, axis=-1).max(axis=1)
-    scale = tensions.sum() + np.linalg.norm(loads.forces, axis=-1).sum()
+    scale = tensions.sum() + np.linalg.norm(loads.forces, axis=-1).sum() + np.linalg.norm(loads.moment) / arm
     noise = (batch.axial_stiffness * (1.0 + ends_reach / batch.unstrained_length)).sum()
     force = float(max(1e-12 * scale, 16.0 * EPS * noise))
     return force, force * arm
@@ -141,7 +142,8 @@ def _descend(
                 raise
             scale *= 0.5
             continue
-        lower = trial.energy <= state.energy - 1e-4 * scale * slope
+        work = scale * float(loads.moment @ step[3:])  # of the moment, which is constant along this turn
+        lower = trial.energy - work <= state.energy - 1e-4 * scale * slope
         if lower or float(np.abs(trial.wrench).max()) <= max(0.5 * size, floor):
             break
         scale *= 0.5

@@ -14,7 +14,9 @@ from cdpr_struct.cli.options import (
     Payload,
     PoseText,
     Start,
+    Temperature,
     UpperBound,
+    Wrench,
     number,
     robot_names,
 )
@@ -46,6 +48,8 @@ def run(
     trajectory: Annotated[str | None, typer.Option("--trajectory", metavar="T", help=_TRAJECTORY)] = None,
     payload: Payload = 0.0,
     mass: Mass = None,
+    wrench: Wrench = None,
+    temperature: Temperature = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     limits: Annotated[bool, typer.Option("--limits", help="Put the printed limits themselves on trial.")] = False,
@@ -73,7 +77,9 @@ def run(
         raise InputError("--small", "", small, "it belongs to --limits; leave it out")
     from cdpr_struct.interface.audit import AuditResult, audit_question
 
-    asked = audit_question(robot, pose, lengths, start, grid, trajectory, payload, mass, lower_bound, upper_bound)
+    asked = audit_question(
+        robot, pose, lengths, start, grid, trajectory, payload, mass, wrench, temperature, lower_bound, upper_bound
+    )
     if isinstance(asked, AuditResult):
         output.give(asked)
         return 0 if asked.valid else 1

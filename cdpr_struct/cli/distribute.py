@@ -14,7 +14,9 @@ from cdpr_struct.cli.options import (
     Mass,
     Payload,
     RobotName,
+    Temperature,
     UpperBound,
+    Wrench,
     number,
     whole_number,
 )
@@ -69,6 +71,8 @@ def run(
     ] = None,
     payload: Payload = 0.0,
     mass: Mass = None,
+    wrench: Wrench = None,
+    temperature: Temperature = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
     *,
@@ -82,6 +86,7 @@ def run(
         robot, bound=bound, b=b, cost=cost, weights=weights, power=power, lower_bound=lower_bound,
         upper_bound=upper_bound, longest=longest, model=model, max_speed=max_speed,
         max_acceleration=max_acceleration, instants=instants, compare=compare or (), payload=payload, mass=mass,
+        wrench=wrench, temperature=temperature,
     )  # fmt: skip
     paths = trajectories_of(trajectory)
     if len(paths) > 1:

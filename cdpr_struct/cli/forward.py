@@ -5,7 +5,15 @@ from typing import Annotated
 import typer
 
 import cdpr_struct as cs
-from cdpr_struct.cli.options import Lengths, Mass, Payload, RobotName, Start
+from cdpr_struct.cli.options import (
+    Lengths,
+    Mass,
+    Payload,
+    RobotName,
+    Start,
+    Temperature,
+    Wrench,
+)
 from cdpr_struct.cli.output import Output
 
 NAME = "forward"
@@ -20,6 +28,8 @@ def run(
     lengths: Lengths = None,
     payload: Payload = 0.0,
     mass: Mass = None,
+    wrench: Wrench = None,
+    temperature: Temperature = None,
     model: Annotated[str, typer.Option("--model", help="sagging, spring or ideal")] = "sagging",
     start: Start = None,
     equilibria: Annotated[
@@ -29,6 +39,16 @@ def run(
     output: Output,
 ) -> int:
     """Pose and tensions at fixed unstrained cable lengths."""
-    found = cs.forward(robot, lengths, payload=payload, mass=mass, model=model, start=start, equilibria=equilibria)
+    found = cs.forward(
+        robot,
+        lengths,
+        payload=payload,
+        mass=mass,
+        wrench=wrench,
+        temperature=temperature,
+        model=model,
+        start=start,
+        equilibria=equilibria,
+    )
     output.give(found)
     return 0 if found.stable else 1

@@ -14,7 +14,9 @@ from cdpr_struct.cli.options import (
     PoseText,
     RobotName,
     Start,
+    Temperature,
     UpperBound,
+    Wrench,
 )
 from cdpr_struct.cli.output import Output
 from cdpr_struct.cli.vibration_options import DampingText, Force, FrameName, ModelName, PointText
@@ -38,6 +40,8 @@ def run(
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
     mass: Mass = None,
+    wrench: Wrench = None,
+    temperature: Temperature = None,
     quantity: Annotated[
         str, typer.Option("--quantity", help="acceleration, velocity or displacement.")
     ] = "acceleration",
@@ -54,7 +58,9 @@ def run(
     with output.steps(1) as progress:
         found = cs.frf(
             robot, excite=excite, respond=respond, band=band, pose=pose, lengths=lengths, start=start,
-            lower_bound=lower_bound, upper_bound=upper_bound, payload=payload, mass=mass, quantity=quantity,
+            lower_bound=lower_bound, upper_bound=upper_bound, payload=payload, mass=mass,
+            wrench=wrench, temperature=temperature,
+            quantity=quantity,
             model=model, damping=damping, frame=frame, at=at, assembly=assembly, force=force, progress=progress,
         )  # fmt: skip
     output.give(found)

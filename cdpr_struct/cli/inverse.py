@@ -11,7 +11,9 @@ from cdpr_struct.cli.options import (
     Payload,
     PoseText,
     RobotName,
+    Temperature,
     UpperBound,
+    Wrench,
 )
 from cdpr_struct.cli.output import Output
 
@@ -28,9 +30,8 @@ def run(
     payload: Payload = 0.0,
     mass: Mass = None,
     model: Annotated[str, typer.Option("--model", help="sagging, spring or ideal")] = "sagging",
-    wrench: Annotated[
-        str | None, typer.Option("--wrench", metavar="FX,FY,FZ,MX,MY,MZ", help="Extra wrench on the platform [N, N m].")
-    ] = None,
+    wrench: Wrench = None,
+    temperature: Temperature = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     *,
@@ -38,7 +39,8 @@ def run(
 ) -> int:  # fmt: skip
     """Unstrained lengths and tensions that hold a pose (minimum norm where there is a choice)."""
     found = cs.inverse(
-        robot, pose, payload=payload, mass=mass, model=model, wrench=wrench, lower_bound=lower_bound,
+        robot, pose, payload=payload, mass=mass, model=model,
+        wrench=wrench, temperature=temperature, lower_bound=lower_bound,
         upper_bound=upper_bound,
     )  # fmt: skip
     output.give(found)

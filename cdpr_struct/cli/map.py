@@ -11,7 +11,9 @@ from cdpr_struct.cli.options import (
     Mass,
     Payload,
     RobotName,
+    Temperature,
     UpperBound,
+    Wrench,
     whole_number,
 )
 from cdpr_struct.cli.output import Output
@@ -32,6 +34,8 @@ def run(
     ] = None,
     payload: Payload = 0.0,
     mass: Mass = None,
+    wrench: Wrench = None,
+    temperature: Temperature = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     workers: Workers = 1,
@@ -47,7 +51,7 @@ def run(
     check_workers(workers, scheduler)
     from cdpr_struct.interface.map import map_question
 
-    asked = map_question(robot, grid, quantity, payload, mass, lower_bound, upper_bound, chunk)
+    asked = map_question(robot, grid, quantity, payload, mass, wrench, temperature, lower_bound, upper_bound, chunk)
     batches = asked.batches
     found = asked.answered(*run_batches(batches, (workers, scheduler), output))
     output.give(found)

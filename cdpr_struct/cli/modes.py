@@ -14,8 +14,10 @@ from cdpr_struct.cli.options import (
     PoseText,
     RobotName,
     Start,
+    Temperature,
     UniversalFile,
     UpperBound,
+    Wrench,
     whole_number,
 )
 from cdpr_struct.cli.output import Output
@@ -36,6 +38,8 @@ def run(
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
     mass: Mass = None,
+    wrench: Wrench = None,
+    temperature: Temperature = None,
     model: Annotated[str, typer.Option("--model", help="static, dsm, exact or fem.")] = "exact",
     assembly: AssemblyName = "consistent",
     elements: Annotated[int, typer.Option("--elements", parser=whole_number, help="Per cable, for --model fem.")] = 80,
@@ -48,7 +52,9 @@ def run(
     """Eigenfrequencies of the robot at rest, with their kind."""
     found = cs.modes(
         robot, pose, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound, payload=payload,
-        mass=mass, model=model, assembly=assembly, elements=elements, count=count, force=force,
+        mass=mass,
+        wrench=wrench, temperature=temperature,
+        model=model, assembly=assembly, elements=elements, count=count, force=force,
     )  # fmt: skip
     output.give(found, lambda: {"modes.uff": found.universal_file()} if uff else {})
     return 0

@@ -100,6 +100,20 @@ Payload = Annotated[
 Mass = Annotated[
     float | None, typer.Option("--mass", parser=number, metavar="KG", help="Replaces the platform's mass [kg].")
 ]
+Wrench = Annotated[
+    str | None,
+    typer.Option(
+        "--wrench", metavar="FX,FY,FZ,MX,MY,MZ",
+        help="Further constant force and moment on the platform, world axes, about its origin [N, N m].",
+    ),
+]  # fmt: skip
+Temperature = Annotated[
+    float | None,
+    typer.Option(
+        "--temperature", parser=number, metavar="K",
+        help="Of the cables, above that at which lengths are entered [K]; default: that of the robot file.",
+    ),
+]  # fmt: skip
 
 
 GridText = Annotated[

@@ -12,7 +12,9 @@ from cdpr_struct.cli.options import (
     Payload,
     PoseText,
     RobotName,
+    Temperature,
     UpperBound,
+    Wrench,
     number,
 )
 from cdpr_struct.cli.output import Output
@@ -30,6 +32,8 @@ def run(
     grid: GridText = None,
     payload: Payload = 0.0,
     mass: Mass = None,
+    wrench: Wrench = None,
+    temperature: Temperature = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     sufficient_load: Annotated[
@@ -49,7 +53,9 @@ def run(
     check_workers(workers, scheduler)
     from cdpr_struct.interface.pose_error import pose_error_question
 
-    asked = pose_error_question(robot, grid, payload, mass, lower_bound, upper_bound, sufficient_load, pose)
+    asked = pose_error_question(
+        robot, grid, payload, mass, wrench, temperature, lower_bound, upper_bound, sufficient_load, pose
+    )
     batches = asked.batches
     columns = None if batches is None else run_batches(batches, (workers, scheduler), output)[0]
     output.give(asked.answered(columns))

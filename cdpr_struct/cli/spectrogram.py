@@ -6,7 +6,19 @@ from typing import Annotated
 import typer
 
 import cdpr_struct as cs
-from cdpr_struct.cli.options import Lengths, LowerBound, Mass, Payload, PoseText, Start, UpperBound, number, robot_names
+from cdpr_struct.cli.options import (
+    Lengths,
+    LowerBound,
+    Mass,
+    Payload,
+    PoseText,
+    Start,
+    Temperature,
+    UpperBound,
+    Wrench,
+    number,
+    robot_names,
+)
 from cdpr_struct.cli.output import Output
 from cdpr_struct.cli.vibration_options import Force, ModelName
 
@@ -29,6 +41,8 @@ def run(
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
     mass: Mass = None,
+    wrench: Wrench = None,
+    temperature: Temperature = None,
     highest: Annotated[
         float, typer.Option("--highest", parser=number, metavar="HZ", help="Top of the picture.")
     ] = 25.0,
@@ -43,7 +57,9 @@ def run(
     """Spectrogram of measured accelerations, with the robot's certified eigenfrequencies."""
     found = cs.spectrogram(
         file, robot, pose, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
-        payload=payload, mass=mass, highest=highest, window=window, model=model, force=force,
+        payload=payload, mass=mass,
+        wrench=wrench, temperature=temperature,
+        highest=highest, window=window, model=model, force=force,
     )  # fmt: skip
     output.give(found)
     return 0

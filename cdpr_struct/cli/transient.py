@@ -14,8 +14,10 @@ from cdpr_struct.cli.options import (
     PoseText,
     RobotName,
     Start,
+    Temperature,
     UniversalFile,
     UpperBound,
+    Wrench,
     number,
 )
 from cdpr_struct.cli.output import Output
@@ -37,6 +39,8 @@ def run(
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
     mass: Mass = None,
+    wrench: Wrench = None,
+    temperature: Temperature = None,
     initial_velocity: Annotated[
         str | None,
         typer.Option("--initial-velocity", metavar="VX,VY,VZ[,WX,WY,WZ]", help="Before the stop [m/s, rad/s], world."),
@@ -70,7 +74,9 @@ def run(
     with output.steps(1) as progress:
         found = cs.transient(
             robot, pose, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
-            payload=payload, mass=mass, initial_velocity=initial_velocity, trajectory=trajectory, duration=duration,
+            payload=payload, mass=mass,
+            wrench=wrench, temperature=temperature,
+            initial_velocity=initial_velocity, trajectory=trajectory, duration=duration,
             highest=highest, watch=watch, window=window, model=model, damping=damping, frame=frame, at=at,
             assembly=assembly, force=force, progress=progress,
         )  # fmt: skip

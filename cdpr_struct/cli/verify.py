@@ -14,7 +14,9 @@ from cdpr_struct.cli.options import (
     PoseText,
     RobotName,
     Start,
+    Temperature,
     UpperBound,
+    Wrench,
     number,
     whole_number,
 )
@@ -36,6 +38,8 @@ def run(
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
     mass: Mass = None,
+    wrench: Wrench = None,
+    temperature: Temperature = None,
     elements: Annotated[str, typer.Option("--elements", help="Element counts per cable.")] = "10,20,40,80",
     modes: Annotated[
         int, typer.Option("--modes", parser=whole_number, help="How many eigenfrequencies to compare.")
@@ -51,7 +55,9 @@ def run(
     with output.steps(len(elements.split(",")) + 2) as progress:
         found = cs.verify(
             robot, pose, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
-            payload=payload, mass=mass, elements=elements, modes=modes, assembly=assembly, tolerance=tolerance,
+            payload=payload, mass=mass,
+            wrench=wrench, temperature=temperature,
+            elements=elements, modes=modes, assembly=assembly, tolerance=tolerance,
             progress=progress,
         )  # fmt: skip
     output.give(found)

@@ -101,14 +101,18 @@ def read_robot(
     mass: float | None = None,
     lower_bound: float | None = None,
     upper_bound: float | None = None,
+    wrench: "Numbers | None" = None,
+    temperature: float | None = None,
 ) -> "Robot":
-    """The robot with its load, its force limits replaced where arguments give others.
+    """The robot with its load and temperature, its force limits replaced where arguments give others.
 
     Parameters
     ----------
     robot : a `Robot`, a built-in name, or the path of a robot file
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
     lower_bound, upper_bound : of the cable forces at the platform [N]; None keeps each cable's own
+    wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
+    temperature : of the cables, above that at which lengths are entered [K]; None keeps the robot's own
 
     Raises
     ------
@@ -126,7 +130,7 @@ def read_robot(
         raise InputError("robot", "", robot, "a Robot, a built-in name, or the path of a robot file")
     entered = robot if isinstance(robot, Robot) else load_robot(os.fspath(robot))
     try:
-        loaded = entered.with_load(payload, mass)
+        loaded = _conditioned(entered.with_load(payload, mass), wrench, temperature)
     except ValueError as error:
         raise InputError("mass", "", mass, str(error)) from error
     try:
@@ -134,6 +138,22 @@ def read_robot(
     except ValueError as error:
         crossed = ("upper_bound", upper_bound) if upper_bound is not None else ("lower_bound", lower_bound)
         raise InputError(crossed[0], "", crossed[1], str(error)) from error
+
+
+def _conditioned(robot: "Robot", wrench: "Numbers | None", temperature: float | None) -> "Robot":
+    """The robot under a further wrench, and at another temperature."""
+    if wrench is not None:
+        robot = robot.with_wrench(read_numbers(wrench, "wrench", (6,), "numbers in N and N m"))
+    if temperature is None:
+        return robot
+    from cdpr_struct.robot.parameters import EXTENSIONS
+
+    key = EXTENSIONS["temperature_change"]
+    expected = f"give a difference in K from {key.least:g} to {key.most:g}"
+    change = real(temperature, "temperature", expected)
+    if not key.least <= change <= key.most:
+        raise InputError("temperature", "", temperature, expected)
+    return robot.at_temperature(change)
 
 
 def read_bounds(lower_bound: float | None, upper_bound: float | None) -> tuple[float | None, float | None]:

@@ -91,6 +91,8 @@ def audit(
     trajectory: TrajectoryLike | None = None,
     payload: float = 0.0,
     mass: float | None = None,
+    wrench: Numbers | None = None,
+    temperature: float | None = None,
     lower_bound: float | None = None,
     upper_bound: float | None = None,
     executor: Executor | None = None,
@@ -106,6 +108,8 @@ def audit(
     grid : Grid, or "X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ]" [m, deg], in place of pose
     trajectory : Trajectory, "helix", "line:..", or path of a CSV file, in place of pose
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
+    temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     executor : of `concurrent.futures` that shares the work over many poses; default: this process
     progress : called once a batch of poses
@@ -115,7 +119,9 @@ def audit(
     InputError : an unusable argument, or several places.
     CdprError : the robot cannot be at rest at the one pose.
     """
-    asked = audit_question(robot, pose, lengths, start, grid, trajectory, payload, mass, lower_bound, upper_bound)
+    asked = audit_question(
+        robot, pose, lengths, start, grid, trajectory, payload, mass, wrench, temperature, lower_bound, upper_bound
+    )
     if isinstance(asked, AuditResult):
         return asked
     return asked.answered(swept(asked.batches, executor, progress))
@@ -148,6 +154,8 @@ def audit_question(
     trajectory: TrajectoryLike | None,
     payload: float,
     mass: float | None,
+    wrench: Numbers | None,
+    temperature: float | None,
     lower_bound: float | None,
     upper_bound: float | None,
 ) -> AuditQuestion | AuditResult:
@@ -159,7 +167,7 @@ def audit_question(
     CdprError : the robot cannot be at rest at the one pose.
     """
     require_one({"pose": pose, "lengths": lengths, "grid": grid, "trajectory": trajectory})
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     if grid is not None or trajectory is not None:
         if start is not None:
             raise InputError("start", "", start, "it belongs to `lengths`; leave it out")

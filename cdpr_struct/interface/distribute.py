@@ -92,6 +92,8 @@ def distribute(
     compare: str | Iterable[str] = (),
     payload: float = 0.0,
     mass: float | None = None,
+    wrench: Numbers | None = None,
+    temperature: float | None = None,
     progress: Progress = silent,
 ) -> DistributeResult:
     """Distribute cable forces of least cost along a trajectory, above a lower bound.
@@ -108,6 +110,8 @@ def distribute(
     max_speed, max_acceleration : to check [m/s, m/s^2];  instants : of a built-in trajectory or line
     compare : other lower bounds to compute beside
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
+    temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     progress : called once a lower bound
 
     Raises
@@ -120,6 +124,7 @@ def distribute(
         robot, bound=bound, b=b, cost=cost, weights=weights, power=power, lower_bound=lower_bound,
         upper_bound=upper_bound, longest=longest, model=model, max_speed=max_speed,
         max_acceleration=max_acceleration, instants=instants, compare=compare, payload=payload, mass=mass,
+        wrench=wrench, temperature=temperature,
     )  # fmt: skip
     return asked.along(trajectory, progress)
 
@@ -171,6 +176,8 @@ def distribute_question(
     compare: str | Iterable[str],
     payload: float,
     mass: float | None,
+    wrench: Numbers | None,
+    temperature: float | None,
 ) -> DistributeQuestion:
     """What the arguments of `distribute` ask of any trajectory.
 
@@ -184,7 +191,7 @@ def distribute_question(
         if value != math.inf:
             real(value, name, "give a number above zero", 0.0, math.inf)
     chosen = one_of(model, "model", MODELS)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     price = _cost(cost, weights, power, machine)
     return DistributeQuestion(machine, tuple(rules), b, price, longest, chosen, max_speed, max_acceleration, instants)
 

@@ -80,6 +80,8 @@ def forward(
     *,
     payload: float = 0.0,
     mass: float | None = None,
+    wrench: Numbers | None = None,
+    temperature: float | None = None,
     model: str = "sagging",
     start: PoseLike | None = None,
     equilibria: bool = False,
@@ -91,6 +93,8 @@ def forward(
     robot : Robot, built-in name, or path of a robot file
     lengths : unstrained, one a cable [m]
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
+    temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     model : sagging, spring or ideal cables
     start : Pose, or x, y, z[, rx, ry, rz] [m, deg], where to look; default: the way continues from the home pose
     equilibria : print and draw the other stable poses, too
@@ -100,7 +104,10 @@ def forward(
     InputError : an unusable argument.
     CdprError : no equilibrium was found.
     """
-    machine, chosen = read_robot(robot, payload, mass), one_of(model, "model", MODELS)
+    machine, chosen = (
+        read_robot(robot, payload, mass, wrench=wrench, temperature=temperature),
+        one_of(model, "model", MODELS),
+    )
     length = read_lengths(lengths, machine)
     begin = None if start is None else read_pose(start, machine, "start")
     found = locked_rest(machine, length, begin, chosen)

@@ -88,6 +88,8 @@ def frf(
     upper_bound: float | None = None,
     payload: float = 0.0,
     mass: float | None = None,
+    wrench: Numbers | None = None,
+    temperature: float | None = None,
     quantity: str = "acceleration",
     model: str = "exact",
     damping: str = "viscous",
@@ -108,6 +110,8 @@ def frf(
     lengths : locked unstrained lengths [m], in place of pose;  start : with lengths, the pose where to look
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
+    temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     quantity : acceleration, velocity or displacement;  model : static, dsm or exact
     damping : law with its numbers, like "viscous:0.005" or "modal:0.01,0.012"
     frame : axes, world or platform;  at : point of the platform (3,) [m, platform frame]; default: its origin
@@ -121,7 +125,7 @@ def frf(
     """
     hertz = read_band(band)
     cable_model, way = read_model(model), one_of(assembly, "assembly", ASSEMBLIES)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     law, massless = read_damping(damping, machine, cable_model == "static"), cable_model == "static"
     what = one_of(quantity, "quantity", QUANTITIES)
     state = rest(machine, pose, lengths, start)

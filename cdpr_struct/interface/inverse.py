@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.interface.answering import answered
-from cdpr_struct.interface.arguments import one_of, read_numbers, read_pose, read_robot
+from cdpr_struct.interface.arguments import one_of, read_pose, read_robot
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import held
 from cdpr_struct.interface.result import Files, Result
@@ -76,6 +76,7 @@ def inverse(
     mass: float | None = None,
     model: str = "sagging",
     wrench: Numbers | None = None,
+    temperature: float | None = None,
     lower_bound: float | None = None,
     upper_bound: float | None = None,
 ) -> InverseResult:
@@ -87,7 +88,8 @@ def inverse(
     pose : Pose, or x, y, z[, rx, ry, rz] [m, deg]; default: the home pose
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
     model : sagging, spring or ideal cables
-    wrench : six numbers, extra force and moment on the platform [N, N m]
+    wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
+    temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
 
     Raises
@@ -96,10 +98,9 @@ def inverse(
     UnholdablePoseError : the cables cannot hold the pose.
     """
     chosen = one_of(model, "model", MODELS)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     where = read_pose(pose, machine)
-    extra = None if wrench is None else read_numbers(wrench, "wrench", (6,), "numbers in N and N m")
-    solution = held(machine, where, chosen, extra)
-    slack = slack_warning(machine, where.position, where.rotation, solution.cables, extra)
+    solution = held(machine, where, chosen)
+    slack = slack_warning(machine, where.position, where.rotation, solution.cables)
     told = statics_rest.inverse_json(machine, chosen, where, solution) | {"warnings": [] if slack is None else [slack]}
     return InverseResult(with_extensions(told, machine, "inverse", chosen), machine, where, solution)

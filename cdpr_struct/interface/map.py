@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import read_grid, read_robot, whole
-from cdpr_struct.interface.given import GridLike, Progress, RobotLike
+from cdpr_struct.interface.given import GridLike, Numbers, Progress, RobotLike
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
 from cdpr_struct.reports import statics_map
@@ -76,6 +76,8 @@ def map(
     *,
     payload: float = 0.0,
     mass: float | None = None,
+    wrench: Numbers | None = None,
+    temperature: float | None = None,
     lower_bound: float | None = None,
     upper_bound: float | None = None,
     chunk: int | None = None,
@@ -90,6 +92,8 @@ def map(
     grid : Grid, or "X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ]" [m, deg], each of x, y, z a number or a range
     quantity : like "first-frequency", "tension-max", "stiffness-min"; the complaint about an unknown one lists all
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
+    temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     chunk : poses a batch; default: what suits the quantity
     executor : of `concurrent.futures` that shares the work, like a ProcessPoolExecutor; default: this process
@@ -99,7 +103,7 @@ def map(
     ------
     InputError : an unusable argument.
     """
-    asked = map_question(robot, grid, quantity, payload, mass, lower_bound, upper_bound, chunk)
+    asked = map_question(robot, grid, quantity, payload, mass, wrench, temperature, lower_bound, upper_bound, chunk)
     return asked.answered(swept(asked.batches, executor, progress))
 
 
@@ -132,6 +136,8 @@ def map_question(
     quantity: str | None,
     payload: float,
     mass: float | None,
+    wrench: Numbers | None,
+    temperature: float | None,
     lower_bound: float | None,
     upper_bound: float | None,
     chunk: int | None,
@@ -146,7 +152,7 @@ def map_question(
         raise InputError("grid", "", "nothing", "give X0:X1:NX,Y0:Y1:NY,Z, like -3:3:13,-3:3:13,0.5")
     if chunk is not None:
         whole(chunk, "chunk", 1, 100_000)
-    machine, poses = read_robot(robot, payload, mass, lower_bound, upper_bound), read_grid(grid)
+    machine, poses = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature), read_grid(grid)
     name = "nothing" if quantity is None else quantity
     try:
         what = quantity_of(name)

@@ -89,6 +89,8 @@ def modes(
     upper_bound: float | None = None,
     payload: float = 0.0,
     mass: float | None = None,
+    wrench: Numbers | None = None,
+    temperature: float | None = None,
     model: str = "exact",
     assembly: str = "consistent",
     elements: int = 80,
@@ -104,6 +106,8 @@ def modes(
     lengths : locked unstrained lengths [m], in place of pose;  start : with lengths, the pose where to look
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
+    temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     model : static, dsm, exact or fem;  assembly : consistent, or thesis (eq. 3.8 as printed)
     elements : a cable, for fem;  count : how many eigenfrequencies;  force : dsm outside its validity limits, too
 
@@ -115,7 +119,7 @@ def modes(
     whole(count, "count", 1, 500)
     whole(elements, "elements", 2, 2000)
     way, name = one_of(assembly, "assembly", ASSEMBLIES), one_of(model, "model", MODELS)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     state = rest(machine, pose, lengths, start)
     point = state.point
     if name == "dsm" and not force:

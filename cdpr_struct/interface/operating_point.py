@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from cdpr_struct.dynamics.applied_moment import moment_sentence
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import CdprError, ConvergenceError, InputError, UnholdablePoseError, UnstableEquilibriumError
 from cdpr_struct.interface.arguments import read_lengths, read_pose
@@ -48,14 +49,15 @@ class AtRest:
         return {"warnings": said, "locked": locked_json(self.locked)}
 
     def _warnings(self) -> list[str]:
-        """Sentences on cables that hang slack, and on locked cables outside the robot's force limits."""
+        """Sentences on slack cables, on locked cables outside the robot's force limits, and on a constant moment."""
         point = self.point
+        turned = moment_sentence(point)
         if self.locked is None:
             said = slack_warning(point.entered, point.position, point.rotation, point.cables)
-            return [] if said is None else [said]
+            return [sentence for sentence in (said, turned) if sentence is not None]
         slack = slack_sentence(hangs_slack(point.cables))
         outside = outside_limits(point.entered, point.cables.tension_at_platform)
-        return [*([] if slack is None else [f"{slack}."]), *outside]
+        return [*([] if slack is None else [f"{slack}."]), *outside, *([] if turned is None else [turned])]
 
 
 def rest(robot: Robot, pose: PoseLike | None, lengths: Numbers | None, start: PoseLike | None = None) -> AtRest:
@@ -82,9 +84,7 @@ def rest(robot: Robot, pose: PoseLike | None, lengths: Numbers | None, start: Po
     return _locked(robot, lengths, start)
 
 
-def held(
-    robot: Robot, where: Pose, model: str = "sagging", external_wrench: list[float] | None = None
-) -> InverseSolution:
+def held(robot: Robot, where: Pose, model: str = "sagging") -> InverseSolution:
     """Tensions and lengths that hold a pose; a refusal that another lower bound would cure names the bound.
 
     Raises
@@ -92,9 +92,9 @@ def held(
     CdprError : the pose cannot be held, or the search for tensions was cut short.
     """
     try:
-        return inverse(robot, where.position, where.rotation, model, external_wrench)
+        return inverse(robot, where.position, where.rotation, model)
     except (UnholdablePoseError, ConvergenceError) as error:
-        hint = bound_hint(robot, where.position, where.rotation, external_wrench)
+        hint = bound_hint(robot, where.position, where.rotation)
         if not hint:
             raise
         if isinstance(error, UnholdablePoseError):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import read_grid, read_pose, read_robot, real
-from cdpr_struct.interface.given import GridLike, PoseLike, Progress, RobotLike
+from cdpr_struct.interface.given import GridLike, Numbers, PoseLike, Progress, RobotLike
 from cdpr_struct.interface.map import require_drawable
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
@@ -114,6 +114,8 @@ def pose_error(
     *,
     payload: float = 0.0,
     mass: float | None = None,
+    wrench: Numbers | None = None,
+    temperature: float | None = None,
     lower_bound: float | None = None,
     upper_bound: float | None = None,
     sufficient_load: float | None = None,
@@ -128,6 +130,8 @@ def pose_error(
     robot : Robot, built-in name, or path of a robot file
     grid : Grid, or "X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ]" [m, deg], each of x, y, z a number or a range
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
+    temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     sufficient_load : tolerance [mm]: find the mass from which on the spring model is good to it, at `pose`
     pose : with sufficient_load: Pose, or x, y, z[, rx, ry, rz] [m, deg]; default: the home pose
@@ -139,7 +143,9 @@ def pose_error(
     InputError : an unusable argument.
     UnholdablePoseError : no pose of the grid has a pose error.
     """
-    asked = pose_error_question(robot, grid, payload, mass, lower_bound, upper_bound, sufficient_load, pose)
+    asked = pose_error_question(
+        robot, grid, payload, mass, wrench, temperature, lower_bound, upper_bound, sufficient_load, pose
+    )
     batches = asked.batches
     return asked.answered(None if batches is None else swept(batches, executor, progress))
 
@@ -150,6 +156,8 @@ def pose_error_question(
     grid: GridLike | None,
     payload: float,
     mass: float | None,
+    wrench: Numbers | None,
+    temperature: float | None,
     lower_bound: float | None,
     upper_bound: float | None,
     tolerance: float | None,
@@ -167,7 +175,7 @@ def pose_error_question(
         real(tolerance, "sufficient_load", "give a tolerance in mm above zero", 0.0, float("inf"))
     if pose is not None and tolerance is None:
         raise InputError("pose", "", pose, "a pose is for `sufficient_load`; errors over poses take `grid`")
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     poses = None if grid is None else read_grid(grid)
     if tolerance is None:
         return PoseErrorQuestion(machine, poses, None)

@@ -72,6 +72,8 @@ def spectrogram(
     upper_bound: float | None = None,
     payload: float = 0.0,
     mass: float | None = None,
+    wrench: Numbers | None = None,
+    temperature: float | None = None,
     highest: float = 25.0,
     window: float | None = None,
     model: str = "exact",
@@ -87,6 +89,8 @@ def spectrogram(
     lengths : locked unstrained lengths [m], in place of pose;  start : with lengths, the pose where to look
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
+    temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     highest : top of the picture [Hz];  window : of the analysis [s]
     model : static, dsm or exact;  force : dsm outside its validity limits, too
 
@@ -102,7 +106,10 @@ def spectrogram(
         raise InputError("highest", "", highest, expected)
     if window is not None and not 8.0 <= real(window, "window", "a time in s") * 2.0 * half_rate <= len(time):
         raise InputError("window", "", window, f"between {4.0 / half_rate:.4g} and {time[-1] - time[0]:.4g} s")
-    cable_model, machine = read_model(model), read_robot(robot, payload, mass, lower_bound, upper_bound)
+    cable_model, machine = (
+        read_model(model),
+        read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature),
+    )
     state = rest(machine, pose, lengths, start)
     require_valid(cable_model, state.point, force)
     with state.advised():

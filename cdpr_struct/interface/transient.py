@@ -94,6 +94,8 @@ def transient(
     upper_bound: float | None = None,
     payload: float = 0.0,
     mass: float | None = None,
+    wrench: Numbers | None = None,
+    temperature: float | None = None,
     initial_velocity: Numbers | None = None,
     trajectory: TrajectoryLike | None = None,
     duration: float | None = None,
@@ -117,6 +119,8 @@ def transient(
     lengths : locked unstrained lengths [m], in place of pose;  start : with lengths, the pose where to look
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
+    temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     initial_velocity : before the stop, 3 or 6 numbers [m/s, rad/s], world axes
     trajectory : Trajectory, "helix", or path of a CSV file: vibration along this motion, in place of the velocity
     duration : to predict [s];  highest : modes up to this frequency [Hz]
@@ -136,7 +140,7 @@ def transient(
         given = "nothing" if initial_velocity is None else initial_velocity
         raise InputError("initial_velocity", "", given, "give either `initial_velocity` or `trajectory`")
     cable_model, way = read_model(model), one_of(assembly, "assembly", ASSEMBLIES)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     law = read_damping(damping, machine, cable_model == "static")
     motion, assumed = (None, []) if trajectory is None else read_trajectory(trajectory, None, _FEWEST)
     seconds = _duration(duration, motion)

@@ -78,6 +78,8 @@ def verify(
     upper_bound: float | None = None,
     payload: float = 0.0,
     mass: float | None = None,
+    wrench: Numbers | None = None,
+    temperature: float | None = None,
     elements: Numbers = (10, 20, 40, 80),
     modes: int = 60,
     assembly: str = "consistent",
@@ -93,6 +95,8 @@ def verify(
     lengths : locked unstrained lengths [m], in place of pose;  start : with lengths, the pose where to look
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
+    wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
+    temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     elements : counts per cable, ascending multiples of the first;  modes : how many to compare
     assembly : consistent, or thesis (eq. 3.8 as printed);  tolerance : largest relative deviation from the FEM [-]
     progress : called with the name of each step
@@ -106,7 +110,7 @@ def verify(
     whole(modes, "modes", 1, 200)
     real(tolerance, "tolerance", "give a ratio between 0 and 1, like 0.01", 0.0, 1.0)
     way = one_of(assembly, "assembly", ASSEMBLIES)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     state = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths, start)
     with state.advised():
         trial = tried(state.point, counts, modes, way, Criteria(relative_error=tolerance), progress)

@@ -16,7 +16,7 @@ _ELASTIC = ("series_compliance", "frame_compliance", "mast_bending", "nonlineari
 
 
 def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, model: str = "") -> dict[str, Any]:
-    """The result, and what became of the robot's extensions if it has any.
+    """The result, what became of the robot's extensions if it has any, and its constant `wrench` [N, N m] if any.
 
     model : cable model of a vibration command, "" if there is no choice
     """
@@ -25,13 +25,14 @@ def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, mod
         return dict(result)
     idle = {name: reason for name in active if (reason := _why_idle(name, command, model))}
     acting = [name for name in active if name not in idle]
-    sentences = [f"Extensions of the robot file that act: {', '.join(acting) or 'none'}."]
+    sentences = [f"Extensions of the robot that act: {', '.join(acting) or 'none'}."]
     for reason in dict.fromkeys(idle.values()):
         names = [name for name in idle if idle[name] == reason]
         sentences.append(f"No effect here: {', '.join(names)}; {reason}.")
     sentences += [text for name, text in _particulars(command, model).items() if name in acting]
     said = {"acting": acting, "idle": idle, "sentences": sentences}
-    return {**result, "extensions": said}
+    load = [*robot.extensions.force.tolist(), *robot.extensions.moment.tolist()]
+    return {**result, **({"wrench": load} if any(load) else {}), "extensions": said}
 
 
 def _why_idle(name: str, command: str, model: str) -> str:
@@ -72,6 +73,11 @@ def _why_rigid(command: str, model: str) -> str:
 def _particulars(command: str, model: str) -> dict[str, str]:
     """What is to be known about extensions that act."""
     said = {"tilt": "tilt turns the weight of the platform; that of the cables stays vertical."}
+    said["moment"] = "moment keeps its axes in the world when the platform turns, so it has no potential."
+    if command == "forward":
+        said["moment"] += " Energies of other equilibria leave it out."
+    if command in ("frf", "transient", "modes", "map", "verify"):
+        said["moment"] += " Vibration takes the symmetric part of its stiffness."
     if command in ("frf", "transient", "modes", "map", "distribute"):
         said["added_mass"] = "added_mass takes part in vibration; its weight does not bend the cable."
     if command in ("frf", "transient"):

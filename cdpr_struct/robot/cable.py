@@ -7,6 +7,9 @@ import numpy as np
 
 from cdpr_struct.robot.arrays import frozen_array, require_positive
 
+STEEL = 1.2e-5  # [1/K]
+LARGEST_EXPANSION = 1e-3  # [1/K], far beyond that of any rope: a cable keeps a length at all temperatures
+
 
 @dataclass(frozen=True, slots=True)
 class Cable:
@@ -15,6 +18,7 @@ class Cable:
     axial_stiffness : EA [N]
     linear_density  : mu [kg/m], per unstrained length
     damping_ratio   : xi [-], viscous, referred to the cable's first natural frequency
+    thermal_expansion : alpha [1/K] of its unstrained length, negative for fibres that shrink; default: steel
     force_min, force_max : smallest and largest tension at the platform that the robot may ask for [N]; inf for no
                            upper limit
     """
@@ -22,6 +26,7 @@ class Cable:
     axial_stiffness: float
     linear_density: float
     damping_ratio: float = 0.0
+    thermal_expansion: float = STEEL
     force_min: float = 0.0
     force_max: float = math.inf
 
@@ -29,6 +34,9 @@ class Cable:
         require_positive(self, "axial_stiffness", "linear_density")
         if not 0.0 <= self.damping_ratio < 1.0:
             raise ValueError(f"Cable.damping_ratio must be in [0, 1), got {self.damping_ratio!r}")
+        if not abs(self.thermal_expansion) <= LARGEST_EXPANSION:
+            expected = f"from -{LARGEST_EXPANSION:g} to {LARGEST_EXPANSION:g} 1/K"
+            raise ValueError(f"Cable.thermal_expansion must be {expected}, got {self.thermal_expansion!r}")
         if not 0.0 <= self.force_min < math.inf:
             raise ValueError(f"Cable.force_min must be finite and >= 0 N, got {self.force_min!r}")
         if not self.force_max > self.force_min:

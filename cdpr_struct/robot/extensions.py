@@ -19,7 +19,7 @@ _ROUNDING = 1e-15  # a vector whose length is one but for this is left as it is:
 class Extensions:
     """Extensions of a robot with m cables, SI; `EXTENSIONS` says what each field means and what its neutral value is.
 
-    Per-cable fields are (m,), force, hose_center and internal_direction (3,; the last is normalised at birth),
+    Per-cable fields are (m,), force, moment, hose_center and internal_direction (3,; the last is normalised at birth),
     tilt (2,), tracker and accelerometer_gain (6,), the others single numbers.
     causes : names of the diagnosed causes that they stand for
     """
@@ -31,11 +31,13 @@ class Extensions:
     hose: float
     hose_center: np.ndarray
     force: np.ndarray
+    moment: np.ndarray
     tilt: np.ndarray
     nonlinearity: float
     reference_tension: float
     length_offset: np.ndarray
     length_scale: np.ndarray
+    temperature_change: float
     bending_stiffness: np.ndarray
     added_mass: np.ndarray
     cell_gain: np.ndarray
@@ -97,6 +99,11 @@ class Extensions:
         """The active fields, and what belongs to them, as plain numbers: what a robot file holds."""
         names = [n for n in EXTENSIONS if n in self.active or AUXILIARY.get(n) in self.active]
         return {n: np.asarray(getattr(self, n)).tolist() for n in names}
+
+    def with_changes(self, **changes: npt.ArrayLike) -> "Extensions":
+        """The same with other values of the named fields."""
+        kept = {f.name: getattr(self, f.name) for f in fields(self) if f.name in EXTENSIONS}
+        return Extensions.of(len(self.series_compliance), kept | changes, self.causes)
 
     def without(self, *names: str) -> "Extensions":
         """The same with the named fields neutral."""

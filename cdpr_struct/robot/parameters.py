@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.robot.cable import LARGEST_EXPANSION, STEEL
+
 CABLES = "m"  # stands for the number of cables in a shape
 
 
@@ -85,6 +87,14 @@ _RULES: dict[str, Parameter] = {
     "damping_ratio": _of_cables(
         "1", "viscous, referred to the cable's first frequency", "cable.damping_ratio", 0.0, least=0.0, most=1.0
     ),
+    "thermal_expansion": _of_cables(
+        "1/K",
+        "of the cable's unstrained length",
+        "cable.thermal_expansion",
+        STEEL,
+        least=-LARGEST_EXPANSION,
+        most=LARGEST_EXPANSION,
+    ),
     "force_min": _of_cables("N", "least tension at the platform to ask for", "cable.force_min", 0.0, least=0.0),
     "force_max": _of_cables("N", "largest tension at the platform", "cable.force_max", np.inf, above=0.0),
     "masts": Parameter((CABLES, CABLES), "1", "1 where cables share a mast, by the frame anchors", "", 1.0),
@@ -101,11 +111,14 @@ EXTENSIONS: dict[str, Parameter] = {
     "hose": _extra((), 0.0, "N/m", "stiffness that holds the platform origin to hose_center", least=0.0),
     "hose_center": _extra((3,), 0.0, "m", "where the hose is relaxed, world frame"),
     "force": _extra((3,), 0.0, "N", "constant force on the platform origin, world frame"),
+    "moment": _extra((3,), 0.0, "N m", "constant moment on the platform, world frame, however it turns"),
     "tilt": _extra((2,), 0.0, "rad", "of the platform's weight: m g (tilt_x, tilt_y, -1)"),
     "nonlinearity": _extra((), 0.0, "1", "k in EA (1 + k (T / T0 - 1)), T the tension at the platform"),
     "reference_tension": _extra((), 1.0, "N", "T0 of nonlinearity", above=0.0),
     "length_offset": _extra(_EACH, 0.0, "m", "length paid out = encoder length * length_scale + length_offset"),
     "length_scale": _extra(_EACH, 1.0, "1", "see length_offset", above=0.0),
+    "temperature_change": _extra((), 0.0, "K", "of the cables, above that at which their lengths are entered",
+                                 least=-300.0, most=300.0),
     "bending_stiffness": _extra(_EACH, 0.0, "N m^2", "EI of the cable, both ends clamped", least=0.0),
     "added_mass": _extra(_EACH, 0.0, "kg", "at mid-cable, for vibration only", least=0.0),
     "cell_gain": _extra(_EACH, 1.0, "1", "load cell reading = cell_gain * tension + cell_bias", above=0.0),

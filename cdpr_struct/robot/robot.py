@@ -1,5 +1,6 @@
 """The robot: a platform on m cables in a frame."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -97,6 +98,16 @@ class Robot:
         """
         given = {name: value for name, value in (("force_min", lower), ("force_max", upper)) if value is not None}
         return replace(self, cables=tuple(replace(cable, **given) for cable in self.cables)) if given else self
+
+    def with_wrench(self, wrench: np.ndarray | Sequence[float]) -> "Robot":
+        """Robot with a further constant force and moment (6,) on its platform about its origin, world axes [N, N m]."""
+        more, added = self.extensions, frozen_array(wrench, (6,), "wrench")
+        load = {"force": more.force + added[:3], "moment": more.moment + added[3:]}
+        return replace(self, extensions=more.with_changes(**load))
+
+    def at_temperature(self, change: float) -> "Robot":
+        """Robot whose cables are warmer by `change` than when their lengths were entered [K]."""
+        return replace(self, extensions=self.extensions.with_changes(temperature_change=change))
 
     def without_extensions(self, *names: str) -> "Robot":
         """Robot whose named extensions are neutral, or all of them if none is named."""

@@ -29,13 +29,16 @@ class RobotArrays:
     mass            : (...) [kg]
     center_of_mass  : (..., 3) platform frame [m];  inertia : (..., 3, 3) about it, platform frame [kg m^2]
     gravity         : (...) g [m/s^2]
-    damping_ratio   : (..., m) xi [-];  force_min, force_max : (..., m) [N], limits of the tension at the platform
+    damping_ratio   : (..., m) xi [-];  thermal_expansion : (..., m) [1/K]
+    force_min, force_max : (..., m) [N], limits of the tension at the platform
 
     Extensions, without effect unless given:
     series_compliance, length_offset, length_scale, bending_stiffness, added_mass : (..., m)
     frame_compliance, mast_bending : (..., m) [m/N] of each cable's mast;  mast_foot : (...) [m]
     masts : (m, m) 1 where cables share one;  uprights : (m, m) how they bend, as `uprights_of` says
-    hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  tilt : (..., 2) [rad]
+    hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  moment : (..., 3) [N m]
+    tilt            : (..., 2) [rad]
+    temperature_change : (...) [K]
     nonlinearity    : (...) k with reference_tension (...) [N]
     cell_gain, cell_bias, friction, slip : (..., m);  tracker, accelerometer_gain : (..., 6)
     creep, sensor_mass : (...)
@@ -53,6 +56,7 @@ class RobotArrays:
     inertia: np.ndarray
     gravity: np.ndarray
     damping_ratio: np.ndarray = field(default_factory=PARAMETERS["damping_ratio"].without_effect)
+    thermal_expansion: np.ndarray = field(default_factory=PARAMETERS["thermal_expansion"].without_effect)
     force_min: np.ndarray = field(default_factory=PARAMETERS["force_min"].without_effect)
     force_max: np.ndarray = field(default_factory=PARAMETERS["force_max"].without_effect)
     series_compliance: np.ndarray = field(default_factory=PARAMETERS["series_compliance"].without_effect)
@@ -66,9 +70,11 @@ class RobotArrays:
     hose: np.ndarray = field(default_factory=PARAMETERS["hose"].without_effect)
     hose_center: np.ndarray = field(default_factory=PARAMETERS["hose_center"].without_effect)
     force: np.ndarray = field(default_factory=PARAMETERS["force"].without_effect)
+    moment: np.ndarray = field(default_factory=PARAMETERS["moment"].without_effect)
     tilt: np.ndarray = field(default_factory=PARAMETERS["tilt"].without_effect)
     nonlinearity: np.ndarray = field(default_factory=PARAMETERS["nonlinearity"].without_effect)
     reference_tension: np.ndarray = field(default_factory=PARAMETERS["reference_tension"].without_effect)
+    temperature_change: np.ndarray = field(default_factory=PARAMETERS["temperature_change"].without_effect)
     bending_stiffness: np.ndarray = field(default_factory=PARAMETERS["bending_stiffness"].without_effect)
     added_mass: np.ndarray = field(default_factory=PARAMETERS["added_mass"].without_effect)
     cell_gain: np.ndarray = field(default_factory=PARAMETERS["cell_gain"].without_effect)
@@ -124,13 +130,18 @@ class RobotArrays:
         """Whether any cable must do more than pull."""
         return bool(self.force_min.any() or np.isfinite(self.force_max).any())
 
+    @property
+    def thermal_growth(self) -> np.ndarray:
+        """(..., m) of unstrained lengths, 1 + alpha dT."""
+        return 1.0 + self.thermal_expansion * self.temperature_change[..., None]
+
     def paid_out(self, reading: np.ndarray) -> np.ndarray:
         """(..., m) length paid out when encoders say `reading` (..., m), or that is commanded [m]."""
-        return reading * self.length_scale + self.length_offset
+        return (reading * self.length_scale + self.length_offset) * self.thermal_growth
 
     def reading(self, paid_out: np.ndarray) -> np.ndarray:
         """(..., m) what encoders say at lengths paid out (..., m) [m]."""
-        return (paid_out - self.length_offset) / self.length_scale
+        return (paid_out / self.thermal_growth - self.length_offset) / self.length_scale
 
     def stiffness_at(self, tension: np.ndarray) -> np.ndarray:
         """(..., m) EA [N] of cables with tensions (..., m) at the platform [N]: E may change with the tension."""
@@ -202,6 +213,7 @@ def _entered(robot: Robot) -> RobotArrays:
         inertia=robot.platform.inertia,
         gravity=np.asarray(robot.gravity, dtype=float),
         damping_ratio=robot.damping_ratio,
+        thermal_expansion=np.array([cable.thermal_expansion for cable in robot.cables]),
         force_min=robot.force_min,
         force_max=robot.force_max,
         masts=masts_of(robot.frame_anchors),

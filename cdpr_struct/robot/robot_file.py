@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError, known_names
-from cdpr_struct.robot.cable import Cable, Pulley
+from cdpr_struct.robot.cable import LARGEST_EXPANSION, Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions, divided_mast
 from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
@@ -40,6 +40,7 @@ class CableTable(_Table):
     axial_stiffness: Positive | None = None
     linear_density: Positive | None = None
     damping_ratio: Annotated[float, Field(strict=True, ge=0.0, lt=1.0)] | None = None
+    thermal_expansion: Annotated[float, Field(strict=True, ge=-LARGEST_EXPANSION, le=LARGEST_EXPANSION)] | None = None
     force_min: NotNegative | None = None
     force_max: Limit | None = None
 

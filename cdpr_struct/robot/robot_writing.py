@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cdpr_struct.robot.cable import Cable
+from cdpr_struct.robot.cable import STEEL, Cable
 from cdpr_struct.robot.robot import Robot
 
 
@@ -45,6 +45,7 @@ def _cable(robot: Robot, i: int) -> list[str]:
         f"axial_stiffness = {float(cable.axial_stiffness)!r}",
         f"linear_density = {float(cable.linear_density)!r}",
         f"damping_ratio = {float(cable.damping_ratio)!r}",
+        *_expansion(cable),
         *_force_limits(cable),
         f"platform_anchor = {robot.platform_anchors[i].tolist()}",
         f"frame_anchor = {robot.frame_anchors[i].tolist()}",
@@ -59,6 +60,12 @@ def _home(robot: Robot) -> list[str]:
         return []
     pose = [*robot.home.position.tolist(), *np.degrees(robot.home.angles).tolist()]
     return [f"home_pose = {pose}"]
+
+
+def _expansion(cable: Cable) -> list[str]:
+    """The line of an expansion other than that of steel."""
+    alpha = float(cable.thermal_expansion)
+    return [] if alpha == STEEL else [f"thermal_expansion = {alpha!r}"]
 
 
 def _force_limits(cable: Cable) -> list[str]:

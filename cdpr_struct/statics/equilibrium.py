@@ -52,12 +52,12 @@ def weight_force(arrays: RobotArrays) -> np.ndarray:
 
 
 def load_wrench(arrays: RobotArrays, arms: PlatformArms) -> np.ndarray:
-    """(..., 6) wrench of weight, constant force and hose about the platform origin, world axes [N, N m]."""
+    """(..., 6) wrench of weight, constant force and moment, and hose about the platform origin, world axes [N, N m]."""
     wrench = weight_wrench(arrays, arms)
-    if not (arrays.hose.any() or arrays.force.any()):
+    if not (arrays.hose.any() or arrays.force.any() or arrays.moment.any()):
         return wrench
     pull = arrays.force + arrays.hose[..., None] * (arrays.hose_center - arms.position)
-    return wrench + np.concatenate([pull, np.zeros_like(pull)], axis=-1)
+    return wrench + np.concatenate(np.broadcast_arrays(pull, arrays.moment), axis=-1)
 
 
 def cable_wrench(states: CableStates, arms: PlatformArms) -> np.ndarray:
@@ -102,10 +102,12 @@ def cable_geometric_stiffness(states: CableStates, arms: PlatformArms) -> np.nda
 
 
 def moment_skew(moment: np.ndarray) -> np.ndarray:
-    """Half the cross-product matrix (..., 3, 3) of the moment (..., 3) of cables and weight.
+    """Half the cross-product matrix (..., 3, 3) of the moment (..., 3) of forces on their arms: cables and weight.
 
     tangent_stiffness plus this in its lower right block is exactly -d(wrench)/d(pose), also away from equilibrium
-    and under an applied moment, where that derivative is not symmetric.
+    and under an applied moment, where that derivative is not symmetric. The applied moment itself is not counted in
+    `moment`: its axes stay those of the world, so it adds nothing to the derivative. Left out, the symmetric tangent is
+    that of a semitangential moment of the same size (Ziegler 1968, Argyris 1979), which has a potential.
     """
     skew = np.zeros((*moment.shape, 3))
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):

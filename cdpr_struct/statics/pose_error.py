@@ -151,7 +151,7 @@ def potential_energy(
 ) -> np.ndarray:
     """(...) energy of straight elastic cables, weight and dead force at a solution of the spring model [J].
 
-    Zero is the platform's centre of mass at height 0. An applied moment has no potential and is left out.
+    Zero is the platform's centre of mass at height 0. A constant moment has no potential and is left out.
     """
     arrays = RobotArrays.of(robot)
     cables = solution.cables

@@ -31,7 +31,7 @@ def potential_energy(
     Parameters
     ----------
     position, rotation : (..., 3) [m], (..., 3, 3)
-    wrench : (..., 6); its force counts, and it must have no moment, which has no energy of its own
+    wrench : (..., 6); its force counts. A moment in it, or of the robot, has no potential and is left out
     """
     arms = PlatformArms.at(arrays, position, rotation)
     platform = -(weight_force(arrays) * (position + arms.center)).sum(axis=-1)

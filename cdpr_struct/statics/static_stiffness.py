@@ -75,7 +75,7 @@ def static_stiffness(
     turn = np.asarray(rotation, dtype=float)
     arms = PlatformArms.at(arrays, np.asarray(position, dtype=float), turn)
     matrix = tangent_stiffness(arrays, cables, arms)
-    moment = (cable_wrench(cables, arms) + load_wrench(arrays, arms))[..., 3:]
+    moment = (cable_wrench(cables, arms) + load_wrench(arrays, arms))[..., 3:] - arrays.moment
     matrix[..., 3:, 3:] += moment_skew(moment)
     axial, sag = _compliance_parts(arrays, cables, arms, matrix)
     return RobotStiffness(matrix, axial, sag, np.broadcast_to(turn, (*matrix.shape[:-2], 3, 3)))

@@ -80,6 +80,8 @@ def test_forward_and_inverse_speak_of_the_same_lengths(tmp_path, capsys):
         ("frame_compliance = [0, 0, 0, 0, 0, 0, 0, -1e-5]", "in m/N, not below 0"),
         ('hose = "stiff"', "give one number in N/m"),
         ("tilt = [0.1, nan]", "give 2 numbers in square brackets"),
+        ("moment = [4.0]", "give 3 numbers in square brackets, or one for all in N m"),
+        ("temperature_change = 1000.0", "give one number in K, not below -300, not above 300"),
         ("length_scale = 0.0", "above 0"),
         ("joint_mass = -1.0", "give one mass in kg, zero or more"),
         ("internal_mass = 3.0", "internal_mass = 3 kg needs internal_frequency, in Hz, above 0"),

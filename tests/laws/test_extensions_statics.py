@@ -20,7 +20,7 @@ SHIFT = np.array([0.5, -0.4, 0.2])  # m from the home pose
 ALL = {
     "series_compliance": 1e-5, "frame_compliance": 1e-5, "hose": 20.0, "hose_center": [0.1, 0.0, 1.0],
     "force": [5.0, -3.0, 4.0], "tilt": [0.01, -0.01], "nonlinearity": 0.1, "reference_tension": 200.0,
-    "length_offset": 0.003, "length_scale": 1.001,
+    "length_offset": 0.003, "length_scale": 1.001, "moment": [3.0, -2.0, 4.0], "temperature_change": 20.0,
 }  # fmt: skip
 ONE_MAST = {"cogiro": [0.0, 0.0, 5e-5, 5e-5, 0, 0, 0, 0], "thesis-3-1": [5e-5, 0.0, 0, 0, 5e-5, 0, 0, 0]}
 SOFT = [(name, {"frame_compliance": give}) for name, give in ONE_MAST.items()]
@@ -33,6 +33,8 @@ ALONE = [
     {"tilt": [0.02, -0.01]},
     {"nonlinearity": 0.2, "reference_tension": 300.0},
     {"length_offset": 0.01, "length_scale": 1.002},
+    {"moment": [6.0, -4.0, 9.0]},
+    {"temperature_change": 40.0},
     ALL,
 ]
 
@@ -66,7 +68,9 @@ def test_every_extension_changes_lengths_or_tensions(given):
 
 @pytest.mark.parametrize("model", ["sagging", "spring"])
 @pytest.mark.parametrize(
-    "robot", [*(("thesis-3-1", g) for g in ALONE[:5]), *SOFT], ids=lambda r: f"{r[0]}, {next(iter(r[1]))}"
+    "robot",
+    [*(("thesis-3-1", g) for g in (*ALONE[:5], {"moment": [60.0, -40.0, 90.0]})), *SOFT],
+    ids=lambda r: f"{r[0]}, {next(iter(r[1]))}",
 )
 def test_stiffness_is_the_derivative_of_the_wrench(robot, model):
     robot = extended(*robot)
@@ -82,7 +86,9 @@ def test_stiffness_is_the_derivative_of_the_wrench(robot, model):
     steps = 1e-6 * np.eye(6)
     differences = np.array([wrench(-step) - wrench(step) for step in steps]).T / 2e-6
     np.testing.assert_allclose(matrix, differences, atol=2e-8 * np.abs(matrix).max())  # measured: 3e-9
-    np.testing.assert_allclose(matrix, matrix.T, atol=1e-9 * np.abs(matrix).max())
+    turned = np.zeros((6, 6))  # symmetric but for what a constant moment leaves
+    turned[3:, 3:] = -np.cross(np.eye(3), robot.extensions.moment)
+    np.testing.assert_allclose(matrix - matrix.T, turned, atol=1e-9 * np.abs(matrix).max())
 
 
 def test_an_element_in_line_takes_its_stretch_off_the_length():

@@ -3,9 +3,9 @@
 import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen, by_carrier
+from cdpr_struct.robot.cable import STEEL
 from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
 
-STEEL = 1.2e-5  # [1/K], cables and frame
 _XYZ = ("x", "y", "z")
 
 
