@@ -42,9 +42,9 @@ def _surroundings(robot: Robot) -> fem.SurroundingsData:
 
 
 def push_of(robot: Robot) -> fem.PointForce | None:
-    """The constant force and moment on the robot's platform."""
-    force, moment = robot.extensions.force, robot.extensions.moment
-    return fem.PointForce(np.array(force), moment=np.array(moment)) if force.any() or moment.any() else None
+    """The constant force and moment on the robot's platform, the drag of wind included."""
+    force, moment = np.split(robot.extensions.wrench, 2)
+    return fem.PointForce(force, moment=moment) if force.any() or moment.any() else None
 
 
 def solve_in_fem(point: OperatingPoint, elements: int) -> fem.RobotEquilibrium:

@@ -31,7 +31,7 @@ def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, mod
         sentences.append(f"No effect here: {', '.join(names)}; {reason}.")
     sentences += [text for name, text in _particulars(command, model).items() if name in acting]
     said = {"acting": acting, "idle": idle, "sentences": sentences}
-    load = [*robot.extensions.force.tolist(), *robot.extensions.moment.tolist()]
+    load = robot.extensions.wrench.tolist()
     return {**result, **({"wrench": load} if any(load) else {}), "extensions": said}
 
 
@@ -73,6 +73,7 @@ def _why_rigid(command: str, model: str) -> str:
 def _particulars(command: str, model: str) -> dict[str, str]:
     """What is to be known about extensions that act."""
     said = {"tilt": "tilt turns the weight of the platform; that of the cables stays vertical."}
+    said["drag_area"] = "Wind acts on the platform only, as a constant force at its origin; cables have no drag."
     said["moment"] = "moment keeps its axes in the world when the platform turns, so it has no potential."
     if command == "forward":
         said["moment"] += " Energies of other equilibria leave it out."

@@ -19,8 +19,8 @@ _ROUNDING = 1e-15  # a vector whose length is one but for this is left as it is:
 class Extensions:
     """Extensions of a robot with m cables, SI; `EXTENSIONS` says what each field means and what its neutral value is.
 
-    Per-cable fields are (m,), force, moment, hose_center and internal_direction (3,; the last is normalised at birth),
-    tilt (2,), tracker and accelerometer_gain (6,), the others single numbers.
+    Per-cable fields are (m,), force, moment, wind, hose_center and internal_direction (3,; the last is normalised at
+    birth), tilt (2,), tracker and accelerometer_gain (6,), the others single numbers.
     causes : names of the diagnosed causes that they stand for
     """
 
@@ -32,6 +32,9 @@ class Extensions:
     hose_center: np.ndarray
     force: np.ndarray
     moment: np.ndarray
+    drag_area: float
+    wind: np.ndarray
+    air_density: float
     tilt: np.ndarray
     nonlinearity: float
     reference_tension: float
@@ -95,6 +98,12 @@ class Extensions:
         )
 
     @property
+    def wrench(self) -> np.ndarray:
+        """(6,) constant force, drag of wind included, and moment on the platform about its origin, world [N, N m]."""
+        pushed = drag(self.wind, np.asarray(self.drag_area), np.asarray(self.air_density))
+        return np.concatenate([self.force + pushed, self.moment])
+
+    @property
     def entered(self) -> dict[str, list[float] | float]:
         """The active fields, and what belongs to them, as plain numbers: what a robot file holds."""
         names = [n for n in EXTENSIONS if n in self.active or AUXILIARY.get(n) in self.active]
@@ -109,6 +118,15 @@ class Extensions:
         """The same with the named fields neutral."""
         kept = {f.name: getattr(self, f.name) for f in fields(self) if f.name in EXTENSIONS and f.name not in names}
         return Extensions.of(len(self.series_compliance), kept, self.causes)
+
+
+def drag(wind: np.ndarray, area: np.ndarray, density: np.ndarray) -> np.ndarray:
+    """Force (..., 3) [N] of wind (..., 3) [m/s] on a drag area (...) [m^2] in air of a density (...) [kg/m^3].
+
+    rho/2 C A |v| v, the same from all sides.
+    """
+    size = 0.5 * np.asarray(density) * np.asarray(area) * np.linalg.norm(wind, axis=-1)
+    return np.asarray(size[..., None] * wind)
 
 
 def masts_of(frame_anchors: np.ndarray) -> np.ndarray:

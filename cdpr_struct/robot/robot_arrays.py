@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from cdpr_struct.robot.extensions import masts_of, uprights_of
+from cdpr_struct.robot.extensions import drag, masts_of, uprights_of
 from cdpr_struct.robot.parameters import EXTENSIONS, PARAMETERS
 from cdpr_struct.robot.platform import joined_masses
 from cdpr_struct.robot.robot import Robot
@@ -38,6 +38,7 @@ class RobotArrays:
     masts : (m, m) 1 where cables share one;  uprights : (m, m) how they bend, as `uprights_of` says
     hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  moment : (..., 3) [N m]
     tilt            : (..., 2) [rad]
+    drag_area       : (...) [m^2] in wind (..., 3) [m/s] of air_density (...) [kg/m^3]
     temperature_change : (...) [K]
     nonlinearity    : (...) k with reference_tension (...) [N]
     cell_gain, cell_bias, friction, slip : (..., m);  tracker, accelerometer_gain : (..., 6)
@@ -71,6 +72,9 @@ class RobotArrays:
     hose_center: np.ndarray = field(default_factory=PARAMETERS["hose_center"].without_effect)
     force: np.ndarray = field(default_factory=PARAMETERS["force"].without_effect)
     moment: np.ndarray = field(default_factory=PARAMETERS["moment"].without_effect)
+    drag_area: np.ndarray = field(default_factory=PARAMETERS["drag_area"].without_effect)
+    wind: np.ndarray = field(default_factory=PARAMETERS["wind"].without_effect)
+    air_density: np.ndarray = field(default_factory=PARAMETERS["air_density"].without_effect)
     tilt: np.ndarray = field(default_factory=PARAMETERS["tilt"].without_effect)
     nonlinearity: np.ndarray = field(default_factory=PARAMETERS["nonlinearity"].without_effect)
     reference_tension: np.ndarray = field(default_factory=PARAMETERS["reference_tension"].without_effect)
@@ -99,6 +103,13 @@ class RobotArrays:
     def weight(self) -> np.ndarray:
         """(..., m) of the cables, w = mu g [N/m]."""
         return self.linear_density * self.gravity[..., None]
+
+    @property
+    def constant_force(self) -> np.ndarray:
+        """(..., 3) on the platform origin, with the drag of wind, world [N]."""
+        if not self.drag_area.any():
+            return self.force
+        return self.force + drag(self.wind, self.drag_area, self.air_density)
 
     @property
     def cable_count(self) -> int:

@@ -54,9 +54,10 @@ def weight_force(arrays: RobotArrays) -> np.ndarray:
 def load_wrench(arrays: RobotArrays, arms: PlatformArms) -> np.ndarray:
     """(..., 6) wrench of weight, constant force and moment, and hose about the platform origin, world axes [N, N m]."""
     wrench = weight_wrench(arrays, arms)
-    if not (arrays.hose.any() or arrays.force.any() or arrays.moment.any()):
+    force = arrays.constant_force
+    if not (arrays.hose.any() or force.any() or arrays.moment.any()):
         return wrench
-    pull = arrays.force + arrays.hose[..., None] * (arrays.hose_center - arms.position)
+    pull = force + arrays.hose[..., None] * (arrays.hose_center - arms.position)
     return wrench + np.concatenate(np.broadcast_arrays(pull, arrays.moment), axis=-1)
 
 

@@ -162,7 +162,7 @@ def potential_energy(
     strain = strain + 0.5 * arrays.hose * (away**2).sum(axis=-1)
     center = PlatformArms.at(arrays, solution.position, solution.rotation).center + solution.position
     force = np.zeros(6) if external_wrench is None else np.asarray(external_wrench, dtype=float)
-    work = np.einsum("...i,...i->...", force[..., :3] + arrays.force, solution.position)
+    work = np.einsum("...i,...i->...", force[..., :3] + arrays.constant_force, solution.position)
     energy: np.ndarray = strain - np.einsum("...i,...i->...", weight_force(arrays), center) - work
     return energy
 

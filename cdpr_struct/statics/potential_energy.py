@@ -35,7 +35,7 @@ def potential_energy(
     """
     arms = PlatformArms.at(arrays, position, rotation)
     platform = -(weight_force(arrays) * (position + arms.center)).sum(axis=-1)
-    loads = -((arrays.force + wrench[..., :3]) * position).sum(axis=-1)
+    loads = -((arrays.constant_force + wrench[..., :3]) * position).sum(axis=-1)
     hose = 0.5 * arrays.hose * ((arrays.hose_center - position) ** 2).sum(axis=-1)
     height = arms.points[..., 2] - states.offset[..., 2]
     cables = (_of_cables(states, height) + _behind_frame(arrays, states, height)).sum(axis=-1)

@@ -34,6 +34,7 @@ ALONE = [
     {"nonlinearity": 0.2, "reference_tension": 300.0},
     {"length_offset": 0.01, "length_scale": 1.002},
     {"moment": [6.0, -4.0, 9.0]},
+    {"drag_area": 1.3, "wind": [6.0, -5.0, 1.0]},
     {"temperature_change": 40.0},
     ALL,
 ]

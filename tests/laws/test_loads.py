@@ -11,6 +11,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix, platform_static_stiffness
 from cdpr_struct.errors import InputError
 from cdpr_struct.generated.platform import rotation
+from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
@@ -53,6 +54,19 @@ def test_a_moment_is_that_of_a_payload_beside_the_origin():
     np.testing.assert_allclose(one.tensions, inverse(loaded, PLACE, TURN).tensions, rtol=1e-9)
     centred = inverse(ROBOT.with_wrench([*weight, 0, 0, 0]), PLACE, TURN)
     assert np.abs(one.tensions - centred.tensions).max() > 1.0  # N, twin
+
+
+def test_wind_pushes_the_platform_by_its_drag():
+    """10 m/s of standard air on one square metre: 61.25 N; twice the speed, four times the force."""
+
+    def blown(*wind: float) -> Robot:
+        return replace(ROBOT, extensions=Extensions.of(8, {"drag_area": 1.0, "wind": wind}))
+
+    np.testing.assert_allclose(blown(6.0, 0.0, -8.0).extensions.wrench, [36.75, 0, -49.0, 0, 0, 0], rtol=1e-14)
+    tensions = inverse(blown(12.0, 0.0, -16.0), PLACE, TURN).tensions
+    pushed = inverse(ROBOT.with_wrench([4 * 36.75, 0, 4 * -49.0, 0, 0, 0]), PLACE, TURN).tensions
+    np.testing.assert_allclose(tensions, pushed, rtol=1e-12)
+    assert np.abs(tensions - inverse(blown(6.0, 0.0, -8.0), PLACE, TURN).tensions).max() > 1.0  # N, twin
 
 
 def test_two_wrenches_are_their_sum():
