@@ -7,6 +7,7 @@ import typer
 import cdpr_struct as cs
 from cdpr_struct.cli.executors import Scheduler, Where, Workers, check_workers, executor
 from cdpr_struct.cli.options import (
+    Free,
     GridText,
     Lengths,
     LowerBound,
@@ -34,6 +35,7 @@ def run(
         str | None, typer.Argument(metavar="ROBOT", help="Built-in name or path to a robot file; not with --limits.")
     ] = None,
     pose: PoseText = None,
+    free: Free = None,
     lengths: Lengths = None,
     start: Start = None,
     grid: GridText = None,
@@ -67,7 +69,7 @@ def run(
         raise InputError("--small", "", small, "it belongs to --limits; leave it out")
     from cdpr_struct.interface.audit import AuditResult, audit_question
 
-    asked = audit_question(robot, pose, lengths, start, grid, trajectory, payload, mass, lower_bound, upper_bound)
+    asked = audit_question(robot, pose, lengths, start, grid, trajectory, payload, mass, lower_bound, upper_bound, free)
     if isinstance(asked, AuditResult):
         output.give(asked)
         return 0 if asked.valid else 1

@@ -6,6 +6,7 @@ import typer
 
 from cdpr_struct.cli.executors import Scheduler, Workers, check_workers
 from cdpr_struct.cli.options import (
+    Free,
     GridText,
     LowerBound,
     Mass,
@@ -34,6 +35,7 @@ def run(
     mass: Mass = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
+    free: Free = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
     chunk: Annotated[
@@ -47,7 +49,7 @@ def run(
     check_workers(workers, scheduler)
     from cdpr_struct.interface.map import map_question
 
-    asked = map_question(robot, grid, quantity, payload, mass, lower_bound, upper_bound, chunk)
+    asked = map_question(robot, grid, quantity, payload, mass, lower_bound, upper_bound, chunk, free)
     batches = asked.batches
     found = asked.answered(*run_batches(batches, (workers, scheduler), output))
     output.give(found)

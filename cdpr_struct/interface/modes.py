@@ -9,6 +9,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_robot, whole
+from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import pose_in_degrees, rest
 from cdpr_struct.interface.result import Files, Result
@@ -78,6 +79,7 @@ def modes(
     elements: int = 80,
     count: int = 40,
     force: bool = False,
+    free: FreeAngles | None = None,
 ) -> ModesResult:
     """Compute the eigenfrequencies of a robot at rest, none missing, with their kind.
 
@@ -89,6 +91,7 @@ def modes(
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
     model : static, dsm, exact or fem;  assembly : consistent, or thesis (eq. 3.8 as printed)
+    free : angles of the pose that hang freely, some of rx, ry, rz; they are found from those given
     elements : a cable, for fem;  count : how many eigenfrequencies;  force : dsm outside its validity limits, too
 
     Raises
@@ -100,7 +103,7 @@ def modes(
     whole(elements, "elements", 2, 2000)
     way, name = one_of(assembly, "assembly", ASSEMBLIES), one_of(model, "model", MODELS)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
-    state = rest(machine, pose, lengths, start)
+    state = rest(machine, pose, lengths, start, free)
     point = state.point
     if name == "dsm" and not force:
         require_validity(point)

@@ -24,6 +24,7 @@ class HoldingProblem:
     low, high : (k, m) bounds on the tensions at the platform [N]
     unit      : (k, 6) 1 for forces, the anchors' mean radius [m] for moments
     careful   : solve every program to the end, also where the structure matrix loses rank
+    kept      : (k, 3, 3) which moments are balanced: products of its rows with the moment; None for all
     """
 
     arrays: RobotArrays
@@ -34,6 +35,7 @@ class HoldingProblem:
     high: np.ndarray
     unit: np.ndarray
     careful: bool = False
+    kept: np.ndarray | None = None
 
     @classmethod
     def at(
@@ -55,7 +57,8 @@ class HoldingProblem:
         """Some items."""
         arms = PlatformArms(self.arms.points[index], self.arms.arms[index], self.arms.center[index])
         rest = (self.load[index], self.low[index], self.high[index], self.unit[index])
-        return HoldingProblem(self.arrays.take(index), self.model, arms, *rest, self.careful)
+        kept = None if self.kept is None else self.kept[index]
+        return HoldingProblem(self.arrays.take(index), self.model, arms, *rest, self.careful, kept)
 
     def solve(self, start: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Chord tensions (k, m) [N], iterations (k,), and whether the last step was negligible (k,)."""
@@ -137,7 +140,7 @@ class HoldingProblem:
         low, high = self._step_bounds(held, growth, tension)
         curvature = self._curvature(held, dual)
         step, multipliers = self._program(curvature, growth, matrix, wrench, low, high)
-        return step, np.linalg.norm(wrench / self.unit, axis=1), multipliers
+        return step, np.linalg.norm(self._balanced(wrench / self.unit), axis=1), multipliers
 
     def _curvature(self, held: HeldCables, dual: np.ndarray) -> np.ndarray:
         """(k, m) second derivative of cost minus multipliers times balance, kept positive."""
@@ -169,6 +172,16 @@ class HoldingProblem:
         low: np.ndarray,
         high: np.ndarray,
     ) -> tuple[np.ndarray, np.ndarray]:
-        scaled = np.swapaxes(matrix, -1, -2) / self.unit[..., None]
-        programs = QuadraticPrograms(curvature, gradient, scaled, -wrench / self.unit, low, high)
-        return solve_programs(programs, self.careful)
+        scaled = self._balanced(np.swapaxes(matrix, -1, -2) / self.unit[..., None])
+        programs = QuadraticPrograms(curvature, gradient, scaled, self._balanced(-wrench / self.unit), low, high)
+        step, dual = solve_programs(programs, self.careful)
+        if self.kept is not None:
+            dual[:, 3:] = np.einsum("kij,ki->kj", self.kept, dual[:, 3:])
+        return step, dual
+
+    def _balanced(self, scaled: np.ndarray) -> np.ndarray:
+        """Scaled wrenches (k, 6) or (k, 6, m) without the moments that need no balance."""
+        if self.kept is None:
+            return scaled
+        rows = scaled if scaled.ndim == 3 else scaled[..., None]
+        return np.concatenate([rows[:, :3], self.kept @ rows[:, 3:]], axis=1).reshape(scaled.shape)

@@ -20,6 +20,7 @@ from cdpr_struct.statics import holding_tensions
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import cable_wrench
+from cdpr_struct.statics.free_orientation import FreeOrientation
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.separating_wrench import separation
 from cdpr_struct.statics.taut_tensions import suits, taut_tensions
@@ -53,6 +54,11 @@ class InverseSolution:
     residual_wrench: np.ndarray
     status: np.ndarray
     iterations: np.ndarray
+
+    def at(self, index: int | np.ndarray) -> "InverseSolution":
+        """The solutions at an index of the batch."""
+        rest = (getattr(self, name)[index] for name in ("lengths", "residual_wrench", "status", "iterations"))
+        return InverseSolution(self.cables.at(index), *rest)
 
     @property
     def tensions(self) -> np.ndarray:
@@ -132,6 +138,13 @@ def inverse(
     return _reshaped(solution, shape)
 
 
+def hung_solution(robot: Robot | RobotArrays, hung: FreeOrientation) -> InverseSolution:
+    """The tensions (k, m) of platforms that hang freely."""
+    status = np.where(hung.found, InverseStatus.HELD, InverseStatus.UNHOLDABLE)
+    lengths = RobotArrays.of(robot).reading(hung.cables.total_length)
+    return InverseSolution(hung.cables, lengths, hung.wrench, status, np.zeros(len(status), dtype=int))
+
+
 def _stiffening(problem: HoldingProblem, solution: InverseSolution) -> tuple[HoldingProblem, InverseSolution]:
     """Solutions with the stiffness that the cables have at their tension, until it stays."""
     entered = problem.arrays
@@ -176,7 +189,7 @@ def _proven_or_searched(problem: HoldingProblem) -> InverseSolution:
     open_ = np.flatnonzero(~ends.proven)
     if open_.size:
         found = _by_programs(problem.take(open_))
-        solution = _replaced(solution, open_[found.held], _picked(found, found.held))
+        solution = _replaced(solution, open_[found.held], found.at(found.held))
         again = open_[~found.held & ends.near[open_]]
         careful = _by_programs(replace(problem.take(again), careful=True), ends.tension[again])
         solution = _replaced(solution, again, careful)
@@ -224,12 +237,7 @@ def _replaced(solution: InverseSolution, index: np.ndarray, other: InverseSoluti
     if not index.size:
         return solution
     kept = np.setdiff1d(np.arange(len(solution.status)), index)
-    return _joined([(kept, _picked(solution, kept)), (index, other)])
-
-
-def _picked(solution: InverseSolution, index: np.ndarray) -> InverseSolution:
-    rest = (getattr(solution, name)[index] for name in ("lengths", "residual_wrench", "status", "iterations"))
-    return InverseSolution(solution.cables.at(index), *rest)
+    return _joined([(kept, solution.at(kept)), (index, other)])
 
 
 def _moved_off(problem: HoldingProblem, items: np.ndarray) -> HoldingProblem:
