@@ -20,6 +20,7 @@ class Plate:
     name        : letters and underscores; the figure's id and the name of its SVG file
     svg         : the figure as SVG text; stays visible where scripts do not run, and in print
     interactive : the same as plotly data, or None
+    live        : the same as markup with a script of its own, which hides the static figure; "" for none
     """
 
     name: str
@@ -27,6 +28,7 @@ class Plate:
     svg: str
     caption: str
     interactive: Mapping[str, Any] | None = None
+    live: str = ""
 
     @property
     def markup(self) -> str:
