@@ -3,7 +3,7 @@
 import functools
 import inspect
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Annotated
@@ -34,24 +34,26 @@ def register(app: typer.Typer, command: ModuleType) -> None:
 def with_output(run: Callable[..., int]) -> Callable[..., int]:
     """The command with options in place of its parameter `output`, an `Output`.
 
-    A command that writes no directory of results declares some of these options itself.
+    A command that writes no directory of results declares some of these options itself; one that has no parameter
+    `output` has none of them.
     """
     own = [p for p in inspect.signature(run, eval_str=True).parameters.values() if p.name != "output"]
-    added = {name: pair for name, pair in _SHARED.items() if name not in {p.name for p in own}}
+    delivers = "output" in inspect.signature(run).parameters
+    shared = _SHARED if delivers else {}
+    added = {name: pair for name, pair in shared.items() if name not in {p.name for p in own}}
     keyword = inspect.Parameter.KEYWORD_ONLY
 
     @functools.wraps(run)
     def command(context: typer.Context, **given: object) -> int:
+        if not delivers:
+            return _asked(run, given, own)
         where = {name: given.pop(name) if name in added else given.get(name) for name in _SHARED}
         out = where["out"] if "out" in added else None
         assert out is None or isinstance(out, Path)
         flags = (bool(where["json"]), bool(where["quiet"]), bool(where["overwrite"]))
         output = Output(out, *flags, repeating(context.obj or ()))
         output.check()
-        try:
-            return run(**given, output=output)
-        except InputError as error:
-            raise _of_option(error, own) from error
+        return _asked(run, {**given, "output": output}, own)
 
     shown = [inspect.Parameter("context", keyword, annotation=typer.Context)]
     shown += [p.replace(kind=keyword) for p in own]
@@ -59,6 +61,14 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
     command.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
     command.__annotations__ = {p.name: p.annotation for p in shown}
     return command
+
+
+def _asked(run: Callable[..., int], given: Mapping[str, object], own: Sequence[inspect.Parameter]) -> int:
+    """What the command returns; complaints about arguments name options."""
+    try:
+        return run(**given)
+    except InputError as error:
+        raise _of_option(error, own) from error
 
 
 def _of_option(error: InputError, own: Sequence[inspect.Parameter]) -> InputError:

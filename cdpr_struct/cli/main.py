@@ -27,6 +27,7 @@ from cdpr_struct.cli import (
     spectrogram,
     transient,
     verify,
+    view,
 )
 from cdpr_struct.cli.command import examples, register
 from cdpr_struct.cli.complaints import complaint
@@ -58,6 +59,7 @@ COMMANDS = (
     audit,
     diagnose,
     plan,
+    view,
 )
 
 

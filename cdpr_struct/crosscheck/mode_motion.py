@@ -10,6 +10,7 @@ import numpy as np
 
 from cdpr_struct.crosscheck.robot_modes import RobotModes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.robot.robot import anchors_in_world
 
 POINTS_PER_HALF_WAVE = 12
 _FEWEST, _DOUBLINGS = 48, 4  # intervals a cable; how often they may be halved
@@ -23,12 +24,14 @@ class ModeMotion:
     cables    : (k, m, p, 3) world axes [m]
     platform  : (k, 6) motion of the platform origin [m] and rotation [rad], world axes
     stride    : (k,) every so many of the points are enough to draw the mode
+    reach     : (k,) displacement of the point of cables or platform that moves most [m]
     """
 
     fractions: np.ndarray
     cables: np.ndarray
     platform: np.ndarray
     stride: np.ndarray
+    reach: np.ndarray
 
 
 def mode_motion(point: OperatingPoint, modes: RobotModes) -> ModeMotion:
@@ -39,7 +42,8 @@ def mode_motion(point: OperatingPoint, modes: RobotModes) -> ModeMotion:
     fractions = np.linspace(0.0, 1.0, _FEWEST * 2**most + 1)
     cables = modes.cable_motion(fractions)
     largest = _largest(np.concatenate([cables.reshape(len(cables), -1), modes.platform], axis=1))[:, None]
-    return ModeMotion(fractions, cables / largest[..., None, None], modes.platform / largest, 2 ** (most - doublings))
+    moved, platform = cables / largest[..., None, None], modes.platform / largest
+    return ModeMotion(fractions, moved, platform, 2 ** (most - doublings), _reach(point, moved, platform))
 
 
 def half_waves(point: OperatingPoint, hertz: np.ndarray) -> np.ndarray:
@@ -49,6 +53,13 @@ def half_waves(point: OperatingPoint, hertz: np.ndarray) -> np.ndarray:
     rise = np.where(upper * lower > 0.0, np.minimum(np.abs(upper), np.abs(lower)), 0.0)
     slowest = np.sqrt(np.hypot(cables.force_x, rise) / point.arrays.linear_density)
     return np.asarray(2.0 * hertz * np.max(cables.length / np.maximum(slowest, 1e-9)))
+
+
+def _reach(point: OperatingPoint, cables: np.ndarray, platform: np.ndarray) -> np.ndarray:
+    _, arms = anchors_in_world(point.entered, point.position, point.rotation)
+    ends = platform[:, None, :3] + np.cross(platform[:, None, 3:], arms)
+    farthest = [np.linalg.norm(moved, axis=-1).reshape(len(moved), -1).max(axis=1) for moved in (cables, ends)]
+    return np.asarray(np.maximum(*farthest))
 
 
 def _largest(components: np.ndarray) -> np.ndarray:

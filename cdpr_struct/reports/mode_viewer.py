@@ -16,7 +16,6 @@ import numpy as np
 from cdpr_struct.crosscheck.mode_motion import ModeMotion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.reports.figures.robot_geometry import cable_curves, pulley_wheels, robot_geometry
-from cdpr_struct.robot.robot import anchors_in_world
 
 FULL_SCALE = 32767
 """The whole number that stands for a component of 1."""
@@ -62,29 +61,21 @@ def _robot(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMotion)
         "origin": _plain(point.position),
         "rotation": _plain(point.rotation.T),
         "box": _plain(geometry.box()),
-        "modes": _modes(point, result, motion),
+        "modes": _modes(result, motion),
     }
 
 
-def _modes(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMotion) -> list[dict[str, Any]]:
+def _modes(result: Mapping[str, Any], motion: ModeMotion) -> list[dict[str, Any]]:
     energy = np.concatenate(
         [np.asarray(result["platform_energy"])[:, None], np.asarray(result["cable_energy"])], axis=1
     )
     columns = zip(
         np.asarray(result["frequencies_hz"]).tolist(), result["kinds"], result["motion_words"],
         np.round(energy, _SHARE_DIGITS).tolist(), _plain(motion.platform), motion.stride.tolist(),
-        np.round(_reach(point, motion), _DIGITS).tolist(), strict=True,
+        np.round(motion.reach, _DIGITS).tolist(), strict=True,
     )  # fmt: skip
     names = ("hertz", "kind", "words", "energy", "platform", "stride", "reach")
     return [dict(zip(names, row, strict=True)) for row in columns]
-
-
-def _reach(point: OperatingPoint, motion: ModeMotion) -> np.ndarray:
-    """(k,) largest displacement of a point of cables or platform [m]."""
-    _, arms = anchors_in_world(point.entered, point.position, point.rotation)
-    ends = motion.platform[:, None, :3] + np.cross(motion.platform[:, None, 3:], arms)
-    largest = [np.linalg.norm(moved, axis=-1).reshape(len(moved), -1).max(axis=1) for moved in (motion.cables, ends)]
-    return np.asarray(np.maximum(*largest))
 
 
 def _plain(values: np.ndarray) -> Any:

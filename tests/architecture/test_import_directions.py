@@ -50,6 +50,16 @@ MAY_IMPORT = {
         "workspace",
         "thesis",
         "reports",
+        "live",
+    },
+    "live": {
+        "robot",
+        "statics",
+        "dynamics",
+        "crosscheck",
+        "measurement",
+        "observation",
+        "reports",
     },
     "cli": {
         "robot",
@@ -66,6 +76,7 @@ MAY_IMPORT = {
     },
 }
 NUMERICS = ("generated", "statics", "dynamics", "crosscheck", "workspace", "residuals", "hypotheses")
+WINDOW = "viser"
 SCREEN_AND_FILES = {"matplotlib", "plotly", "rich", "typer", "jinja2", "pathlib", "json", "csv"}
 MAY_IMPORT_THE_REFEREE = {"crosscheck"}
 MAY_IMPORT_THE_PACKAGE = {"cli"}
@@ -109,6 +120,13 @@ def test_numerics_know_nothing_of_files_and_screens(room):
     for path in files_of(room):
         foreign = {name.split(".")[0] for name in imports_of(path)} & SCREEN_AND_FILES
         assert not foreign, f"{path.relative_to(ROOT)} imports {sorted(foreign)}"
+
+
+def test_one_file_knows_the_browser_window():
+    knowing = [p for p in PACKAGE.rglob("*.py") if WINDOW in {n.split(".")[0] for n in imports_of(p)}]
+    assert [p.relative_to(PACKAGE).as_posix() for p in knowing] == ["live/window.py"]
+    for path in files_of("live"):
+        assert not {name.split(".")[0] for name in imports_of(path)} & SCREEN_AND_FILES, path
 
 
 def test_every_room_is_listed():

@@ -13,7 +13,7 @@ from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.plain_json import json_text
 from tests.cli.conftest import EXAMPLES, ROOT, words_of
 
-NOT_IN_PYTHON = {"derive", "import-caspr"}  # they write files of their own kind
+NOT_IN_PYTHON = {"derive", "import-caspr", "view"}  # files of their own kind, or a window
 LONG = ("diagnose", "plan")
 MAIN_TABLE = {
     "robots": "robots.csv",

@@ -29,13 +29,11 @@ def draw_shapes(figure: Figure, point: OperatingPoint, result: Mapping[str, Any]
     count = min(len(motion.platform), SHOWN)
     geometry, rest = robot_geometry(point), cable_curves(point, motion.fractions)
     panels = figure.subplots(-(-count // _ACROSS), _ACROSS, squeeze=False).ravel()
-    largest = np.linalg.norm(motion.cables[:count], axis=-1).reshape(count, -1).max(axis=1)
-    largest = np.maximum(largest, np.linalg.norm(motion.platform[:count, :3], axis=1))
     reach = _MOVED * float(np.linalg.norm(np.ptp(geometry.box(), axis=0)))
     for k, axes in enumerate(panels):
         axes.set_axis_off()
         if k < count:
-            gain = reach / largest[k]
+            gain = reach / motion.reach[k]
             every = slice(None, None, int(motion.stride[k]))
             _robot(axes, geometry, rest[:, every], None)
             moved = (

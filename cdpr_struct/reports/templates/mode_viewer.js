@@ -153,7 +153,7 @@
   }
   function again() {
     width = canvas.clientWidth;
-    height = Math.round(width < 600 ? 0.9 * width : Math.min(0.56 * width, 600));
+    height = Math.round(width < 600 ? 0.8 * width : Math.min(0.56 * width, 600));
     canvas.style.height = `${height}px`;
     canvas.width = Math.round(width * devicePixelRatio);
     canvas.height = Math.round(height * devicePixelRatio);
