@@ -4,7 +4,7 @@ import time
 from contextlib import redirect_stdout
 from dataclasses import dataclass, replace
 from io import StringIO
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -82,7 +82,7 @@ class Window:
             self._show_modes(NoModes("") if isinstance(state, Refusal) else view_modes(state, self.count))
         self._animate(now)
 
-    def run(self) -> None:
+    def run(self) -> NoReturn:
         """Work until the program is interrupted."""
         while True:
             self.step(time.monotonic())

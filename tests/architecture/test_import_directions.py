@@ -1,6 +1,7 @@
 """Imports go one way; the numerics know nothing of files, plots or screens."""
 
 import ast
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -82,6 +83,7 @@ MAY_IMPORT_THE_REFEREE = {"crosscheck"}
 MAY_IMPORT_THE_PACKAGE = {"cli"}
 
 
+@cache
 def imports_of(path: Path) -> set[str]:
     """Dotted names of everything that a file imports."""
     found = set()
