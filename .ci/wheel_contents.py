@@ -3,6 +3,7 @@
 Top-level names are those of [tool.setuptools.packages.find]; a package's README.md is for those who read the source.
 """
 
+import os
 import sys
 import tomllib
 import zipfile
@@ -17,10 +18,11 @@ def main(wheel: str, source: str) -> int:
     settings = tomllib.loads((root / "pyproject.toml").read_text("utf-8"))
     packages = [name.rstrip("*") for name in settings["tool"]["setuptools"]["packages"]["find"]["include"]]
     expected = {
-        path.relative_to(root).as_posix()
+        (Path(folder) / name).relative_to(root).as_posix()
         for package in packages
-        for path in (root / package).rglob("*")
-        if path.is_file() and path.name not in NOT_SHIPPED and "__pycache__" not in path.parts
+        for folder, _, names in os.walk(root / package, followlinks=True)
+        for name in names
+        if name not in NOT_SHIPPED and "__pycache__" not in folder
     }
     with zipfile.ZipFile(wheel) as archive:
         held = {name for name in archive.namelist() if not name.split("/")[0].endswith(".dist-info")}

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from benchmarks.held_cable import GRAVITY, HeldCable
 
 _SEGMENTS, _ROWS, _STEPS = 36, 8, 12

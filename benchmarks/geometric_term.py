@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from benchmarks.markdown_page import table
 from benchmarks.peers import exudyn_cables, moorpy_lines, opensees, present
 from benchmarks.question import Answer, Question, paragraphs

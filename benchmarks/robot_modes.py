@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from benchmarks.markdown_page import table
 from benchmarks.peers import exudyn_cables, opensees, present
 from benchmarks.question import Answer, Question, paragraphs

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 
 MESHES = (40, 80, 160, 320, 640)
 

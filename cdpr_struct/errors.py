@@ -34,7 +34,7 @@ def told(error: Exception) -> CdprError | None:
     """An error of numerics or of the finite-element referee as one of this package; None if it is a defect."""
     if isinstance(error, CdprError):
         return error
-    if type(error).__module__.partition(".")[0] == "fem_reference":
+    if type(error).__module__.startswith("cdpr_struct.fem_reference."):
         return CdprError(f"FEM reference: {error}")
     if isinstance(error, ArithmeticError) or type(error).__name__ == "LinAlgError":
         return CdprError(f"cannot be computed ({error}): check the size of masses, lengths and forces")

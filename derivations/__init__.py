@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from derivations.records import DerivationReport, FormulaRecord
+from cdpr_struct.derivations.records import DerivationReport, FormulaRecord
 
 __all__ = ["STEPS", "DerivationReport", "FormulaRecord", "run"]
 
@@ -24,7 +24,8 @@ def run(
     Parameters
     ----------
     check : True compares and writes nothing; False writes.
-    output : root that holds cdpr_struct/generated and derivations/latex; None is this repository.
+    output : folder that holds cdpr_struct/generated and cdpr_struct/derivations/latex; None is the one that this
+        package was imported from.
     progress : called with the name of each of the `STEPS` steps as it begins.
 
     Returns
@@ -35,6 +36,6 @@ def run(
     ------
     ArithmeticError : a step of a derivation does not hold.
     """
-    from derivations.regenerate import regenerate
+    from cdpr_struct.derivations.regenerate import regenerate
 
     return regenerate(check, output, progress)

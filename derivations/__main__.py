@@ -1,4 +1,4 @@
-"""python -m derivations [--check]: regenerate, or compare and exit 1 on drift."""
+"""python -m cdpr_struct.derivations [--check]: regenerate, or compare and exit 1 on drift."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import argparse
 import sys
 from pathlib import Path
 
-from derivations import run
+from cdpr_struct.derivations import run
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Print the outcome; 0 when current, 1 on drift of text or value."""
-    parser = argparse.ArgumentParser(prog="python -m derivations", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m cdpr_struct.derivations", description=__doc__)
     parser.add_argument("--check", action="store_true", help="compare, write nothing, exit 1 on drift")
     parser.add_argument("--output", type=Path, help="root to write to or compare with")
     options = parser.parse_args(arguments)
@@ -27,7 +27,7 @@ def main(arguments: list[str] | None = None) -> int:
     corrected = sum(record.status == "corrected" for record in report.formulas)
     print(f"{len(report.formulas)} formulas, {corrected} corrected, {report.seconds:.1f} s")
     if not report.current:
-        print("stale: run python -m derivations and review the diff", file=sys.stderr)
+        print("stale: run python -m cdpr_struct.derivations and review the diff", file=sys.stderr)
     return 0 if report.current else 1
 
 

@@ -12,11 +12,11 @@ from typing import Any
 
 import sympy as sp
 
-from derivations import catenary, exponential_state
-from derivations import catenary_stable as stable
-from derivations.proof import require_same, require_zero_rational, verdict
-from derivations.records import FormulaRecord, GeneratedFunction
-from derivations.symbols import axial_stiffness, force_x, force_z, length, weight
+from cdpr_struct.derivations import catenary, exponential_state
+from cdpr_struct.derivations import catenary_stable as stable
+from cdpr_struct.derivations.proof import require_same, require_zero_rational, verdict
+from cdpr_struct.derivations.records import FormulaRecord, GeneratedFunction
+from cdpr_struct.derivations.symbols import axial_stiffness, force_x, force_z, length, weight
 
 SOURCE = "derivations/cable_compliance.py, eqs (2.24)-(2.29)"
 _H = sp.Symbol("H", positive=True)

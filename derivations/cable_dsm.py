@@ -14,9 +14,9 @@ from typing import Any
 
 import sympy as sp
 
-from derivations.proof import require_same, require_zero_rational
-from derivations.special_functions import cos_of_square, sinc_cos_gap, sinc_of_square
-from derivations.symbols import (
+from cdpr_struct.derivations.proof import require_same, require_zero_rational
+from cdpr_struct.derivations.special_functions import cos_of_square, sinc_cos_gap, sinc_of_square
+from cdpr_struct.derivations.symbols import (
     axial_stiffness,
     chord,
     effective_length,
@@ -24,7 +24,7 @@ from derivations.symbols import (
     omega_c_squared,
     tension,
 )
-from derivations.symbols import perpendicular_weight as w
+from cdpr_struct.derivations.symbols import perpendicular_weight as w
 
 X = sp.Symbol("x", real=True)
 Y = sp.Symbol("y", positive=True)

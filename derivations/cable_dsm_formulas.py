@@ -6,12 +6,12 @@ from typing import Any
 
 import sympy as sp
 
-from derivations import cable_dsm, cable_length
-from derivations import cable_dsm_stable as stable
-from derivations.cable_dsm import Y
-from derivations.proof import require_same, tex, verdict
-from derivations.records import FormulaRecord, GeneratedFunction
-from derivations.symbols import (
+from cdpr_struct.derivations import cable_dsm, cable_length
+from cdpr_struct.derivations import cable_dsm_stable as stable
+from cdpr_struct.derivations.cable_dsm import Y
+from cdpr_struct.derivations.proof import require_same, tex, verdict
+from cdpr_struct.derivations.records import FormulaRecord, GeneratedFunction
+from cdpr_struct.derivations.symbols import (
     axial_stiffness,
     chord,
     damping_ratio,

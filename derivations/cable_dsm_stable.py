@@ -11,8 +11,8 @@ from typing import Any
 
 import sympy as sp
 
-from derivations.special_functions import asinhc, cos_of_square, sinc_cos_gap, sinc_of_square
-from derivations.symbols import (
+from cdpr_struct.derivations.special_functions import asinhc, cos_of_square, sinc_cos_gap, sinc_of_square
+from cdpr_struct.derivations.symbols import (
     axial_stiffness,
     chord,
     effective_length,

@@ -10,13 +10,13 @@ from typing import Any
 
 import sympy as sp
 
-from derivations.cable_dsm import STATIC_PROFILE, X
-from derivations.cable_dsm_stable import effective_length_integral as stable_length
-from derivations.proof import require_same, verdict
-from derivations.records import FormulaRecord
-from derivations.special_functions import expand_definitions
-from derivations.symbols import chord, epsilon, tension
-from derivations.symbols import perpendicular_weight as w
+from cdpr_struct.derivations.cable_dsm import STATIC_PROFILE, X
+from cdpr_struct.derivations.cable_dsm_stable import effective_length_integral as stable_length
+from cdpr_struct.derivations.proof import require_same, verdict
+from cdpr_struct.derivations.records import FormulaRecord
+from cdpr_struct.derivations.special_functions import expand_definitions
+from cdpr_struct.derivations.symbols import chord, epsilon, tension
+from cdpr_struct.derivations.symbols import perpendicular_weight as w
 
 
 def sag_over_chord() -> Any:

@@ -11,11 +11,11 @@ from typing import Any
 
 import sympy as sp
 
-from derivations import catenary_stable as stable
-from derivations import exponential_state as state
-from derivations.proof import require_same, require_zero_rational, verdict
-from derivations.records import FormulaRecord, GeneratedFunction
-from derivations.symbols import axial_stiffness, force_x, force_z, length, s, weight
+from cdpr_struct.derivations import catenary_stable as stable
+from cdpr_struct.derivations import exponential_state as state
+from cdpr_struct.derivations.proof import require_same, require_zero_rational, verdict
+from cdpr_struct.derivations.records import FormulaRecord, GeneratedFunction
+from cdpr_struct.derivations.symbols import axial_stiffness, force_x, force_z, length, s, weight
 
 SOURCE = "derivations/catenary.py, eqs (2.1)-(2.22)"
 ARGUMENTS = (force_x, force_z, length, axial_stiffness, weight)

@@ -16,8 +16,8 @@ from typing import Any
 
 import sympy as sp
 
-from derivations.special_functions import atanhc, atanhc_remainder, tanh_remainder, tanhc
-from derivations.symbols import axial_stiffness, force_x, force_z, length, weight
+from cdpr_struct.derivations.special_functions import atanhc, atanhc_remainder, tanh_remainder, tanhc
+from cdpr_struct.derivations.symbols import axial_stiffness, force_x, force_z, length, weight
 
 
 @dataclass(frozen=True, slots=True)

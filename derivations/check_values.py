@@ -17,7 +17,7 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from derivations.records import GeneratedFunction
+from cdpr_struct.derivations.records import GeneratedFunction
 
 RELATIVE_TOLERANCE = 1e-12
 DIGITS = 320

@@ -12,10 +12,10 @@ from typing import Any
 
 import sympy as sp
 
-from derivations.catenary_stable import Segment, complement
-from derivations.proof import require_zero_rational
-from derivations.special_functions import atanhc, atanhc_remainder, tanh_remainder, tanhc
-from derivations.symbols import axial_stiffness, force_z, length, weight
+from cdpr_struct.derivations.catenary_stable import Segment, complement
+from cdpr_struct.derivations.proof import require_zero_rational
+from cdpr_struct.derivations.special_functions import atanhc, atanhc_remainder, tanh_remainder, tanhc
+from cdpr_struct.derivations.symbols import axial_stiffness, force_z, length, weight
 
 FX, W, EA = sp.symbols("f_x w EA", positive=True)
 E0, E1 = sp.symbols("E_0 E_1", positive=True)

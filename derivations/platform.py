@@ -11,7 +11,7 @@ from typing import Any
 
 import sympy as sp
 
-from derivations.symbols import (
+from cdpr_struct.derivations.symbols import (
     ax,
     ay,
     az,

@@ -6,11 +6,11 @@ from typing import Any
 
 import sympy as sp
 
-from derivations import platform
-from derivations.platform import ARM, CENTRE, COORDINATES, FORCE, THETA, cross_matrix
-from derivations.proof import require_same, tex, verdict
-from derivations.records import FormulaRecord, GeneratedFunction
-from derivations.symbols import (
+from cdpr_struct.derivations import platform
+from cdpr_struct.derivations.platform import ARM, CENTRE, COORDINATES, FORCE, THETA, cross_matrix
+from cdpr_struct.derivations.proof import require_same, tex, verdict
+from cdpr_struct.derivations.records import FormulaRecord, GeneratedFunction
+from cdpr_struct.derivations.symbols import (
     ax,
     ay,
     az,

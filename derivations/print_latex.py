@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from itertools import groupby
 
-from derivations.records import FormulaRecord
+from cdpr_struct.derivations.records import FormulaRecord
 
-_PREAMBLE = r"""% GENERATED FILE - do not edit. Regenerate: python -m derivations
+_PREAMBLE = r"""% GENERATED FILE - do not edit. Regenerate: python -m cdpr_struct.derivations
 \documentclass[a4paper,10pt]{article}
 \usepackage[margin=20mm]{geometry}
 \usepackage{amsmath}

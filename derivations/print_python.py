@@ -8,10 +8,10 @@ from typing import Any
 import sympy as sp
 from sympy.printing.numpy import NumPyPrinter
 
-from derivations.descriptions import DESCRIPTIONS
-from derivations.records import GeneratedFunction
-from derivations.special_functions import ALL
-from derivations.symbols import MEANING
+from cdpr_struct.derivations.descriptions import DESCRIPTIONS
+from cdpr_struct.derivations.records import GeneratedFunction
+from cdpr_struct.derivations.special_functions import ALL
+from cdpr_struct.derivations.symbols import MEANING
 
 
 class _ArrayPrinter(NumPyPrinter):
@@ -101,7 +101,7 @@ def header(source: str, operations: int | None) -> str:
     cost = "" if operations is None else f"; {operations} operations after cse"
     return (
         '"""GENERATED FILE - do not edit.\n\n'
-        "Regenerate : python -m derivations\n"
+        "Regenerate : python -m cdpr_struct.derivations\n"
         f"Source     : {source}\n"
         f"Made with  : sympy {sp.__version__}{cost}\n"
         '"""\n\n'

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from derivations.special_functions import SERIES, series_coefficients
+from cdpr_struct.derivations.special_functions import SERIES, series_coefficients
 
 _BODY = '''
 def _series(coefficients: tuple[float, ...], square: Any) -> Any:

@@ -6,8 +6,8 @@ from typing import Any
 
 import sympy as sp
 
-from derivations.records import FormulaRecord
-from derivations.symbols import LATEX
+from cdpr_struct.derivations.records import FormulaRecord
+from cdpr_struct.derivations.symbols import LATEX
 
 
 def tex(expression: Any) -> str:

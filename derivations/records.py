@@ -1,6 +1,6 @@
 """What a derivation hands on: formulas with their verdict on the print, functions to generate, the report.
 
-Imports nothing heavy, so that `import derivations` stays light.
+Imports nothing heavy, so that `import cdpr_struct.derivations` stays light.
 """
 
 from __future__ import annotations

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
-from derivations import (
+import cdpr_struct
+from cdpr_struct.derivations import (
     cable_compliance,
     cable_dsm_formulas,
     catenary,
@@ -17,11 +18,11 @@ from derivations import (
     special_functions,
     tension_bound,
 )
-from derivations.check_values import value_errors
-from derivations.print_latex import formula_sheet
-from derivations.print_python import header, module_text
-from derivations.print_special_functions import module_body
-from derivations.records import DerivationReport, FormulaRecord, GeneratedFunction
+from cdpr_struct.derivations.check_values import value_errors
+from cdpr_struct.derivations.print_latex import formula_sheet
+from cdpr_struct.derivations.print_python import header, module_text
+from cdpr_struct.derivations.print_special_functions import module_body
+from cdpr_struct.derivations.records import DerivationReport, FormulaRecord, GeneratedFunction
 
 SHEETS: dict[str, ModuleType] = {
     "catenary": catenary,
@@ -31,12 +32,12 @@ SHEETS: dict[str, ModuleType] = {
     "tension_bound": tension_bound,
 }
 GENERATED = "cdpr_struct/generated"
-FORMULA_SHEET = "derivations/latex/formula_sheet.tex"
+FORMULA_SHEET = "cdpr_struct/derivations/latex/formula_sheet.tex"
 
 
 @dataclass(frozen=True, slots=True)
 class Rendering:
-    """Everything the derivations print: path from the repository root -> text."""
+    """Everything the derivations print: path from the folder that holds the package -> text."""
 
     formulas: tuple[FormulaRecord, ...]
     functions: dict[str, tuple[GeneratedFunction, ...]]
@@ -91,7 +92,7 @@ def regenerate(
 ) -> DerivationReport:
     """See derivations.run."""
     start = time.perf_counter()
-    root = Path(__file__).resolve().parent.parent if output is None else Path(output)
+    root = Path(cdpr_struct.__file__).resolve().parents[1] if output is None else Path(output)
     rendering = render(progress)
     diff = drift(rendering.texts, root)
     written = () if check else write(rendering.texts, root)

@@ -10,9 +10,9 @@ from typing import Any
 
 import sympy as sp
 
-from derivations.proof import require_same, tex
-from derivations.records import FormulaRecord, GeneratedFunction
-from derivations.symbols import b, gravity, length, linear_density, omega, tension
+from cdpr_struct.derivations.proof import require_same, tex
+from cdpr_struct.derivations.records import FormulaRecord, GeneratedFunction
+from cdpr_struct.derivations.symbols import b, gravity, length, linear_density, omega, tension
 
 SOURCE = "derivations/tension_bound.py, eqs (5.10)-(5.16)"
 _KG, _M, _S = sp.symbols("kg m s", positive=True)

@@ -3,11 +3,11 @@
 Plain arrays, SI units, z up. Imports NumPy and SciPy only and shares no formula with what it judges.
 """
 
-from fem_reference.cable import CableData, CableEquilibrium
-from fem_reference.cable_damping import damping_rates
-from fem_reference.cable_modes import CableModes, cable_count_below, cable_modes, end_dynamic_stiffness
-from fem_reference.cable_statics import solve_cable
-from fem_reference.errors import (
+from cdpr_struct.fem_reference.cable import CableData, CableEquilibrium
+from cdpr_struct.fem_reference.cable_damping import damping_rates
+from cdpr_struct.fem_reference.cable_modes import CableModes, cable_count_below, cable_modes, end_dynamic_stiffness
+from cdpr_struct.fem_reference.cable_statics import solve_cable
+from cdpr_struct.fem_reference.errors import (
     CableNotConvergedError,
     CompressedBarError,
     FemError,
@@ -19,17 +19,17 @@ from fem_reference.errors import (
     UndefinedSwivelError,
     UnstableEquilibriumError,
 )
-from fem_reference.extrapolation import Extrapolation, extrapolate
-from fem_reference.frequency_response import frequency_response
-from fem_reference.motion_problem import TimeHistory
-from fem_reference.pulley import PulleyData, Wrap
-from fem_reference.rigid_platform import PlatformData
-from fem_reference.robot import PointForce, RobotData, RobotEquilibrium
-from fem_reference.robot_dynamics import count_below, platform_dynamic_stiffness
-from fem_reference.robot_modes import RobotModes, robot_modes
-from fem_reference.robot_statics import solve_robot
-from fem_reference.surroundings import SurroundingsData
-from fem_reference.time_integration import integrate
+from cdpr_struct.fem_reference.extrapolation import Extrapolation, extrapolate
+from cdpr_struct.fem_reference.frequency_response import frequency_response
+from cdpr_struct.fem_reference.motion_problem import TimeHistory
+from cdpr_struct.fem_reference.pulley import PulleyData, Wrap
+from cdpr_struct.fem_reference.rigid_platform import PlatformData
+from cdpr_struct.fem_reference.robot import PointForce, RobotData, RobotEquilibrium
+from cdpr_struct.fem_reference.robot_dynamics import count_below, platform_dynamic_stiffness
+from cdpr_struct.fem_reference.robot_modes import RobotModes, robot_modes
+from cdpr_struct.fem_reference.robot_statics import solve_robot
+from cdpr_struct.fem_reference.surroundings import SurroundingsData
+from cdpr_struct.fem_reference.time_integration import integrate
 
 __all__ = [
     "CableData",

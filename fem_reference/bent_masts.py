@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem_reference.cable_statics import EPS, CableBatch, ChainState, solve_chains
-from fem_reference.masts import Mast, unknowns
+from cdpr_struct.fem_reference.cable_statics import EPS, CableBatch, ChainState, solve_chains
+from cdpr_struct.fem_reference.masts import Mast, unknowns
 
 MAX_ITERATIONS = 60
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem_reference.bar_element import MassModel, bar_mass, bar_stiffness
-from fem_reference.pulley import Wrap
-from fem_reference.sliding_bar import Eyelet
+from cdpr_struct.fem_reference.bar_element import MassModel, bar_mass, bar_stiffness
+from cdpr_struct.fem_reference.pulley import Wrap
+from cdpr_struct.fem_reference.sliding_bar import Eyelet
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fem_reference.bar_element import MassModel
-from fem_reference.cable_modes import first_omega
-from fem_reference.robot import RobotEquilibrium
+from cdpr_struct.fem_reference.bar_element import MassModel
+from cdpr_struct.fem_reference.cable_modes import first_omega
+from cdpr_struct.fem_reference.robot import RobotEquilibrium
 
 
 def damping_rates(

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csc_array, eye_array, kron
 
-from fem_reference.bar_element import MassModel
-from fem_reference.cable import CableEquilibrium
-from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
-from fem_reference.pulley import Wrap
-from fem_reference.sparse_chain import chain_matrix
-from fem_reference.substructure import condensed_and_counted, dynamic_ends
+from cdpr_struct.fem_reference.bar_element import MassModel
+from cdpr_struct.fem_reference.cable import CableEquilibrium
+from cdpr_struct.fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
+from cdpr_struct.fem_reference.pulley import Wrap
+from cdpr_struct.fem_reference.sparse_chain import chain_matrix
+from cdpr_struct.fem_reference.substructure import condensed_and_counted, dynamic_ends
 
 
 @dataclass(frozen=True, eq=False)

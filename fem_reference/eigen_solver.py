@@ -7,7 +7,7 @@ import scipy.linalg
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
-from fem_reference.errors import UnstableEquilibriumError
+from cdpr_struct.fem_reference.errors import UnstableEquilibriumError
 
 
 def lowest_eigenpairs(stiffness: csc_array, mass: csc_array, count: int, shift: float) -> tuple[np.ndarray, np.ndarray]:

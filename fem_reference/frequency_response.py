@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fem_reference.bar_element import MassModel
-from fem_reference.robot import RobotEquilibrium
-from fem_reference.robot_dynamics import platform_dynamic_stiffness
+from cdpr_struct.fem_reference.bar_element import MassModel
+from cdpr_struct.fem_reference.robot import RobotEquilibrium
+from cdpr_struct.fem_reference.robot_dynamics import platform_dynamic_stiffness
 
 
 def frequency_response(

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import block_array, csc_array
 
-from fem_reference.arrays import fixed_array
-from fem_reference.rigid_platform import point_motion
+from cdpr_struct.fem_reference.arrays import fixed_array
+from cdpr_struct.fem_reference.rigid_platform import point_motion
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,9 +11,9 @@ import numpy as np
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import SuperLU, splu
 
-from fem_reference.motion_problem import MotionProblem, TimeHistory
-from fem_reference.robot_modes import node_motion, robot_matrices
-from fem_reference.sparse_chain import chain_matrix
+from cdpr_struct.fem_reference.motion_problem import MotionProblem, TimeHistory
+from cdpr_struct.fem_reference.robot_modes import node_motion, robot_matrices
+from cdpr_struct.fem_reference.sparse_chain import chain_matrix
 
 
 def banded_factors(matrix: csc_array) -> SuperLU:

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fem_reference.arrays import fixed_array
-from fem_reference.bar_element import MassModel
-from fem_reference.cable_damping import damping_rates
-from fem_reference.robot import RobotEquilibrium
+from cdpr_struct.fem_reference.arrays import fixed_array
+from cdpr_struct.fem_reference.bar_element import MassModel
+from cdpr_struct.fem_reference.cable_damping import damping_rates
+from cdpr_struct.fem_reference.robot import RobotEquilibrium
 
 Wrench = Callable[[float], ArrayLike]
 

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem_reference.motion_problem import MotionProblem
-from fem_reference.rigid_platform import cross_matrix
+from cdpr_struct.fem_reference.motion_problem import MotionProblem
+from cdpr_struct.fem_reference.rigid_platform import cross_matrix
 
 
 @dataclass(frozen=True, eq=False)

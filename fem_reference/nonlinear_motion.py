@@ -15,12 +15,12 @@ import numpy as np
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import SuperLU
 
-from fem_reference.errors import StepNotConvergedError
-from fem_reference.linear_motion import banded_factors
-from fem_reference.motion_problem import MotionProblem
-from fem_reference.moving_robot import MovingRobot, MovingState, secant_stiffness
-from fem_reference.rigid_platform import point_motion, rotating_arm_stiffness, turned
-from fem_reference.sparse_chain import BorderedChains
+from cdpr_struct.fem_reference.errors import StepNotConvergedError
+from cdpr_struct.fem_reference.linear_motion import banded_factors
+from cdpr_struct.fem_reference.motion_problem import MotionProblem
+from cdpr_struct.fem_reference.moving_robot import MovingRobot, MovingState, secant_stiffness
+from cdpr_struct.fem_reference.rigid_platform import point_motion, rotating_arm_stiffness, turned
+from cdpr_struct.fem_reference.sparse_chain import BorderedChains
 
 MAX_ITERATIONS = 60
 EPS = float(np.finfo(float).eps)

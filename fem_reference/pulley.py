@@ -32,9 +32,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem_reference.arrays import fixed_array
-from fem_reference.errors import UndefinedSwivelError
-from fem_reference.sliding_bar import SlidingBar
+from cdpr_struct.fem_reference.arrays import fixed_array
+from cdpr_struct.fem_reference.errors import UndefinedSwivelError
+from cdpr_struct.fem_reference.sliding_bar import SlidingBar
 
 PARALLEL = 1e-9  # sine of the angle between cable and axis below which the pulley has no plane
 

@@ -14,11 +14,11 @@ import dataclasses
 
 import numpy as np
 
-from fem_reference.cable import CableData, CableEquilibrium
-from fem_reference.cable_statics import CableBatch
-from fem_reference.pulley import PulleyData, Wrap, wrapped
-from fem_reference.robot import RobotData
-from fem_reference.sliding_bar import Eyelet
+from cdpr_struct.fem_reference.cable import CableData, CableEquilibrium
+from cdpr_struct.fem_reference.cable_statics import CableBatch
+from cdpr_struct.fem_reference.pulley import PulleyData, Wrap, wrapped
+from cdpr_struct.fem_reference.robot import RobotData
+from cdpr_struct.fem_reference.sliding_bar import Eyelet
 
 Wraps = tuple[Wrap | Eyelet | None, ...]
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from fem_reference.arrays import fixed_array
+from cdpr_struct.fem_reference.arrays import fixed_array
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fem_reference.arrays import fixed_array
-from fem_reference.bar_element import MassModel
-from fem_reference.cable import CableData, CableEquilibrium
-from fem_reference.masts import Mast
-from fem_reference.pulley import PulleyData
-from fem_reference.rigid_platform import PlatformData, point_motion, rotating_arm_stiffness
-from fem_reference.surroundings import SurroundingsData
+from cdpr_struct.fem_reference.arrays import fixed_array
+from cdpr_struct.fem_reference.bar_element import MassModel
+from cdpr_struct.fem_reference.cable import CableData, CableEquilibrium
+from cdpr_struct.fem_reference.masts import Mast
+from cdpr_struct.fem_reference.pulley import PulleyData
+from cdpr_struct.fem_reference.rigid_platform import PlatformData, point_motion, rotating_arm_stiffness
+from cdpr_struct.fem_reference.surroundings import SurroundingsData
 
 
 @dataclass(frozen=True, eq=False)

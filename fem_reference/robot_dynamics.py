@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fem_reference.bar_element import MassModel
-from fem_reference.bent_masts import softened
-from fem_reference.cable_damping import damping_rates
-from fem_reference.rigid_platform import platform_mass_matrix
-from fem_reference.robot import RobotEquilibrium
-from fem_reference.substructure import Pieces, condensed_and_counted, condensed_both_ends, dynamic_ends
+from cdpr_struct.fem_reference.bar_element import MassModel
+from cdpr_struct.fem_reference.bent_masts import softened
+from cdpr_struct.fem_reference.cable_damping import damping_rates
+from cdpr_struct.fem_reference.rigid_platform import platform_mass_matrix
+from cdpr_struct.fem_reference.robot import RobotEquilibrium
+from cdpr_struct.fem_reference.substructure import Pieces, condensed_and_counted, condensed_both_ends, dynamic_ends
 
 
 def platform_dynamic_stiffness(

@@ -8,15 +8,15 @@ import numpy as np
 import scipy.linalg
 from scipy.sparse import block_diag, csc_array, eye_array, hstack, lil_array, vstack
 
-from fem_reference.bar_element import MassModel
-from fem_reference.cable_modes import string_eigenvalue
-from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
-from fem_reference.errors import MissedModesError
-from fem_reference.masts import unknowns
-from fem_reference.rigid_platform import platform_mass_matrix
-from fem_reference.robot import RobotEquilibrium
-from fem_reference.robot_dynamics import count_below, platform_dynamic_stiffness
-from fem_reference.sparse_chain import chain_matrix
+from cdpr_struct.fem_reference.bar_element import MassModel
+from cdpr_struct.fem_reference.cable_modes import string_eigenvalue
+from cdpr_struct.fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
+from cdpr_struct.fem_reference.errors import MissedModesError
+from cdpr_struct.fem_reference.masts import unknowns
+from cdpr_struct.fem_reference.rigid_platform import platform_mass_matrix
+from cdpr_struct.fem_reference.robot import RobotEquilibrium
+from cdpr_struct.fem_reference.robot_dynamics import count_below, platform_dynamic_stiffness
+from cdpr_struct.fem_reference.sparse_chain import chain_matrix
 
 SPARE_MODES = (4, 16, 64)  # solved beyond the asked ones, until the count can be checked in a clear gap
 CLEAR_GAP = 1e-7  # relative distance of two frequencies between which a count is beyond doubt

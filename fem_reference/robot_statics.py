@@ -12,12 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fem_reference.arrays import fixed_array
-from fem_reference.bent_masts import bend, softened
-from fem_reference.cable import CableEquilibrium
-from fem_reference.cable_statics import EPS, CableBatch, ChainState, equilibria
-from fem_reference.errors import FoldedCableError, PulleysNotSettledError, RobotNotConvergedError
-from fem_reference.pulley_statics import (
+from cdpr_struct.fem_reference.arrays import fixed_array
+from cdpr_struct.fem_reference.bent_masts import bend, softened
+from cdpr_struct.fem_reference.cable import CableEquilibrium
+from cdpr_struct.fem_reference.cable_statics import EPS, CableBatch, ChainState, equilibria
+from cdpr_struct.fem_reference.errors import FoldedCableError, PulleysNotSettledError, RobotNotConvergedError
+from cdpr_struct.fem_reference.pulley_statics import (
     guessed_wraps,
     handed_on,
     movement,
@@ -26,8 +26,8 @@ from fem_reference.pulley_statics import (
     unwound,
     wraps_towards,
 )
-from fem_reference.rigid_platform import point_motion, rotating_arm_stiffness, turned
-from fem_reference.robot import DeadLoads, PointForce, RobotData, RobotEquilibrium
+from cdpr_struct.fem_reference.rigid_platform import point_motion, rotating_arm_stiffness, turned
+from cdpr_struct.fem_reference.robot import DeadLoads, PointForce, RobotData, RobotEquilibrium
 
 MAX_ITERATIONS = 100
 LARGEST_TURN = 0.3  # rad a step

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem_reference.arrays import fixed_array
+from cdpr_struct.fem_reference.arrays import fixed_array
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fem_reference.arrays import fixed_array
-from fem_reference.masts import Mast, rigid, with_bracket, with_upright
+from cdpr_struct.fem_reference.arrays import fixed_array
+from cdpr_struct.fem_reference.masts import Mast, rigid, with_bracket, with_upright
 
 
 @dataclass(frozen=True, eq=False)

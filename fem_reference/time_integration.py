@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
-from fem_reference.bar_element import MassModel
-from fem_reference.linear_motion import linear_motion
-from fem_reference.motion_problem import MotionProblem, TimeHistory, Wrench, motion_problem
-from fem_reference.moving_robot import MovingRobot, MovingState, secant_stiffness
-from fem_reference.nonlinear_motion import Stepper, body_wrench
-from fem_reference.pulley import Wrap
-from fem_reference.robot import RobotEquilibrium
+from cdpr_struct.fem_reference.bar_element import MassModel
+from cdpr_struct.fem_reference.linear_motion import linear_motion
+from cdpr_struct.fem_reference.motion_problem import MotionProblem, TimeHistory, Wrench, motion_problem
+from cdpr_struct.fem_reference.moving_robot import MovingRobot, MovingState, secant_stiffness
+from cdpr_struct.fem_reference.nonlinear_motion import Stepper, body_wrench
+from cdpr_struct.fem_reference.pulley import Wrap
+from cdpr_struct.fem_reference.robot import RobotEquilibrium
 
 
 def integrate(

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from benchmarks.held_cable import GRAVITY, HeldCable
 from benchmarks.peers import load
 

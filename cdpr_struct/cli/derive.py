@@ -20,7 +20,7 @@ def run(
     output: Output,
 ) -> int:
     """Regenerate Python and LaTeX from the sympy derivations."""
-    import derivations
+    from cdpr_struct import derivations
 
     with output.steps(derivations.STEPS) as progress:
         report = derivations.run(check=check, output=None, progress=progress)

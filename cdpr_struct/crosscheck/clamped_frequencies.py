@@ -2,7 +2,7 @@
 
 import numpy as np
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.dynamics.clamped_catenary import clamped_frequencies
 from cdpr_struct.statics.cable_state import CableStates
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import attachment
 from cdpr_struct.robot.extensions import masts_of

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.limits_closed_form import clamped_frequencies
 from cdpr_struct.crosscheck.limits_errors import ACROSS_MODES, IN_PLANE_MODES
 from cdpr_struct.crosscheck.limits_groups import CableGroups

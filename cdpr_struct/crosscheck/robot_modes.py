@@ -6,7 +6,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import fem_cable_motion, solve_in_fem
 from cdpr_struct.crosscheck.validity_limits import check_limits
 from cdpr_struct.dynamics.certified_modes import certified_modes

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.dynamics.cable_dynamics import CableModel, cable_dynamics
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (

@@ -7,7 +7,7 @@ import numpy as np
 import scipy.linalg
 from scipy.optimize import linear_sum_assignment
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.determinant_minima import DeterminantScan, match_minima, scan_determinant
 from cdpr_struct.crosscheck.fem_robot import fem_shapes, sampling_mass, solve_in_fem
 from cdpr_struct.crosscheck.mode_pairing import modal_assurance, pair_modes, shared_subspace

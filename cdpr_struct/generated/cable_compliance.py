@@ -1,6 +1,6 @@
 """GENERATED FILE - do not edit.
 
-Regenerate : python -m derivations
+Regenerate : python -m cdpr_struct.derivations
 Source     : derivations/cable_compliance.py, eqs (2.24)-(2.29)
 Made with  : sympy 1.14.0; 159 operations after cse
 """

@@ -1,6 +1,6 @@
 """GENERATED FILE - do not edit.
 
-Regenerate : python -m derivations
+Regenerate : python -m cdpr_struct.derivations
 Source     : derivations/cable_dsm.py, eqs (2.31)-(2.41)
 Made with  : sympy 1.14.0; 82 operations after cse
 """

@@ -1,6 +1,6 @@
 """GENERATED FILE - do not edit.
 
-Regenerate : python -m derivations
+Regenerate : python -m cdpr_struct.derivations
 Source     : derivations/catenary.py, eqs (2.1)-(2.22)
 Made with  : sympy 1.14.0; 335 operations after cse
 """

@@ -1,6 +1,6 @@
 """GENERATED FILE - do not edit.
 
-Regenerate : python -m derivations
+Regenerate : python -m cdpr_struct.derivations
 Source     : derivations/platform.py, eqs (3.8)-(3.19)
 Made with  : sympy 1.14.0; 76 operations after cse
 """

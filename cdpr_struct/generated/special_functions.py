@@ -1,6 +1,6 @@
 """GENERATED FILE - do not edit.
 
-Regenerate : python -m derivations
+Regenerate : python -m cdpr_struct.derivations
 Source     : derivations/special_functions.py, derivations/print_special_functions.py
 Made with  : sympy 1.14.0
 """

@@ -1,6 +1,6 @@
 """GENERATED FILE - do not edit.
 
-Regenerate : python -m derivations
+Regenerate : python -m cdpr_struct.derivations
 Source     : derivations/tension_bound.py, eqs (5.10)-(5.16)
 Made with  : sympy 1.14.0; 12 operations after cse
 """

@@ -12,7 +12,7 @@ from cdpr_struct.reports.figures import spectrogram as figure
 from cdpr_struct.reports.figures.style import Draw, svg
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
 from cdpr_struct.reports.transient_result import transient_columns
-from cdpr_struct.reports.transient_text import port_rows, transient_summary
+from cdpr_struct.reports.transient_text import PORT_COLUMNS, port_rows, transient_summary
 
 
 def transient_files(
@@ -74,11 +74,7 @@ def _page(record: VibrationRecord, result: Mapping[str, Any], plate: Plate) -> P
             (f"{100.0 * result['energy_share']:.2f} %", "of the excitation's energy held by these modes"),
         ],
         plates=[plate],
-        tables=[
-            HtmlTable(
-                "Vibration", ["", "largest displacement", "largest acceleration", "dominant [Hz]"], port_rows(result)
-            )
-        ],
+        tables=[HtmlTable("Vibration", PORT_COLUMNS, port_rows(result))],
         notes=[("How it was computed", _NOTES)],
     )
 

@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import to_fem
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot import Robot

@@ -35,7 +35,7 @@ def imports(room: str, name: str) -> set[str]:
             elif package == "cdpr_struct" and rest.split(".")[0] not in {"generated", "errors", ""}:
                 found.add(rest.split(".")[0])
         elif isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names if alias.name == "fem_reference"}
+            found |= {"fem_reference" for alias in node.names if alias.name == "cdpr_struct.fem_reference"}
     return found
 
 

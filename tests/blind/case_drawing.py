@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fem_reference import FemError
+from cdpr_struct.fem_reference import FemError
 from tests.blind.beside_checks import CHECKED, BesideCheck
 from tests.blind.catalogue import (
     BEYOND,

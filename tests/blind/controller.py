@@ -10,8 +10,8 @@ import numpy as np
 from scipy.linalg import null_space
 from scipy.optimize import nnls
 
-from fem_reference import PulleyData, solve_robot
-from fem_reference.pulley import wrapped
+from cdpr_struct.fem_reference import PulleyData, solve_robot
+from cdpr_struct.fem_reference.pulley import wrapped
 from tests.blind.deviations import Deviations
 from tests.blind.entered_robot import UP, EnteredRobot
 from tests.blind.true_robot import Command, true_robot

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem_reference import CableEquilibrium, RobotEquilibrium, Wrap
+from cdpr_struct.fem_reference import CableEquilibrium, RobotEquilibrium, Wrap
 from tests.blind.deviations import Deviations
 from tests.blind.entered_robot import UP, EnteredRobot
 from tests.blind.measuring_plan import Plan

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fem_reference import FemError
+from cdpr_struct.fem_reference import FemError
 from tests.blind.case_drawing import (
     ATTEMPTS,
     ROBOTS,

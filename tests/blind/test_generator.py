@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fem_reference import robot_modes
+from cdpr_struct.fem_reference import robot_modes
 from tests.blind import case_drawing
 from tests.blind.__main__ import main
 from tests.blind.campaign_files import opened_truth, write_case

@@ -7,7 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from fem_reference import CableData, PlatformData, PointForce, PulleyData, RobotData, RobotEquilibrium, solve_robot
+from cdpr_struct.fem_reference import (
+    CableData,
+    PlatformData,
+    PointForce,
+    PulleyData,
+    RobotData,
+    RobotEquilibrium,
+    solve_robot,
+)
 from tests.blind.bending_masts import mast_deflections
 from tests.blind.deviations import EXPANSION, Deviations
 from tests.blind.entered_robot import UP, EnteredRobot

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import block_array, csc_array, diags_array, lil_array
 
-from fem_reference import RobotEquilibrium, cable_modes
-from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
-from fem_reference.rigid_platform import platform_mass_matrix
-from fem_reference.robot_modes import robot_matrices
+from cdpr_struct.fem_reference import RobotEquilibrium, cable_modes
+from cdpr_struct.fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
+from cdpr_struct.fem_reference.rigid_platform import platform_mass_matrix
+from cdpr_struct.fem_reference.robot_modes import robot_matrices
 from tests.blind.bending_masts import exit_blocks, mast_motion, mast_springs
 from tests.blind.deviations import Deviations
 from tests.blind.entered_robot import EnteredRobot

@@ -19,7 +19,7 @@ import pytest
 
 from cdpr_struct.cli.main import COMMANDS, run
 from cdpr_struct.cli.output import repeating
-from derivations import regenerate
+from cdpr_struct.derivations import regenerate
 from tests.cli.conftest import ENDLESS, EXAMPLES, FAILS, ROOT, words_of
 
 NAMES = [command.NAME for command in COMMANDS]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fem_reference import (
+from cdpr_struct.fem_reference import (
     CableData,
     UnstableEquilibriumError,
     cable_count_below,
@@ -12,9 +12,9 @@ from fem_reference import (
     extrapolate,
     solve_cable,
 )
-from fem_reference.cable_modes import clamped_matrices
-from fem_reference.eigen_solver import lowest_eigenpairs
-from fem_reference.sparse_chain import chain_matrix
+from cdpr_struct.fem_reference.cable_modes import clamped_matrices
+from cdpr_struct.fem_reference.eigen_solver import lowest_eigenpairs
+from cdpr_struct.fem_reference.sparse_chain import chain_matrix
 
 EA, MU = 251327.4123, 0.067  # N, kg/m
 CABLE = CableData(20.0, EA, MU)

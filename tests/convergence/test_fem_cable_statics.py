@@ -4,9 +4,16 @@ import numpy as np
 import pytest
 import scipy.optimize
 
-from fem_reference import CableData, CompressedBarError, FemError, FoldedCableError, extrapolate, solve_cable
-from fem_reference.bar_element import bar_stiffness, internal_forces
-from fem_reference.sparse_chain import chain_matrix
+from cdpr_struct.fem_reference import (
+    CableData,
+    CompressedBarError,
+    FemError,
+    FoldedCableError,
+    extrapolate,
+    solve_cable,
+)
+from cdpr_struct.fem_reference.bar_element import bar_stiffness, internal_forces
+from cdpr_struct.fem_reference.sparse_chain import chain_matrix
 
 EA, MU, LENGTH = 251327.4123, 0.067, 20.0  # N, kg/m, m
 CABLE = CableData(LENGTH, EA, MU)

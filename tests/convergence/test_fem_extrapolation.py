@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fem_reference import extrapolate
+from cdpr_struct.fem_reference import extrapolate
 
 
 @pytest.mark.parametrize("counts", [[10, 20, 40], [10, 15, 35], [8, 16, 32, 64]])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from fem_reference import (
+from cdpr_struct.fem_reference import (
     CableData,
     FemError,
     PlatformData,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import scipy.optimize
 
-from fem_reference import CableData, PlatformData, PulleyData, RobotData, solve_robot
+from cdpr_struct.fem_reference import CableData, PlatformData, PulleyData, RobotData, solve_robot
 
 MU, UP, GRAVITY = 0.067, np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.0, -9.81])
 LEANING, ENTRY, OFFSET = np.array([0.1, 0.3, np.sqrt(0.9)]), np.array([0.4, -0.2, 3.0]), np.array([9.0, 1.0, -3.0])

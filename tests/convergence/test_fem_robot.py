@@ -7,7 +7,7 @@ import pytest
 import scipy.optimize
 from scipy.spatial.transform import Rotation
 
-from fem_reference import (
+from cdpr_struct.fem_reference import (
     CableData,
     FemError,
     PlatformData,
@@ -20,7 +20,7 @@ from fem_reference import (
     robot_modes,
     solve_robot,
 )
-from fem_reference.robot_modes import node_motion, robot_matrices
+from cdpr_struct.fem_reference.robot_modes import node_motion, robot_matrices
 
 FRAME = np.array(
     [

@@ -8,7 +8,7 @@ import scipy.integrate
 import scipy.linalg
 import scipy.special
 
-from fem_reference import (
+from cdpr_struct.fem_reference import (
     CableData,
     FemError,
     PlatformData,
@@ -24,8 +24,8 @@ from fem_reference import (
     robot_modes,
     solve_robot,
 )
-from fem_reference.linear_motion import LinearSystem
-from fem_reference.motion_problem import motion_problem
+from cdpr_struct.fem_reference.linear_motion import LinearSystem
+from cdpr_struct.fem_reference.motion_problem import motion_problem
 
 FRAME = np.array([[x, y, z] for z in (5.0, 4.0) for x, y in ((-8, 5.5), (-8, -5.5), (8, -5.5), (8, 5.5))])
 PLATFORM = 0.4 * np.array(

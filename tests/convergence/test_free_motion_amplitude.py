@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "free_motion_amplitude.py"
 LONG = 1.5  # m

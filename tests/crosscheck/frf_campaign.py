@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.measurement.campaign import Campaign, RobotFrequencies

@@ -12,16 +12,16 @@ import pandas as pd
 from scipy.sparse import csc_array
 from scipy.spatial.transform import Rotation
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
+from cdpr_struct.fem_reference.rigid_platform import platform_mass_matrix
+from cdpr_struct.fem_reference.robot_modes import robot_matrices
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
-from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
-from fem_reference.rigid_platform import platform_mass_matrix
-from fem_reference.robot_modes import robot_matrices
 
 ELEMENTS, CABLE_MODES, ROBOT_MODES, SHIFT = 24, 2, 48, -0.4
 SEEN = 0.3  # share of the kinetic energy in the platform: what an accelerometer shows as a clear peak

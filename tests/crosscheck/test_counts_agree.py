@@ -7,7 +7,7 @@ none of the finer mesh's frequencies lies within its mesh error below omega. The
 import numpy as np
 import pytest
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.natural_frequencies import count_below

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.single_cable import describe_cable
 from cdpr_struct.crosscheck.verification import verify
 from cdpr_struct.dynamics.catenary_expansion import expand_catenaries

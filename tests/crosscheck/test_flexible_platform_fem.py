@@ -11,14 +11,14 @@ from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
+from cdpr_struct.fem_reference.rigid_platform import platform_mass_matrix, point_motion
+from cdpr_struct.fem_reference.robot_modes import robot_matrices
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.reports.diagnose.sentences import sentence
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.robot.robot_writing import robot_toml
 from cdpr_struct.statics.inverse_kinematics import inverse
-from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
-from fem_reference.rigid_platform import platform_mass_matrix, point_motion
-from fem_reference.robot_modes import robot_matrices
 
 ROBOT = "cogiro"  # 118.5 kg; modes of its platform between 2.4 and 7.3 Hz, which move with the pose
 POSES = np.array([[0.76, 0.29, 1.22], [2.24, 1.38, 1.62], [-2.67, 1.16, 2.02], [1.8, -1.56, 2.22]])

@@ -8,13 +8,13 @@ import pytest
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
+from cdpr_struct.fem_reference.inner_mass import InnerMassData, with_inner_mass
+from cdpr_struct.fem_reference.robot_modes import robot_matrices
 from cdpr_struct.generated.platform import rotation
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
-from fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
-from fem_reference.inner_mass import InnerMassData, with_inner_mass
-from fem_reference.robot_modes import robot_matrices
 
 MASS, HERTZ, AXIS = 6.0, 7.8, np.array([0.36, 0.48, 0.8])
 ELEMENTS, MODES = (10, 20), 16

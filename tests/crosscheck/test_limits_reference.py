@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import cdpr_struct.crosscheck.limits_referee as referee
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.limits_errors import QUANTITIES, measure
 from cdpr_struct.crosscheck.limits_groups import CableGroups, broken_limits, inside_printed_limits
 from cdpr_struct.crosscheck.limits_reference import Effects, reference_planes

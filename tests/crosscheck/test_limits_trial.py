@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import cdpr_struct.crosscheck.limits_errors as errors
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.limits_causes import candidates, causes_of, rounded_down, sample_groups
 from cdpr_struct.crosscheck.limits_closed_form import closed_form_planes
 from cdpr_struct.crosscheck.limits_domain import Domain

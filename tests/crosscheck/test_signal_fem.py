@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-import fem_reference as fem
+import cdpr_struct.fem_reference as fem
 from cdpr_struct.cli.main import run
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.measurement.campaign_file import load_campaign

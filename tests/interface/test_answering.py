@@ -7,7 +7,7 @@ import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 import cdpr_struct as cs
-import fem_reference
+from cdpr_struct import fem_reference
 from cdpr_struct.interface.answering import answered
 
 COMPUTE_NOTHING = {"load_robot", "write_robot", "causes"}

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-import derivations
-from derivations import regenerate
-from derivations.__main__ import main
-from derivations.records import FormulaRecord
+from cdpr_struct import derivations
+from cdpr_struct.derivations import regenerate
+from cdpr_struct.derivations.__main__ import main
+from cdpr_struct.derivations.records import FormulaRecord
 
 ROOT = Path(__file__).resolve().parents[2]
 CORRECTED = {
@@ -59,7 +59,8 @@ def test_committed_text_is_current(rendering: regenerate.Rendering) -> None:
     for name, fresh in rendering.texts.items():
         committed = (ROOT / name).read_text(encoding="utf-8")
         diff = difflib.unified_diff(committed.splitlines(True), fresh.splitlines(True), "committed", "fresh")
-        assert committed == fresh, f"{name}\n{''.join(diff)}\nrun: python -m derivations, and review the diff"
+        stale = "run: python -m cdpr_struct.derivations, and review the diff"
+        assert committed == fresh, f"{name}\n{''.join(diff)}\n{stale}"
 
 
 def test_generated_folder_holds_nothing_else(rendering: regenerate.Rendering) -> None:
@@ -142,5 +143,5 @@ def test_formula_sheet_is_a_balanced_document(rendering: regenerate.Rendering) -
 
 
 def test_import_stays_light() -> None:
-    code = "import sys, derivations; sys.exit(any(m in sys.modules for m in ('sympy', 'numpy', 'mpmath')))"
+    code = "import sys, cdpr_struct.derivations; sys.exit(any(m in sys.modules for m in ('sympy', 'numpy', 'mpmath')))"
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False).returncode == 0
