@@ -31,7 +31,7 @@ def quaternion(rotation: np.ndarray, turn: np.ndarray) -> np.ndarray:
 
 
 def linear(colour: np.ndarray) -> np.ndarray:
-    """Colours (..., 3) of a screen, 0 to 255, as the intensities that the window takes for lines and arrows."""
+    """Colours (..., 3) of a screen, 0 to 255, as the intensities that the window takes for each of many lines."""
     share = np.asarray(colour) / 255.0
     low = share <= 0.04045
     return np.rint(255.0 * np.where(low, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)).astype(np.uint8)

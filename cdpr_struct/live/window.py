@@ -142,9 +142,7 @@ class Window:
         scene.add_frame("/world", axes_length=0.06 * size, axes_radius=0.001 * size)
         feet = self.robot.frame_anchors * [1.0, 1.0, 0.0] + [0.0, 0.0, box[0, 2]]
         posts = np.stack([feet, self.robot.frame_anchors], axis=1)
-        scene.add_line_segments(
-            "/posts", posts, linear(np.array(colours.NONE)), thickness=1.0, thickness_units="screen"
-        )
+        scene.add_line_segments("/posts", posts, colours.NONE, thickness=1.0, thickness_units="screen")
         for i, anchor in enumerate(self.robot.frame_anchors, start=1):
             scene.add_icosphere(f"/anchors/{i}", 0.004 * size, color=(40, 40, 40), position=anchor)
             scene.add_label(f"/anchors/{i}/number", str(i))
@@ -155,9 +153,7 @@ class Window:
                 "/platform/body", body, first.geometry.triangles, color=colours.PLATFORM, opacity=0.35, side="double"
             )
         edges = (first.geometry.edges - first.pose.position) @ first.pose.rotation
-        scene.add_line_segments(
-            "/platform/edges", edges, linear(np.array(colours.PLATFORM)), thickness=2.0, thickness_units="screen"
-        )
+        scene.add_line_segments("/platform/edges", edges, colours.PLATFORM, thickness=2.0, thickness_units="screen")
 
     def _mark(self, event: object) -> None:
         self._changed = True

@@ -35,7 +35,7 @@ def modes_files(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMo
 
 
 def _plates(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMotion) -> list[Plate]:
-    shapes = mode_shapes.size(len(motion.platform))
+    shapes = mode_shapes.size(point, len(motion.platform))
     return [
         Plate(
             "modes",

@@ -10,7 +10,7 @@ import pytest
 import cdpr_struct as cs
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.platform_directions import direction_shares
-from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix
+from cdpr_struct.dynamics.robot_dynamic_stiffness import attachment, platform_mass_matrix
 from cdpr_struct.reports.mode_words import STILL, motion_words
 from cdpr_struct.robot.pose import Pose
 
@@ -72,5 +72,9 @@ def test_modes_say_how_the_platform_moves_in_text_json_and_table():
     assert "about x" in str(found).splitlines()[20]
     assert np.shape(told["motion"]) == np.shape(told["platform_directions"]) == (22, 6)
     np.testing.assert_allclose(table["share_z"], [row[2] for row in told["platform_directions"]], rtol=1e-6, atol=1e-9)
+    ends = np.einsum("mab,kb->kma", attachment(found.point), told["motion"])
+    np.testing.assert_allclose(found.motion.cables[:, :, -1], ends, atol=1e-12)
+    largest = np.abs(found.motion.cables).reshape(22, -1).max(axis=1)
+    assert np.maximum(largest, np.abs(told["motion"]).max(axis=1)) == pytest.approx(np.ones(22), rel=1e-12)
     np.testing.assert_allclose(table["rx_rad"], [row[3] for row in told["motion"]], rtol=1e-6, atol=1e-9)
     np.testing.assert_allclose(np.sum(told["cable_energy"], axis=1) + told["platform_energy"], 1.0, rtol=1e-9)

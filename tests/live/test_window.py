@@ -94,7 +94,9 @@ def test_without_the_extra_one_sentence_says_what_to_install(monkeypatch, capsys
         (["view", "six-cable-4mm", "--campaign", TABLE_4_4], "it has 8 cables and six-cable-4mm has 6"),
     ],
 )
-def test_unusable_options_are_refused_in_one_line(words, said, capsys):
+def test_unusable_options_are_refused_in_one_line(words, said, monkeypatch, capsys):
+    """Before a window is opened."""
+    monkeypatch.setattr("cdpr_struct.interface.view.open_server", None)
     assert run([*words, "--no-browser"]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert said in line

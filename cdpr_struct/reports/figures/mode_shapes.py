@@ -15,35 +15,46 @@ from cdpr_struct.reports.figures.style import BLACK, BLUE, GREY, ORANGE
 
 SHOWN = 6
 _ACROSS = 3
+_WIDTH, _TITLE = 9.6, 0.3  # inch
+_ROOM = 0.15  # for the motion, beside the robot's height over its width
 _YAW, _PITCH = np.radians(28.0), np.radians(20.0)
 _MOVED = 0.07  # of the robot's size moves the point that moves most
 
 
-def size(modes: int) -> tuple[float, float]:
-    """Width and height [inch] of the figure of so many modes."""
-    return 9.6, 2.75 * -(-min(modes, SHOWN) // _ACROSS)
+def size(point: OperatingPoint, modes: int) -> tuple[float, float]:
+    """Width and height [inch] of the figure of so many modes: panels as high as the robot is in them."""
+    wide, high = np.ptp(_flat(robot_geometry(point).curves).reshape(-1, 2), axis=0)
+    row = _TITLE + min(float(high / wide) + _ROOM, 1.0) * _WIDTH / _ACROSS
+    return _WIDTH, row * _rows(modes)
 
 
 def draw_shapes(figure: Figure, point: OperatingPoint, result: Mapping[str, Any], motion: ModeMotion) -> None:
-    """A panel for each of the first modes, seen along the same parallel rays."""
+    """A panel for each of the first modes, seen along the same parallel rays; the figure has the `size` for them."""
     count = min(len(motion.platform), SHOWN)
     geometry, rest = robot_geometry(point), cable_curves(point, motion.fractions)
-    panels = figure.subplots(-(-count // _ACROSS), _ACROSS, squeeze=False).ravel()
     reach = _MOVED * float(np.linalg.norm(np.ptp(geometry.box(), axis=0)))
-    for k, axes in enumerate(panels):
-        axes.set_axis_off()
-        if k < count:
-            gain = reach / motion.reach[k]
-            every = slice(None, None, int(motion.stride[k]))
-            _robot(axes, geometry, rest[:, every], None)
-            moved = (
-                (rest + gain * motion.cables[k])[:, every],
-                geometry.edges + gain * _carried(point, geometry, motion.platform[k]),
-            )
-            _robot(axes, geometry, *moved)
-            axes.set_aspect("equal")
-            hertz, kind = float(result["frequencies_hz"][k]), result["kinds"][k]
-            axes.set_title(f"{k + 1}: {hertz:.4g} Hz, {kind}", fontsize=9.0)
+    figure.set_layout_engine("none")
+    for k in range(count):
+        axes = _panel(figure, k, _rows(count))
+        gain, every = reach / motion.reach[k], slice(None, None, int(motion.stride[k]))
+        cables = (rest + gain * motion.cables[k])[:, every]
+        _robot(axes, geometry, rest[:, every], None)
+        _robot(axes, geometry, cables, geometry.edges + gain * _carried(point, geometry, motion.platform[k]))
+        axes.set_aspect("equal")
+        axes.set_title(f"{k + 1}: {float(result['frequencies_hz'][k]):.4g} Hz, {result['kinds'][k]}", fontsize=9.0)
+
+
+def _rows(modes: int) -> int:
+    return -(-min(modes, SHOWN) // _ACROSS)
+
+
+def _panel(figure: Figure, number: int, rows: int) -> Axes:
+    """Empty axes below room for a title."""
+    row, column = divmod(number, _ACROSS)
+    height = 1.0 / rows - _TITLE / float(figure.get_figheight())
+    axes = figure.add_axes((column / _ACROSS + 0.01, 1.0 - (row + 1) / rows, 1.0 / _ACROSS - 0.02, height))
+    axes.set_axis_off()
+    return axes
 
 
 def shapes_caption(modes: int) -> str:
