@@ -9,8 +9,8 @@ from cdpr_struct.crosscheck.mode_motion import ModeMotion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import interactive, mode_ladder, mode_shapes, robot_drawing
-from cdpr_struct.reports.figures.style import svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.mode_viewer import viewer_markup
 from cdpr_struct.reports.mode_words import WORDS_NOTE
 from cdpr_struct.reports.modes_text import modes_columns, modes_sentence, motion_columns
@@ -29,8 +29,7 @@ def modes_files(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMo
         "modes.csv": csv_text(modes_columns(result)),
         "platform_motion.csv": csv_text(motion_columns(result)),
         "cables.csv": csv_text({"cable": range(1, len(lengths) + 1), "length_m": lengths, "tension_N": tensions}),
-        **{f"{plate.name}.svg": plate.svg for plate in plates},
-        "report.html": render_page(_page(point, result, plates), interactive.plotly_packed()),
+        **page_files(_page(point, result, plates)),
     }
 
 
@@ -40,20 +39,20 @@ def _plates(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMotion
         Plate(
             "modes",
             "Eigenfrequencies",
-            svg("modes", mode_ladder.SIZE, lambda f: mode_ladder.draw_ladder(f, result)),
+            Drawing("modes", mode_ladder.SIZE, lambda f: mode_ladder.draw_ladder(f, result)),
             mode_ladder.ladder_caption(result),
         ),
         Plate(
             "mode_shapes",
             "Mode shapes",
-            svg("mode_shapes", shapes, lambda f: mode_shapes.draw_shapes(f, point, result, motion)),
+            Drawing("mode_shapes", shapes, lambda f: mode_shapes.draw_shapes(f, point, result, motion)),
             mode_shapes.shapes_caption(len(motion.platform)),
             live=viewer_markup(point, result, motion),
         ),
         Plate(
             "robot",
             "The robot at rest",
-            svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point)),
+            Drawing("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point)),
             robot_drawing.robot_caption(point),
             interactive.robot_plot(point),
         ),
@@ -63,6 +62,7 @@ def _plates(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMotion
 def _page(point: OperatingPoint, result: Mapping[str, Any], plates: list[Plate]) -> Page:
     robot = point.entered
     return Page(
+        robot=result["robot"],
         title=f"{result['robot']}: eigenfrequencies",
         subtitle=(
             f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg at {place(point.position)}; "

@@ -33,9 +33,10 @@ def draw_shapes(figure: Figure, point: OperatingPoint, result: Mapping[str, Any]
     count = min(len(motion.platform), SHOWN)
     geometry, rest = robot_geometry(point), cable_curves(point, motion.fractions)
     reach = _MOVED * float(np.linalg.norm(np.ptp(geometry.box(), axis=0)))
-    figure.set_layout_engine("none")
-    for k in range(count):
-        axes = _panel(figure, k, _rows(count))
+    panels = figure.subplots(_rows(count), _ACROSS, squeeze=False).ravel()
+    for axes in panels:
+        axes.set_axis_off()
+    for k, axes in enumerate(panels[:count]):
         gain, every = reach / motion.reach[k], slice(None, None, int(motion.stride[k]))
         cables = (rest + gain * motion.cables[k])[:, every]
         _robot(axes, geometry, rest[:, every], None)
@@ -46,15 +47,6 @@ def draw_shapes(figure: Figure, point: OperatingPoint, result: Mapping[str, Any]
 
 def _rows(modes: int) -> int:
     return -(-min(modes, SHOWN) // _ACROSS)
-
-
-def _panel(figure: Figure, number: int, rows: int) -> Axes:
-    """Empty axes below room for a title."""
-    row, column = divmod(number, _ACROSS)
-    height = 1.0 / rows - _TITLE / float(figure.get_figheight())
-    axes = figure.add_axes((column / _ACROSS + 0.01, 1.0 - (row + 1) / rows, 1.0 / _ACROSS - 0.02, height))
-    axes.set_axis_off()
-    return axes
 
 
 def shapes_caption(modes: int) -> str:
