@@ -10,8 +10,12 @@ from cdpr_struct.errors import UnholdablePoseError
 from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, InverseStatus, inverse
+from cdpr_struct.statics.separating_wrench import separation
 from cdpr_struct.statics.slack_cables import hangs_slack
 from tests.random_robots import random_positions, random_robot
 from tests.symmetric_robots import CORNERS, symmetric_positions, symmetric_robots
@@ -124,9 +128,9 @@ def test_the_named_cable_is_in_the_way():
 
 def test_light_platform_on_heavy_vertical_cables_hangs():
     robot = symmetric_robots()[8]
-    heavy = replace(robot, cables=(Cable(1e7, 5.0),) * 6)  # 30 kg each, the platform 2 kg
-    found = inverse(heavy, [0.0, 0.0, 14.0], np.eye(3), mass=2.0)
-    assert found.tensions == pytest.approx(np.full(6, 2.0 * 9.81 / 6.0), rel=1e-9)
+    heavy = replace(robot, cables=(Cable(1e7, 5.0),) * 6)  # 30 kg each, the platform 200 g
+    found = inverse(heavy, [0.0, 0.0, 14.0], np.eye(3), mass=0.2)
+    assert found.tensions == pytest.approx(np.full(6, 0.2 * 9.81 / 6.0), rel=1e-9)
 
 
 def test_a_cable_without_length_is_named():
@@ -137,3 +141,21 @@ def test_a_cable_without_length_is_named():
     assert error.value.cable == 7
     found = inverse(robot, np.stack([np.zeros(3), corner]), np.eye(3), allow_unheld=True)
     assert found.held.tolist() == [True, False]
+
+
+def test_no_pose_that_is_held_is_proven_to_be_out_of_reach():
+    """Heavy cables: straight ones leave a wrench unbalanced at poses that sagging ones hold."""
+    robot = load_robot("six-cable-8mm")
+    across = np.linspace(-0.9, 0.9, 13)
+    half = robot.frame_anchors.max(axis=0)
+    places = np.array([[half[0] * x, half[1] * y, 0.5] for x in across for y in across])
+    held = inverse(robot, places, np.eye(3), allow_unheld=True).held
+    k, arrays = len(places), RobotArrays.of(robot)
+    turns, bounds = np.broadcast_to(np.eye(3), (k, 3, 3)), (np.zeros((k, 6)), np.full((k, 6), np.inf))
+    problem = HoldingProblem.at(
+        arrays.flattened((k,)), cable_model("sagging"), (places, turns), np.zeros((k, 6)), bounds
+    )
+    found = separation(problem)
+    assert held.sum() >= 20
+    assert not found.proven[held].any()
+    assert found.proven[~held].mean() > 0.8
