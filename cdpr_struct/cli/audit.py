@@ -7,6 +7,7 @@ import typer
 import cdpr_struct as cs
 from cdpr_struct.cli.executors import Scheduler, Where, Workers, check_workers, executor
 from cdpr_struct.cli.options import (
+    Free,
     GridText,
     Lengths,
     LowerBound,
@@ -42,6 +43,7 @@ def run(
         ),
     ] = None,
     pose: PoseText = None,
+    free: Free = None,
     lengths: Lengths = None,
     start: Start = None,
     grid: GridText = None,
@@ -78,7 +80,19 @@ def run(
     from cdpr_struct.interface.audit import AuditResult, audit_question
 
     asked = audit_question(
-        robot, pose, lengths, start, grid, trajectory, payload, mass, wrench, temperature, lower_bound, upper_bound
+        robot,
+        pose,
+        lengths,
+        start,
+        grid,
+        trajectory,
+        payload,
+        mass,
+        wrench,
+        temperature,
+        lower_bound,
+        upper_bound,
+        free,
     )
     if isinstance(asked, AuditResult):
         output.give(asked)

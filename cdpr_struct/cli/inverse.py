@@ -6,6 +6,7 @@ import typer
 
 import cdpr_struct as cs
 from cdpr_struct.cli.options import (
+    Free,
     LowerBound,
     Mass,
     Payload,
@@ -27,6 +28,7 @@ EXAMPLES = (
 def run(
     robot: RobotName,
     pose: PoseText = None,
+    free: Free = None,
     payload: Payload = 0.0,
     mass: Mass = None,
     model: Annotated[str, typer.Option("--model", help="sagging, spring or ideal")] = "sagging",
@@ -39,9 +41,9 @@ def run(
 ) -> int:  # fmt: skip
     """Unstrained lengths and tensions that hold a pose (minimum norm where there is a choice)."""
     found = cs.inverse(
-        robot, pose, payload=payload, mass=mass, model=model,
+        robot, pose, free=free, payload=payload, mass=mass, model=model,
         wrench=wrench, temperature=temperature, lower_bound=lower_bound,
         upper_bound=upper_bound,
     )  # fmt: skip
     output.give(found)
-    return 0
+    return 0 if found.answer["stable"] else 1

@@ -6,6 +6,7 @@ import typer
 
 from cdpr_struct.cli.executors import Scheduler, Workers, check_workers
 from cdpr_struct.cli.options import (
+    Free,
     GridText,
     LowerBound,
     Mass,
@@ -38,6 +39,7 @@ def run(
     temperature: Temperature = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
+    free: Free = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
     chunk: Annotated[
@@ -51,7 +53,9 @@ def run(
     check_workers(workers, scheduler)
     from cdpr_struct.interface.map import map_question
 
-    asked = map_question(robot, grid, quantity, payload, mass, wrench, temperature, lower_bound, upper_bound, chunk)
+    asked = map_question(
+        robot, grid, quantity, payload, mass, wrench, temperature, lower_bound, upper_bound, chunk, free
+    )
     batches = asked.batches
     found = asked.answered(*run_batches(batches, (workers, scheduler), output))
     output.give(found)

@@ -7,6 +7,7 @@ import typer
 import cdpr_struct as cs
 from cdpr_struct.cli.options import (
     AssemblyName,
+    Free,
     Lengths,
     LowerBound,
     Mass,
@@ -32,6 +33,7 @@ EXAMPLES = (
 def run(
     robot: RobotName,
     pose: PoseText = None,
+    free: Free = None,
     lengths: Lengths = None,
     start: Start = None,
     lower_bound: LowerBound = None,
@@ -51,8 +53,8 @@ def run(
 ) -> int:
     """Eigenfrequencies of the robot at rest, with their kind."""
     found = cs.modes(
-        robot, pose, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound, payload=payload,
-        mass=mass,
+        robot, pose, free=free, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
+        payload=payload, mass=mass,
         wrench=wrench, temperature=temperature,
         model=model, assembly=assembly, elements=elements, count=count, force=force,
     )  # fmt: skip

@@ -77,6 +77,14 @@ Start = Annotated[
         help="With --lengths: where to look [m, deg]; default: the way continues from the home pose.",
     ),
 ]
+Free = Annotated[
+    str | None,
+    typer.Option(
+        "--free",
+        metavar="rx,ry,rz",
+        help="Angles that hang freely, some of rx,ry,rz; found from those given.",
+    ),
+]
 LowerBound = Annotated[
     float | None,
     typer.Option(

@@ -7,6 +7,7 @@ import typer
 import cdpr_struct as cs
 from cdpr_struct.cli.options import (
     AssemblyName,
+    Free,
     Lengths,
     LowerBound,
     Mass,
@@ -32,6 +33,7 @@ EXAMPLES = (
 def run(
     robot: RobotName,
     pose: PoseText = None,
+    free: Free = None,
     lengths: Lengths = None,
     start: Start = None,
     lower_bound: LowerBound = None,
@@ -54,7 +56,7 @@ def run(
     """Compare the DSM's eigenfrequencies with the FEM's; exit 1 if they disagree."""
     with output.steps(len(elements.split(",")) + 2) as progress:
         found = cs.verify(
-            robot, pose, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
+            robot, pose, free=free, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
             payload=payload, mass=mass,
             wrench=wrench, temperature=temperature,
             elements=elements, modes=modes, assembly=assembly, tolerance=tolerance,

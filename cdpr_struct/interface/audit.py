@@ -11,6 +11,7 @@ from cdpr_struct.crosscheck.limits_poses import PoseAudit, audit_batches, audit_
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import read_grid, read_robot, require_one
+from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import GridLike, Numbers, PoseLike, Progress, RobotLike, TrajectoryLike
 from cdpr_struct.interface.operating_point import rest
 from cdpr_struct.interface.result import Files, Result
@@ -97,6 +98,7 @@ def audit(
     upper_bound: float | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
+    free: FreeAngles | None = None,
 ) -> AuditResult:
     """Check each cable at each pose against the printed validity limits of the closed form; `valid`: none is broken.
 
@@ -113,6 +115,7 @@ def audit(
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     executor : of `concurrent.futures` that shares the work over many poses; default: this process
     progress : called once a batch of poses
+    free : with pose, angles that hang freely, some of rx, ry, rz; they are found from those given
 
     Raises
     ------
@@ -120,7 +123,19 @@ def audit(
     CdprError : the robot cannot be at rest at the one pose.
     """
     asked = audit_question(
-        robot, pose, lengths, start, grid, trajectory, payload, mass, wrench, temperature, lower_bound, upper_bound
+        robot,
+        pose,
+        lengths,
+        start,
+        grid,
+        trajectory,
+        payload,
+        mass,
+        wrench,
+        temperature,
+        lower_bound,
+        upper_bound,
+        free,
     )
     if isinstance(asked, AuditResult):
         return asked
@@ -158,6 +173,7 @@ def audit_question(
     temperature: float | None,
     lower_bound: float | None,
     upper_bound: float | None,
+    free: FreeAngles | None = None,
 ) -> AuditQuestion | AuditResult:
     """What the arguments of `audit` ask for: the poses of many, the result of a single one.
 
@@ -171,8 +187,10 @@ def audit_question(
     if grid is not None or trajectory is not None:
         if start is not None:
             raise InputError("start", "", start, "it belongs to `lengths`; leave it out")
+        if free is not None:
+            raise InputError("free", "", free, "it belongs to `pose`; leave it out")
         return _of_many(machine, grid, trajectory)
-    state = rest(machine, pose, lengths, start)
+    state = rest(machine, pose, lengths, start, free)
     found = audit_rest(state.point)
     return AuditResult(with_extensions(audit_json(found) | state.told(), machine, "audit"), found)
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_pose, read_robot
+from cdpr_struct.interface.free_angles import FreeAngles, hanging_pose
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import held
 from cdpr_struct.interface.result import Files, Result
@@ -14,8 +15,11 @@ from cdpr_struct.reports import statics_rest
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.bound_advice import slack_warning
+from cdpr_struct.statics.held_stability import held_stability, unstable_sentence
 from cdpr_struct.statics.inverse_kinematics import InverseSolution
+from cdpr_struct.statics.slack_cables import sag_sentence, sagging_cables
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
@@ -79,6 +83,7 @@ def inverse(
     temperature: float | None = None,
     lower_bound: float | None = None,
     upper_bound: float | None = None,
+    free: FreeAngles | None = None,
 ) -> InverseResult:
     """Find the cable lengths and tensions that hold a pose, of least norm where there is a choice.
 
@@ -91,6 +96,9 @@ def inverse(
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
     temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
+    free : angles of the pose that hang freely, some of rx, ry, rz; they are found from those given
+
+    The result's `stable` says whether the platform is held there at locked lengths, or only balanced.
 
     Raises
     ------
@@ -100,7 +108,21 @@ def inverse(
     chosen = one_of(model, "model", MODELS)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     where = read_pose(pose, machine)
-    solution = held(machine, where, chosen)
-    slack = slack_warning(machine, where.position, where.rotation, solution.cables)
-    told = statics_rest.inverse_json(machine, chosen, where, solution) | {"warnings": [] if slack is None else [slack]}
+    hanging = None if free is None else hanging_pose(machine, where, free, chosen)
+    where = where if hanging is None else hanging.pose
+    solution = held(machine, where, chosen) if hanging is None else hanging.solution
+    stability = held_stability(RobotArrays.of(machine), where.position, where.rotation, solution.cables)
+    said = [
+        None if hanging is None else hanging.sentence(),
+        unstable_sentence(stability),
+        slack_warning(machine, where.position, where.rotation, solution.cables),
+        sag_sentence(solution.cables),
+    ]
+    told = {
+        **statics_rest.inverse_json(machine, chosen, where, solution),
+        **({} if hanging is None else hanging.json()),
+        "stable": bool(stability.stable),
+        "sagging_cables": sagging_cables(solution.cables),
+        "warnings": [sentence for sentence in said if sentence is not None],
+    }
     return InverseResult(with_extensions(told, machine, "inverse", chosen), machine, where, solution)

@@ -2,12 +2,15 @@
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import read_grid, read_robot, whole
+from cdpr_struct.interface.free_angles import FreeAngles, names_of, read_free
 from cdpr_struct.interface.given import GridLike, Numbers, Progress, RobotLike
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
@@ -15,6 +18,7 @@ from cdpr_struct.reports import statics_map
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import Grid
+from cdpr_struct.workspace.hanging_poses import HangingFreely
 from cdpr_struct.workspace.pose_batches import PoseBatches
 from cdpr_struct.workspace.quantities import quantity_of
 from cdpr_struct.workspace.sweep import sweep
@@ -83,6 +87,7 @@ def map(
     chunk: int | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
+    free: FreeAngles | None = None,
 ) -> MapResult:
     """Map a quantity over a grid of poses.
 
@@ -98,33 +103,50 @@ def map(
     chunk : poses a batch; default: what suits the quantity
     executor : of `concurrent.futures` that shares the work, like a ProcessPoolExecutor; default: this process
     progress : called once a batch
+    free : angles that hang freely at each pose, some of rx, ry, rz; they are found from those of the grid
 
     Raises
     ------
     InputError : an unusable argument.
     """
-    asked = map_question(robot, grid, quantity, payload, mass, wrench, temperature, lower_bound, upper_bound, chunk)
+    asked = map_question(
+        robot, grid, quantity, payload, mass, wrench, temperature, lower_bound, upper_bound, chunk, free
+    )
     return asked.answered(swept(asked.batches, executor, progress))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MapQuestion:
-    """Which quantity is asked for, over which grid; chunk: poses a batch, None for what suits the quantity."""
+    """Which quantity is asked for, over which grid.
+
+    chunk : poses a batch, None for what suits the quantity;  free : (3,) bool, which of rx, ry, rz hang freely, or None
+    """
 
     robot: Robot
     grid: Grid
     quantity: str
     chunk: int | None
+    free: np.ndarray | None = None
 
     @property
     def batches(self) -> PoseBatches:
         """What is to be computed."""
-        return sweep(self.quantity, self.robot, self.grid, self.chunk)
+        batches = sweep(self.quantity, self.robot, self.grid, self.chunk)
+        if self.free is None:
+            return batches
+        rx, ry, rz = self.free.tolist()
+        name = f"{batches.name} free {','.join(names_of(self.free))}"
+        return replace(batches, name=name, evaluate=HangingFreely(self.quantity, (rx, ry, rz)))
 
     def answered(self, columns: Columns, resumed: int = 0) -> MapResult:
         """The result of columns that were computed; `resumed` chunks came from an earlier, interrupted run."""
         values = quantity_of(self.quantity).finished(self.robot, self.grid, columns)
         told = statics_map.map_json(self.robot, self.quantity, self.grid, values) | {"resumed_chunks": resumed}
+        if self.free is not None:
+            told["free"] = {"angles": names_of(self.free)}
+            angles = "rx_deg, ry_deg and rz_deg of map.csv are the angles found."
+            said = f"{', '.join(names_of(self.free))} were left free: {angles}"
+            told["warnings"] = [said, *told["warnings"]]
         answer = with_extensions(told, self.robot, _kin(self.quantity))
         return MapResult(answer, self.robot, self.quantity, self.grid, values)
 
@@ -141,6 +163,7 @@ def map_question(
     lower_bound: float | None,
     upper_bound: float | None,
     chunk: int | None,
+    free: FreeAngles | None = None,
 ) -> MapQuestion:
     """What the arguments of `map` ask for.
 
@@ -161,7 +184,11 @@ def map_question(
     if what.most_poses is not None and poses.size > (most := what.most_poses(machine)):
         right = f"at most {most} poses for {name}, which keeps the mode shapes of all poses in memory"
         raise InputError("grid", "", f"{poses.size} poses", right)
-    return MapQuestion(machine, poses, name, chunk)
+    if free is None:
+        return MapQuestion(machine, poses, name, chunk)
+    if name.startswith(("mode-", "pose-error")):
+        raise InputError("free", "", free, f"{name} is computed at the orientation of the grid; leave it out")
+    return MapQuestion(machine, poses, name, chunk, read_free(free, len(machine.cables))[0])
 
 
 def require_drawable(grid: Grid) -> None:

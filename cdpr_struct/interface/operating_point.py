@@ -11,6 +11,7 @@ from cdpr_struct.dynamics.applied_moment import moment_sentence
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import CdprError, ConvergenceError, InputError, UnholdablePoseError, UnstableEquilibriumError
 from cdpr_struct.interface.arguments import read_lengths, read_pose
+from cdpr_struct.interface.free_angles import FreeAngles, HangingPose, hanging_pose
 from cdpr_struct.interface.given import Numbers, PoseLike
 from cdpr_struct.reports.locked_rest import locked_json, locked_warnings
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
@@ -18,15 +19,16 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import bound_hint, outside_limits, slack_warning
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.locked_rest import LockedRest, locked_rest
-from cdpr_struct.statics.slack_cables import hangs_slack, slack_sentence
+from cdpr_struct.statics.slack_cables import hangs_slack, sag_sentence, sagging_cables, slack_sentence
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AtRest:
-    """The robot at rest, and how the pose was found if the lengths were given instead of it."""
+    """The robot at rest, and how the pose was found if lengths were given instead of it, or angles left free."""
 
     point: OperatingPoint
     locked: LockedRest | None = None
+    hanging: HangingPose | None = None
 
     @contextmanager
     def advised(self) -> Iterator[None]:
@@ -43,24 +45,35 @@ class AtRest:
 
     def told(self, *warnings: str) -> dict[str, Any]:
         """What every result says of the state of rest: `warnings`, and `locked` if the lengths were given."""
-        if self.locked is None:
-            return {"warnings": [*warnings, *self._warnings()]}
-        said = [*warnings, *locked_warnings(self.locked), *self._warnings()]
-        return {"warnings": said, "locked": locked_json(self.locked)}
+        sagging = {"sagging_cables": sagging_cables(self.point.cables)}
+        if self.locked is not None:
+            said = [*warnings, *locked_warnings(self.locked), *self._warnings()]
+            return {**sagging, "warnings": said, "locked": locked_json(self.locked)}
+        if self.hanging is None:
+            return {**sagging, "warnings": [*warnings, *self._warnings()]}
+        said = [*warnings, self.hanging.sentence(), *self._warnings()]
+        return {**sagging, **self.hanging.json(), "warnings": said}
 
     def _warnings(self) -> list[str]:
         """Sentences on slack cables, on locked cables outside the robot's force limits, and on a constant moment."""
         point = self.point
-        turned = moment_sentence(point)
+        sag = sag_sentence(point.cables)
+        told = [sentence for sentence in (sag, moment_sentence(point)) if sentence is not None]
         if self.locked is None:
             said = slack_warning(point.entered, point.position, point.rotation, point.cables)
-            return [sentence for sentence in (said, turned) if sentence is not None]
+            return [*([] if said is None else [said]), *told]
         slack = slack_sentence(hangs_slack(point.cables))
         outside = outside_limits(point.entered, point.cables.tension_at_platform)
-        return [*([] if slack is None else [f"{slack}."]), *outside, *([] if turned is None else [turned])]
+        return [*([] if slack is None else [f"{slack}."]), *told, *outside]
 
 
-def rest(robot: Robot, pose: PoseLike | None, lengths: Numbers | None, start: PoseLike | None = None) -> AtRest:
+def rest(
+    robot: Robot,
+    pose: PoseLike | None,
+    lengths: Numbers | None,
+    start: PoseLike | None = None,
+    free: FreeAngles | None = None,
+) -> AtRest:
     """The robot at rest with sagging cables.
 
     Parameters
@@ -68,6 +81,7 @@ def rest(robot: Robot, pose: PoseLike | None, lengths: Numbers | None, start: Po
     pose : the cables hold it with the least norm of tensions within the robot's force limits; None: the home pose
     lengths : unstrained lengths at which it is locked [m]; only one of the two may be given
     start : where to look, only with lengths
+    free : angles of the pose that hang freely, found from those given
 
     Raises
     ------
@@ -78,7 +92,12 @@ def rest(robot: Robot, pose: PoseLike | None, lengths: Numbers | None, start: Po
         if start is not None:
             raise InputError("start", "", start, "it belongs to `lengths`; leave it out")
         where = read_pose(pose, robot)
-        return AtRest(OperatingPoint(robot, where.position, where.rotation, held(robot, where).cables))
+        hanging = None if free is None else hanging_pose(robot, where, free)
+        where = where if hanging is None else hanging.pose
+        cables = held(robot, where).cables if hanging is None else hanging.solution.cables
+        return AtRest(OperatingPoint(robot, where.position, where.rotation, cables), hanging=hanging)
+    if free is not None:
+        raise InputError("free", "", free, "it belongs to `pose`; at locked lengths every angle is found")
     if pose is not None:
         raise InputError("lengths", "", lengths, "give either `pose` or `lengths`, not both")
     return _locked(robot, lengths, start)

@@ -11,6 +11,7 @@ from cdpr_struct.crosscheck.verification import verify as tried
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_numbers, read_robot, real, whole
+from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, Progress, RobotLike
 from cdpr_struct.interface.modes import ASSEMBLIES
 from cdpr_struct.interface.operating_point import pose_in_degrees, rest
@@ -85,6 +86,7 @@ def verify(
     assembly: str = "consistent",
     tolerance: float = 0.01,
     progress: Progress = silent,
+    free: FreeAngles | None = None,
 ) -> VerifyResult:
     """Compare the DSM's eigenfrequencies with those of the finite-element referee; `holds` says whether they agree.
 
@@ -100,6 +102,7 @@ def verify(
     elements : counts per cable, ascending multiples of the first;  modes : how many to compare
     assembly : consistent, or thesis (eq. 3.8 as printed);  tolerance : largest relative deviation from the FEM [-]
     progress : called with the name of each step
+    free : angles of the pose that hang freely, some of rx, ry, rz; they are found from those given
 
     Raises
     ------
@@ -111,7 +114,7 @@ def verify(
     real(tolerance, "tolerance", "give a ratio between 0 and 1, like 0.01", 0.0, 1.0)
     way = one_of(assembly, "assembly", ASSEMBLIES)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
-    state = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths, start)
+    state = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths, start, free)
     with state.advised():
         trial = tried(state.point, counts, modes, way, Criteria(relative_error=tolerance), progress)
     told = verification_json(trial, pose_in_degrees(state.point)) | state.told()

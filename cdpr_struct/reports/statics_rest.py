@@ -99,13 +99,14 @@ def inverse_files(
 ) -> dict[str, str | bytes]:
     """CSV, picture and page of a held pose."""
     point = OperatingPoint(robot, pose.position, pose.rotation, solution.cables)
-    return _files(point, result, inverse_sentences(result), True)
+    return _files(point, result, inverse_sentences(result), result["stable"])
 
 
 def inverse_sentences(result: Mapping[str, Any]) -> list[str]:
     """The outcome at a held pose in words."""
     tension, where = np.asarray(result["tensions_N"]), ", ".join(f"{v:g}" for v in result["pose"][:3])
-    held = f"Tensions of {tension.min():.4g} to {tension.max():.4g} N hold the pose ({where}) m."
+    verb = "hold" if result["stable"] else "balance, but do not hold"
+    held = f"Tensions of {tension.min():.4g} to {tension.max():.4g} N {verb} the pose ({where}) m."
     return [held, residual_sentence(result)]
 
 

@@ -13,15 +13,17 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import cable_response, let_out
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span
 from cdpr_struct.statics.catenary import CableStatus
-from cdpr_struct.statics.catenary_length import force_z_curvature
+from cdpr_struct.statics.catenary_length import SLACKEST, force_z_curvature
 from cdpr_struct.statics.hanging_cables import hanging, held_hanging
 from cdpr_struct.statics.masts import with_settled_masts
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 
 IDEAL_STIFFENING = 1e6  # an ideal cable at given length: spring with EA this many times larger
-SLACKEST_HELD = (
-    3.0  # largest w chord / (2 tau) of a cable chosen by `inverse`: sag over span 1.5, far past the least tension
-)
+SLACKEST_HELD = 3.0  # largest w chord / (2 tau) of a level cable chosen by `inverse`: sag over span 1.5, far past the
+# least tension. A steep cable may have more, up to the same ratio of length and chord: a vertical one, with whatever it
+# weighs, may pull with next to nothing
+_LARGEST = np.linspace(SLACKEST_HELD, SLACKEST, 61)
+_LEVEL_LOGARITHM = np.log(np.sinh(_LARGEST) / _LARGEST) - np.log(np.sinh(SLACKEST_HELD) / SLACKEST_HELD)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -141,8 +143,11 @@ class SaggingModel:
         return HeldCables(states, -response.length_rate * length_rate[..., None], bend)
 
     def least_chord_tension(self, arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
-        chord = np.linalg.norm(points - arrays.frame_anchors, axis=-1)
-        return 0.5 * arrays.weight * chord / SLACKEST_HELD
+        offset = points - arrays.frame_anchors
+        chord = np.linalg.norm(offset, axis=-1)
+        level = np.hypot(offset[..., 0], offset[..., 1]) / np.maximum(chord, 1e-300)
+        most = np.interp(-np.log(np.maximum(level, 1e-9)), _LEVEL_LOGARITHM, _LARGEST)
+        return np.asarray(0.5 * arrays.weight * chord / most)
 
 
 def _spring(arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:

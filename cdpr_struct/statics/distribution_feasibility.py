@@ -9,11 +9,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linprog
 
 from cdpr_struct.errors import UnholdablePoseError
 from cdpr_struct.statics.distribution_problem import BALANCED, DistributionProblem, Tangent
 from cdpr_struct.statics.guessed_programs import solve_guessed, unbounded_dual
+from cdpr_struct.statics.least_crossing import least_crossing
 from cdpr_struct.statics.minimum_norm import QuadraticPrograms
 
 MAX_ITERATIONS = 40
@@ -164,23 +164,12 @@ def _crossed_bound(
     one: DistributionProblem, tension: np.ndarray, tangent: Tangent, who: str, proven: bool
 ) -> UnholdablePoseError:
     """The cable whose bound is in the way most when the sum of all bound violations is made least (cables taut)."""
-    m = tension.shape[1]
     matrix, t = _taut_matrix(one), tension[0]
-    balance = np.concatenate([matrix, matrix, -matrix], axis=1)
     ceiling = np.minimum(one.ceiling[0], one.floor[0] + FAR * one.size[0])
-    prices = np.concatenate([np.zeros(m), np.ones(2 * m)])
-    limits = [*zip(one.floor[0] - t, ceiling - t, strict=True), *[(0.0, None)] * (2 * m)]
-    found = linprog(prices, A_eq=balance, b_eq=-tangent.wrench[0], bounds=limits)
-    if found.x is None:
+    crossing = least_crossing(matrix, matrix @ t - tangent.wrench[0], one.floor[0], ceiling)
+    if crossing is None:
         return UnholdablePoseError(f"{who}. Move the pose, change the load or the bounds.")
-    above, below = found.x[m : 2 * m], found.x[2 * m :]
-    cable = int(np.maximum(above, below).argmax())
-    amount = float(max(above[cable], below[cable]))
-    low = bool(below[cable] >= above[cable])
-    bound = float((one.holding.low if low else one.holding.high)[0, cable])
-    side, sign = ("below its lower", -1.0) if low else ("above its upper", 1.0)
-    reason = f"cable {cable + 1} would need {bound + sign * amount:.4g} N, {amount:.4g} N {side} bound {bound:.4g} N. "
+    reason = crossing.said(one.holding.low[0], one.holding.high[0], "its lower", "its upper")
     doubt = "" if proven else "(The search found none; that there is none is not proven.) "
-    return UnholdablePoseError(
-        f"{who}: {reason}{doubt}Move the pose, change the load or the bounds.", cable + 1, amount
-    )
+    hint = "Move the pose, change the load or the bounds."
+    return UnholdablePoseError(f"{who}: {reason}. {doubt}{hint}", crossing.cable + 1, crossing.amount)

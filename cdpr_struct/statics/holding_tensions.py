@@ -11,7 +11,7 @@ from cdpr_struct.statics.minimum_norm import QuadraticPrograms, solve_programs
 
 MAX_ITERATIONS = 60
 _STALLED = 8  # iterations without the unbalanced wrench shrinking by a tenth end the search
-_TAUT = 3.75  # times the least chord tension: a start well on the taut side of the tension minimum
+_TAUT = 0.8  # w chord / (2 tau) of a start well on the taut side of the tension minimum
 _REACH = 1e4  # largest tension over load that a search starts from
 _RISING = 0.05  # least growth of the platform tension with the chord tension at which its bounds are linearised
 
@@ -23,6 +23,8 @@ class HoldingProblem:
     load      : (k, 6) weight and external wrench about the platform origin [N, N m]
     low, high : (k, m) bounds on the tensions at the platform [N]
     unit      : (k, 6) 1 for forces, the anchors' mean radius [m] for moments
+    careful   : solve every program to the end, also where the structure matrix loses rank
+    kept      : (k, 3, 3) which moments are balanced: products of its rows with the moment; None for all
     """
 
     arrays: RobotArrays
@@ -32,6 +34,8 @@ class HoldingProblem:
     low: np.ndarray
     high: np.ndarray
     unit: np.ndarray
+    careful: bool = False
+    kept: np.ndarray | None = None
 
     @classmethod
     def at(
@@ -53,11 +57,12 @@ class HoldingProblem:
         """Some items."""
         arms = PlatformArms(self.arms.points[index], self.arms.arms[index], self.arms.center[index])
         rest = (self.load[index], self.low[index], self.high[index], self.unit[index])
-        return HoldingProblem(self.arrays.take(index), self.model, arms, *rest)
+        kept = None if self.kept is None else self.kept[index]
+        return HoldingProblem(self.arrays.take(index), self.model, arms, *rest, self.careful, kept)
 
-    def solve(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def solve(self, start: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Chord tensions (k, m) [N], iterations (k,), and whether the last step was negligible (k,)."""
-        tension = self.straight_tensions(self.high)
+        tension = self.straight_tensions(self.high) if start is None else start
         best = tension.copy()
         count = len(tension)
         iterations, settled = np.zeros(count, dtype=int), np.zeros(count, dtype=bool)
@@ -81,17 +86,30 @@ class HoldingProblem:
 
     def straight_tensions(self, high: np.ndarray) -> np.ndarray:
         """(k, m) least-norm tensions [N] of straight cables within the bounds, as far as they balance the load."""
-        least = self._least()
-        low = np.maximum(self.low, _TAUT * least)
+        chord = np.linalg.norm(self.arms.points - self.arrays.frame_anchors, axis=-1)
+        shallow = np.where(self._least() > 0.0, 0.5 * self.arrays.weight * chord / _TAUT, 0.0)
+        low = np.maximum(self.low, shallow)
         ones = np.ones_like(low)
         reach = _REACH * np.linalg.norm(self.load / self.unit, axis=1, keepdims=True)
         top = np.maximum(np.minimum(high, reach), 2.0 * low)
-        tension, _ = self._program(ones, 0.0 * ones, self._straight_matrix(), self.load, low, top)
+        tension, _ = self._program(ones, 0.0 * ones, self.straight_matrix(), self.load, low, top)
         return np.maximum(tension, 1e-9 * np.linalg.norm(self.load, axis=1, keepdims=True))
+
+    def linearised(self, tension: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Scaled wrench (k, 6) at chord tensions (k, m) [N], and its derivative by them (k, 6, m)."""
+        held = self.model.hold(self.arrays, self.arms.points, tension)
+        matrix = np.swapaxes(self._wrench_rates(held.force_rate), -1, -2) / self.unit[..., None]
+        return matrix, (cable_wrench(held.states, self.arms) + self.load) / self.unit
+
+    def straight_cables_balance(self) -> np.ndarray:
+        """(k,) bool: the tensions of straight cables that a search begins from balance the load."""
+        tension = self.straight_tensions(self.high)
+        wrench = ((self.straight_matrix() * tension[..., None]).sum(axis=1) + self.load) / self.unit
+        return np.asarray(np.linalg.norm(wrench, axis=1) <= 1e-6 * np.linalg.norm(self.load / self.unit, axis=1))
 
     def unbounded_tensions(self) -> tuple[np.ndarray, np.ndarray]:
         """Tensions (k, m) [N] of straight cables that could also push, and the wrench (k, 6) that even these leave."""
-        matrix = np.swapaxes(self._straight_matrix(), -1, -2) / self.unit[..., None]
+        matrix = np.swapaxes(self.straight_matrix(), -1, -2) / self.unit[..., None]
         tension = -(np.linalg.pinv(matrix, rcond=1e-10) @ (self.load / self.unit)[..., None])
         left = (matrix @ tension)[..., 0] * self.unit + self.load
         return tension[..., 0], left
@@ -103,22 +121,26 @@ class HoldingProblem:
     def _least(self) -> np.ndarray:
         return self.model.least_chord_tension(self.arrays, self.arms.points)
 
-    def _straight_matrix(self) -> np.ndarray:
+    def straight_matrix(self) -> np.ndarray:
+        """(k, m, 6) wrench per newton of straight cables, world [-, m]."""
         offset = self.arrays.frame_anchors - self.arms.points
-        direction = offset / np.linalg.norm(offset, axis=-1)[..., None]
-        return np.concatenate([direction, np.cross(self.arms.arms, direction)], axis=-1)
+        return self._wrench_rates(offset / np.linalg.norm(offset, axis=-1)[..., None])
+
+    def _wrench_rates(self, force_rate: np.ndarray) -> np.ndarray:
+        """(k, m, 6) of forces (k, m, 3) at the platform anchors."""
+        return np.concatenate([force_rate, np.cross(self.arms.arms, force_rate)], axis=-1)
 
     def _step(self, tension: np.ndarray, dual: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Change (k, m) of the chord tensions by the program around them, imbalance (k,), and multipliers (k, 6)."""
         held = self.model.hold(self.arrays, self.arms.points, tension)
         force, rate = held.states.force_on_platform, held.force_rate
         growth = np.einsum("kmi,kmi->km", force, rate)
-        matrix = np.concatenate([rate, np.cross(self.arms.arms, rate)], axis=-1)
+        matrix = self._wrench_rates(rate)
         wrench = cable_wrench(held.states, self.arms) + self.load
         low, high = self._step_bounds(held, growth, tension)
         curvature = self._curvature(held, dual)
         step, multipliers = self._program(curvature, growth, matrix, wrench, low, high)
-        return step, np.linalg.norm(wrench / self.unit, axis=1), multipliers
+        return step, np.linalg.norm(self._balanced(wrench / self.unit), axis=1), multipliers
 
     def _curvature(self, held: HeldCables, dual: np.ndarray) -> np.ndarray:
         """(k, m) second derivative of cost minus multipliers times balance, kept positive."""
@@ -150,6 +172,16 @@ class HoldingProblem:
         low: np.ndarray,
         high: np.ndarray,
     ) -> tuple[np.ndarray, np.ndarray]:
-        scaled = np.swapaxes(matrix, -1, -2) / self.unit[..., None]
-        programs = QuadraticPrograms(curvature, gradient, scaled, -wrench / self.unit, low, high)
-        return solve_programs(programs)
+        scaled = self._balanced(np.swapaxes(matrix, -1, -2) / self.unit[..., None])
+        programs = QuadraticPrograms(curvature, gradient, scaled, self._balanced(-wrench / self.unit), low, high)
+        step, dual = solve_programs(programs, self.careful)
+        if self.kept is not None:
+            dual[:, 3:] = np.einsum("kij,ki->kj", self.kept, dual[:, 3:])
+        return step, dual
+
+    def _balanced(self, scaled: np.ndarray) -> np.ndarray:
+        """Scaled wrenches (k, 6) or (k, 6, m) without the moments that need no balance."""
+        if self.kept is None:
+            return scaled
+        rows = scaled if scaled.ndim == 3 else scaled[..., None]
+        return np.concatenate([rows[:, :3], self.kept @ rows[:, 3:]], axis=1).reshape(scaled.shape)

@@ -13,20 +13,22 @@ from enum import IntEnum
 import numpy as np
 import numpy.typing as npt
 
-from cdpr_struct.errors import ConvergenceError, UnholdablePoseError
+from cdpr_struct.errors import ConvergenceError
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics import holding_tensions
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import cable_wrench
+from cdpr_struct.statics.free_orientation import FreeOrientation
 from cdpr_struct.statics.holding_tensions import HoldingProblem
+from cdpr_struct.statics.separating_wrench import separation
 from cdpr_struct.statics.taut_tensions import suits, taut_tensions
+from cdpr_struct.statics.unholdable_poses import no_length_error, unholdable, without_length
 
 BALANCED = 1e-8  # residual over load and tensions that counts as balanced
 _SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
 _MOST_STIFFENINGS = 50
-_DIRECTIONS = ("force x", "force y", "force z", "moment x", "moment y", "moment z")
 
 
 class InverseStatus(IntEnum):
@@ -52,6 +54,11 @@ class InverseSolution:
     residual_wrench: np.ndarray
     status: np.ndarray
     iterations: np.ndarray
+
+    def at(self, index: int | np.ndarray) -> "InverseSolution":
+        """The solutions at an index of the batch."""
+        rest = (getattr(self, name)[index] for name in ("lengths", "residual_wrench", "status", "iterations"))
+        return InverseSolution(self.cables.at(index), *rest)
 
     @property
     def tensions(self) -> np.ndarray:
@@ -92,7 +99,8 @@ def inverse(
 
     Raises
     ------
-    UnholdablePoseError : a pose cannot be held (unless `allow_unheld`); it names cable or direction, and the amount.
+    UnholdablePoseError : a pose cannot be held (unless `allow_unheld`); it names cable or direction, and the amount,
+        or a cable that has no length there.
     ConvergenceError : the iteration was cut short (unless `allow_unheld`).
     ValueError : bounds that are negative or crossed.
     """
@@ -110,42 +118,31 @@ def inverse(
     turns = np.broadcast_to(turn, (*shape, 3, 3)).reshape((-1, 3, 3))
     pose, bounds = (flat[0], turns), (flat[2], flat[3])
     problem = HoldingProblem.at(arrays.flattened(shape), cable_model(model), pose, flat[1], bounds)
+    nothing = without_length(problem)
+    degenerate = np.asarray(nothing.any(axis=1))
+    if degenerate.any():
+        if not allow_unheld:
+            raise no_length_error(nothing)
+        problem = _moved_off(problem, degenerate)
     solution = _solve(problem)
     if arrays.nonlinearity.any():
         problem, solution = _stiffening(problem, solution)
+    solution.status[degenerate] = InverseStatus.UNHOLDABLE
     if not allow_unheld and (solution.status == InverseStatus.NOT_CONVERGED).any():
         left = float(np.abs(solution.residual_wrench).max())
         hint = "Raise the lower bound: the tensions may lie where cable weight and tension balance."
         raise ConvergenceError("inverse kinematics", left, int(solution.iterations.max()), hint)
     if not allow_unheld and not solution.held.all():
-        raise unholdable(problem, solution.held, solution.residual_wrench)
+        rest = solution.residual_wrench, solution.tensions
+        raise unholdable(problem, solution.held, *rest, separation(problem).proven)
     return _reshaped(solution, shape)
 
 
-def unholdable(problem: HoldingProblem, held: np.ndarray, residual: np.ndarray) -> UnholdablePoseError:
-    """Error about the pose that is worst off: which direction no cable acts in, or which cable, and how much."""
-    failed = np.flatnonzero(~held)
-    worst = failed[np.linalg.norm(residual[failed] / problem.unit[failed], axis=1).argmax()]
-    one = problem.take(np.array([worst]))
-    tension, left = (a[0] for a in one.unbounded_tensions())
-    who = "the cables cannot hold " + ("this pose" if held.size == 1 else f"{failed.size} of {held.size} poses")
-    if np.linalg.norm(left / one.unit[0]) > 1e-6 * np.linalg.norm(one.load / one.unit):
-        axis = int(np.abs(left / one.unit[0]).argmax())
-        amount = float(abs(left[axis]))
-        reason = f"{who}: no cable acts against {amount:.4g} {'N' if axis < 3 else 'N m'} of {_DIRECTIONS[axis]}. "
-        return UnholdablePoseError(reason + "Give cable lengths to find where the platform hangs.", None, amount)
-    short, excess = one.low[0] - tension, tension - one.high[0]
-    cable = int(np.maximum(short, excess).argmax())
-    amount = float(max(short[cable], excess[cable]))
-    if amount <= 0.0 and tension.size < len(left):
-        hint = "Give cable lengths to find where the platform hangs."
-        return UnholdablePoseError(f"{who}: {tension.size} cables cannot balance the platform there. {hint}")
-    if amount <= 0.0:
-        return UnholdablePoseError(f"{who}: the cables' own weight uses up the bounds. Widen them, or move the pose.")
-    bound = one.low[0, cable] if short[cable] >= excess[cable] else one.high[0, cable]
-    side = "below the lower" if short[cable] >= excess[cable] else "above the upper"
-    reason = f"{who}: cable {cable + 1} would need {tension[cable]:.4g} N, {amount:.4g} N {side} bound {bound:.4g} N. "
-    return UnholdablePoseError(reason + "Move the pose, change the load or the bounds.", cable + 1, amount)
+def hung_solution(robot: Robot | RobotArrays, hung: FreeOrientation) -> InverseSolution:
+    """The tensions (k, m) of platforms that hang freely."""
+    status = np.where(hung.found, InverseStatus.HELD, InverseStatus.UNHOLDABLE)
+    lengths = RobotArrays.of(robot).reading(hung.cables.total_length)
+    return InverseSolution(hung.cables, lengths, hung.wrench, status, np.zeros(len(status), dtype=int))
 
 
 def _stiffening(problem: HoldingProblem, solution: InverseSolution) -> tuple[HoldingProblem, InverseSolution]:
@@ -161,23 +158,46 @@ def _stiffening(problem: HoldingProblem, solution: InverseSolution) -> tuple[Hol
 
 
 def _solve(problem: HoldingProblem) -> InverseSolution:
-    """All poses: the taut ones of a batch together, the others one iteration of programs."""
-    if not suits(problem):
-        return _by_programs(problem)
-    taut = taut_tensions(problem)
-    found, rest = np.flatnonzero(taut.found), np.flatnonzero(~taut.found)
-    if not rest.size:
-        return _judged(problem, taut.states, taut.found, taut.iterations)
-    parts = []
-    if found.size:
+    """All poses: the taut ones together, the others by programs; those that straight cables balance are tried first."""
+    parts, rest = [], np.arange(len(problem.load))
+    if suits(problem):
+        taut = taut_tensions(problem)
+        found, rest = np.flatnonzero(taut.found), np.flatnonzero(~taut.found)
+        if not rest.size:
+            return _judged(problem, taut.states, taut.found, taut.iterations)
         kept = taut.states.at(found)
-        parts.append(_judged(problem.take(found), kept, taut.found[found], taut.iterations[found]))
-    parts.append(_by_programs(problem.take(rest)))
-    return _joined(parts, np.argsort(np.concatenate([found, rest])))
+        parts.append((found, _judged(problem.take(found), kept, taut.found[found], taut.iterations[found])))
+    others = problem.take(rest)
+    balances = others.straight_cables_balance()
+    near, far = np.flatnonzero(balances), np.flatnonzero(~balances)
+    parts.append((rest[near], _by_programs(others.take(near))))
+    parts.append((rest[far], _proven_or_searched(others.take(far))))
+    solution = _joined(parts)
+    lost = np.flatnonzero(balances & ~solution.held[rest])
+    return _replaced(solution, rest[lost], _proven_or_searched(others.take(lost)))
 
 
-def _by_programs(problem: HoldingProblem) -> InverseSolution:
-    tension, iterations, settled = problem.solve()
+def _proven_or_searched(problem: HoldingProblem) -> InverseSolution:
+    """Poses that may be out of reach: the least violation, or what a search finds where that is not proven."""
+    if not len(problem.load):
+        return _by_programs(problem)
+    ends = separation(problem)
+    states = problem.model.hold(problem.arrays, problem.arms.points, ends.tension).states
+    none = np.zeros(len(ends.proven), dtype=int)
+    solution = _judged(problem, states, none == 0, none)
+    solution.status[:] = InverseStatus.UNHOLDABLE
+    open_ = np.flatnonzero(~ends.proven)
+    if open_.size:
+        found = _by_programs(problem.take(open_))
+        solution = _replaced(solution, open_[found.held], found.at(found.held))
+        again = open_[~found.held & ends.near[open_]]
+        careful = _by_programs(replace(problem.take(again), careful=True), ends.tension[again])
+        solution = _replaced(solution, again, careful)
+    return solution
+
+
+def _by_programs(problem: HoldingProblem, start: np.ndarray | None = None) -> InverseSolution:
+    tension, iterations, settled = problem.solve(start)
     states = problem.model.hold(problem.arrays, problem.arms.points, tension).states
     return _judged(problem, states, settled, iterations)
 
@@ -198,15 +218,32 @@ def _judged(
     return InverseSolution(states, lengths, residual, status, iterations)
 
 
-def _joined(parts: list[InverseSolution], order: np.ndarray) -> InverseSolution:
-    """One solution of several, its items in another order."""
+def _joined(parts: list[tuple[np.ndarray, InverseSolution]]) -> InverseSolution:
+    """One solution of several with their places in it."""
+    order = np.argsort(np.concatenate([places for places, _ in parts]))
 
     def both(values: list[np.ndarray]) -> np.ndarray:
         return np.concatenate(values)[order]
 
-    cables = CableStates(*(both([getattr(part.cables, name) for part in parts]) for name in CableStates.__slots__))
+    solutions = [solution for _, solution in parts]
+    names = CableStates.__slots__
+    cables = CableStates(*(both([getattr(one.cables, name) for one in solutions]) for name in names))
     rest = ("lengths", "residual_wrench", "status", "iterations")
-    return InverseSolution(cables, *(both([getattr(part, name) for part in parts]) for name in rest))
+    return InverseSolution(cables, *(both([getattr(one, name) for one in solutions]) for name in rest))
+
+
+def _replaced(solution: InverseSolution, index: np.ndarray, other: InverseSolution) -> InverseSolution:
+    """A solution with the items `index` taken from another."""
+    if not index.size:
+        return solution
+    kept = np.setdiff1d(np.arange(len(solution.status)), index)
+    return _joined([(kept, solution.at(kept)), (index, other)])
+
+
+def _moved_off(problem: HoldingProblem, items: np.ndarray) -> HoldingProblem:
+    """Poses `items` (k,) moved by a metre, so that all cables have a direction; for what is not held anyway."""
+    arms = problem.arms
+    return replace(problem, arms=replace(arms, points=arms.points + items[:, None, None] * np.array([1.0, 1.0, 1.0])))
 
 
 def _bounds(lower: npt.ArrayLike, upper: npt.ArrayLike, m: int) -> tuple[np.ndarray, np.ndarray]:

@@ -5,6 +5,10 @@
 Its dual has n <= 6 unknowns y and no bounds: t_i(y) = clip((J_i . y - g_i) / h_i, low_i, high_i), and the dual's
 gradient is b - J t(y). The dual is concave and piecewise quadratic, so a Newton method with line search ends after a
 few steps with the exact set of active bounds. If no t balances, the residual b - J t stays: it is returned, not hidden.
+
+Where J loses rank, or many unknowns meet their bounds at once, the dual is flat and Newton may wander. Such programs
+are solved by the method of multipliers: the balance may fail by s at the price |s|^2 / (2 e) - y0 . s, which makes the
+dual strictly concave, and y0 is renewed by the y that is found.
 """
 
 from dataclasses import dataclass
@@ -14,6 +18,8 @@ import numpy as np
 MAX_ITERATIONS = 30
 _HOPELESS = 1e7  # multipliers this many times what a feasible problem asks for: nothing balances
 _RANK = 1e-12  # relative: directions that the unknowns cannot act in
+_NEGLIGIBLE = 1e-9  # of the forces: an unbalance in such directions that no one tries to remove
+_ELASTICITY = 1e-8, 1e-10, 1e-12, 1e-12  # e of one round after the other, over the trace of J J^T / h
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,31 +50,69 @@ class QuadraticPrograms:
         return QuadraticPrograms(*(getattr(self, name)[index] for name in self.__slots__))
 
 
-def solve_programs(programs: QuadraticPrograms) -> tuple[np.ndarray, np.ndarray]:
-    """Solutions t (k, m) and their dual y (k, n), the multipliers of the balance."""
+def solve_programs(programs: QuadraticPrograms, careful: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """Solutions t (k, m) and their dual y (k, n), the multipliers of the balance.
+
+    careful : where the search is cut short, go on by the method of multipliers; that takes several times as long
+    """
+    dual, stuck = _ascend(programs, np.zeros(programs.target.shape))
+    if careful and stuck.size:
+        dual[stuck] = _by_multipliers(programs.take(stuck), np.zeros_like(dual[stuck]))[1]
+    return programs.primal(dual), dual
+
+
+def least_violation(programs: QuadraticPrograms) -> tuple[np.ndarray, np.ndarray]:
+    """Solutions t (k, m), and the unbalance b - J t (k, n) that is left: the least there can be, 0 but for rounding
+    where the balance is possible. Then r . J t' <= r . J t for all t' within the bounds, so r separates b from them."""
+    t, dual = _by_multipliers(programs, np.zeros(programs.target.shape), 1)
+    return t, programs.slope(dual)
+
+
+def _by_multipliers(
+    programs: QuadraticPrograms, dual: np.ndarray, rounds: int = len(_ELASTICITY)
+) -> tuple[np.ndarray, np.ndarray]:
+    """Solutions t (k, m) and their dual y (k, n)."""
     k, n = programs.target.shape
-    dual = np.zeros((k, n))
+    every = np.einsum("knm,km,knm->k", programs.matrix, 1.0 / programs.curvature, programs.matrix) + 1e-300
+    none = np.full((k, n), np.inf)
+    for share in _ELASTICITY[:rounds]:
+        elastic = QuadraticPrograms(
+            np.concatenate([programs.curvature, np.repeat(1.0 / (share * every)[:, None], n, axis=1)], axis=1),
+            np.concatenate([programs.gradient, dual], axis=1),
+            np.concatenate([programs.matrix, np.broadcast_to(np.eye(n), (k, n, n))], axis=2),
+            programs.target,
+            np.concatenate([programs.low, -none], axis=1),
+            np.concatenate([programs.high, none], axis=1),
+        )
+        dual = _ascend(elastic, dual)[0]
+    return programs.primal(dual), dual
+
+
+def _ascend(programs: QuadraticPrograms, dual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Dual (k, n) at its maximum from a start, and the items at which the search was cut short."""
+    dual = dual.copy()
     size = np.abs(programs.matrix).sum(axis=(1, 2)) / programs.matrix.shape[2] + 1e-300
     reach = np.abs(programs.gradient / programs.curvature).max(axis=1)
     scale = np.linalg.norm(programs.target, axis=1) + size * reach + 1e-300
     price = (programs.curvature.max(axis=1) * scale / size + np.abs(programs.gradient).max(axis=1)) / size
-    items = np.arange(k)
+    items, lost = np.arange(len(dual)), np.zeros(0, dtype=int)
     for _ in range(MAX_ITERATIONS):
         part, here = programs.take(items), dual[items]
-        newton, rest = _directions(part, here)
+        newton, rest = _directions(part, here, scale[items])
         moved = _climb(part, _climb(part, here, newton), rest)
         before, after = part.primal(here), part.primal(moved)
         dual[items] = moved
         balanced = np.linalg.norm(part.slope(moved), axis=1) <= 1e-13 * scale[items]
         idle = np.abs(after - before).max(axis=1) <= 1e-13 * np.abs(after).max(axis=1)
         hopeless = np.abs(moved).max(axis=1) > _HOPELESS * price[items]
+        lost = np.append(lost, items[hopeless & ~balanced])
         items = items[~(balanced | idle | hopeless)]
         if not items.size:
             break
-    return programs.primal(dual), dual
+    return dual, np.append(items, lost)
 
 
-def _directions(part: QuadraticPrograms, dual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _directions(part: QuadraticPrograms, dual: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Newton direction in what the free unknowns can balance, and the dual's slope in what they cannot."""
     t = part.primal(dual)
     free = ((t > part.low) & (t < part.high)) / part.curvature
@@ -78,7 +122,7 @@ def _directions(part: QuadraticPrograms, dual: np.ndarray) -> tuple[np.ndarray, 
     spanned = values > _RANK * every[:, None]
     share = np.einsum("kij,ki->kj", vectors, part.slope(dual))
     newton = np.where(spanned, share / np.where(spanned, values, 1.0), 0.0)
-    rest = np.where(spanned, 0.0, share)
+    rest = np.where(spanned | (np.abs(share) <= _NEGLIGIBLE * scale[:, None]), 0.0, share)
     return np.einsum("kij,kj->ki", vectors, newton), np.einsum("kij,kj->ki", vectors, rest)
 
 

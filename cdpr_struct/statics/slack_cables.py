@@ -11,6 +11,8 @@ import numpy as np
 
 from cdpr_struct.statics.cable_state import CableStates
 
+DEEP = 0.1  # sag over chord from which on a cable's sag is told
+
 
 def hangs_slack(states: CableStates) -> np.ndarray:
     """(..., m) bool: the chord tension is below the weight of the cable, or the cable does not pull."""
@@ -36,3 +38,42 @@ def cables_named(numbers: Sequence[int]) -> str:
     """Cables by their numbers, like `cables 5, 6 and 8`."""
     *first, last = [str(number) for number in numbers]
     return f"cables {', '.join(first)} and {last}" if first else f"cable {last}"
+
+
+def sag_over_chord(states: CableStates) -> np.ndarray:
+    """(..., m) largest distance from the chord over the chord; nan for a straight cable that does not pull."""
+    return np.asarray(states.sag / states.chord)
+
+
+def tension_over_weight(states: CableStates) -> np.ndarray:
+    """(..., m) chord tension over the weight of the cable; inf for a weightless one that pulls."""
+    weight = states.weight * states.length
+    return np.where(
+        weight > 0.0, states.tension / np.where(weight > 0.0, weight, 1.0), np.where(states.slack, 0.0, np.inf)
+    )
+
+
+def sagging_cables(states: CableStates) -> list[dict[str, object]]:
+    """Cables (m,) of one pose that hang slack or sag by a tenth of their chord, as results tell them."""
+    slack, sag, tension = hangs_slack(states), sag_over_chord(states), tension_over_weight(states)
+    told = np.flatnonzero(slack | (sag >= DEEP))
+    return [
+        {
+            "cable": int(i) + 1,
+            "sag_over_chord": float(sag[i]) if np.isfinite(sag[i]) else None,
+            "tension_over_weight": float(tension[i]),
+            "slack": bool(slack[i]),
+        }
+        for i in told
+    ]
+
+
+def sag_sentence(states: CableStates) -> str | None:
+    """How deep the cables (m,) sag that hang slack or sag by a tenth of their chord; None if none does."""
+    parts = [
+        f"cable {one['cable']} by {one['sag_over_chord']:.2g} of its chord "
+        f"(tension {one['tension_over_weight']:.2g} of its weight)"
+        for one in sagging_cables(states)
+        if one["sag_over_chord"] is not None
+    ]
+    return f"deep sag: {', '.join(parts)}." if parts else None

@@ -44,7 +44,7 @@ class Quantity:
     unit: str
     meaning: str
     column: str
-    evaluate: Callable[[Robot, np.ndarray, np.ndarray], Columns]
+    evaluate: Callable[..., Columns]
     chunk: int = 256
     shared: str = ""
     finish: Callable[[Robot, Grid, Columns], Columns] | None = None
@@ -84,9 +84,17 @@ def _followed(number: int) -> Quantity:
     )
 
 
-def evaluate(name: str, robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
-    """Columns of a quantity at poses; a plain function of plain things, so that any worker can run it."""
-    return quantity_of(name).evaluate(robot, positions, rotation)
+def evaluate(
+    name: str, robot: Robot, positions: np.ndarray, rotation: np.ndarray, found: InverseSolution | None = None
+) -> Columns:
+    """Columns of a quantity at poses; a plain function of plain things, so that any worker can run it.
+
+    found : the tensions that hold the poses, where they are known; pose errors and followed modes take none
+    """
+    quantity = quantity_of(name)
+    if found is None:
+        return quantity.evaluate(robot, positions, rotation)
+    return quantity.evaluate(robot, positions, rotation, found)
 
 
 def pose_errors(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
@@ -114,12 +122,14 @@ def pose_errors(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Co
     }
 
 
-def tensions(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
+def tensions(
+    robot: Robot, positions: np.ndarray, rotation: np.ndarray, found: InverseSolution | None = None
+) -> Columns:
     """Largest and smallest cable tension at the platform [N], largest sag [mm], number of cables that hang slack.
 
     Minimum-norm tensions within the robot's force limits.
     """
-    solution = _held(robot, positions, rotation)
+    solution = _held(robot, positions, rotation) if found is None else found
     return {
         "tension_max_N": _where_held(solution, solution.tensions.max(axis=-1)),
         "tension_min_N": _where_held(solution, solution.tensions.min(axis=-1)),
@@ -129,23 +139,26 @@ def tensions(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Colum
     }
 
 
-def stiffnesses(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
+def stiffnesses(
+    robot: Robot, positions: np.ndarray, rotation: np.ndarray, found: InverseSolution | None = None
+) -> Columns:
     """Static stiffness of the platform origin [N/mm], free to turn, and first frequency on massless cables [Hz].
 
     Lengths locked, minimum-norm tensions within the robot's force limits.
     """
-    solution = _held(robot, positions, rotation)
+    solution = _held(robot, positions, rotation) if found is None else found
     names = ("stiffness_min_N_mm", "stiffness_vertical_N_mm", "platform_frequency_Hz")
     values = {name: np.full(len(positions), np.nan) for name in names}
     good = np.flatnonzero(solution.held)
     if good.size:
         states = solution.cables.at(good)
-        stiffness = static_stiffness(robot, positions[good], rotation, states)
+        turned = rotation if np.ndim(rotation) == 2 else rotation[good]
+        stiffness = static_stiffness(robot, positions[good], turned, states)
         compliance = stiffness.compliance[:, :3, :3]
         softest = np.linalg.eigvalsh(0.5 * (compliance + np.swapaxes(compliance, -1, -2)))[:, -1]
         values["stiffness_min_N_mm"][good] = 1e-3 / softest
         values["stiffness_vertical_N_mm"][good] = 1e-3 / compliance[:, 2, 2]
-        values["platform_frequency_Hz"][good] = _first_frequency(robot, rotation, stiffness.symmetric)
+        values["platform_frequency_Hz"][good] = _first_frequency(robot, turned, stiffness.symmetric)
     return {**values, "slack_cables": slack_count(solution.cables, solution.held), "held": solution.held}
 
 

@@ -28,7 +28,9 @@ _ORDER = 24
 _HALF_WAVES = 2.5
 
 
-def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
+def first_frequencies(
+    robot: Robot, positions: np.ndarray, rotation: np.ndarray, given: InverseSolution | None = None
+) -> Columns:
     """First frequencies [Hz] of the robot, its platform (also on massless cables) and each cable; exact catenaries.
 
     The platform's is that of the mode, of the first `AMONG`, whose platform motion is most like the platform's first
@@ -37,12 +39,16 @@ def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray)
     cable's frequency is that with both ends held. Minimum-norm tensions within the robot's force limits. nan where the
     platform is not held, or balanced but not stable. slack_cables: number of cables that hang slack where it is held.
     """
-    found = shaped_frequencies(robot, positions, rotation)
+    found = shaped_frequencies(robot, positions, rotation, given)
     return {name: values for name, values in found.items() if name != SHAPE}
 
 
-def shaped_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
+def shaped_frequencies(
+    robot: Robot, positions: np.ndarray, rotation: np.ndarray, given: InverseSolution | None = None
+) -> Columns:
     """The same, and a column of records: the shape of the platform's mode, of length one, see `mode_records`."""
+    if given is not None:
+        return _of_chunk(robot, positions, rotation, given)
     starts = range(0, max(len(positions), 1), _CHUNK)
     parts = [_of_chunk(robot, positions[start : start + _CHUNK], rotation) for start in starts]
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
@@ -57,8 +63,10 @@ def marked_frequencies(robot: Robot, grid: Grid, columns: Columns) -> Columns:
     return {**{name: values for name, values in columns.items() if name != SHAPE}, "veering": veering}
 
 
-def _of_chunk(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
-    solution = inverse(robot, positions, rotation, allow_unheld=True)
+def _of_chunk(
+    robot: Robot, positions: np.ndarray, rotation: np.ndarray, given: InverseSolution | None = None
+) -> Columns:
+    solution = inverse(robot, positions, rotation, allow_unheld=True) if given is None else given
     columns = _empty(robot, len(positions))
     held = np.flatnonzero(solution.held)
     if held.size:
@@ -87,7 +95,7 @@ def _points(
     robot: Robot, positions: np.ndarray, rotation: np.ndarray, solution: InverseSolution, chosen: np.ndarray
 ) -> OperatingPoint:
     states = solution.cables if chosen.size == len(positions) else solution.cables.at(chosen)
-    return OperatingPoint(robot, positions[chosen], np.broadcast_to(rotation, (len(chosen), 3, 3)), states)
+    return OperatingPoint(robot, positions[chosen], np.broadcast_to(rotation, (len(positions), 3, 3))[chosen], states)
 
 
 def _first_static_mode(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:

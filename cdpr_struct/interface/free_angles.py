@@ -1,0 +1,89 @@
+"""Which angles of the platform are left free, and where does it hang?"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from cdpr_struct.errors import InputError, UnholdablePoseError
+from cdpr_struct.robot.pose import Pose
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.free_orientation import ANGLES, free_orientation, left_free
+from cdpr_struct.statics.inverse_kinematics import InverseSolution, hung_solution
+
+FreeAngles: TypeAlias = str | Iterable[str]
+"""Names of angles, or their text with commas between them: rx, ry, rz."""
+_EXPECTED = "give some of rx,ry,rz"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HangingPose:
+    """A pose at which the platform hangs freely.
+
+    free : (3,) bool, of rx, ry, rz;  added : names of angles that were not asked for, but are free, too
+    solution : the tensions there
+    """
+
+    pose: Pose
+    solution: InverseSolution
+    free: np.ndarray
+    added: tuple[str, ...]
+
+    def json(self) -> dict[str, Any]:
+        """The key `free` of results."""
+        angles = np.degrees(self.pose.angles).tolist()
+        return {"free": {"angles": names_of(self.free), "added": list(self.added), "orientation_deg": angles}}
+
+    def sentence(self) -> str:
+        """What is said of it."""
+        rx, ry, rz = np.degrees(self.pose.angles) + 0.0
+        many = f"; {', '.join(self.added)} because so few cables cannot hold it" if self.added else ""
+        hangs = f"the platform hangs at ({rx:.4g}, {ry:.4g}, {rz:.4g})° about x, y, z."
+        return f"{', '.join(names_of(self.free))} were left free{many}: {hangs}"
+
+
+def names_of(free: np.ndarray) -> list[str]:
+    """Names of the free angles, (3,) bool."""
+    return [name for name, chosen in zip(ANGLES, free, strict=True) if chosen]
+
+
+def read_free(given: FreeAngles, cables: int) -> tuple[np.ndarray, tuple[str, ...]]:
+    """(3,) bool: which of rx, ry, rz are free on so many cables, and the names of those not asked for.
+
+    Raises
+    ------
+    InputError : other names, or too few cables.
+    """
+    names = [part.strip() for part in given.split(",")] if isinstance(given, str) else list(given)
+    if not names or any(name not in ANGLES for name in names):
+        raise InputError("free", "", given if isinstance(given, str) else names, _EXPECTED)
+    asked = np.array([name in names for name in ANGLES])
+    try:
+        free = left_free(asked, cables)
+    except ValueError as error:
+        raise InputError("free", "", given, str(error)) from error
+    return free, tuple(names_of(free & ~asked))
+
+
+def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sagging") -> HangingPose:
+    """The pose at the same position at which the platform hangs freely.
+
+    Raises
+    ------
+    InputError : unusable names.
+    UnholdablePoseError : no such orientation is found from that of the pose.
+    """
+    free, added = read_free(given, len(robot.cables))
+    found = free_orientation(robot, where.position[None], where.angles, free, model=model)
+    if not found.found[0]:
+        kept = names_of(~free)
+        hint = f"Free {', '.join(kept)} as well, or begin at another orientation." if kept else "Move the pose."
+        names, most = ", ".join(names_of(free)), float(np.abs(found.moment).max())
+        left = f"{most:.2g} of arms times tensions is left as moment about them"
+        if most < 1e-9:
+            left = "the cables balance nothing else there within their limits"
+        raise UnholdablePoseError(
+            f"no orientation is found at which the platform hangs freely about {names}: {left}. {hint}"
+        )
+    return HangingPose(Pose(where.position, found.angles[0]), hung_solution(robot, found).at(0), free, added)

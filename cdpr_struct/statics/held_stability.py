@@ -1,0 +1,57 @@
+"""Is a platform that is balanced also held, and if not, which way would it go?"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.equilibrium import PlatformArms, tangent_stiffness
+
+UNSTABLE = 1e-9  # of the largest stiffness: a negative one below it counts as zero
+_MOTIONS = ("along x", "along y", "along z", "about x", "about y", "about z")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HeldStability:
+    """At locked lengths.
+
+    stable          : (...) bool: no motion of the platform is pushed on
+    least_stiffness : (...) of all motions, rotations as arcs at the anchors [N/m]
+    motion          : (..., 6) the motion of least stiffness, the largest component 1 [m, arc in m]
+    """
+
+    stable: np.ndarray
+    least_stiffness: np.ndarray
+    motion: np.ndarray
+
+    @property
+    def direction(self) -> str:
+        """The motion of least stiffness in words, for a single pose."""
+        large = np.flatnonzero(np.abs(self.motion) > 0.5)
+        return " and ".join(_MOTIONS[i] for i in large)
+
+
+def held_stability(
+    arrays: RobotArrays, position: np.ndarray, rotation: np.ndarray, states: CableStates
+) -> HeldStability:
+    """Of platforms at positions (..., 3) and rotations (..., 3, 3), on cables (..., m)."""
+    arms = PlatformArms.at(arrays, position, rotation)
+    radius = np.maximum(np.sqrt((arms.arms**2).sum(axis=-1).mean(axis=-1)), 1e-3)[..., None]
+    unit = np.concatenate([np.ones((*radius.shape[:-1], 3)), np.repeat(radius, 3, axis=-1)], axis=-1)
+    matrix = tangent_stiffness(arrays, states, arms) / unit[..., :, None] / unit[..., None, :]
+    values, vectors = np.linalg.eigh(0.5 * (matrix + np.swapaxes(matrix, -1, -2)))
+    softest = vectors[..., 0]
+    largest = np.take_along_axis(softest, np.abs(softest).argmax(axis=-1)[..., None], axis=-1)
+    stable = values[..., 0] >= -UNSTABLE * np.abs(values[..., -1])
+    return HeldStability(np.asarray(stable), values[..., 0], softest / largest)
+
+
+def unstable_sentence(found: HeldStability) -> str | None:
+    """What to say of a single pose that is balanced but not held; None if it is."""
+    if found.stable:
+        return None
+    return (
+        f"the pose is an unstable equilibrium: at locked lengths the platform leaves it, moving {found.direction} "
+        f"(stiffness {found.least_stiffness:.3g} N/m, rotations as arcs at the anchors)."
+    )

@@ -1,0 +1,67 @@
+"""Why is a pose not held? Which direction no cable acts in, or which cable's bound is in the way, and how much."""
+
+import numpy as np
+
+from cdpr_struct.errors import UnholdablePoseError
+from cdpr_struct.statics.holding_tensions import HoldingProblem
+from cdpr_struct.statics.least_crossing import LeastCrossing, least_crossing
+
+DIRECTIONS = ("force x", "force y", "force z", "moment x", "moment y", "moment z")
+_NO_LENGTH = 1e-9  # of the robot's size: ends of a cable this near to each other leave it no direction
+_GIVE_LENGTHS = "Give cable lengths to find where the platform hangs."
+
+
+def without_length(problem: HoldingProblem) -> np.ndarray:
+    """(k, m) bool: the platform anchor lies on the frame anchor, and the cable has no direction."""
+    anchors = problem.arrays.frame_anchors
+    size = np.linalg.norm(anchors - anchors.mean(axis=-2, keepdims=True), axis=-1).max(axis=-1)
+    return np.asarray(np.linalg.norm(problem.arms.points - anchors, axis=-1) <= _NO_LENGTH * size[..., None])
+
+
+def no_length_error(nothing: np.ndarray) -> UnholdablePoseError:
+    """Error about cables without length, (k, m) bool."""
+    pose, cable = (int(i) for i in np.argwhere(nothing)[0])
+    where = "this pose" if len(nothing) == 1 else f"pose {pose + 1} of {len(nothing)}"
+    reason = f"cable {cable + 1} has no length at {where}: its platform anchor lies on its frame anchor. Move the pose."
+    return UnholdablePoseError(reason, cable + 1)
+
+
+def unholdable(
+    problem: HoldingProblem, held: np.ndarray, residual: np.ndarray, tension: np.ndarray, proven: np.ndarray
+) -> UnholdablePoseError:
+    """Error about the pose that is worst off.
+
+    Parameters
+    ----------
+    held     : (k,) bool;  proven : (k,) bool, it is certain that no tensions hold the pose
+    residual : (k, 6) wrench that the best attempt leaves unbalanced [N, N m];  tension : (k, m) its tensions [N]
+    """
+    failed = np.flatnonzero(~held)
+    worst = failed[np.linalg.norm(residual[failed] / problem.unit[failed], axis=1).argmax()]
+    one = problem.take(np.array([worst]))
+    left = one.unbounded_tensions()[1][0]
+    who = "the cables cannot hold " + ("this pose" if held.size == 1 else f"{failed.size} of {held.size} poses")
+    if np.linalg.norm(left / one.unit[0]) > 1e-6 * np.linalg.norm(one.load / one.unit):
+        axis = int(np.abs(left / one.unit[0]).argmax())
+        amount = float(abs(left[axis]))
+        reason = f"{who}: no cable acts against {amount:.4g} {'N' if axis < 3 else 'N m'} of {DIRECTIONS[axis]}. "
+        return UnholdablePoseError(reason + _GIVE_LENGTHS, None, amount)
+    crossed = _crossed(one, residual[worst], tension[worst])
+    size = 1e-9 * np.linalg.norm(one.load / one.unit)
+    if crossed is not None and crossed.amount > size:
+        doubt = "" if proven[worst] else "(The search found none; that there is none is not proven.) "
+        reason = f"{who}: {crossed.said(one.low[0], one.high[0])}. "
+        hint = "Move the pose, change the load or the bounds."
+        return UnholdablePoseError(reason + doubt + hint, crossed.cable + 1, crossed.amount)
+    if one.low.shape[1] < 6:
+        return UnholdablePoseError(
+            f"{who}: {one.low.shape[1]} cables cannot balance the platform there. {_GIVE_LENGTHS}"
+        )
+    return UnholdablePoseError(f"{who}: the cables' own weight uses up the bounds. Widen them, or move the pose.")
+
+
+def _crossed(one: HoldingProblem, residual: np.ndarray, tension: np.ndarray) -> LeastCrossing | None:
+    """Bounds in the way, for taut cables around the tensions of the best attempt (m,) [N]."""
+    matrix = np.swapaxes(one.straight_matrix(), -1, -2)[0] / one.unit[0][:, None]
+    target = matrix @ tension - residual / one.unit[0]
+    return least_crossing(matrix, target, one.low[0], one.high[0])

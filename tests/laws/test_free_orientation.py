@@ -1,0 +1,92 @@
+"""Free angles: no moment is left about them, the referee rests at the same pose, and maps have them at every pose."""
+
+import numpy as np
+import pytest
+
+import cdpr_struct as cs
+from cdpr_struct.crosscheck.fem_robot import solve_in_fem
+from cdpr_struct.errors import InputError, UnholdablePoseError
+from cdpr_struct.robot.pose import Pose
+from cdpr_struct.statics.free_orientation import left_free
+from tests.fast_like import fast_like, few_cables
+
+PLACE = [60.0, -50.0, 145.0]
+
+
+def moment_about(robot: cs.Robot, pose: Pose, tensions: np.ndarray, forces: np.ndarray) -> np.ndarray:
+    """(3,) moments of cables (m, 3) [N] and weight about rx, ry, rz over arms times tensions, written down here."""
+    _, ry, rz = pose.angles
+    about_z = np.array([[np.cos(rz), -np.sin(rz), 0.0], [np.sin(rz), np.cos(rz), 0.0], [0.0, 0.0, 1.0]])
+    about_y = np.array([[np.cos(ry), 0.0, np.sin(ry)], [0.0, 1.0, 0.0], [-np.sin(ry), 0.0, np.cos(ry)]])
+    axes = np.array([about_z @ about_y[:, 0], about_z[:, 1], [0.0, 0.0, 1.0]])
+    arms = robot.platform_anchors @ pose.rotation.T
+    weight = np.array([0.0, 0.0, -robot.platform.mass * robot.gravity])
+    moment = np.cross(arms, forces).sum(axis=0) + np.cross(pose.rotation @ robot.platform.center_of_mass, weight)
+    return axes @ moment / (np.linalg.norm(arms, axis=1).mean() * tensions.sum())
+
+
+@pytest.mark.parametrize(
+    ("robot", "place", "free"),
+    [
+        (fast_like(), PLACE, "rx,ry,rz"),
+        (few_cables(3), [0.5, 0.3, 0.4], "rx,ry,rz"),
+        (few_cables(4), [0.5, 0.3, 0.4], "rx,ry"),
+        (cs.load_robot("cogiro"), [1.0, 0.5, 1.0], "ry"),
+        (cs.load_robot("thesis-5"), [1.0, 0.5, 2.0], "rx,ry"),  # three cables in their lower bound
+        (few_cables(5), [0.5, 0.3, 0.4], "rx,ry,rz"),
+    ],
+)
+def test_no_moment_is_left_and_the_referee_rests_there(robot, place, free):
+    found = cs.inverse(robot, place, free=free)
+    cables = found.solution.cables
+    left = moment_about(robot, found.pose, found.solution.tensions, cables.force_on_platform)
+    assert np.abs(left).max() <= 1e-9
+    assert found.answer["stable"]
+    assert np.abs(found.pose.angles).max() > np.radians(0.5)  # it does hang at a tilt
+    coarse, fine = (solve_in_fem(found.point, elements) for elements in (16, 32))
+    rest = (4.0 * fine.position - coarse.position) / 3.0
+    turn = (4.0 * fine.rotation - coarse.rotation) / 3.0
+    size = float(np.linalg.norm(robot.frame_anchors[0] - place))
+    assert np.abs(rest - place).max() <= 2e-6 * size
+    assert np.abs(turn - found.pose.rotation).max() <= 2e-5
+
+
+def test_a_receiver_hangs_with_all_cables_tight_where_level_it_does_not_hold():
+    robot = fast_like()
+    with pytest.raises(UnholdablePoseError):
+        cs.inverse(robot, PLACE)
+    found = cs.modes(robot, PLACE, free="rx,ry,rz", count=1)
+    rx, ry, _ = found.answer["free"]["orientation_deg"]
+    assert [rx, ry] == pytest.approx([-7.3, -8.7], abs=0.5)
+    assert found.answer["sagging_cables"] == []
+    assert found.modes.hertz[0] == pytest.approx(0.14, abs=0.01)
+    assert "were left free: the platform hangs at" in found.warnings[0]
+
+
+def test_a_map_has_its_own_orientation_at_every_pose():
+    robot, grid = fast_like(), "-80:80:3,-60:60:3,145"
+    level = cs.map(robot, grid, "tension-max").answer["held"]
+    found = cs.map(robot, grid, "tension-max", free="rx,ry,rz")
+    assert (level, found.answer["held"]) == (1, 9)
+    columns = found.values
+    for row in (0, 5):
+        one = cs.inverse(robot, found.grid.positions[row], free="rx,ry,rz")
+        assert columns["rx_deg"][row] == pytest.approx(one.answer["free"]["orientation_deg"][0], abs=1e-7)
+        assert columns["tension_max_N"][row] == pytest.approx(one.solution.tensions.max(), rel=1e-8)
+
+
+def test_angles_that_few_cables_cannot_hold_are_free_too():
+    assert left_free([False, True, False], 4).tolist() == [True, True, False]
+    assert left_free([False, False, True], 3).all()
+    with pytest.raises(ValueError, match="three are needed"):
+        left_free([True, True, True], 2)
+    found = cs.inverse(few_cables(4), [0.5, 0.3, 0.4], free="ry")
+    assert found.answer["free"]["added"] == ["rx"]
+
+
+def test_unusable_names_are_refused():
+    for free in ("rx,rw", "", "all"):
+        with pytest.raises(InputError, match="give some of rx,ry,rz"):
+            cs.inverse("cogiro", free=free)
+    with pytest.raises(InputError, match="is computed at the orientation of the grid"):
+        cs.map("cogiro", "-1:1:2,0,1", "mode-3", free="rx")
