@@ -72,6 +72,7 @@ def _rope(robot: RobotSketch) -> list[str]:
         f"axial_stiffness = {_digits(stiffness)}".ljust(45) + "# EA, N",
         f"linear_density = {_digits(density)}".ljust(45) + "# kg/m",
         "damping_ratio = 0.01                         # of each cable's first mode: a guess",
+        f"thermal_expansion = {robot.rope.expansion!r}".ljust(45) + "# 1/K: of the unstrained length",
         f"{limit}".ljust(45) + "# N, at the platform: the least force that your control keeps",
         "# force_max = 2000.0                         # N: a fifth of the breaking load, or what the winches can pull",
     ]

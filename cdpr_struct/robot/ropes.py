@@ -7,12 +7,15 @@ rope referred to that material, gamma its density, and k the length of wire or f
 import math
 from dataclasses import dataclass
 
+from cdpr_struct.robot.cable import STEEL
+
 
 @dataclass(frozen=True, slots=True)
 class RopeKind:
     """Construction of a rope.
 
     name : in words;  fill : f [-];  lay : k [-];  density : gamma [kg/m^3];  modulus : E [Pa]
+    expansion : alpha [1/K], negative for fibres, which shrink when warm
     """
 
     name: str
@@ -20,6 +23,7 @@ class RopeKind:
     lay: float
     density: float
     modulus: float
+    expansion: float = STEEL
 
     def section(self, diameter: float) -> float:
         """Load-carrying section [m^2] at a nominal diameter [m]."""
@@ -38,6 +42,6 @@ ROPES = {
     "steel-6x19": RopeKind("steel 6x19, fibre core", 0.49, 1.08, 7850.0, 80e9),
     "steel-7x19": RopeKind("steel 7x19", 0.61, 1.06, 7850.0, 75e9),
     "steel-1x19": RopeKind("steel 1x19", 0.77, 1.03, 7850.0, 110e9),
-    "dyneema": RopeKind("UHMWPE (Dyneema), braided", 0.65, 1.07, 970.0, 50e9),
-    "aramid": RopeKind("aramid, braided", 0.65, 1.07, 1440.0, 40e9),
+    "dyneema": RopeKind("UHMWPE (Dyneema), braided", 0.65, 1.07, 970.0, 50e9, -1.2e-5),
+    "aramid": RopeKind("aramid, braided", 0.65, 1.07, 1440.0, 40e9, -2e-6),
 }

@@ -34,6 +34,7 @@ def test_the_tables_have_the_same_ropes():
 def test_computed_values_follow_from_the_factors(rope):
     fill, lay, density, modulus = map(float, FACTORS[rope][:4])
     low, high = map(float, FACTORS[rope][4].split(" to "))
+    assert [kind.expansion for kind in KINDS.values() if kind.name == rope] == [1e-6 * float(FACTORS[rope][5])]
     assert low <= modulus <= high
     for diameter, cell in zip(COMPUTED[HEAD], COMPUTED[rope], strict=True):
         section = fill * math.pi / 4.0 * float(re.sub(" mm", "", diameter)) ** 2  # mm^2

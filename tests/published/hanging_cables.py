@@ -7,6 +7,10 @@ import numpy as np
 from scipy.optimize import fsolve
 
 import cdpr_struct.fem_reference as fem
+from cdpr_struct.robot.cable import Cable
+from cdpr_struct.robot.platform import Platform
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.catenary import solve_end_forces
 from tests.published.case import Case
 
@@ -66,9 +70,18 @@ SSNL_LENGTH, SSNL_EA, SSNL_WEIGHT = 325.0, 5.7e10 * 2.2783e-4, 2844.23 * 2.2783e
 EXPANSION, HEATED = 2.3e-5, 39.26
 
 
+def warm_length(end_forces: EndForces, temperature: float) -> float:
+    """Unstrained length [m]: for the model that of a robot's cable at this temperature, for the bars their own."""
+    if end_forces is by_bars:
+        return SSNL_LENGTH + EXPANSION * temperature * SSNL_LENGTH
+    cable = Cable(SSNL_EA, SSNL_WEIGHT / 9.81, thermal_expansion=EXPANSION)
+    robot = Robot("SSNL114", Platform(1.0, np.zeros(3), np.eye(3)), (cable,), np.zeros((1, 3)), np.zeros((1, 3)))
+    return float(RobotArrays.of(robot.at_temperature(temperature)).paid_out(np.array([SSNL_LENGTH]))[0])
+
+
 def sag_at_middle(end_forces: EndForces, temperature: float) -> float:
     """Height [m] of the middle of the cable: where one half of it meets the other, level."""
-    half = 0.5 * SSNL_LENGTH * (1.0 + EXPANSION * temperature)
+    half = 0.5 * warm_length(end_forces, temperature)
 
     def vertical_force(drop: np.ndarray) -> np.ndarray:
         return end_forces(np.array([0.5 * SSNL_LENGTH, -drop[0]]), half, SSNL_EA, SSNL_WEIGHT)[1][1:]
