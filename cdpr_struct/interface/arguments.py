@@ -130,14 +130,15 @@ def read_robot(
         raise InputError("robot", "", robot, "a Robot, a built-in name, or the path of a robot file")
     entered = robot if isinstance(robot, Robot) else load_robot(os.fspath(robot))
     try:
-        loaded = _conditioned(entered.with_load(payload, mass), wrench, temperature)
+        loaded = entered.with_load(payload, mass)
     except ValueError as error:
         raise InputError("mass", "", mass, str(error)) from error
     try:
-        return loaded.with_force_limits(lower_bound, upper_bound)
+        limited = loaded.with_force_limits(lower_bound, upper_bound)
     except ValueError as error:
         crossed = ("upper_bound", upper_bound) if upper_bound is not None else ("lower_bound", lower_bound)
         raise InputError(crossed[0], "", crossed[1], str(error)) from error
+    return _conditioned(limited, wrench, temperature)
 
 
 def _conditioned(robot: "Robot", wrench: "Numbers | None", temperature: float | None) -> "Robot":
