@@ -12,6 +12,7 @@ from cdpr_struct.interface.operating_point import held
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.reports import statics_rest
 from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.reports.platform_freedoms import freedoms_json
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import slack_warning
@@ -102,4 +103,5 @@ def inverse(
     solution = held(machine, where, chosen, extra)
     slack = slack_warning(machine, where.position, where.rotation, solution.cables, extra)
     told = statics_rest.inverse_json(machine, chosen, where, solution) | {"warnings": [] if slack is None else [slack]}
+    told |= freedoms_json(OperatingPoint(machine, where.position, where.rotation, solution.cables), extra)
     return InverseResult(with_extensions(told, machine, "inverse", chosen), machine, where, solution)

@@ -12,6 +12,7 @@ from cdpr_struct.errors import CdprError, ConvergenceError, InputError, Unholdab
 from cdpr_struct.interface.arguments import read_lengths, read_pose
 from cdpr_struct.interface.given import Numbers, PoseLike
 from cdpr_struct.reports.locked_rest import locked_json, locked_warnings
+from cdpr_struct.reports.platform_freedoms import freedoms_json
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import bound_hint, outside_limits, slack_warning
@@ -41,11 +42,12 @@ class AtRest:
             raise UnstableEquilibriumError(f"{error}.{hint}" if hint else str(error)) from error
 
     def told(self, *warnings: str) -> dict[str, Any]:
-        """What every result says of the state of rest: `warnings`, and `locked` if the lengths were given."""
+        """What every result says of the state of rest: `warnings`, neutral freedoms, what a guide holds, and `locked` if
+        the lengths were given."""
         if self.locked is None:
-            return {"warnings": [*warnings, *self._warnings()]}
+            return {"warnings": [*warnings, *self._warnings()], **freedoms_json(self.point)}
         said = [*warnings, *locked_warnings(self.locked), *self._warnings()]
-        return {"warnings": said, "locked": locked_json(self.locked)}
+        return {"warnings": said, "locked": locked_json(self.locked), **freedoms_json(self.point)}
 
     def _warnings(self) -> list[str]:
         """Sentences on cables that hang slack, and on locked cables outside the robot's force limits."""

@@ -15,7 +15,7 @@ from cdpr_struct.robot.extensions import Extensions, divided_mast
 from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
-from cdpr_struct.robot.robot import Robot, internal_mass_fault
+from cdpr_struct.robot.robot import FREEDOMS, Robot, internal_mass_fault
 
 LARGEST, SMALLEST = 1e12, 1e-12  # of any number; beyond them squares and products leave what can be computed
 Number = Annotated[float, Field(strict=True, ge=-LARGEST, le=LARGEST)]
@@ -34,6 +34,7 @@ class PlatformTable(_Table):
     mass: Positive
     center_of_mass: Vector = [0.0, 0.0, 0.0]
     inertia: Matrix
+    guided: list[Any] = []
 
 
 class CableTable(_Table):
@@ -58,7 +59,7 @@ class CablesEntry(CableTable):
 class RobotTable(_Table):
     name: Annotated[str, Field(min_length=1)]
     description: str = ""
-    gravity: Positive = 9.81
+    gravity: Any = 9.81
     home_pose: Annotated[list[Number], Field(min_length=3, max_length=6)] | None = None
     platform: PlatformTable
     cable: CableTable = CableTable()
@@ -157,7 +158,8 @@ def _build(table: RobotTable, source: str) -> Robot:
         return Robot(
             name=table.name,
             description=table.description,
-            gravity=table.gravity,
+            gravity=_gravity(table.gravity, source),
+            guided=_guided(table.platform.guided, source),
             home=home,
             platform=platform,
             cables=cables,
@@ -170,6 +172,23 @@ def _build(table: RobotTable, source: str) -> Robot:
         raise
     except ValueError as error:
         raise InputError(source, "robot", table.name, str(error)) from error
+
+
+def _gravity(given: Any, source: str) -> float | np.ndarray:
+    """A size, downwards, or a vector."""
+    expected = "give a number in m/s^2, zero or more, or three in square brackets, like [0.0, 1.7, -9.66]"
+    _require_numbers("gravity", given, 3, expected, source)
+    if not isinstance(given, list) and given < 0.0:
+        raise InputError(source, "gravity", given, expected)
+    return np.array(given, dtype=float) if isinstance(given, list) else float(given)
+
+
+def _guided(given: list[Any], source: str) -> tuple[str, ...]:
+    """Freedoms that a guide holds, in their order."""
+    if any(name not in FREEDOMS for name in given) or len(set(given)) < len(given) or len(given) == len(FREEDOMS):
+        expected = f"give some of {', '.join(FREEDOMS)} in quotes, each once, and leave at least one free"
+        raise InputError(source, "platform.guided", given, expected)
+    return tuple(name for name in FREEDOMS if name in given)
 
 
 def _home(values: list[float] | None, source: str) -> Pose | None:

@@ -22,7 +22,7 @@ class HoldingProblem:
 
     load      : (k, 6) weight and external wrench about the platform origin [N, N m]
     low, high : (k, m) bounds on the tensions at the platform [N]
-    unit      : (k, 6) 1 for forces, the anchors' mean radius [m] for moments
+    unit      : (k, 6) 1 for forces, the anchors' mean radius [m] for moments; inf where a guide takes them
     """
 
     arrays: RobotArrays
@@ -47,6 +47,7 @@ class HoldingProblem:
         radius = np.sqrt((arms.arms**2).sum(axis=-1).mean(axis=-1))
         unit = np.ones((len(radius), 6))
         unit[:, 3:] = np.maximum(radius, 1e-3)[:, None]
+        unit[np.broadcast_to(arrays.guided > 0.0, unit.shape)] = np.inf
         return cls(arrays, model, arms, load_wrench(arrays, arms) + external_wrench, *bounds, unit)
 
     def take(self, index: np.ndarray) -> "HoldingProblem":
@@ -93,8 +94,8 @@ class HoldingProblem:
         """Tensions (k, m) [N] of straight cables that could also push, and the wrench (k, 6) that even these leave."""
         matrix = np.swapaxes(self._straight_matrix(), -1, -2) / self.unit[..., None]
         tension = -(np.linalg.pinv(matrix, rcond=1e-10) @ (self.load / self.unit)[..., None])
-        left = (matrix @ tension)[..., 0] * self.unit + self.load
-        return tension[..., 0], left
+        left = (np.swapaxes(self._straight_matrix(), -1, -2) @ tension)[..., 0] + self.load
+        return tension[..., 0], np.where(np.isfinite(self.unit), left, 0.0)
 
     def _size(self, items: np.ndarray) -> np.ndarray:
         size: np.ndarray = np.linalg.norm(self.load[items] / self.unit[items], axis=1)

@@ -15,6 +15,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, load_wrench, tangent_stiffness
 from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.neutral_freedoms import stability
 from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.statics.slack_cables import hangs_slack
 
@@ -114,14 +115,14 @@ def _ladder(
 def _stable(
     arrays: RobotArrays, place: np.ndarray, turn: np.ndarray, states: CableStates, chosen: np.ndarray
 ) -> np.ndarray:
-    """(b, n) bool: chosen, and every small motion of the platform is pushed back at locked lengths."""
+    """(b, n) bool: chosen, and no small motion of the platform grows at locked lengths."""
     stable = np.zeros(chosen.shape, dtype=bool)
     poses = np.nonzero(chosen)[-1]
     if poses.size:
         turns = np.broadcast_to(turn, (*place.shape[:-1], 3, 3))
         arms = PlatformArms.at(arrays, place[poses], turns[poses])
         matrix = tangent_stiffness(arrays, states.at(chosen), arms)
-        stable[chosen] = np.linalg.eigvalsh(matrix + np.swapaxes(matrix, -1, -2))[:, 0] > 0.0
+        stable[chosen] = ~stability(arrays.take(poses) if arrays.batch_shape else arrays, turns[poses], matrix).unstable
     return stable
 
 

@@ -11,8 +11,13 @@ from cdpr_struct.dynamics.mode_shapes import ritz_shapes, shape_size
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.platform_modes import HARMONICS, platform_mode
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
-from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix, platform_static_stiffness
+from cdpr_struct.dynamics.robot_dynamic_stiffness import (
+    platform_mass_matrix,
+    platform_static_stiffness,
+    stability_at,
+)
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.guides import free_axes, free_block
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.workspace.grid import Grid
@@ -63,8 +68,10 @@ def _of_chunk(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Colu
     held = np.flatnonzero(solution.held)
     if held.size:
         point = _points(robot, positions, rotation, solution, held)
-        massless, momentum = _first_static_mode(point)
-        stable = np.flatnonzero(massless > 0.0)
+        neutral = stability_at(point)
+        columns["neutral_freedoms"][held] = neutral.neutral
+        massless, momentum = _first_static_mode(point, neutral.neutral)
+        stable = np.flatnonzero((massless > 0.0) & ~neutral.unstable)
         found = _at_rest(poses_of(point, stable), massless[stable], momentum[stable])
         for name, values in found.items():
             columns[name][held[stable]] = values if name in (SHARE, SHAPE) else np.sqrt(values) / (2.0 * np.pi)
@@ -79,7 +86,7 @@ def _names(robot: Robot) -> list[str]:
 
 def _empty(robot: Robot, n: int) -> Columns:
     """Columns without values; the shape's is (n, d)."""
-    columns = {name: np.full(n, np.nan) for name in _names(robot)}
+    columns = {name: np.full(n, np.nan) for name in _names(robot)} | {"neutral_freedoms": np.zeros(n, dtype=int)}
     return {**columns, SHAPE: np.full((n, shape_size(len(robot.cables), HARMONICS)), np.nan)}
 
 
@@ -90,17 +97,25 @@ def _points(
     return OperatingPoint(robot, positions[chosen], np.broadcast_to(rotation, (len(chosen), 3, 3)), states)
 
 
-def _first_static_mode(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
-    """omega^2 (n,) of the platform's first mode on massless cables, negative where it is unstable, and its momentum
-    (n, 6), with an internal mass (n, 7)."""
-    stiffness, mass = with_internal_mass(
+def _first_static_mode(point: OperatingPoint, neutral: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """omega^2 (n,) of the platform's first mode above zero on massless cables, negative where it is unstable, and its
+    momentum (n, 6), with an internal mass (n, 7).
+
+    neutral : (n,) number of neutral freedoms
+    """
+    pencil = with_internal_mass(
         point.arrays, point.rotation, platform_static_stiffness(point),
         platform_mass_matrix(point.arrays, point.rotation),
     )  # fmt: skip
+    stiffness, mass = (free_block(matrix, point.arrays) for matrix in pencil)
     lower = np.linalg.cholesky(mass)
     inverse_root = np.linalg.inv(lower)
     squared, vectors = np.linalg.eigh(inverse_root @ stiffness @ np.swapaxes(inverse_root, -1, -2))
-    return squared[:, 0], np.einsum("nij,nj->ni", lower, vectors[..., 0])
+    row = np.arange(len(squared))
+    momentum = np.zeros((len(squared), pencil[0].shape[-1]))
+    kept = np.concatenate([free_axes(point.arrays), np.arange(6, momentum.shape[1])])
+    momentum[:, kept] = np.einsum("nij,nj->ni", lower, vectors[row, :, neutral])
+    return squared[row, neutral], momentum
 
 
 def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> Columns:
@@ -108,7 +123,8 @@ def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) 
     names = _names(point.entered)
     found = _empty(point.entered, len(massless))
     found["platform_massless_Hz"] = massless
-    fast = np.flatnonzero(fits(point))
+    neutral = stability_at(point).neutral
+    fast = np.flatnonzero(fits(point) & (neutral == 0))
     if fast.size:
         for name, values in _fast(poses_of(point, fast), massless[fast], momentum[fast]).items():
             found[name][fast] = values
@@ -147,7 +163,8 @@ def _general(point: OperatingPoint, momentum: np.ndarray) -> Columns:
     best = alike.argmax(axis=-1)[:, None]
     omega, share = (np.take_along_axis(values, best, axis=-1)[:, 0] for values in (modes.omega, alike))
     shape = np.take_along_axis(ritz_shapes(point, modes, HARMONICS), best[:, :, None], axis=1)[:, 0]
-    found = {"first_Hz": modes.omega[:, 0] ** 2, "platform_Hz": omega**2, SHARE: share, SHAPE: shape}
+    first = np.take_along_axis(modes.omega, stability_at(point).neutral[:, None], axis=1)[:, 0]
+    found = {"first_Hz": first**2, "platform_Hz": omega**2, SHARE: share, SHAPE: shape}
     return found | _of_cables(clamped.T)
 
 
