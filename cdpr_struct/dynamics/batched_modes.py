@@ -53,6 +53,7 @@ def reasons_against(point: OperatingPoint) -> list[str]:
         "masses at mid-cable": bool(robot.added_mass.any()),
         "an internal mass": robot.has_internal_mass,
         "a guided platform": robot.has_guides,
+        "tilted gravity": robot.is_tilted,
         "parameters of their own at each pose": bool(robot.batch_shape),
     }
     return [name for name, present in known.items() if present]

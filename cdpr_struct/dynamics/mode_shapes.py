@@ -78,4 +78,4 @@ def _chord_axes(point: OperatingPoint) -> np.ndarray:
     states = point.cables
     cables = HangingCables.of(states, point.arrays.linear_density)
     cos, sin = (part.T for part in cables.direction)
-    return np.asarray(cos[..., None] * states.heading + sin[..., None] * np.array([0.0, 0.0, 1.0]))
+    return np.asarray(cos[..., None] * states.heading + sin[..., None] * states.up)

@@ -113,6 +113,21 @@ class RobotArrays:
         return self.has_pulleys or bool(self.series_compliance.any())
 
     @property
+    def up(self) -> np.ndarray:
+        """(..., 1, 3) unit vector against gravity, world frame; one for all cables."""
+        return -self.down[..., None, :]
+
+    @property
+    def is_tilted(self) -> bool:
+        """Whether gravity acts in another direction than world -z."""
+        return bool((self.down[..., 2] != -1.0).any())
+
+    @property
+    def is_weightless(self) -> bool:
+        """Whether there is no gravity."""
+        return not self.gravity.any()
+
+    @property
     def has_guides(self) -> bool:
         """Whether a guide holds the platform in any direction."""
         return bool(self.guided.any())

@@ -149,13 +149,13 @@ def _stiffening(
 
 
 def starting_position(arrays: RobotArrays, length: np.ndarray) -> np.ndarray:
-    """(..., 3) a point under the middle of the frame anchors, as deep as the lengths allow on average [m]."""
+    """(..., 3) a point under the middle of the frame anchors, as deep as the lengths allow on average; the middle itself
+    where there is no gravity [m]."""
     middle = arrays.frame_anchors.mean(axis=-2)
     reach = np.linalg.norm(arrays.frame_anchors - middle[..., None, :], axis=-1)
     depth = np.sqrt(np.maximum(length**2 - reach**2, 0.0)).mean(axis=-1)
     start = np.array(np.broadcast_to(middle, (*np.broadcast_shapes(depth.shape, middle.shape[:-1]), 3)))
-    start[..., 2] -= depth
-    return start
+    return np.asarray(start + np.where(arrays.gravity > 0.0, depth, 0.0)[..., None] * arrays.down)
 
 
 def _flat(value: np.ndarray, shape: tuple[int, ...], core_axes: int) -> np.ndarray:

@@ -85,7 +85,7 @@ class HoldingProblem:
         least = self._least()
         low = np.maximum(self.low, _TAUT * least)
         ones = np.ones_like(low)
-        reach = _REACH * np.linalg.norm(self.load / self.unit, axis=1, keepdims=True)
+        reach = _REACH * np.maximum(np.linalg.norm(self.load / self.unit, axis=1, keepdims=True), low)
         top = np.maximum(np.minimum(high, reach), 2.0 * low)
         tension, _ = self._program(ones, 0.0 * ones, self._straight_matrix(), self.load, low, top)
         return np.maximum(tension, 1e-9 * np.linalg.norm(self.load, axis=1, keepdims=True))
@@ -99,7 +99,7 @@ class HoldingProblem:
 
     def _size(self, items: np.ndarray) -> np.ndarray:
         size: np.ndarray = np.linalg.norm(self.load[items] / self.unit[items], axis=1)
-        return size
+        return size + self.low[items].sum(axis=1) if self.arrays.is_weightless else size
 
     def _least(self) -> np.ndarray:
         return self.model.least_chord_tension(self.arrays, self.arms.points)
@@ -125,9 +125,10 @@ class HoldingProblem:
         """(k, m) second derivative of cost minus multipliers times balance, kept positive."""
         lever = self.arms.arms
         scaled = (dual / self.unit)[:, None, :]
-        along_up = scaled[..., 2] + scaled[..., 3] * lever[..., 1] - scaled[..., 4] * lever[..., 0]
+        up = self.arrays.up
+        along_up = (scaled[..., :3] * up + scaled[..., 3:] * np.cross(lever, up)).sum(axis=-1)
         first = np.einsum("kmi,kmi->km", held.force_rate, held.force_rate)
-        return np.maximum(first + (held.states.force_on_platform[..., 2] - along_up) * held.bend, 0.1 * first)
+        return np.maximum(first + ((held.states.force_on_platform * up).sum(axis=-1) - along_up) * held.bend, 0.1 * first)
 
     def _step_bounds(self, held: HeldCables, growth: np.ndarray, tension: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         pull = held.states.tension_at_platform

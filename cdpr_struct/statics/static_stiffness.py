@@ -107,7 +107,7 @@ def _compliance_parts(
     force_change = end_stiffness(arrays, cables) @ attachment(*np.moveaxis(arms.arms, -1, 0))
     in_plane = np.zeros((*cables.length.shape, 2, 3))
     in_plane[..., 0, :] = cables.heading
-    in_plane[..., 1, 2] = 1.0
+    in_plane[..., 1, :] = cables.up
     planar = in_plane @ force_change
     compliance = np.linalg.pinv(behind_guides(matrix, arrays, held=0.0), hermitian=False)
     parts = []

@@ -67,7 +67,7 @@ def _curves(point: OperatingPoint, frame: np.ndarray) -> np.ndarray:
     pull, weight = np.where(straight, 1.0, cables.force_z), np.where(straight, 1.0, cables.weight)
     five = (cables.force_x, pull, cables.length, cables.axial_stiffness, weight)
     along, up = catenary.profile(s, *(value[:, None] for value in five))
-    hanging = along[..., None] * cables.heading[:, None, :] + up[..., None] * np.array([0.0, 0.0, 1.0])
+    hanging = along[..., None] * cables.heading[:, None, :] + up[..., None] * cables.up[:, None, :]
     taut = np.linspace(0.0, 1.0, _POINTS_PER_CABLE)[None, :, None] * cables.offset[:, None, :]
     return frame[:, None, :] + np.where(straight[:, None, None], taut, hanging)
 
