@@ -1,7 +1,7 @@
 """The robot's modes as an ordinary eigenproblem: platform motion, the clamped cables' modal coordinates, and that of
 an internal mass."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from cdpr_struct.statics.masts import MastShapes
 class RitzModes:
     """The first k undamped modes of unit modal mass that an expansion of the cables spans, at a batch (...) of poses.
 
-    omega         : (..., k) ascending [rad/s], upper bounds of the model's
+    omega         : (..., k) ascending [rad/s], upper bounds of the model's; zero for neutral freedoms
     platform      : (..., k, 6) motion of the platform origin and rotation, world axes
     end           : (..., k, m, 3) motion of the cables' platform ends against their masts, local axes of `expansion`
     mast          : (..., k, m, 3) motion of the cables' masts, local axes; zero where masts stand still
@@ -43,6 +43,17 @@ class RitzModes:
     internal_coupling: np.ndarray
     to_cable: np.ndarray
     expansion: ModalExpansion
+
+    @property
+    def above_zero(self) -> "RitzModes":
+        """Without neutral freedoms; of a batch, without as many first modes as any of it has of these."""
+        first = int((self.omega == 0.0).sum(axis=-1).max(initial=0))
+        if not first:
+            return self
+        own = {name: getattr(self, name)[..., first:] for name in ("omega", "internal")}
+        own["platform"] = self.platform[..., first:, :]
+        own |= {name: getattr(self, name)[..., first:, :, :] for name in ("end", "mast", "modal")}
+        return replace(self, **own)
 
     @property
     def platform_energy(self) -> np.ndarray:

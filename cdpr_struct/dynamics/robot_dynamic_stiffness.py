@@ -1,5 +1,6 @@
 """Stiffness of the platform on its cables, static and dynamic (thesis section 3.3)."""
 
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -98,9 +99,15 @@ def platform_static_stiffness(point: OperatingPoint, assembly: Assembly = "consi
 
 
 def stability_at(point: OperatingPoint, assembly: Assembly = "consistent") -> Stability:
-    """How the platform is held at rest, and in which directions it is not."""
+    """How the platform is held at rest, and in which directions it is not.
+
+    Unstable, too, is a platform with a cable that hangs slack where there is no gravity: it has no shape to vibrate about.
+    """
     stiffness = platform_static_stiffness(point, assembly)
-    return stability(point.arrays, point.rotation, stiffness, weightless=assembly == "thesis")
+    held = stability(point.arrays, point.rotation, stiffness, weightless=assembly == "thesis")
+    if not point.arrays.is_weightless:
+        return held
+    return replace(held, unstable=held.unstable | point.cables.slack.any(axis=-1))
 
 
 def platform_dynamic_stiffness(

@@ -18,7 +18,7 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import bound_hint, outside_limits, slack_warning
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.locked_rest import LockedRest, locked_rest
-from cdpr_struct.statics.slack_cables import hangs_slack, slack_sentence
+from cdpr_struct.statics.slack_cables import cables_named, hangs_slack, slack_sentence
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,7 +78,9 @@ def rest(robot: Robot, pose: PoseLike | None, lengths: Numbers | None, start: Po
         if start is not None:
             raise InputError("start", "", start, "it belongs to `lengths`; leave it out")
         where = read_pose(pose, robot)
-        return AtRest(OperatingPoint(robot, where.position, where.rotation, held(robot, where).cables))
+        point = OperatingPoint(robot, where.position, where.rotation, held(robot, where).cables)
+        _require_shape(point, True)
+        return AtRest(point)
     if pose is not None:
         raise InputError("lengths", "", lengths, "give either `pose` or `lengths`, not both")
     return _locked(robot, lengths, start)
@@ -113,7 +115,22 @@ def _locked(robot: Robot, lengths: Numbers, start: PoseLike | None) -> AtRest:
             f"at these lengths the platform has no stable equilibrium here (least {solution.least_stiffness:.3g} N/m); "
             f"stable ones elsewhere: {found.others.count}"
         )
-    return AtRest(OperatingPoint(robot, solution.position, solution.rotation, solution.cables), found)
+    point = OperatingPoint(robot, solution.position, solution.rotation, solution.cables)
+    _require_shape(point, False)
+    return AtRest(point, found)
+
+
+def _require_shape(point: OperatingPoint, advised: bool) -> None:
+    """Refuse cables that hang slack without gravity.
+
+    advised : whether a lower bound may be named that would cure it
+    """
+    if not (point.arrays.is_weightless and point.cables.slack.any()):
+        return
+    numbers = (np.flatnonzero(point.cables.slack) + 1).tolist()
+    loose = f"{cables_named(numbers)} {'does' if len(numbers) == 1 else 'do'} not pull"
+    hint = bound_hint(point.entered, point.position, point.rotation) if advised else ""
+    raise CdprError(f"without gravity a slack cable has no shape to vibrate about, and {loose}.{hint}")
 
 
 def pose_in_degrees(point: OperatingPoint) -> list[float]:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.reports.text import place, rounded
+from cdpr_struct.reports.text import place
 from cdpr_struct.robot.robot import FREEDOMS
 from cdpr_struct.statics.equilibrium import PlatformArms, tangent_stiffness
 from cdpr_struct.statics.guides import guide_reaction
@@ -28,7 +28,7 @@ def freedoms_json(point: OperatingPoint, wrench: np.ndarray | list[float] | None
     if not held.unstable:
         motions = _plain_basis(held.twists)
         proved = bool(held.proved.all())
-        told["neutral_freedoms"] = [_entry(motion, place_, arrays.down, proved) for motion in motions]
+        told["neutral_freedoms"] = [_entry(motion, place_, told["gravity_m_s2"], proved) for motion in motions]
     if arrays.has_guides:
         extra = np.zeros(6) if wrench is None else np.asarray(wrench, dtype=float)
         reaction = guide_reaction(arrays, place_, turn, point.cables, extra)
@@ -46,20 +46,20 @@ def _words(motion: np.ndarray, position: np.ndarray, down: np.ndarray) -> str:
     shift, turn = motion[:3], motion[3:]
     size = float(turn @ turn)
     if size < _SMALL:
-        return f"moving along {_direction(shift, down)}"
+        return f"moving {_direction(shift, down, 'vertically', 'along')}"
     pitch = float(turn @ shift) / size
     through = place(position + np.cross(turn, shift) / size)
     advancing = f", advancing {pitch:.4g} m per radian" if abs(pitch) > 1e-6 else ""
-    return f"turning about {_direction(turn, down)} through {through}{advancing}"
+    return f"turning about {_direction(turn, down, 'the vertical axis', 'an axis along')} through {through}{advancing}"
 
 
-def _direction(vector: np.ndarray, down: np.ndarray) -> str:
+def _direction(vector: np.ndarray, down: np.ndarray, vertical: str, along: str) -> str:
+    """`vertical` where the vector lies along gravity (3,) which is not zero, else `along` what it lies."""
     unit = vector / np.linalg.norm(vector)
-    if abs(abs(float(unit @ down)) - 1.0) < _SMALL:
-        return "the vertical axis" if down[2] == -1.0 else "the axis of gravity"
-    if (names := [name for name, part in zip("xyz", unit, strict=True) if abs(abs(part) - 1.0) < _SMALL]):
-        return f"an axis along {names[0]}"
-    return f"an axis along ({', '.join(f'{value:g}' for value in rounded(unit, 4))})"
+    if abs(float(unit @ down)) > (1.0 - _SMALL) * np.linalg.norm(down) > 0.0:
+        return vertical
+    names = [name for name, part in zip("xyz", unit, strict=True) if abs(abs(part) - 1.0) < _SMALL]
+    return f"{along} {names[0] if names else place(unit).removesuffix(' m')}"
 
 
 def _plain_basis(twists: np.ndarray) -> list[np.ndarray]:

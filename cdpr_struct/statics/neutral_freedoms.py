@@ -136,7 +136,7 @@ def _gathered(
     for i, (motions, sure) in found.items():
         count = motions.shape[1]
         neutral[i], scaled[i, :, :count], proved[i, :count] = count, motions, sure
-    held = (scaled * unit[:, None]) * np.sqrt(largest)[:, None, None]
+    held = (scaled * unit[:, None]) * np.sqrt(np.where(largest > 0.0, largest, 1.0))[:, None, None]
     holding = held @ np.swapaxes(held, -1, -2)
     twists = scaled / unit[:, None]
     parts = (unstable, neutral, twists, proved, holding)

@@ -23,6 +23,7 @@ RUNGS = 15
 _FINER = 7  # rungs between the first that will do and the one below it
 _LOWEST = 0.5, 1e-3  # of the lightest cable's weight, of the load: the larger of the two
 _HIGHEST = 30.0, 3.0  # of the heaviest cable's weight, of the load: the larger of the two
+_STRAINS = 1e-5, 1e-2  # of the softest cable, where there is neither weight nor load
 
 Judge = Callable[[np.ndarray], np.ndarray]
 """From lower bounds (b,) [N] to whether each will do at each of n poses, (b, n) bool."""
@@ -108,6 +109,8 @@ def _ladder(
     weight = arrays.weight * np.linalg.norm(arms.points - arrays.frame_anchors, axis=-1)
     wrench = load_wrench(arrays, arms) + (0.0 if external_wrench is None else np.asarray(external_wrench))
     load = float(np.linalg.norm(wrench[..., :3], axis=-1).max())
+    if not (load or weight.any()):
+        return np.asarray(float(arrays.axial_stiffness.min()) * np.geomspace(*_STRAINS, RUNGS))
     lowest = max(_LOWEST[0] * weight.min(), _LOWEST[1] * load)
     return np.geomspace(lowest, max(_HIGHEST[0] * weight.max(), _HIGHEST[1] * load), RUNGS)
 

@@ -170,8 +170,9 @@ def _first_frequency(robot: Robot, rotation: np.ndarray, stiffness: RobotStiffne
     matrix, mass = (free_block(part, arrays) for part in pencil)
     inverse_root = np.linalg.inv(np.linalg.cholesky(mass))
     squared = np.linalg.eigvalsh(inverse_root @ matrix @ np.swapaxes(inverse_root, -1, -2))
-    first = np.take_along_axis(np.sort(squared, axis=1), held.neutral[:, None], axis=1)[:, 0]
-    good = ~held.unstable & (first > 0.0)
+    beyond = np.minimum(held.neutral, squared.shape[1] - 1)[:, None]
+    first = np.take_along_axis(np.sort(squared, axis=1), beyond, axis=1)[:, 0]
+    good = ~held.unstable & (held.neutral < squared.shape[1]) & (first > 0.0)
     return np.sqrt(np.where(good, first, np.nan)) / (2.0 * np.pi)
 
 

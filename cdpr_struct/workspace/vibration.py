@@ -72,7 +72,8 @@ def _of_chunk(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Colu
         columns["neutral_freedoms"][held] = neutral.neutral
         massless, momentum = _first_static_mode(point, neutral.neutral)
         stable = np.flatnonzero((massless > 0.0) & ~neutral.unstable)
-        found = _at_rest(poses_of(point, stable), massless[stable], momentum[stable])
+        rest = poses_of(point, stable)
+        found = _at_rest(rest, massless[stable], momentum[stable]) if stable.size else {}
         for name, values in found.items():
             columns[name][held[stable]] = values if name in (SHARE, SHAPE) else np.sqrt(values) / (2.0 * np.pi)
     columns[SHAPE] = as_records(unit_shapes(columns[SHAPE]))
@@ -111,7 +112,7 @@ def _first_static_mode(point: OperatingPoint, neutral: np.ndarray) -> tuple[np.n
     lower = np.linalg.cholesky(mass)
     inverse_root = np.linalg.inv(lower)
     squared, vectors = np.linalg.eigh(inverse_root @ stiffness @ np.swapaxes(inverse_root, -1, -2))
-    row = np.arange(len(squared))
+    row, neutral = np.arange(len(squared)), np.minimum(neutral, squared.shape[1] - 1)
     momentum = np.zeros((len(squared), pencil[0].shape[-1]))
     kept = np.concatenate([free_axes(point.arrays), np.arange(6, momentum.shape[1])])
     momentum[:, kept] = np.einsum("nij,nj->ni", lower, vectors[row, :, neutral])
