@@ -19,7 +19,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.guides import free_axes
 
 NEUTRAL = 1e-9  # of the largest eigenvalue, or of the weight's own stiffness, below which an eigenvalue counts as zero
-_ROUNDING = 1e-13  # of the largest eigenvalue, which is never told from zero
+_ROUNDING = 1e-14  # of the largest eigenvalue, which is never told from zero
 _STILL = 1e-9  # of r: by so much a cable end may move and still count as unmoved
 
 

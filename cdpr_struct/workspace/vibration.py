@@ -40,7 +40,8 @@ def first_frequencies(robot: Robot, positions: np.ndarray, rotation: np.ndarray)
     mode on massless cables. platform_share is the share of that motion which it holds: below one half, cable modes of
     nearly the same frequency hold more of it together, and the frequency may step to another mode at the next pose. A
     cable's frequency is that with both ends held. Minimum-norm tensions within the robot's force limits. nan where the
-    platform is not held, or balanced but not stable. slack_cables: number of cables that hang slack where it is held.
+    platform is not held, or balanced but not stable. neutral_freedoms: number of directions in which nothing pushes it
+    back; first_Hz is the first frequency above zero. slack_cables: number of cables that hang slack where it is held.
     """
     found = shaped_frequencies(robot, positions, rotation)
     return {name: values for name, values in found.items() if name != SHAPE}
@@ -64,20 +65,25 @@ def marked_frequencies(robot: Robot, grid: Grid, columns: Columns) -> Columns:
 
 def _of_chunk(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
     solution = inverse(robot, positions, rotation, allow_unheld=True)
-    columns = _empty(robot, len(positions))
+    columns, neutral = _empty(robot, len(positions)), np.zeros(len(positions), dtype=int)
     held = np.flatnonzero(solution.held)
     if held.size:
         point = _points(robot, positions, rotation, solution, held)
-        neutral = stability_at(point)
-        columns["neutral_freedoms"][held] = neutral.neutral
-        massless, momentum = _first_static_mode(point, neutral.neutral)
-        stable = np.flatnonzero((massless > 0.0) & ~neutral.unstable)
+        how = stability_at(point)
+        neutral[held] = how.neutral
+        massless, momentum = _first_static_mode(point, how.neutral)
+        stable = np.flatnonzero((massless > 0.0) & ~how.unstable)
         rest = poses_of(point, stable)
         found = _at_rest(rest, massless[stable], momentum[stable]) if stable.size else {}
         for name, values in found.items():
             columns[name][held[stable]] = values if name in (SHARE, SHAPE) else np.sqrt(values) / (2.0 * np.pi)
     columns[SHAPE] = as_records(unit_shapes(columns[SHAPE]))
-    return {**columns, "slack_cables": slack_count(solution.cables, solution.held), "held": solution.held}
+    return {
+        **columns,
+        "neutral_freedoms": neutral,
+        "slack_cables": slack_count(solution.cables, solution.held),
+        "held": solution.held,
+    }
 
 
 def _names(robot: Robot) -> list[str]:
@@ -87,7 +93,7 @@ def _names(robot: Robot) -> list[str]:
 
 def _empty(robot: Robot, n: int) -> Columns:
     """Columns without values; the shape's is (n, d)."""
-    columns = {name: np.full(n, np.nan) for name in _names(robot)} | {"neutral_freedoms": np.zeros(n, dtype=int)}
+    columns = {name: np.full(n, np.nan) for name in _names(robot)}
     return {**columns, SHAPE: np.full((n, shape_size(len(robot.cables), HARMONICS)), np.nan)}
 
 
