@@ -15,6 +15,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     platform_static_stiffness,
 )
 from cdpr_struct.statics.guides import free_block
+from cdpr_struct.statics.neutral_freedoms import NEUTRAL
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,10 +39,9 @@ def stiffness_convergence(
     """Compare K(omega) in the middle of the widest gaps between the natural frequencies (k,) [Hz]."""
     hertz = quiet_frequencies(frequencies)
     omega = 2.0 * np.pi * hertz
-    scale = 1.0 / np.sqrt(np.abs(np.diag(platform_static_stiffness(point, assembly))))
+    scale = _scale(np.abs(np.diag(platform_static_stiffness(point, assembly))))
     exact = _model(point, "exact", omega, assembly)
 
-    scale = np.where(np.isfinite(scale), scale, 0.0)  # a direction that nothing holds
 
     def error(stiffness: np.ndarray) -> np.ndarray:
         return np.abs(free_block((stiffness - exact) * scale[:, None] * scale, point.arrays)).max(axis=(-1, -2))
@@ -51,6 +51,13 @@ def stiffness_convergence(
     return StiffnessConvergence(
         hertz, np.array([error(k) for k in found]), error(_model(point, "dsm", omega, assembly))
     )
+
+
+def _scale(diagonal: np.ndarray) -> np.ndarray:
+    """(6,) one over the roots of a stiffness's diagonal (6,); zero in a direction that nothing holds."""
+    largest = np.repeat(diagonal.reshape(2, 3).max(axis=1), 3)
+    held = diagonal > NEUTRAL * largest
+    return np.where(held, 1.0 / np.sqrt(np.where(held, diagonal, 1.0)), 0.0)
 
 
 def quiet_frequencies(frequencies: np.ndarray, count: int = 8) -> np.ndarray:
