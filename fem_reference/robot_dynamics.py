@@ -93,8 +93,8 @@ def count_below(equilibrium: RobotEquilibrium, omega: float, mass: MassModel = "
     """Number of eigenfrequencies of the robot below omega [rad/s].
 
     Sylvester's law of inertia on K - omega^2 M: negative pivots of every cable, eliminated to its end, and of the
-    masts, eliminated next, plus the negative eigenvalues of the remaining 6 x 6 matrix (of its free part). No eigenvalue is computed,
-    so none is missed.
+    masts, eliminated next, plus the negative eigenvalues of the free part of the remaining 6 x 6 matrix. No eigenvalue
+    is computed, so none is missed.
     """
     matrices = equilibrium.element_stiffness() - omega**2 * equilibrium.element_mass(mass)
     platform = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)

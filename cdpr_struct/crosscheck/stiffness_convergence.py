@@ -42,7 +42,6 @@ def stiffness_convergence(
     scale = _scale(np.abs(np.diag(platform_static_stiffness(point, assembly))))
     exact = _model(point, "exact", omega, assembly)
 
-
     def error(stiffness: np.ndarray) -> np.ndarray:
         return np.abs(free_block((stiffness - exact) * scale[:, None] * scale, point.arrays)).max(axis=(-1, -2))
 

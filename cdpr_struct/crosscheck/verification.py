@@ -294,9 +294,6 @@ def _objections(v: Verification) -> list[tuple[bool, str]]:
             float(np.max(blurred)) > v.criteria.fem_uncertainty,
             f"the FEM has not converged: its limit is uncertain by {100 * np.max(blurred):.2g} %; use more elements",
         ),
-        (
-            v.neutral != v.fem_neutral,
-            f"the model has {v.neutral} neutral freedoms, the FEM {v.fem_neutral}",
-        ),
+        (v.neutral != v.fem_neutral, f"the model has {v.neutral} neutral freedoms, the FEM {v.fem_neutral}"),
         (not v.dsm_certified, "the count of the DSM's natural frequencies could not be certified"),
     ]

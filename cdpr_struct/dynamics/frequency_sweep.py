@@ -87,7 +87,9 @@ def sweep_response(
     function = force.function((float(hertz[0]), top), modes.hertz)
     neutral = modes.hertz == 0.0
     if neutral.any() and not hertz[0] > 0.0:
-        raise CdprError("the platform is free to move in some direction, so at 0 Hz the response has no bound: begin above")
+        raise CdprError(
+            "the platform is free to move in some direction, so at 0 Hz the response has no bound: begin above"
+        )
     losses = loss_rates(damping, cables.first_frequency, shapes)
     ratios = np.where(neutral, 0.0, losses / np.where(neutral, 1.0, 2.0 * shapes.omega))
     undamped = (ratios < UNDAMPED_RATIO) & ~neutral

@@ -31,7 +31,7 @@ _HOPELESS_OMEGA = 1e6
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NaturalFrequencies:
-    """The first k natural frequencies, multiplicities repeated; neutral freedoms are zero, first, in brackets of no width.
+    """The first k natural frequencies, multiplicities repeated; neutral freedoms come first, at zero.
 
     hertz         : (k,) ascending
     bracket_hertz : (k, 2) interval over which the exact count passes the number of the frequency: the proof that none

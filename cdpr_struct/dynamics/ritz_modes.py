@@ -126,7 +126,8 @@ def _modes(mass: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
 def _beside_neutral(mass: np.ndarray, neutral: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
     """The same with neutral freedoms (..., j, q) among the first coordinates, at omega zero.
 
-    Without them the mass matrix is M - M n n' M, n of unit modal mass: its modes, made orthogonal to n, are the robot's.
+    Without them the mass matrix is M - M n n' M, n of unit modal mass: its modes, made orthogonal to n,
+    are the robot's.
     Where some of a batch have fewer, the columns left over are zero; they sort last.
     """
     there = (neutral != 0.0).any(axis=-2)

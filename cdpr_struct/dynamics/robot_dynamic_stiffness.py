@@ -20,7 +20,7 @@ Assembly = Literal["consistent", "thesis"]
 
 
 def platform_mass_matrix(robot: Robot | RobotArrays, rotation: np.ndarray) -> np.ndarray:
-    """Mass matrix (..., 6, 6) of the platform about its origin, world axes [kg, kg m, kg m^2]; zero where it is guided."""
+    """Mass matrix (..., 6, 6) of the platform about its origin, world axes [kg, kg m, kg m^2]; zero where guided."""
     body = RobotArrays.of(robot)
     center = np.einsum("...ij,...j->...i", rotation, body.center_of_mass)
     inertia = rotation @ body.inertia @ np.swapaxes(rotation, -1, -2)
@@ -101,7 +101,7 @@ def platform_static_stiffness(point: OperatingPoint, assembly: Assembly = "consi
 def stability_at(point: OperatingPoint, assembly: Assembly = "consistent") -> Stability:
     """How the platform is held at rest, and in which directions it is not.
 
-    Unstable, too, is a platform with a cable that hangs slack where there is no gravity: it has no shape to vibrate about.
+    Unstable, too, is a platform with a slack cable where there is no gravity: it has no shape to vibrate about.
     """
     stiffness = platform_static_stiffness(point, assembly)
     held = stability(point.arrays, point.rotation, stiffness, weightless=assembly == "thesis")

@@ -42,8 +42,8 @@ class AtRest:
             raise UnstableEquilibriumError(f"{error}.{hint}" if hint else str(error)) from error
 
     def told(self, *warnings: str) -> dict[str, Any]:
-        """What every result says of the state of rest: `warnings`, neutral freedoms, what a guide holds, and `locked` if
-        the lengths were given."""
+        """What every result says of the state of rest: `warnings`, neutral freedoms, what a guide holds, and `locked`
+        if the lengths were given."""
         if self.locked is None:
             return {"warnings": [*warnings, *self._warnings()], **freedoms_json(self.point)}
         said = [*warnings, *locked_warnings(self.locked), *self._warnings()]

@@ -244,7 +244,9 @@ def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:
     """
     level = robot.down.tolist() == [0.0, 0.0, -1.0] and robot.gravity > 0.0
     if robot.guided or not level:
-        what = f"platform.guided = {list(robot.guided)}" if robot.guided else f"gravity = {robot.gravity_vector.tolist()}"
+        what = (
+            f"platform.guided = {list(robot.guided)}" if robot.guided else f"gravity = {robot.gravity_vector.tolist()}"
+        )
         expected = "a free platform under gravity along -z: guides and other gravity are not among what is diagnosed"
         raise InputError(str(source), "robot", f"{robot.name} with {what}", expected)
     body, cables = robot.platform, robot.cables

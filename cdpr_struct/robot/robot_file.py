@@ -174,7 +174,7 @@ def _build(table: RobotTable, source: str) -> Robot:
         raise InputError(source, "robot", table.name, str(error)) from error
 
 
-def _gravity(given: Any, source: str) -> float | np.ndarray:
+def _gravity(given: Any, source: str) -> Any:
     """A size, downwards, or a vector."""
     expected = "give a number in m/s^2, zero or more, or three in square brackets, like [0.0, 1.7, -9.66]"
     _require_numbers("gravity", given, 3, expected, source)

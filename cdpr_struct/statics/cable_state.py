@@ -18,7 +18,7 @@ class CableStates:
 
     offset          : (..., m, 3) platform anchor minus the point where the free cable starts (the frame anchor, or
                       where it leaves its pulley), world [m]
-    heading         : (..., m, 3) horizontal unit vector from frame end to platform end, world; horizontal is across `up`
+    heading         : (..., m, 3) horizontal unit vector from frame end to platform end, world, across `up`
     length          : (..., m) unstrained length of the free cable [m]
     wrapped_length  : (..., m) unstrained length on the pulley [m]
     let_out         : (..., m) unstrained length that elements in line behind the frame end let out by stretching [m]

@@ -149,8 +149,8 @@ def _stiffening(
 
 
 def starting_position(arrays: RobotArrays, length: np.ndarray) -> np.ndarray:
-    """(..., 3) a point under the middle of the frame anchors, as deep as the lengths allow on average; the middle itself
-    where there is no gravity [m]."""
+    """(..., 3) a point under the middle of the frame anchors, as deep as the lengths allow on average; the middle
+    itself where there is no gravity [m]."""
     middle = arrays.frame_anchors.mean(axis=-2)
     reach = np.linalg.norm(arrays.frame_anchors - middle[..., None, :], axis=-1)
     depth = np.sqrt(np.maximum(length**2 - reach**2, 0.0)).mean(axis=-1)

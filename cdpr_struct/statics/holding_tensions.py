@@ -128,7 +128,9 @@ class HoldingProblem:
         up = self.arrays.up
         along_up = (scaled[..., :3] * up + scaled[..., 3:] * np.cross(lever, up)).sum(axis=-1)
         first = np.einsum("kmi,kmi->km", held.force_rate, held.force_rate)
-        return np.maximum(first + ((held.states.force_on_platform * up).sum(axis=-1) - along_up) * held.bend, 0.1 * first)
+        return np.maximum(
+            first + ((held.states.force_on_platform * up).sum(axis=-1) - along_up) * held.bend, 0.1 * first
+        )
 
     def _step_bounds(self, held: HeldCables, growth: np.ndarray, tension: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         pull = held.states.tension_at_platform

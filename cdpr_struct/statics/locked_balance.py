@@ -32,8 +32,10 @@ class LockedBalance:
         return replace(self, arrays=self.arrays.take(index), length=self.length[index], wrench=self.wrench[index])
 
     def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation:
-        """Wrench, tangent and tolerated residual at positions (n, 3) and rotations (n, 3, 3); of a guided platform, those
-        of its free directions, and a stiffness that is coupled with nothing in the others."""
+        """Wrench, tangent and tolerated residual at positions (n, 3) and rotations (n, 3, 3).
+
+        Of a guided platform those of its free directions, and a stiffness that is coupled with nothing in the others.
+        """
         arms = PlatformArms.at(self.arrays, position, rotation)
         states = self.model.states(self.arrays, arms.points, self.length)
         wrench = cable_wrench(states, arms) + load_wrench(self.arrays, arms) + self.wrench

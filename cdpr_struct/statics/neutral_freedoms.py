@@ -47,9 +47,7 @@ class Stability:
         return ~self.unstable & (self.neutral == 0)
 
 
-def stability(
-    arrays: RobotArrays, rotation: np.ndarray, stiffness: np.ndarray, weightless: bool = False
-) -> Stability:
+def stability(arrays: RobotArrays, rotation: np.ndarray, stiffness: np.ndarray, weightless: bool = False) -> Stability:
     """How platforms (...) are held at rest.
 
     Parameters
@@ -68,7 +66,7 @@ def stability(
     arms = np.broadcast_to(arrays.platform_anchors @ np.swapaxes(rotation, -1, -2), (*lead, arrays.cable_count, 3))
     arms = arms.reshape((-1, arrays.cable_count, 3))
     own = np.broadcast_to(0.0 if weightless else _own_scale(arrays, scale), lead).reshape(-1)
-    for i in np.flatnonzero(values[:, 0] <= NEUTRAL * largest):
+    for i in np.flatnonzero(values[:, 0] <= NEUTRAL * largest).tolist():
         unstable[i], *found[i] = _examined(scaled[i], free, arms[i] / scale, float(largest[i]), float(own[i]))
     return _gathered(found, unstable, largest, unit, lead)
 

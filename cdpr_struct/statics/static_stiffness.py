@@ -21,8 +21,8 @@ class RobotStiffness:
 
     Rows force [N] and moment [N m] (of the wrench that displaces), columns displacement [m] and rotation [rad].
 
-    matrix   : (..., 6, 6) world axes, guides left out, exactly -d(wrench of cables and weight)/d(pose); symmetric at an equilibrium
-               without applied moment
+    matrix   : (..., 6, 6) world axes, exactly -d(wrench of cables and weight)/d(pose), guides left out; symmetric at
+               an equilibrium without applied moment
     axial    : (..., 6, 6) part of the compliance from axial cable elasticity, world axes
     sag      : (..., 6, 6) part from cable sag in the cable planes, eq. (2.28)
     rotation : (..., 3, 3) platform to world

@@ -40,7 +40,7 @@ class TensionDistribution:
     residual_wrench : (k, 6) what is left unbalanced [N, N m]
     kkt_residual    : (k,) how far the optimality conditions are from being met: largest of the step that would still
                       improve the cost over the largest tension, and the unbalanced wrench over load and tensions
-    rank            : (k,) of the wrench matrix, and what a guide holds; below 6 they leave the platform a direction to move
+    rank            : (k,) of the wrench matrix, and freedoms a guide holds; below 6 the platform can move
     status, iterations : (k,); `DistributionStatus` values
     """
 

@@ -14,10 +14,10 @@ from cdpr_struct.dynamics.internal_mass import with_internal_mass
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.guides import free_block
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.statics.slack_cables import slack_count
-from cdpr_struct.statics.guides import free_block
 from cdpr_struct.statics.static_stiffness import RobotStiffness, static_stiffness
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.lowest import LOWEST, lowest

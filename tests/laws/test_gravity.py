@@ -10,10 +10,14 @@ import cdpr_struct as cs
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.damping import Viscous
 from cdpr_struct.dynamics.frequency_response import frequency_response
+from cdpr_struct.dynamics.mode_shapes import _chord_axes
+from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ports import CablePort, platform_port
+from cdpr_struct.dynamics.robot_dynamic_stiffness import stability_at
 from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
+from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.robot.robot_writing import robot_toml
@@ -69,7 +73,10 @@ def test_statics_turns_with_the_world(robot, turn):
     assert theirs.lengths == pytest.approx(ours.lengths, rel=1e-11)
     assert theirs.cables.force_on_platform == pytest.approx(ours.cables.force_on_platform @ turn.T, rel=1e-7, abs=1e-7)
     assert theirs.cables.sag == pytest.approx(ours.cables.sag, rel=1e-8)
-    stiff = [static_stiffness(r, p.position, p.rotation, s.cables) for r, p, s in ((robot, POSE, ours), (other, there, theirs))]
+    stiff = [
+        static_stiffness(r, p.position, p.rotation, s.cables)
+        for r, p, s in ((robot, POSE, ours), (other, there, theirs))
+    ]
     wide = both(turn)
     for part in ("matrix", "axial", "sag"):
         mine, own = getattr(stiff[0], part), getattr(stiff[1], part)
@@ -126,6 +133,14 @@ def test_maps_under_tilted_gravity_give_what_modes_give():
     assert first == pytest.approx(own[0], rel=1e-8)
 
 
+def test_chords_of_tilted_cables_are_chords():
+    robot = replace(load_robot("thesis-3-1"), gravity=np.array([3.0, -4.0, -8.0]))
+    point = cs.modes(robot, count=1).point
+    flat = OperatingPoint(robot, point.position[None], point.rotation[None], point.cables.at(None))
+    chords = point.cables.offset / point.cables.chord[:, None]
+    assert np.abs((_chord_axes(flat)[0] * chords).sum(axis=-1)) == pytest.approx(np.ones(8), abs=1e-4)
+
+
 def weightless(**more):
     """A heavy platform between eight stretched cables."""
     robot = load_robot("thesis-5")
@@ -171,6 +186,28 @@ def test_a_slack_cable_without_gravity_is_refused_with_the_cure():
     with pytest.raises(cs.CdprError, match=r"no shape to vibrate about, .* do not pull. With --lower-bound"):
         cs.modes(loose, MIDST)
     assert np.isnan(cs.map(loose, "0:0.1:2,0,2", "first-frequency").frame()["first_Hz"]).all()
+
+
+def test_one_slack_cable_among_taut_ones_is_no_state_to_vibrate_about():
+    robot, spare = weightless(), np.array([[9.0, 0.0, 6.0]])
+    cables = (*robot.cables, replace(robot.cables[0], force_min=0.0))
+    anchors = np.concatenate([robot.platform_anchors, [[0.0, 0.0, 0.0]]]), np.concatenate([robot.frame_anchors, spare])
+    nine = Robot("nine", robot.platform, cables, *anchors, gravity=0.0)
+    lengths = [*inverse(robot, MIDST.position, MIDST.rotation).lengths, 20.0]
+    found = forward(nine, lengths, MIDST.position, MIDST.rotation)
+    assert found.cables.slack.tolist() == [False] * 8 + [True]
+    assert found.stable
+    assert stability_at(OperatingPoint(nine, found.position, found.rotation, found.cables)).unstable
+
+
+def test_a_diagnosis_refuses_such_robots(tmp_path):
+    for name, changed in (("tilted", {"gravity": np.array([1.0, 0.0, -9.0])}), ("guided", {"guided": ("y",)})):
+        (tmp_path / f"{name}.toml").write_text(robot_toml(replace(load_robot("thesis-5"), **changed), name))
+        (tmp_path / "states.csv").write_text("case,x_m,y_m,z_m,cable,tension_N\na,0,0,2.5,1,100\n")
+        text = 'kind = "static_state"\nfile = "states.csv"\nsigma = { tension_N = 3.0, position_m = 0.001 }\n'
+        (tmp_path / "campaign.toml").write_text(f'robot = "{name}.toml"\nmodel = "exact"\n[[measurement]]\n{text}')
+        with pytest.raises(cs.InputError, match="guides and other gravity are not among what is diagnosed"):
+            cs.diagnose(tmp_path / "campaign.toml")
 
 
 @pytest.mark.parametrize("given", [0.0, 1.62, np.array([1.0, -2.0, -9.0])])

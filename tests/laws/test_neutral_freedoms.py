@@ -1,4 +1,4 @@
-"""Freedoms that nothing pushes back: found, counted, named; what is really unstable or really held is not among them."""
+"""Freedoms that nothing pushes back: found, counted, named; what is unstable or held is not among them."""
 
 from dataclasses import replace
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import cdpr_struct as cs
-from cdpr_struct.dynamics.certified_modes import certified_frequencies
+from cdpr_struct.dynamics.certified_modes import certified_frequencies, certified_modes
 from cdpr_struct.dynamics.natural_frequencies import natural_frequencies, static_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import stability_at
@@ -17,6 +17,7 @@ from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.forward_kinematics import ForwardStatus, forward
 from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.static_stiffness import static_stiffness
 
 G, MASS, INERTIA = 9.81, 20.0, np.diag([0.3, 0.4, 0.2])
 CORNERS = np.array([[-15.0, -10.0, 6.0], [15.0, -10.0, 6.0], [15.0, 10.0, 6.0], [-15.0, 10.0, 6.0]])
@@ -26,7 +27,15 @@ def hung(anchors, frame, depth, axial_stiffness=3e5, density=1e-7, **more):
     """A body whose centre of mass lies `depth` below its origin; its cables weigh next to nothing."""
     cables = tuple(Cable(axial_stiffness, density) for _ in frame)
     body = Platform(MASS, np.array([0.0, 0.0, -depth]), INERTIA)
-    return Robot("hung", body, cables, np.array(anchors, float), np.array(frame, float), home=Pose(np.zeros(3), np.zeros(3)), **more)
+    return Robot(
+        "hung",
+        body,
+        cables,
+        np.array(anchors, float),
+        np.array(frame, float),
+        home=Pose(np.zeros(3), np.zeros(3)),
+        **more,
+    )
 
 
 def one_point(depth, **more):
@@ -78,7 +87,11 @@ def test_cables_in_one_point_leave_a_compound_pendulum():
 def test_a_body_hung_in_its_centre_of_mass_is_neutral_about_three_axes():
     found = cs.modes(one_point(0.0), count=5)
     assert (found.modes.hertz == 0.0).tolist() == [True, True, True, False, False]
-    assert [entry["motion"][3:].tolist() for entry in found.answer["neutral_freedoms"]] == [[0, 0, 1], [0, 1, 0], [1, 0, 0]]
+    assert [entry["motion"][3:].tolist() for entry in found.answer["neutral_freedoms"]] == [
+        [0, 0, 1],
+        [0, 1, 0],
+        [1, 0, 0],
+    ]
     assert found.modes.count_certified
 
 
@@ -86,7 +99,7 @@ def test_a_body_hung_in_its_centre_of_mass_is_neutral_about_three_axes():
 @pytest.mark.parametrize("depth", [1e-3, 1e-6, 1e-8])
 @pytest.mark.parametrize("axial_stiffness", [3e5, 1e9])
 def test_the_smallest_depth_decides(robot, depth, axial_stiffness):
-    """A centre of mass 10 nm below its axis hangs, 10 nm above it falls over, on it neither; however stiff the cables."""
+    """A centre of mass 10 nm below its axis hangs, 10 nm above it falls over, on it neither; with any cables."""
     beside = 1 if robot is one_point else 0  # turning about the vertical
     below, on, above = (stability_at(at_home(robot(d, axial_stiffness=axial_stiffness))) for d in (depth, 0.0, -depth))
     assert not below.unstable
@@ -129,9 +142,14 @@ def test_a_freedom_by_size_alone_is_said_to_be_one():
 
 
 def test_the_slow_bisection_finds_the_same():
-    point = at_home(one_point(0.2, density=0.03))
+    """With products of inertia, by which turning about the vertical and swinging are coupled."""
+    robot = one_point(0.2, density=0.03)
+    slanted = INERTIA + np.array([[0.0, 0.02, 0.08], [0.02, 0.0, -0.06], [0.08, -0.06, 0.0]])
+    point = at_home(replace(robot, platform=replace(robot.platform, inertia=slanted)))
     slow, quick = natural_frequencies(point, cs_cables(point), 8), certified_frequencies(point, "exact", 8)
     assert quick.hertz == pytest.approx(slow.hertz, rel=1e-9, abs=0.0)
+    shapes = certified_modes(point, "exact", 8).shapes
+    assert shapes.platform_energy + shapes.cable_energy.sum(axis=-1) == pytest.approx(np.ones(8), abs=1e-9)
 
 
 def cs_cables(point):
@@ -181,6 +199,31 @@ def test_maps_give_the_first_frequency_above_zero_and_count_the_neutral_ones():
     assert lowest["f2_Hz"].iloc[1] == pytest.approx(own_exact(robot), rel=1e-8)
     soft = cs.map(robot, "-1:1:2,0,0", "stiffness-min").frame()["stiffness_min_N_mm"]
     assert (soft > 0.1).all()
+
+
+def test_an_origin_that_a_free_motion_carries_along_has_no_stiffness_there():
+    """Two ropes from one point hold a platform whose origin lies beside it: it turns about the vertical through that."""
+    robot = hung([[-0.7, 0, 0], [0.3, 0, 0]], [[-0.2, 0, 5], [-0.2, 0, 5]], 0.3)
+    body = replace(robot.platform, center_of_mass=np.array([-0.2, 0.0, -0.3]))
+    found = cs.map(replace(robot, platform=body), "0:0.1:2,0,0", "stiffness-min").frame()
+    assert found["stiffness_min_N_mm"].iloc[0] == 0.0
+    assert found["stiffness_vertical_N_mm"].iloc[0] > 1.0
+
+
+def test_compliance_is_that_of_the_platform_held_where_it_is_free():
+    point = at_home(one_point(0.2))
+    stiffness = static_stiffness(point.robot, point.position, point.rotation, point.cables)
+    assert stiffness.compliance[5] == pytest.approx(np.zeros(6), abs=1e-15)
+    kept = stiffness.matrix[:5, :5]
+    assert stiffness.compliance[:5, :5] == pytest.approx(np.linalg.inv(kept), rel=1e-9, abs=1e-15)
+
+
+def test_frequencies_alone_are_zero_exactly_too():
+    """At many poses, whose stiffness rounds to either side."""
+    robot = replace(one_point(0.2, density=0.03), cables=(Cable(3e5, 0.03, force_min=100.0),) * 4)
+    for place in np.random.default_rng(4).uniform(-3.0, 3.0, (12, 3)) * [1.0, 1.0, 0.3]:
+        point = OperatingPoint(robot, place, np.eye(3), inverse(robot, place, np.eye(3)).cables)
+        assert certified_frequencies(point, "exact", 3).hertz[0] == 0.0
 
 
 def own_exact(robot):
