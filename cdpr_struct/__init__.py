@@ -16,6 +16,8 @@ Robots:
   robots                    List the robots that come with the package.
   write_robot               Write a robot to a robot file, which `load_robot` and every command read again, and return
                             its path.
+  new_robot                 Make a commented robot file to begin with, of a robot that holds its home pose.
+  export                    Make the input file of MoorPy or MoorDyn, or a glTF scene, of a robot at rest.
   Robot                     Cable-driven parallel robot with m cables.
   Platform                  Rigid platform, all in its own frame.
   Cable                     Uniform elastic cable.
@@ -46,6 +48,8 @@ Predictions and checks:
   reproduce                 Recompute tables and figures of the thesis and show the deviations.
 
 Measured data:
+  new_campaign              Make a campaign file and data files with the planned poses and what the simulation
+                            predicts, to be filled.
   load_campaign             Read a campaign file and the data files it names, all checked.
   causes                    List the causes that a diagnosis looks for, by name, those of installed packages among
                             them.
@@ -87,12 +91,15 @@ if TYPE_CHECKING:
     from cdpr_struct.interface.campaigns import causes, load_campaign
     from cdpr_struct.interface.diagnose import diagnose
     from cdpr_struct.interface.distribute import distribute
+    from cdpr_struct.interface.export import export
     from cdpr_struct.interface.forward import forward
     from cdpr_struct.interface.frf import frf
     from cdpr_struct.interface.inverse import inverse
     from cdpr_struct.interface.limits import limits
     from cdpr_struct.interface.map import map
     from cdpr_struct.interface.modes import modes
+    from cdpr_struct.interface.new_campaign import new_campaign
+    from cdpr_struct.interface.new_robot import new_robot
     from cdpr_struct.interface.plan import plan
     from cdpr_struct.interface.pose_error import pose_error
     from cdpr_struct.interface.reproduce import reproduce
@@ -113,6 +120,8 @@ if TYPE_CHECKING:
 _HOMES = {
     "robot.robot_file": ("load_robot",),
     "interface.robots": ("robots", "write_robot"),
+    "interface.new_robot": ("new_robot",),
+    "interface.new_campaign": ("new_campaign",),
     "interface.cable": ("cable",),
     "interface.inverse": ("inverse",),
     "interface.forward": ("forward",),
@@ -126,6 +135,7 @@ _HOMES = {
     "interface.audit": ("audit",),
     "interface.limits": ("limits",),
     "interface.distribute": ("distribute",),
+    "interface.export": ("export",),
     "interface.campaigns": ("load_campaign", "causes"),
     "interface.diagnose": ("diagnose",),
     "interface.plan": ("plan",),
@@ -166,6 +176,7 @@ __all__ = [
     "causes",
     "diagnose",
     "distribute",
+    "export",
     "forward",
     "frf",
     "inverse",
@@ -174,6 +185,8 @@ __all__ = [
     "load_robot",
     "map",
     "modes",
+    "new_campaign",
+    "new_robot",
     "plan",
     "pose_error",
     "reproduce",

@@ -143,7 +143,7 @@ def solve_chains(
     chord = ends - starts
     state = chain_state(batch, chord, starting_force(batch, chord) if first is None else first)
     reach = (np.abs(starts).max(axis=1) + np.abs(ends).max(axis=1)) / batch.unstrained_length + 1.0
-    noise = 8.0 * EPS * batch.axial_stiffness * reach
+    noise = 8.0 * EPS * batch.axial_stiffness * (reach + np.sqrt(batch.elements))  # of ends, and of a sum over bars
     for iteration in range(MAX_ITERATIONS):
         step = -np.linalg.solve(state.flexibility, state.gap[..., None])[..., 0]
         largest = np.linalg.norm(state.tension_vectors, axis=-1).max(axis=1)

@@ -16,6 +16,7 @@ from cdpr_struct.cli.options import (
     Start,
     UpperBound,
     number,
+    robot_names,
 )
 from cdpr_struct.cli.output import Output
 from cdpr_struct.cli.sweeping import clear_checkpoint, run_batches
@@ -31,7 +32,12 @@ _TRAJECTORY = "helix, line:START:END:SECONDS, or a CSV file time_s,x_m,y_m,z_m[,
 
 def run(
     robot: Annotated[
-        str | None, typer.Argument(metavar="ROBOT", help="Built-in name or path to a robot file; not with --limits.")
+        str | None,
+        typer.Argument(
+            metavar="ROBOT",
+            help="Built-in name or path to a robot file; not with --limits.",
+            autocompletion=robot_names,
+        ),
     ] = None,
     pose: PoseText = None,
     lengths: Lengths = None,

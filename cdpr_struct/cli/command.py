@@ -4,6 +4,7 @@ import functools
 import inspect
 import re
 from collections.abc import Callable, Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
 from typing import Annotated
@@ -11,7 +12,7 @@ from typing import Annotated
 import typer
 
 from cdpr_struct.cli.options import directory
-from cdpr_struct.cli.output import Output, repeating
+from cdpr_struct.cli.output import TABLE_FORMS, Output, TableForm, repeating
 from cdpr_struct.errors import InputError
 
 _OUT = Annotated[
@@ -23,7 +24,15 @@ _OUT = Annotated[
 _JSON = Annotated[bool, typer.Option("--json", help="Print result.json to stdout, nothing else.")]
 _QUIET = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar and no text; with --json the JSON only.")]
 _OVERWRITE = Annotated[bool, typer.Option("--overwrite", help="Replace files in DIR that this program did not write.")]
-_SHARED = {"out": (_OUT, None), "json": (_JSON, False), "quiet": (_QUIET, False), "overwrite": (_OVERWRITE, False)}
+_TABLES = Annotated[
+    str | None,
+    typer.Option("--tables", metavar="FORM", help="Write each CSV table once more: md, latex or parquet."),
+]
+_SHARED = {
+    "out": (_OUT, None), "json": (_JSON, False), "quiet": (_QUIET, False), "overwrite": (_OVERWRITE, False),
+    "tables": (_TABLES, None),
+}  # fmt: skip
+_OF_RESULTS = ("out", "tables")  # a command that declares --out for itself writes no directory of results
 
 
 def register(app: typer.Typer, command: ModuleType) -> None:
@@ -37,16 +46,19 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
     A command that writes no directory of results declares some of these options itself.
     """
     own = [p for p in inspect.signature(run, eval_str=True).parameters.values() if p.name != "output"]
-    added = {name: pair for name, pair in _SHARED.items() if name not in {p.name for p in own}}
+    declared = {p.name for p in own}
+    left_out = declared | set(_OF_RESULTS) if "out" in declared else declared
+    added = {name: pair for name, pair in _SHARED.items() if name not in left_out}
     keyword = inspect.Parameter.KEYWORD_ONLY
 
     @functools.wraps(run)
     def command(context: typer.Context, **given: object) -> int:
         where = {name: given.pop(name) if name in added else given.get(name) for name in _SHARED}
+        tables = _table_form(where["tables"])
         out = where["out"] if "out" in added else None
         assert out is None or isinstance(out, Path)
         flags = (bool(where["json"]), bool(where["quiet"]), bool(where["overwrite"]))
-        output = Output(out, *flags, repeating(context.obj or ()))
+        output = Output(out, *flags, repeating(context.obj or ()), tables)
         output.check()
         try:
             return run(**given, output=output)
@@ -59,6 +71,16 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
     command.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
     command.__annotations__ = {p.name: p.annotation for p in shown}
     return command
+
+
+def _table_form(given: object) -> TableForm | None:
+    """The form that --tables names, if what writes it is installed."""
+    form = next((one for one in TABLE_FORMS if one == given), None)
+    if form is None and given is not None:
+        raise InputError("--tables", "", given, f"one of: {', '.join(TABLE_FORMS)}")
+    if form == "parquet" and find_spec("pyarrow") is None:
+        raise InputError("--tables", "", form, "Parquet needs the extra: pip install 'cdpr-struct[parquet]'")
+    return form
 
 
 def _of_option(error: InputError, own: Sequence[inspect.Parameter]) -> InputError:

@@ -14,7 +14,7 @@ from cdpr_struct.cli.command import with_output
 from cdpr_struct.cli.main import COMMANDS
 
 PAGE = Path("docs/commands.md")
-SHARED = ("out", "json", "quiet", "overwrite")
+SHARED = ("out", "json", "quiet", "overwrite", "tables")
 VALUES = {int: "INTEGER", float: "NUMBER", str: "TEXT", Path: "PATH"}
 MORE = {
     "robots": ("files.md", "robot file"),
@@ -26,6 +26,10 @@ MORE = {
     "modes": ("dynamics.md", "dynamics"),
     "verify": ("tutorial_model_right.md", "tutorial: is my model right?"),
     "reproduce": ("thesis.md", "findings"),
+    "new-robot": ("templates.md", "robot files to begin with"),
+    "new-campaign": ("templates.md", "campaigns to begin with"),
+    "rerun": ("templates.md", "the same run again"),
+    "export": ("formats.md", "formats"),
     "import-caspr": ("first_day.md", "a first day"),
     "derive": ("formulas/catenary.md", "formulas"),
     "distribute": ("tutorial_trajectory.md", "tutorial: forces along a trajectory"),

@@ -13,6 +13,7 @@ from cdpr_struct.cli import (
     derive,
     diagnose,
     distribute,
+    export,
     forward,
     frf,
     import_caspr,
@@ -20,9 +21,12 @@ from cdpr_struct.cli import (
     inverse,
     map,
     modes,
+    new_campaign,
+    new_robot,
     plan,
     pose_error,
     reproduce,
+    rerun,
     robots,
     spectrogram,
     transient,
@@ -33,7 +37,6 @@ from cdpr_struct.cli.complaints import complaint
 from cdpr_struct.cli.interruption import Interrupted
 
 app = typer.Typer(
-    add_completion=False,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
     help="Deflection and vibration of cable-driven parallel robots, checked against an independent FEM.",
@@ -58,6 +61,10 @@ COMMANDS = (
     audit,
     diagnose,
     plan,
+    new_robot,
+    new_campaign,
+    export,
+    rerun,
 )
 
 

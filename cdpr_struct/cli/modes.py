@@ -14,6 +14,7 @@ from cdpr_struct.cli.options import (
     PoseText,
     RobotName,
     Start,
+    UniversalFile,
     UpperBound,
     whole_number,
 )
@@ -40,6 +41,7 @@ def run(
     elements: Annotated[int, typer.Option("--elements", parser=whole_number, help="Per cable, for --model fem.")] = 80,
     count: Annotated[int, typer.Option("--count", parser=whole_number, help="How many eigenfrequencies.")] = 40,
     force: Annotated[bool, typer.Option("--force", help="Use the dsm outside its validity limits.")] = False,
+    uff: UniversalFile = False,
     *,
     output: Output,
 ) -> int:
@@ -48,5 +50,5 @@ def run(
         robot, pose, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound, payload=payload,
         mass=mass, model=model, assembly=assembly, elements=elements, count=count, force=force,
     )  # fmt: skip
-    output.give(found)
+    output.give(found, lambda: {"modes.uff": found.universal_file()} if uff else {})
     return 0

@@ -51,7 +51,17 @@ def directory(text: str) -> Path:
     return Path(text)
 
 
-RobotName = Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in name or path to a robot file.")]
+def robot_names(incomplete: str) -> list[str]:
+    """Built-in robots whose names begin so, for a shell that completes a word; a shell completes paths by itself."""
+    from cdpr_struct.robot.robot_file import builtin_names
+
+    return [name for name in builtin_names() if name.startswith(incomplete)]
+
+
+RobotName = Annotated[
+    str,
+    typer.Argument(metavar="ROBOT", help="Built-in name or path to a robot file.", autocompletion=robot_names),
+]
 PoseText = Annotated[
     str | None,
     typer.Option("--pose", metavar="X,Y,Z[,RX,RY,RZ]", help="Pose [m, deg]; default: the robot's home pose."),
@@ -96,3 +106,4 @@ GridText = Annotated[
     str | None,
     typer.Option("--grid", metavar="X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ]", help="Poses [m, deg]; x, y, z: value or range."),
 ]  # fmt: skip
+UniversalFile = Annotated[bool, typer.Option("--uff", help="Write a universal file, too (pyuff and modal software).")]

@@ -7,9 +7,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from cdpr_struct.cli.progress import Begin, silent, steps
+from cdpr_struct.cli.run_record import RUN, run_record
 from cdpr_struct.cli.written_files import RESULT, Content, refuse_foreign, replace_files
 from cdpr_struct.reports.plain_json import json_text
 from cdpr_struct.reports.remarks import extensions_of, remarks, rest_of, warnings_of
@@ -18,13 +19,16 @@ if TYPE_CHECKING:
     from cdpr_struct.interface.result import Result
 
 Files = Mapping[str, Content]
+TableForm = Literal["md", "latex", "parquet"]
+TABLE_FORMS: tuple[TableForm, ...] = get_args(TableForm)
 
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """What --out, --json, --quiet and --overwrite say, and the command that repeats the run.
+    """What --out, --json, --quiet, --overwrite and --tables say, and the command that repeats the run.
 
     directory : of --out, or None
+    tables    : form in which each CSV table is written once more, or None
     words     : the command as typed, less where its results go; `--out=DIR` at the end
     """
 
@@ -33,6 +37,7 @@ class Output:
     quiet: bool
     overwrite: bool
     words: tuple[str, ...]
+    tables: TableForm | None = None
 
     def check(self) -> None:
         """Refuse a directory with somebody else's results before any work is done.
@@ -53,10 +58,13 @@ class Output:
         with steps(total) as begin:
             yield begin
 
-    def give(self, found: "Result") -> None:
-        """Deliver what a function of the interface answered; a result that says how it is repeated gets the command."""
+    def give(self, found: "Result", more: Callable[[], Files] = dict) -> None:
+        """Deliver what a function of the interface answered; a result that says how it is repeated gets the command.
+
+        more : makes files that were asked for beside those of the result
+        """
         repeat = {"command": self.words} if "command" in found.answer else {}
-        self.deliver({**found.answer, **repeat}, found.text, found.files)
+        self.deliver({**found.answer, **repeat}, found.text, lambda: {**found.files(), **more()})
 
     def deliver(self, result: Mapping[str, Any], text: Callable[[], str], files: Callable[[], Files]) -> None:
         """Write the files, then print: JSON and nothing else, or `text` with warnings and notes on extensions.
@@ -74,9 +82,10 @@ class Output:
             _print("\n\n".join([text(), *remarks(result)]) + "\n", sys.stdout)
 
     def write(self, result: Mapping[str, Any], files: Files) -> None:
-        """Write the files, if --out is given."""
+        """Write the files, if --out is given; result.json says under `run` which command on which files made it."""
         if self.directory is not None:
-            replace_files(self.directory, result, self._completed(result, files), self.overwrite)
+            recorded = {**result, RUN: run_record(self.words)}
+            replace_files(self.directory, recorded, self._completed(result, files), self.overwrite)
 
     def of_input(self, folder: str, words: tuple[str, ...]) -> "Output":
         """Where the results of one of many inputs go: a folder of their own, and the command for that input alone."""
@@ -91,7 +100,19 @@ class Output:
         if not isinstance(bare, str | bytes):
             raise TypeError("report.html must be whole, not in parts")
         page = completed(bare, shlex.join(self.words), warnings_of(result), extensions_of(result), rest_of(result))
-        return {**files, "report.html": page}
+        return {**files, "report.html": page, **self._tables(files)}
+
+    def _tables(self, files: Files) -> Files:
+        """The CSV tables once more, in the form of --tables."""
+        if self.tables is None:
+            return {}
+        if self.tables == "parquet":
+            from cdpr_struct.reports.parquet_table import parquet_tables
+
+            return parquet_tables(files)
+        from cdpr_struct.reports.paper_table import paper_tables
+
+        return paper_tables(files, self.tables)
 
 
 def repeating(typed: Sequence[str]) -> tuple[str, ...]:

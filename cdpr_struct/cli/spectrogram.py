@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import cdpr_struct as cs
-from cdpr_struct.cli.options import Lengths, LowerBound, Mass, Payload, PoseText, Start, UpperBound, number
+from cdpr_struct.cli.options import Lengths, LowerBound, Mass, Payload, PoseText, Start, UpperBound, number, robot_names
 from cdpr_struct.cli.output import Output
 from cdpr_struct.cli.vibration_options import Force, ModelName
 
@@ -19,7 +19,9 @@ EXAMPLES = (
 
 def run(
     file: Annotated[Path, typer.Argument(metavar="FILE.csv", help="Columns time_s, ax, ay, az [s, m/s^2].")],
-    robot: Annotated[str, typer.Option("--robot", metavar="ROBOT", help="Whose modes to draw in.")],
+    robot: Annotated[
+        str, typer.Option("--robot", metavar="ROBOT", help="Whose modes to draw in.", autocompletion=robot_names)
+    ],
     pose: PoseText = None,
     lengths: Lengths = None,
     start: Start = None,

@@ -14,6 +14,7 @@ from cdpr_struct.cli.options import (
     PoseText,
     RobotName,
     Start,
+    UniversalFile,
     UpperBound,
     number,
 )
@@ -61,6 +62,7 @@ def run(
     at: PointText = None,
     assembly: AssemblyName = "consistent",
     force: Force = False,
+    uff: UniversalFile = False,
     *,
     output: Output,
 ) -> int:
@@ -72,5 +74,5 @@ def run(
             highest=highest, watch=watch, window=window, model=model, damping=damping, frame=frame, at=at,
             assembly=assembly, force=force, progress=progress,
         )  # fmt: skip
-    output.give(found)
+    output.give(found, lambda: {"transient.uff": found.universal_file()} if uff else {})
     return 0

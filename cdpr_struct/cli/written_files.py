@@ -58,7 +58,7 @@ def refuse_foreign(directory: Path, names: Iterable[str]) -> None:
         _refuse(directory, dict.fromkeys(names, _NOTHING), _listed(directory))
 
 
-def write_new(path: Path, content: str, overwrite: bool) -> None:
+def write_new(path: Path, content: str | bytes, overwrite: bool) -> None:
     """Write a single file that the user named, whole or not at all; one with the same content may be there.
 
     Raises

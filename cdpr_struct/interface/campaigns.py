@@ -12,8 +12,12 @@ from cdpr_struct.measurement import campaign_file
 from cdpr_struct.measurement.campaign import Campaign
 
 
-def read_campaign(given: CampaignLike, lower_bound: float | None, upper_bound: float | None) -> Campaign:
+def read_campaign(
+    given: CampaignLike, lower_bound: float | None, upper_bound: float | None, planned: bool = False
+) -> Campaign:
     """The campaign; bounds of cable force [N] replace those of its robot while it is read from its file.
+
+    planned : a template that is not filled stands for what it predicts
 
     Raises
     ------
@@ -22,7 +26,7 @@ def read_campaign(given: CampaignLike, lower_bound: float | None, upper_bound: f
     bounds = read_bounds(lower_bound, upper_bound)
     if not isinstance(given, Campaign):
         require_file(given)
-        return campaign_file.load_campaign(os.fspath(given), *bounds)
+        return campaign_file.load_campaign(os.fspath(given), *bounds, planned)
     for name, value in zip(("lower_bound", "upper_bound"), bounds, strict=True):
         if value is not None:
             raise InputError(name, "", value, "a campaign that was read has its bounds: give them to load_campaign")

@@ -67,6 +67,12 @@ class FrfResult(Result):
 
         return frf_files(self.sweep, self.answer)
 
+    def universal_file(self) -> bytes:
+        """The even lines of all responses as a universal file: dataset 58."""
+        from cdpr_struct.reports.frf_page import response_file
+
+        return response_file(self.sweep, self.answer)
+
 
 @answered
 def frf(

@@ -61,7 +61,7 @@ class MapResult(Result):
         InputError : a single pose has no map.
         """
         require_drawable(self.grid)
-        return statics_map.map_figure(self.quantity, self.grid, self.values)
+        return statics_map.map_figure(self.robot, self.quantity, self.grid, self.values)
 
     def files(self) -> Files:
         """Table, figure and page."""

@@ -5,8 +5,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args
 
 from cdpr_struct.crosscheck.robot_modes import MODELS, RobotModes, require_validity, robot_modes
+from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
+from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_robot, whole
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
@@ -60,6 +62,20 @@ class ModesResult(Result):
         from cdpr_struct.reports.modes_page import modes_files
 
         return modes_files(self.point, self.answer)
+
+    def universal_file(self) -> bytes:
+        """Shapes of platform and cables as a universal file: datasets 15, 82 and 55.
+
+        Raises
+        ------
+        InputError : the modes are those of the finite elements, whose cables' shapes are not kept.
+        """
+        from cdpr_struct.reports.universal_shapes import shapes_file
+
+        model, way = self.answer["model"], self.answer["assembly"]
+        if model == "fem":
+            raise InputError("model", "", model, "static, dsm or exact, for mode shapes in a universal file")
+        return shapes_file(self.point, certified_modes(self.point, model, len(self.modes.hertz), way))
 
 
 @answered

@@ -78,7 +78,7 @@ def plan(
 
     Parameters
     ----------
-    campaign : Campaign, or path of a campaign file
+    campaign : Campaign, or path of a campaign file; a template that is not filled stands for what it predicts
     lower_bound, upper_bound : of the cable forces [N], with a path only; default: those of the robot file
     progress : called with the name of each step
 
@@ -86,7 +86,7 @@ def plan(
     ------
     InputError : an unusable argument, file, or a campaign that holds nothing that can be diagnosed.
     """
-    entered = read_campaign(campaign, lower_bound, upper_bound)
+    entered = read_campaign(campaign, lower_bound, upper_bound, planned=True)
     found = planned(entered, progress)
     told = plan_json(found) | {"warnings": list(entered.notes)}
     return PlanResult(with_extensions(told, entered.robot, "plan"), entered, found)

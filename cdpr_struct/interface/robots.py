@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.result import Files, Result
+from cdpr_struct.interface.written import write_text
 from cdpr_struct.reports.robots_result import robots_columns, robots_json, robots_sentence, robots_text
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import builtin_names, load_robot
@@ -73,12 +74,4 @@ def write_robot(robot: Robot, path: str | os.PathLike[str], *, overwrite: bool =
     """
     if not isinstance(robot, Robot):
         raise InputError("robot", "", robot, "a Robot")
-    target = Path(path)
-    try:
-        with target.open("w" if overwrite else "x", encoding="utf-8") as file:
-            file.write(robot_toml(robot, robot.name))
-    except FileExistsError as error:
-        raise InputError("path", "", str(target), "a name that no file has yet, or overwrite=True") from error
-    except OSError as error:
-        raise InputError("path", "", str(target), f"a file that can be written ({error.strerror})") from error
-    return target
+    return write_text(Path(path), robot_toml(robot, robot.name), overwrite)

@@ -73,6 +73,15 @@ class TransientResult(Result):
 
         return transient_files(self.record, self.answer, self.window)
 
+    def universal_file(self) -> bytes:
+        """Accelerations of all ports as a universal file: dataset 58, time responses."""
+        from cdpr_struct.measurement.universal_file import motion_file
+
+        record = self.record
+        axes = record.point.rotation if self.answer["frame"] == "platform" else np.eye(3)
+        vibration, name = record.vibration, record.point.entered.name
+        return motion_file(vibration.time, vibration.acceleration, record.ports, name, axes)
+
 
 @answered
 def transient(

@@ -95,10 +95,13 @@ class CampaignTable(_Table):
     measurement: Annotated[list[MeasurementTable], Field(min_length=1)]
 
 
-def load_campaign(path: str | Path, lower_bound: float | None = None, upper_bound: float | None = None) -> Campaign:
+def load_campaign(
+    path: str | Path, lower_bound: float | None = None, upper_bound: float | None = None, planned: bool = False
+) -> Campaign:
     """Campaign of a TOML file with the data files it names, all checked.
 
     lower_bound, upper_bound : of the tensions that the simulation commands [N], in place of the campaign's and robot's
+    planned : a template that is not filled stands for what it predicts
 
     Raises
     ------
@@ -113,7 +116,7 @@ def load_campaign(path: str | Path, lower_bound: float | None = None, upper_boun
     gathering = Gathering(len(robot.cables))
     sheets = []
     for number, entry in enumerate(table.measurement, start=1):
-        rows, sigmas = _rows(entry, source, number, len(robot.cables)), _sigmas(entry)
+        rows, sigmas = _rows(entry, source, number, len(robot.cables), planned), _sigmas(entry)
         gathering.add(rows, sigmas)
         sheets.append(_sheet(entry, rows, sigmas))
     _check_poses(gathering)
@@ -206,12 +209,12 @@ def _loss(table: LossTable, source: Path) -> Loss:
         raise InputError(str(source), "loss", said, expected) from error
 
 
-def _rows(entry: MeasurementTable, source: Path, number: int, cables: int) -> Rows:
+def _rows(entry: MeasurementTable, source: Path, number: int, cables: int, planned: bool) -> Rows:
     path = source.parent / entry.file
     if not path.is_file():
         expected = "a data file, its path as seen from the campaign file"
         raise InputError(str(source), f"measurement[{number}].file", entry.file, expected)
-    return read_rows(entry.kind, path, cables)
+    return read_rows(entry.kind, path, cables, planned)
 
 
 def _sigmas(entry: MeasurementTable) -> Sigmas:

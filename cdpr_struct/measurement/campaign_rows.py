@@ -1,7 +1,7 @@
 """Rows of a measured-data file, checked: columns known and present, numbers finite and in their range."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +10,7 @@ from cdpr_struct.errors import InputError, known_names
 from cdpr_struct.measurement.assumed_angles import ANGLES
 from cdpr_struct.measurement.cable_columns import EITHER, LENGTH, QUANTITIES
 from cdpr_struct.measurement.column_names import renaming
-from cdpr_struct.measurement.data_table import read_table
+from cdpr_struct.measurement.data_table import DataTable, read_table
 from cdpr_struct.measurement.universal_rows import is_universal, universal_columns
 from cdpr_struct.measurement.wide_table import check_wide, headings, is_wide, one_row_a_cable
 from cdpr_struct.robot.robot_file import LARGEST
@@ -35,6 +35,8 @@ _ALWAYS = ("case", *POSE, "payload_kg", "sigma", "temperature_K", "approach", "t
 _WORDS = ("case", "respond", "excite", "plane")
 _POSITIVE = ("tension", "length", "frequency", "sigma", "temperature", "mode", "cable")  # first words of columns
 COMMENTS = ("comment", "note", "remark")  # columns for people, not read
+PREDICTED = "predicted_"  # begins the names of others
+UNFILLED = "?"  # in a cell of a template
 HIGHEST = 1e3  # of any frequency [Hz]
 _BLANK_ALLOWED = ("sigma", "temperature_K", "approach", "tension_N", "length_m", "time_s")
 _READINGS_MAY_LACK = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency")  # of a pose or a cable
@@ -68,10 +70,11 @@ class Rows:
         return np.full(len(self), default) if found is None else found
 
 
-def read_rows(kind: str, path: Path, cables: int) -> Rows:
+def read_rows(kind: str, path: Path, cables: int, planned: bool = False) -> Rows:
     """Checked rows of a CSV file of the given kind, for a robot with `cables` cables.
 
     A file with one row a pose and one column a cable gives the same rows as one with one row a cable.
+    planned : cells of a template hold what their columns of predictions say
 
     Raises
     ------
@@ -79,10 +82,11 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
     """
     if is_universal(path):
         return _universal(kind, path)
-    table = read_table(path)
-    names = [name for name in table.names if name not in COMMENTS]
+    table = _with_predictions(read_table(path)) if planned else read_table(path)
+    names = [name for name in table.names if name not in COMMENTS and not name.startswith(PREDICTED)]
     _check_columns(kind, str(path), names, cables)
     table.require_rows()
+    _require_filled(table, names)
     wide = is_wide(kind, names)
     blank = _blank_allowed(kind, cables)
     numbers = {c: _numbers(str(path), c, table.column(c), c in blank) for c in names if c not in _WORDS}
@@ -92,6 +96,28 @@ def read_rows(kind: str, path: Path, cables: int) -> Rows:
     if "case" not in words:
         words["case"] = [path.stem] * len(rows) if kind == "platform_motion" else _cases_from_poses(rows)
     return _long(rows, cables) if wide else rows
+
+
+def _with_predictions(table: DataTable) -> DataTable:
+    """The table with predictions in cells that are still to be filled, where it has them."""
+    names = table.names
+    told = [names.index(f"{PREDICTED}{name}") if f"{PREDICTED}{name}" in names else None for name in names]
+
+    def filled(row: Sequence[str]) -> list[str]:
+        pairs = zip(row, told, strict=True)
+        return [row[place] if cell == UNFILLED and place is not None else cell for cell, place in pairs]
+
+    return replace(table, rows=[filled(row) if len(row) == len(names) else row for row in table.rows])
+
+
+def _require_filled(table: DataTable, names: Sequence[str]) -> None:
+    """Refuse a template: cells that are still to be filled."""
+    places = [(i, name) for name in names for i, cell in enumerate(table.column(name), start=1) if cell == UNFILLED]
+    if places:
+        row, name = min(places, key=lambda place: place[0])
+        lacking = f"{len(places)} cells with {UNFILLED}, the first in row {row}, column {name}"
+        expected = "the measured value in place of each, or an empty cell where nothing was measured"
+        raise InputError(table.file, "not filled yet", lacking, expected)
 
 
 def _long(rows: Rows, cables: int) -> Rows:

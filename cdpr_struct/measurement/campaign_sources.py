@@ -7,14 +7,26 @@ from pathlib import Path
 def campaign_bytes(path: str | Path) -> bytes:
     """Contents of the campaign file and of the robot and data files that it names, as far as they can be read."""
     source = Path(path)
-    contents = [_content(source)]
-    try:
-        table = tomllib.loads(contents[0].decode("utf-8-sig"))
-        named = [table.get("robot"), *(entry.get("file") for entry in table.get("measurement", ()))]
-    except (ValueError, AttributeError, RecursionError):
-        return contents[0]  # the reader will say what is wrong with it
-    contents += [_content(source.parent / name) for name in named if isinstance(name, str)]
+    contents = [_content(source), *(_content(named) for named in _named(source))]
+    if len(contents) == 1:
+        return contents[0]
     return b"".join(len(part).to_bytes(8, "big") + part for part in contents)
+
+
+def campaign_files(path: str | Path) -> list[Path]:
+    """The campaign file, and those of the robot and data files it names that are there; another file stands alone."""
+    source = Path(path)
+    return [source, *(named for named in _named(source) if named.is_file())]
+
+
+def _named(source: Path) -> list[Path]:
+    """Paths that a campaign file names; none of a file that is no campaign, of which its reader says what is wrong."""
+    try:
+        table = tomllib.loads(_content(source).decode("utf-8-sig"))
+        names = [table.get("robot"), *(entry.get("file") for entry in table.get("measurement", ()))]
+    except (ValueError, AttributeError, RecursionError):
+        return []
+    return [source.parent / name for name in names if isinstance(name, str)]
 
 
 def _content(path: Path) -> bytes:

@@ -1,7 +1,7 @@
-"""Frequency responses as universal files (dataset 58), the exchange format of modal tests."""
+"""Frequency responses and motions in time as universal files (dataset 58), the exchange format of modal tests."""
 
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +11,8 @@ import pyuff
 from cdpr_struct.dynamics.frequency_response import FrequencyResponse, Quantity
 from cdpr_struct.dynamics.ports import CablePort, Port
 
-FREQUENCY_RESPONSE = 4  # function type of dataset 58
-_FREQUENCY, _FORCE = 18, 13  # specific data types
+TIME_RESPONSE, FREQUENCY_RESPONSE = 1, 4  # function types of dataset 58
+_TIME, _FREQUENCY, _FORCE = 17, 18, 13  # specific data types
 _ORDINATE: Mapping[Quantity, int] = {"displacement": 8, "velocity": 11, "acceleration": 12}
 _TIME_UNIT: Mapping[Quantity, str] = {"displacement": "", "velocity": "/s", "acceleration": "/s^2"}
 PLATFORM_NODE = 1
@@ -47,17 +47,49 @@ def response_sets(response: FrequencyResponse, robot: str, axes: np.ndarray) -> 
 
 def universal_file(response: FrequencyResponse, robot: str, axes: np.ndarray) -> bytes:
     """The responses as a universal file: text with 12 digits, which every reader takes."""
+    return written_sets(response_sets(response, robot, axes))
+
+
+def motion_file(
+    time: np.ndarray, acceleration: np.ndarray, ports: Sequence[Port], robot: str, axes: np.ndarray
+) -> bytes:
+    """Accelerations (n, ports) at evenly spaced instants (n,) [s] as a universal file, a dataset 58 per port.
+
+    Nodes, directions and `axes` as in `response_sets`; the format gives the time step six digits.
+    """
+    return written_sets([_motion_set(time, acceleration[:, k], port, robot, axes) for k, port in enumerate(ports)])
+
+
+def _motion_set(time: np.ndarray, signal: np.ndarray, port: Port, robot: str, axes: np.ndarray) -> dict[str, Any]:
+    unit = "rad/s^2" if port.turns else "m/s^2"
+    return dict(
+        pyuff.prepare_58(
+            binary=0, func_type=TIME_RESPONSE, id1=f"{robot}: {port.name}", id2=f"acceleration in {unit}",
+            id3="predicted by cdpr-struct", id4="NONE", id5="NONE", rsp_ent_name="ROBOT", rsp_node=node(port),
+            rsp_dir=direction(port, axes), ref_ent_name="NONE", ref_node=0, ref_dir=0, abscissa_spacing=1,
+            abscissa_spec_data_type=_TIME, abscissa_axis_units_lab="s",
+            ordinate_spec_data_type=_ORDINATE["acceleration"], ordinate_axis_units_lab=unit,
+            orddenom_spec_data_type=0, orddenom_axis_units_lab="NONE", data=signal, x=time,
+        )
+    )  # fmt: skip
+
+
+def written_sets(sets: list[dict[str, Any]]) -> bytes:
+    """Bytes of a universal file; pyuff writes to a path only."""
     with tempfile.TemporaryDirectory() as directory:
-        path = Path(directory) / "response.uff"
-        pyuff.UFF(str(path)).write_sets(response_sets(response, robot, axes), mode="add")
+        path = Path(directory) / "sets.uff"
+        pyuff.UFF(str(path)).write_sets(sets, mode="add")
         return path.read_bytes()
 
 
 def node(port: Port) -> int:
     """Node number of the port's point."""
-    if isinstance(port, CablePort):
-        return 1000 * (port.cable + 1) + min(round(1000.0 * port.station), 999)
-    return PLATFORM_NODE
+    return cable_node(port.cable, port.station) if isinstance(port, CablePort) else PLATFORM_NODE
+
+
+def cable_node(cable: int, station: float) -> int:
+    """Node number of a point of a cable, counted from 0, at a fraction of its length from the frame."""
+    return 1000 * (cable + 1) + min(round(1000.0 * station), 999)
 
 
 def direction(port: Port, axes: np.ndarray) -> int:

@@ -6,8 +6,8 @@ from cdpr_struct.reports import audit_limits_text as text
 from cdpr_struct.reports.audit_limits_result import MEANINGS, cable_columns, veering_csv
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import audit_error_map, audit_evidence, audit_veering
-from cdpr_struct.reports.figures.style import svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 
 _MAPS = (
     ("in_plane_frequency", "Error of the clamped frequencies"),
@@ -22,8 +22,7 @@ def limits_trial_files(trial: LimitsTrial) -> dict[str, str | bytes]:
     return {
         "cables.csv": csv_text(cable_columns(trial)),
         "veering.csv": veering_csv(trial),
-        **{f"{plate.name}.svg": plate.svg for plate in plates},
-        "report.html": render_page(_page(trial, plates)),
+        **page_files(_page(trial, plates)),
     }
 
 
@@ -53,7 +52,7 @@ def _facts(trial: LimitsTrial) -> list[tuple[str, str]]:
 
 def _plates(trial: LimitsTrial) -> list[Plate]:
     def drawn(name: str, title: str, size: tuple[float, float], draw: object, caption: str) -> Plate:
-        return Plate(name, title, svg(name, size, draw), caption)  # type: ignore[arg-type]
+        return Plate(name, title, Drawing(name, size, draw), caption)  # type: ignore[arg-type]
 
     return [
         drawn("veering", "What happens at the crossovers", audit_veering.SIZE,

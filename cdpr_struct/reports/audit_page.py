@@ -16,8 +16,9 @@ from cdpr_struct.reports.audit_result import (
 )
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import audit_map, limits
-from cdpr_struct.reports.figures.style import Draw, svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.style import Draw
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.text import place
 from cdpr_struct.workspace.grid import AXES, Grid
 
@@ -39,6 +40,7 @@ def audit_files(audit: PoseAudit, grid: Grid | None = None, time: np.ndarray | N
     plates = _plates(audit, grid, time)
     what = f"at {place(audit.position[0])}" if len(audit.held) == 1 else f"{len(audit.held)} poses"
     page = Page(
+        robot=audit.robot.name,
         title=f"{audit.robot.name}: cables against the validity limits of the closed form",
         subtitle=f"{len(audit.robot.cables)} cables, platform {audit.robot.platform.mass:g} kg, {what}",
         verdict=sentences(audit),
@@ -48,8 +50,7 @@ def audit_files(audit: PoseAudit, grid: Grid | None = None, time: np.ndarray | N
         tables=_tables(audit),
         notes=[("The limits", _NOTES)],
     )
-    figures = {f"{plate.name}.svg": plate.svg for plate in plates}
-    return {"audit.csv": csv_text(audit_columns(audit, time)), **figures, "report.html": render_page(page)}
+    return {"audit.csv": csv_text(audit_columns(audit, time)), **page_files(page)}
 
 
 def _facts(audit: PoseAudit) -> list[tuple[str, str]]:
@@ -70,11 +71,13 @@ def _plates(audit: PoseAudit, grid: Grid | None, time: np.ndarray | None) -> lis
     draw, size = audit_figure(audit, grid, time)
     if len(audit.held) == 1:
         caption = limits.limits_caption(_one_pose(audit))
-        return [Plate("limits", "Cables against the printed limits", svg("limits", size, draw), caption)]
+        return [Plate("limits", "Cables against the printed limits", Drawing("limits", size, draw), caption)]
     if grid is not None and len(grid.free) == 2:
         caption = audit_map.audit_map_caption(audit)
-        return [Plate("map", "Broken limits over the workspace", svg("map", size, draw), caption)]
-    return [Plate("course", "Limits along the way", svg("course", size, draw), audit_map.audit_course_caption(audit))]
+        return [Plate("map", "Broken limits over the workspace", Drawing("map", size, draw), caption)]
+    return [
+        Plate("course", "Limits along the way", Drawing("course", size, draw), audit_map.audit_course_caption(audit))
+    ]
 
 
 def audit_figure(audit: PoseAudit, grid: Grid | None, time: np.ndarray | None) -> tuple[Draw, tuple[float, float]]:

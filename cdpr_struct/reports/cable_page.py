@@ -7,8 +7,8 @@ import numpy as np
 
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import single_cable
-from cdpr_struct.reports.figures.style import svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.text import cable_frequencies
 
 
@@ -25,8 +25,7 @@ def cable_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
                 "static_N_per_m": np.full(len(trace.hertz), trace.static),
             }
         ),
-        **{f"{plate.name}.svg": plate.svg for plate in plates},
-        "report.html": render_page(cable_page(result, plates)),
+        **page_files(cable_page(result, plates)),
     }
 
 
@@ -48,13 +47,13 @@ def cable_plates(result: Mapping[str, Any]) -> list[Plate]:
         Plate(
             "profile",
             "The hanging cable",
-            svg("profile", single_cable.PROFILE_SIZE, lambda f: single_cable.draw_profile(f, result)),
+            Drawing("profile", single_cable.PROFILE_SIZE, lambda f: single_cable.draw_profile(f, result)),
             single_cable.profile_caption(result),
         ),
         Plate(
             "stiffness_trace",
             "Dynamic against static stiffness",
-            svg("stiffness_trace", single_cable.TRACE_SIZE, lambda f: single_cable.draw_trace(f, result)),
+            Drawing("stiffness_trace", single_cable.TRACE_SIZE, lambda f: single_cable.draw_trace(f, result)),
             single_cable.trace_caption(result),
         ),
     ]

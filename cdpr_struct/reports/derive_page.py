@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.html import HtmlTable, Page, render_page
+from cdpr_struct.reports.html import HtmlTable, Page, page_files
 
 _LINES_SHOWN = 400
 
@@ -19,7 +19,7 @@ def derive_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
     return {
         "formulas.csv": csv_text({key: [formula[key] for formula in formulas] for key in keys}),
         **({"changes.diff": result["diff"]} if result["diff"] else {}),
-        "report.html": render_page(_page(result)),
+        **page_files(_page(result)),
     }
 
 

@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from cdpr_struct.reports.figures import many_inputs as figures
-from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.html import Plate
-from cdpr_struct.reports.many_inputs import rows_csv, rows_page, rows_text, unanswered
+from cdpr_struct.reports.many_inputs import rows_csv, rows_files, rows_text, unanswered
 
 Row = Mapping[str, Any]
 _COLUMNS = {
@@ -51,10 +51,7 @@ def trajectories_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
     title = f"{result['robot']}: cable forces along many trajectories"
     return {
         "trajectories.csv": rows_csv(rows),
-        **{f"{plate.name}.svg": plate.svg for plate in plates},
-        "report.html": rows_page(
-            title, [_summary(result)], facts if told else [], plates, _COLUMNS, rows, frozenset({0})
-        ),
+        **rows_files(title, [_summary(result)], facts if told else [], plates, _COLUMNS, rows, frozenset({0})),
     }
 
 
@@ -71,9 +68,9 @@ def _frequencies(told: Sequence[Row]) -> Plate:
     return Plate("lowest_frequencies", "Lowest cable frequencies", picture, said)
 
 
-def _drawn(name: str, told: Sequence[Row], key: str, label: str) -> str:
+def _drawn(name: str, told: Sequence[Row], key: str, label: str) -> Drawing:
     names, values = [row["folder"] for row in told], [row[key] for row in told]
-    return svg(name, figures.size(len(told)), lambda f: figures.draw_values(f, names, values, [], (), label))
+    return Drawing(name, figures.size(len(told)), lambda f: figures.draw_values(f, names, values, [], (), label))
 
 
 def _summary(result: Mapping[str, Any]) -> str:

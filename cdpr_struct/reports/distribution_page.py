@@ -10,8 +10,9 @@ from cdpr_struct.reports.distribution_notes import distribution_notes
 from cdpr_struct.reports.distribution_result import force_columns, missed_json
 from cdpr_struct.reports.distribution_text import BOUND_NAMES, frequency_sentence, saving_sentence
 from cdpr_struct.reports.figures import distribution as figures
-from cdpr_struct.reports.figures.style import svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.interactive_forces import forces_plot
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 
 Found = Sequence[TrajectoryDistribution]
 
@@ -21,53 +22,45 @@ def distribution_files(found: Found) -> dict[str, str | bytes]:
     plates = distribution_plates(found)
     return {
         **{f"forces_{f.rule.replace('-', '_')}.csv": csv_text(force_columns(f)) for f in found},
-        **{f"{plate.name}.svg": plate.svg for plate in plates},
-        "report.html": render_page(distribution_page(found, plates)),
+        **page_files(distribution_page(found, plates)),
     }
 
 
 def distribution_plates(found: Found) -> list[Plate]:
-    """The figures, in the order of the page."""
-    return [*thesis_plates(found), _frequency_plate(found)]
-
-
-def thesis_plates(found: Found) -> list[Plate]:
-    """Figures 5.4 to 5.6 of the thesis."""
+    """The figures, in the order of the page (thesis figs 5.5, 5.4 and 5.6, and the frequencies that are behind)."""
     size = figures.panels_size(found)
     return [
         Plate(
+            "cable_forces",
+            "Force of each cable at the platform",
+            Drawing("cable_forces", size, lambda f: figures.draw_forces(f, found)),
+            "The forces of least cost that balance weight and inertia of the platform above the bounds (thesis "
+            "fig. 5.5).",
+            forces_plot(found),
+        ),
+        Plate(
+            "cable_frequencies",
+            "Does each cable vibrate as fast as wanted?",
+            Drawing("cable_frequencies", size, lambda f: figures.draw_frequencies(f, found)),
+            "Lowest natural frequency of each cable held at both ends, exact model with sag, over the wanted "
+            f"{found[0].b / (2.0 * np.pi):.4g} Hz (black line), on a logarithmic scale. Below the line the bound does "
+            "not keep its promise.",
+        ),
+        Plate(
             "lower_bounds",
             "Lower bound of each cable",
-            svg("lower_bounds", size, lambda f: figures.draw_bounds(f, found)),
+            Drawing("lower_bounds", size, lambda f: figures.draw_bounds(f, found)),
             "What each cable must carry at least. Longer cables need more; the fixed bound takes the largest demand of "
             "all cables and instants for everyone (thesis fig. 5.4).",
         ),
         Plate(
-            "cable_forces",
-            "Force of each cable at the platform",
-            svg("cable_forces", size, lambda f: figures.draw_forces(f, found)),
-            "The forces of least cost that balance weight and inertia of the platform above the bounds (thesis "
-            "fig. 5.5).",
-        ),
-        Plate(
             "energy",
             "Energy spent",
-            svg("energy", figures.ENERGY_SIZE, lambda f: figures.draw_energy(f, found)),
+            Drawing("energy", figures.ENERGY_SIZE, lambda f: figures.draw_energy(f, found)),
             "Work of the cable forces, paid for in both directions: the integral of |force| |change of unstrained "
             "length|, all cables (thesis fig. 5.6).",
         ),
     ]
-
-
-def _frequency_plate(found: Found) -> Plate:
-    return Plate(
-        "cable_frequencies",
-        "Does each cable vibrate as fast as wanted?",
-        svg("cable_frequencies", figures.panels_size(found), lambda f: figures.draw_frequencies(f, found)),
-        f"Lowest natural frequency of each cable held at both ends, exact model with sag, over the wanted "
-        f"{found[0].b / (2.0 * np.pi):.4g} Hz (black line). Below it the bound does not keep its promise. Cut off "
-        f"at {figures.FREQUENCY_RANGE[1]:g}.",
-    )
 
 
 def distribution_page(found: Found, plates: list[Plate]) -> Page:
@@ -76,6 +69,7 @@ def distribution_page(found: Found, plates: list[Plate]) -> Page:
     d = first.distribution
     saved = [saving_sentence(a, b) for a in found for b in found if b.rule == "fixed" and a.rule != "fixed"]
     return Page(
+        robot=first.robot.name,
         title=f"{first.robot.name}: cable forces along a trajectory",
         subtitle=(
             f"{len(first.max_force)} cables, platform {first.robot.platform.mass:g} kg, {len(path)} instants over "

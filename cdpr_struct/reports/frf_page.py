@@ -9,36 +9,40 @@ from cdpr_struct.dynamics.frequency_sweep import ResponseSweep
 from cdpr_struct.measurement.universal_file import universal_file
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import frf
-from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.interactive_frf import frf_plot
 from cdpr_struct.reports.frf_result import frf_columns
 from cdpr_struct.reports.frf_text import RATIO, SILENT, WIDTH, frf_summary, peak_rows
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 
 
 def frf_files(sweep: ResponseSweep, result: Mapping[str, Any]) -> dict[str, str | bytes]:
-    """Contents of every file of the report, by name; `result` as `frf_json` gives it.
-
-    The universal file has the even lines only: its format gives a frequency six digits, too few for narrow peaks.
-    """
-    axes = sweep.point.rotation if result["frame"] == "platform" else np.eye(3)
+    """Contents of every file of the report, by name; `result` as `frf_json` gives it."""
     plate = Plate(
         "frf",
         "Frequency response",
-        svg("frf", frf.SIZE, lambda figure: frf.draw_frf(figure, sweep)),
+        Drawing("frf", frf.SIZE, lambda figure: frf.draw_frf(figure, sweep)),
         frf.frf_caption(sweep),
+        frf_plot(sweep),
     )
     return {
         "frf.csv": csv_text(frf_columns(sweep)),
-        "frf.uff": universal_file(sweep.evenly, sweep.point.entered.name, axes),
+        "frf.uff": response_file(sweep, result),
         "modes.csv": csv_text({"frequency_hz": sweep.modes.hertz, "kind": sweep.modes.kinds}),
-        "frf.svg": plate.svg,
-        "report.html": render_page(_page(sweep, result, plate)),
+        **page_files(_page(sweep, result, plate)),
     }
+
+
+def response_file(sweep: ResponseSweep, result: Mapping[str, Any]) -> bytes:
+    """The even lines as a universal file: its format gives a frequency six digits, too few for narrow peaks."""
+    axes = sweep.point.rotation if result["frame"] == "platform" else np.eye(3)
+    return universal_file(sweep.evenly, sweep.point.entered.name, axes)
 
 
 def _page(sweep: ResponseSweep, result: Mapping[str, Any], plate: Plate) -> Page:
     robot, (x, y, z) = sweep.point.entered, sweep.point.position
     return Page(
+        robot=robot.name,
         title=f"{robot.name}: frequency response",
         subtitle=(
             f"{result['quantity']} under {result['excite']}; {len(robot.cables)} cables, platform "

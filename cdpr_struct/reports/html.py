@@ -5,9 +5,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib import resources
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import jinja2
+
+from cdpr_struct.reports.figures.plotly_source import plotly_packed
+
+if TYPE_CHECKING:
+    from cdpr_struct.reports.figures.drawing import Drawing
 
 _WARNINGS, _END = "<!-- warnings -->", "<!-- end -->"
 """Marks in the template, where `completed` writes."""
@@ -17,26 +22,36 @@ _WARNINGS, _END = "<!-- warnings -->", "<!-- end -->"
 class Plate:
     """A figure of the page.
 
-    name        : letters and underscores; the figure's id and the name of its SVG file
-    svg         : the figure as SVG text; stays visible where scripts do not run, and in print
+    name        : letters and underscores; the figure's id and the name of its files
+    picture     : what is shown where scripts do not run, in print, and in papers
     interactive : the same as plotly data, or None
     """
 
     name: str
     title: str
-    svg: str
+    picture: "Drawing"
     caption: str
     interactive: Mapping[str, Any] | None = None
 
     @property
     def markup(self) -> str:
         """The <svg> element without XML prologue."""
-        return self.svg[self.svg.index("<svg") :]
+        return _element(self.picture.svg)
+
+    @property
+    def narrow(self) -> str:
+        """The <svg> element for narrow screens."""
+        return _element(self.picture.narrow_svg)
 
     @property
     def data(self) -> str:
         """The interactive figure as JSON that cannot end its script element."""
         return json.dumps(self.interactive, allow_nan=False).replace("<", "\\u003c")
+
+    @property
+    def solid(self) -> bool:
+        """Whether the interactive figure is a scene to be turned, not a plot to be zoomed."""
+        return "scene" in (self.interactive or {}).get("layout", {})
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +79,7 @@ class Page:
     notes   : (heading, paragraphs) of how to read and how it was computed
     listings : (heading, text) shown line by line as it is
     gallery : figures stand two abreast; they are drawn half as wide
+    robot   : whose it is; figures say so, too
 
     `completed` adds what the command line knows: how to repeat the run, warnings, extensions of the robot file.
     """
@@ -78,17 +94,43 @@ class Page:
     notes: Sequence[tuple[str, Sequence[str]]]
     listings: Sequence[tuple[str, str]] = ()
     gallery: bool = False
+    robot: str = ""
+
+    @property
+    def sections(self) -> list[tuple[str, str]]:
+        """Mark and heading of everything on the page, for the list of contents."""
+        parts = (
+            ("table", [table.title for table in self.tables]),
+            ("listing", [heading for heading, _ in self.listings]),
+            ("note", [heading for heading, _ in self.notes]),
+        )
+        figures = [(plate.name, plate.title) for plate in self.plates]
+        return figures + [(f"{kind}-{i}", title) for kind, titles in parts for i, title in enumerate(titles, start=1)]
+
+    def heading(self, plate: Plate) -> str:
+        """Title of a figure where it stands alone."""
+        return f"{self.robot}: {plate.title}" if self.robot else plate.title
 
 
-def render_page(page: Page, plotly_packed: str = "") -> str:
-    """The page as HTML. `plotly_packed` (gzip, base64) is needed for interactive figures only."""
+def page_files(page: Page) -> dict[str, str | bytes]:
+    """The page, and each of its figures as SVG and as PDF, by name."""
+    files: dict[str, str | bytes] = {}
+    for plate in page.plates:
+        files[f"{plate.name}.svg"] = plate.picture.svg_file(page.heading(plate))
+        files[f"{plate.name}.pdf"] = plate.picture.pdf(page.heading(plate))
+    return {**files, "report.html": render_page(page)}
+
+
+def render_page(page: Page) -> str:
+    """The page as HTML; plotly.js is in it if a figure is interactive."""
     environment = jinja2.Environment(
         loader=jinja2.FunctionLoader(_template), autoescape=True, trim_blocks=True, lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )  # fmt: skip
     template = environment.get_template("page.html.j2")
+    packed = plotly_packed() if any(plate.interactive for plate in page.plates) else ""
     return template.render(
-        page=page, style=_template("page.css"), script=_template("interactive.js"), plotly_packed=plotly_packed
+        page=page, style=_template("page.css"), script=_template("interactive.js"), plotly_packed=packed
     )
 
 
@@ -110,6 +152,10 @@ def completed(
     end = f'<section class="notes"><h2>Extensions</h2>{_paragraphs(extensions)}</section>\n' if extensions else ""
     end += f'<section class="notes"><h2>Reproduce</h2>\n<pre>{escape(command)}</pre></section>'
     return text.replace(_WARNINGS, top, 1).replace(_END, end, 1)
+
+
+def _element(svg: str) -> str:
+    return svg[svg.index("<svg") :]
 
 
 def _paragraphs(sentences: Iterable[str]) -> str:

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.text import plain_table
 
 Row = Mapping[str, Any]
@@ -50,11 +50,11 @@ def _cell(value: Any) -> Any:
     return "" if value is None else value
 
 
-def rows_page(
+def rows_files(
     title: str, verdict: Sequence[str], facts: Sequence[tuple[str, str]], plates: Sequence[Plate], columns: Columns,
     rows: Sequence[Row], prose: frozenset[int],
-) -> str:  # fmt: skip
-    """The report page: figures, the table, and what could not be answered."""
+) -> dict[str, str | bytes]:  # fmt: skip
+    """The report page with its figures: figures, the table, and what could not be answered."""
     failed = unanswered(rows)
     table = HtmlTable(
         title,
@@ -65,4 +65,5 @@ def rows_page(
         prose,
     )
     listings = [("Without an answer", "\n".join(failed))] if failed else []
-    return render_page(Page(title, f"{len(rows)} inputs", verdict, not failed, facts, plates, [table], [], listings))
+    page = Page(title, f"{len(rows)} inputs", verdict, not failed, facts, plates, [table], [], listings)
+    return page_files(page)

@@ -8,8 +8,8 @@ import numpy as np
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import interactive, mode_ladder, robot_drawing
-from cdpr_struct.reports.figures.style import svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.modes_text import modes_columns, modes_sentence
 from cdpr_struct.reports.text import place
 
@@ -25,8 +25,7 @@ def modes_files(point: OperatingPoint, result: Mapping[str, Any]) -> dict[str, s
     return {
         "modes.csv": csv_text(modes_columns(result)),
         "cables.csv": csv_text({"cable": range(1, len(lengths) + 1), "length_m": lengths, "tension_N": tensions}),
-        **{f"{plate.name}.svg": plate.svg for plate in plates},
-        "report.html": render_page(_page(point, result, plates), interactive.plotly_packed()),
+        **page_files(_page(point, result, plates)),
     }
 
 
@@ -35,13 +34,13 @@ def _plates(point: OperatingPoint, result: Mapping[str, Any]) -> list[Plate]:
         Plate(
             "modes",
             "Eigenfrequencies",
-            svg("modes", mode_ladder.SIZE, lambda f: mode_ladder.draw_ladder(f, result)),
+            Drawing("modes", mode_ladder.SIZE, lambda f: mode_ladder.draw_ladder(f, result)),
             mode_ladder.ladder_caption(result),
         ),
         Plate(
             "robot",
             "The robot at rest",
-            svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point)),
+            Drawing("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point)),
             robot_drawing.robot_caption(point),
             interactive.robot_plot(point),
         ),
@@ -51,6 +50,7 @@ def _plates(point: OperatingPoint, result: Mapping[str, Any]) -> list[Plate]:
 def _page(point: OperatingPoint, result: Mapping[str, Any], plates: list[Plate]) -> Page:
     robot = point.entered
     return Page(
+        robot=result["robot"],
         title=f"{result['robot']}: eigenfrequencies",
         subtitle=(
             f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg at {place(point.position)}; "

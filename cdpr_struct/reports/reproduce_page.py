@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.figures.reproductions import FIGURES
-from cdpr_struct.reports.figures.style import svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.text import paragraphs, plain_table
 from cdpr_struct.thesis.reproduction import Cell, Reproduction
 
@@ -46,8 +46,7 @@ def reproduction_files(items: Sequence[Reproduction]) -> dict[str, str | bytes]:
     files: dict[str, str | bytes] = {f"{item.id}.csv": csv_text(cell_columns(item)) for item in items}
     files |= {f"{item.id}-data.csv": csv_text(item.columns) for item in items if item.columns}
     plates = [_plate(item) for item in items if item.id in FIGURES]
-    files |= {f"{plate.name}.svg": plate.svg for plate in plates}
-    return {**files, "report.html": render_page(_page(items, plates))}
+    return {**files, **page_files(_page(items, plates))}
 
 
 def _page(items: Sequence[Reproduction], plates: list[Plate]) -> Page:
@@ -81,7 +80,7 @@ def reproduction_sentences(items: Sequence[Reproduction]) -> list[str]:
 def _plate(item: Reproduction) -> Plate:
     draw, size, caption = FIGURES[item.id]
     name = item.id.replace("-", "_").replace(".", "_")
-    return Plate(name, f"{item.id}: {item.title}", svg(name, size, lambda f: draw(f, item)), caption(item))
+    return Plate(name, f"{item.id}: {item.title}", Drawing(name, size, lambda f: draw(f, item)), caption(item))
 
 
 def _table(item: Reproduction) -> HtmlTable:

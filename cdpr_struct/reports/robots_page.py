@@ -10,9 +10,10 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import CdprError
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import robot_drawing
+from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.figures.robot_geometry import robot_geometry, unloaded_geometry
-from cdpr_struct.reports.figures.style import BLUE, GREY, svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.style import BLUE, GREY
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.robots_result import frame_size, robots_columns, robots_sentence
 from cdpr_struct.reports.text import place
 from cdpr_struct.robot.pose import Pose
@@ -31,8 +32,7 @@ def robots_files(robots: Sequence[Robot], rows: Sequence[Mapping[str, Any]]) -> 
     plates = [_plate(robot) for robot in robots]
     return {
         "robots.csv": csv_text(robots_columns(robots)),
-        **{f"{plate.name}.svg": plate.svg for plate in plates},
-        "report.html": render_page(_page(robots, rows, plates)),
+        **page_files(_page(robots, rows, plates)),
     }
 
 
@@ -41,7 +41,7 @@ def _plate(robot: Robot) -> Plate:
     point = _at_home(robot)
     geometry = unloaded_geometry(robot, _home(robot)) if point is None else robot_geometry(point)
     colour = GREY if point is None else BLUE
-    picture = svg(name, _SIZE, lambda f: robot_drawing.draw_geometry(f, geometry, colour))
+    picture = Drawing(name, _SIZE, lambda f: robot_drawing.draw_geometry(f, geometry, colour))
     where = "its home pose" if robot.home else "the middle of its frame"
     said = f"At {where}, {place(_home(robot).position)}, drawn to scale; numbers at the frame anchors are cables."
     return Plate(name, robot.name, picture, f"{said} {_at_rest(point)}")

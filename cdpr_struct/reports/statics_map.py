@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cdpr_struct.reports.csv_table import LongTable
-from cdpr_struct.reports.html import Page, Plate, render_page
+from cdpr_struct.reports.html import Page, Plate, page_files
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import shared_cure
 from cdpr_struct.statics.sufficient_bound import shared_bound_of_pose_errors, shared_lower_bound
@@ -17,9 +17,14 @@ from cdpr_struct.workspace.work_list import Columns
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.style import Draw
+    from cdpr_struct.reports.figures.workspace_map import Layer
 
 _SAME = 1e-9  # relative: values of poses that count as equal
 _MOST_HELD, _MOST_RELEASED = 64, 16  # poses with slack cables at which a cure is searched; a release takes longer
+_FRAME = (
+    " In the frame (or with the button): the mapped rectangle in blue, the numbered frame anchors with the line around "
+    "them, and the platform in the middle of the map."
+)
 _NOTE = (
     "Each value is computed at the reference pose, or for pose errors from it, as the quantity's line in the "
     "documentation says. Tensions are those of minimum norm that balance the platform on sagging cables within the "
@@ -125,6 +130,7 @@ def map_files(
 
     plates = [_map_plate(robot, name, grid, columns)] if workspace_map.drawable(grid) else []
     page = Page(
+        robot=robot.name,
         title=f"{robot.name}: {quantity_of(name).label}" + (" over the workspace" if grid.size > 1 else " at a pose"),
         subtitle=f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg" + _comma(grid.fixed_text()),
         verdict=[map_sentence(result)],
@@ -134,8 +140,7 @@ def map_files(
         tables=[],
         notes=[("How it was computed", _NOTE)],
     )
-    figures = {f"{plate.name}.svg": plate.svg for plate in plates}
-    return {"map.csv": map_table(grid, columns), **figures, "report.html": render_page(page)}
+    return {"map.csv": map_table(grid, columns), **page_files(page)}
 
 
 def map_sentence(result: Mapping[str, Any]) -> str:
@@ -190,9 +195,20 @@ def _map_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
     return [*ends, (f"{result['mean']:.4g} {unit}", "mean"), held]
 
 
-def map_figure(name: str, grid: Grid, columns: Columns) -> tuple["Draw", tuple[float, float]]:
+def map_figure(robot: Robot, name: str, grid: Grid, columns: Columns) -> tuple["Draw", tuple[float, float]]:
     """What draws a map over one to three axes into an empty figure, and its size [inch]."""
-    from cdpr_struct.reports.figures import workspace_map, workspace_slices
+    from cdpr_struct.reports.figures import frame_plan, workspace_map, workspace_slices
+
+    layer, plan = _layer(name, columns), frame_plan.FramePlan.of(robot, grid)
+    solid = len(grid.free) == 3
+    size = workspace_slices.slices_size(grid) if solid else workspace_map.map_size(grid)
+    draw = workspace_slices.draw_slices if solid else workspace_map.draw_map
+    return partial(draw, grid=grid, layer=layer, plan=plan), size
+
+
+def _layer(name: str, columns: Columns) -> "Layer":
+    """What the figure of a quantity shows, and which poses it marks."""
+    from cdpr_struct.reports.figures import workspace_map
 
     quantity, value = quantity_of(name), map_values(name, columns)
     marked, mark = columns.get("more_stable_pose"), workspace_map.OTHER
@@ -201,26 +217,25 @@ def map_figure(name: str, grid: Grid, columns: Columns) -> tuple["Draw", tuple[f
     if "veering" in columns:
         marked, mark = columns["veering"], "modes veer: the step to a neighbour may lead to another mode"
     signed = name.startswith("pose-error")
-    layer = workspace_map.Layer(quantity.label, quantity.unit, value, marked, signed, mark)
-    solid = len(grid.free) == 3
-    size = workspace_slices.slices_size(grid) if solid else workspace_map.map_size(grid)
-    draw = workspace_slices.draw_slices if solid else workspace_map.draw_map
-    return partial(draw, grid=grid, layer=layer), size
+    return workspace_map.Layer(quantity.label, quantity.unit, value, marked, signed, mark)
 
 
 def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
-    from cdpr_struct.reports.figures import style, workspace_slices
+    from cdpr_struct.reports.figures import frame_plan, interactive_map, workspace_slices
+    from cdpr_struct.reports.figures.drawing import Drawing
 
     quantity, value = quantity_of(name), map_values(name, columns)
-    draw, size = map_figure(name, grid, columns)
-    picture = style.svg("map", size, draw)
+    draw, size = map_figure(robot, name, grid, columns)
+    picture = Drawing("map", size, draw)
     hatched = " Hatched: poses that cannot be held or are not stable." if np.isnan(value).any() else ""
     which = f"{robot.name}, {robot.platform.mass:g} kg{_comma(grid.fixed_text())}"
     slices = f" {workspace_slices.Slices.of(grid).said()}" if len(grid.free) == 3 else ""
     veers = "veering" in columns and columns["veering"].any()
     veer = " Triangles: modes veer, the frequency may step there." if veers else ""
-    caption = f"{which}: {quantity.meaning} [{quantity.unit}].{slices}{hatched}{veer}"
-    return Plate("map", f"{quantity.label[0].upper()}{quantity.label[1:]}", picture, caption)
+    frame = _FRAME if len(grid.free) > 1 else ""
+    caption = f"{which}: {quantity.meaning} [{quantity.unit}].{slices}{hatched}{veer}{frame}"
+    plot = interactive_map.map_plot(grid, [_layer(name, columns)], frame_plan.FramePlan.of(robot, grid))
+    return Plate("map", f"{quantity.label[0].upper()}{quantity.label[1:]}", picture, caption, plot)
 
 
 def _comma(text: str) -> str:

@@ -7,8 +7,11 @@ import numpy as np
 from cdpr_struct.reports.csv_table import LongTable, csv_text
 from cdpr_struct.reports.figures import pose_error as pose_error_figure
 from cdpr_struct.reports.figures import workspace_map
-from cdpr_struct.reports.figures.style import Draw, svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.frame_plan import FramePlan
+from cdpr_struct.reports.figures.interactive_map import map_plot
+from cdpr_struct.reports.figures.style import Draw
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.statics_map import map_table, slack_poses, slack_warnings
 from cdpr_struct.reports.text import place, rounded
 from cdpr_struct.robot.pose import Pose
@@ -60,11 +63,12 @@ def pose_error_files(
     plates = []
     if errors is not None:
         tables["pose_error.csv"] = map_table(errors.grid, errors.columns)
-        plates += _pose_error_plates(errors)
+        plates += _pose_error_plates(robot, errors)
     if load is not None:
         tables["sufficient_load.csv"] = csv_text(load_columns(load[0]))
         plates.append(_ladder_plate(*load))
     page = Page(
+        robot=robot.name,
         title=f"{robot.name}: static pose error",
         subtitle=f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg",
         verdict=pose_error_sentences(errors, load),
@@ -74,7 +78,7 @@ def pose_error_files(
         tables=[] if errors is None else [_pose_error_table(errors)],
         notes=[("How it was computed", POSE_ERROR_NOTES)],
     )
-    return {**tables, **{f"{plate.name}.svg": plate.svg for plate in plates}, "report.html": render_page(page)}
+    return {**tables, **page_files(page)}
 
 
 def pose_error_sentences(errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None) -> list[str]:
@@ -106,12 +110,14 @@ def _load_sentence(found: SufficientLoad, pose: Pose) -> str:
     return f"{where} the spring model is good to {tolerance} from a mass of {found.mass:.4g} kg on, load included."
 
 
-def _pose_error_plates(errors: PoseErrorMap) -> list[Plate]:
+def _pose_error_plates(robot: Robot, errors: PoseErrorMap) -> list[Plate]:
     if not workspace_map.drawable(errors.grid):
         return []
     draw, size = main_figure(errors, None)
-    picture = svg("pose_error", size, draw)
-    return [Plate("pose_error", "Pose error along z", picture, pose_error_figure.pose_error_caption(errors))]
+    picture = Drawing("pose_error", size, draw)
+    layers = list(pose_error_figure.error_layers(errors).values())
+    plot = map_plot(errors.grid, layers, FramePlan.of(robot, errors.grid))
+    return [Plate("pose_error", "Pose error along z", picture, pose_error_figure.pose_error_caption(errors), plot)]
 
 
 def main_figure(
@@ -127,7 +133,7 @@ def main_figure(
 
 def _ladder_plate(found: SufficientLoad, pose: Pose) -> Plate:
     draw, size = main_figure(None, (found, pose))
-    picture = svg("sufficient_load", size, draw)
+    picture = Drawing("sufficient_load", size, draw)
     return Plate(
         "sufficient_load",
         "From which load on will the spring model do?",

@@ -8,7 +8,7 @@ import numpy as np
 
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.text import paragraphs, place, plain_table, rounded
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import Robot
@@ -127,13 +127,14 @@ def forward_sentences(result: Mapping[str, Any]) -> list[str]:
 
 def _others(robot: Robot, others: Equilibria) -> list[Plate]:
     """A picture of every other stable pose."""
-    from cdpr_struct.reports.figures import interactive, robot_drawing, style
+    from cdpr_struct.reports.figures import interactive, robot_drawing
+    from cdpr_struct.reports.figures.drawing import Drawing
 
     plates = []
     for i, energy in enumerate(others.energy):
         point = OperatingPoint(robot, others.position[i], others.rotation[i], others.cables.at(i))
         name = f"equilibrium_{i + 2}"
-        picture = style.svg(name, robot_drawing.SIZE, partial(robot_drawing.draw_robot, point=point))
+        picture = Drawing(name, robot_drawing.SIZE, partial(robot_drawing.draw_robot, point=point))
         caption = (
             f"{energy:+.4g} J against the answer, at {place(point.position)}; {int(others.slack[i])} cables slack. "
             "Whether cables cross each other or the platform is not checked."
@@ -146,9 +147,10 @@ def _others(robot: Robot, others: Equilibria) -> list[Plate]:
 def _files(
     point: OperatingPoint, result: Mapping[str, Any], verdict: list[str], holds: bool, more: Sequence[Plate] = ()
 ) -> dict[str, str | bytes]:
-    from cdpr_struct.reports.figures import interactive, robot_drawing, style
+    from cdpr_struct.reports.figures import interactive, robot_drawing
+    from cdpr_struct.reports.figures.drawing import Drawing
 
-    picture = style.svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point))
+    picture = Drawing("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point))
     plate = Plate(
         "robot", "The robot at rest", picture, _caption(point, result["model"]), interactive.robot_plot(point)
     )
@@ -159,7 +161,8 @@ def _files(
         "leads to, or in whose basin --start lies.",
     )
     page = Page(
-        title=f"{result['robot']} at rest",
+        robot=result["robot"],
+        title=f"{result['robot']}: at rest",
         subtitle=f"{len(point.entered.cables)} cables, platform {result['mass_kg']:g} kg, {result['model']} model",
         verdict=verdict,
         holds=holds,
@@ -170,8 +173,7 @@ def _files(
     )
     return {
         "cables.csv": csv_text(cable_columns(point.cables)),
-        **{f"{each.name}.svg": each.svg for each in (plate, *more)},
-        "report.html": render_page(page, interactive.plotly_packed()),
+        **page_files(page),
     }
 
 

@@ -11,8 +11,10 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.measurement.spectrogram import Spectrogram, dominant_frequency, spectrogram
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import spectrogram as figure
-from cdpr_struct.reports.figures.style import Draw, svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.interactive_vibration import vibration_plot
+from cdpr_struct.reports.figures.style import Draw
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.text import place
 from cdpr_struct.reports.transient_page import spectrogram_csv
 from cdpr_struct.robot.pose import angles_from_rotation
@@ -59,19 +61,19 @@ def measured_files(
     time: np.ndarray, acceleration: np.ndarray, result: Mapping[str, Any], window: float | None
 ) -> dict[str, str | bytes]:
     """Spectrogram as SVG and CSV, the modes, and the report page."""
-    draw, size, spectrum = _drawn(time, acceleration, result, window)
+    shown = _shown(time, acceleration, result, window)
     plate = Plate(
         "spectrogram",
         "Measured acceleration and predicted modes",
-        svg("spectrogram", size, draw),
-        f"Above: the record. Below: {figure.vibration_caption(spectrum)} Bright lines without a mark beside them are "
-        "vibrations that the model does not predict.",
+        Drawing("spectrogram", figure.SIZE, lambda f: figure.draw_vibration(f, shown)),
+        f"Above: the record. Below: {figure.vibration_caption(shown.spectrum)} Bright lines without a mark beside them "
+        "are vibrations that the model does not predict.",
+        vibration_plot(shown),
     )
     return {
-        "spectrogram.svg": plate.svg,
-        "spectrogram.csv": spectrogram_csv(spectrum, float(result["highest_hz"])),
+        "spectrogram.csv": spectrogram_csv(shown.spectrum, float(result["highest_hz"])),
         "modes.csv": csv_text(measured_mode_columns(result)),
-        "report.html": render_page(_page(result, spectrum, plate)),
+        **page_files(_page(result, shown.spectrum, plate)),
     }
 
 
@@ -84,23 +86,21 @@ def measured_figure(
     time: np.ndarray, acceleration: np.ndarray, result: Mapping[str, Any], window: float | None
 ) -> tuple[Draw, tuple[float, float]]:
     """What draws record and spectrogram into an empty figure, and its size [inch]."""
-    return _drawn(time, acceleration, result, window)[:2]
+    shown = _shown(time, acceleration, result, window)
+    return lambda f: figure.draw_vibration(f, shown), figure.SIZE
 
 
-def _drawn(
+def _shown(
     time: np.ndarray, acceleration: np.ndarray, result: Mapping[str, Any], window: float | None
-) -> tuple[Draw, tuple[float, float], Spectrogram]:
-    spectrum, highest = spectrogram(time, acceleration, window), float(result["highest_hz"])
+) -> figure.Vibration:
     modes = ModesInBand(result["natural_frequencies_hz"], result["kinds"], result["count_certified"], True)
-
-    def draw(empty: Any) -> None:
-        figure.draw_vibration(empty, time, acceleration, _CHANNELS, spectrum, modes, highest)
-
-    return draw, figure.SIZE, spectrum
+    spectrum = spectrogram(time, acceleration, window)
+    return figure.Vibration(time, acceleration, _CHANNELS, spectrum, modes, float(result["highest_hz"]))
 
 
 def _page(result: Mapping[str, Any], spectrum: Spectrogram, plate: Plate) -> Page:
     return Page(
+        robot=result["robot"],
         title=f"{result['robot']}: measured vibration",
         subtitle=(
             f"{result['samples']} samples in {_duration(result):.4g} s, robot at {place(result['pose'][:3])}; "

@@ -9,39 +9,41 @@ from cdpr_struct.dynamics.vibration_record import VibrationRecord
 from cdpr_struct.measurement.spectrogram import Spectrogram, spectrogram
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import spectrogram as figure
-from cdpr_struct.reports.figures.style import Draw, svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.interactive_vibration import vibration_plot
+from cdpr_struct.reports.figures.style import Draw
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.transient_result import transient_columns
-from cdpr_struct.reports.transient_text import port_rows, transient_summary
+from cdpr_struct.reports.transient_text import PORT_COLUMNS, port_rows, transient_summary
 
 
 def transient_files(
     record: VibrationRecord, result: Mapping[str, Any], window: float | None = None
 ) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name; `result` as `transient_json` gives it."""
-    draw, size, spectrum = _drawn(record, window)
-    caption = figure.vibration_caption(spectrum)
-    plate = Plate("vibration", "Acceleration of the platform", svg("vibration", size, draw), caption)
+    shown = _shown(record, window)
+    drawing = Drawing("vibration", figure.SIZE, lambda f: figure.draw_vibration(f, shown))
+    caption = figure.vibration_caption(shown.spectrum)
+    plate = Plate("vibration", "Acceleration of the platform", drawing, caption, vibration_plot(shown))
     return {
         "transient.csv": csv_text(transient_columns(record)),
-        "spectrogram.csv": spectrogram_csv(spectrum, record.highest_hertz),
+        "spectrogram.csv": spectrogram_csv(shown.spectrum, record.highest_hertz),
         "modes.csv": csv_text({"frequency_hz": record.modes.hertz, "kind": record.modes.kinds}),
-        "vibration.svg": plate.svg,
-        "report.html": render_page(_page(record, result, plate)),
+        **page_files(_page(record, result, plate)),
     }
 
 
 def vibration_figure(record: VibrationRecord, window: float | None = None) -> tuple[Draw, tuple[float, float]]:
     """What draws accelerations and spectrogram into an empty figure, and its size [inch]."""
-    return _drawn(record, window)[:2]
+    shown = _shown(record, window)
+    return lambda f: figure.draw_vibration(f, shown), figure.SIZE
 
 
-def _drawn(record: VibrationRecord, window: float | None) -> tuple[Draw, tuple[float, float], Spectrogram]:
+def _shown(record: VibrationRecord, window: float | None) -> figure.Vibration:
     time, signal = record.vibration.time, record.vibration.acceleration[:, :3]
-    spectrum = spectrogram(time, signal, window)
     names = [port.name for port in record.ports[:3]]
-    modes, highest = record.modes, record.highest_hertz
-    return lambda f: figure.draw_vibration(f, time, signal, names, spectrum, modes, highest), figure.SIZE, spectrum
+    spectrum = spectrogram(time, signal, window)
+    return figure.Vibration(time, signal, names, spectrum, record.modes, record.highest_hertz)
 
 
 def spectrogram_csv(spectrum: Spectrogram, highest_hertz: float) -> str:
@@ -61,6 +63,7 @@ def _page(record: VibrationRecord, result: Mapping[str, Any], plate: Plate) -> P
     robot, (x, y, z) = record.point.entered, record.point.position
     summary = transient_summary(result)
     return Page(
+        robot=robot.name,
         title=f"{robot.name}: vibration in time",
         subtitle=(
             f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg at ({x:.4g}, {y:.4g}, {z:.4g}) m; "
@@ -74,11 +77,7 @@ def _page(record: VibrationRecord, result: Mapping[str, Any], plate: Plate) -> P
             (f"{100.0 * result['energy_share']:.2f} %", "of the excitation's energy held by these modes"),
         ],
         plates=[plate],
-        tables=[
-            HtmlTable(
-                "Vibration", ["", "largest displacement", "largest acceleration", "dominant [Hz]"], port_rows(result)
-            )
-        ],
+        tables=[HtmlTable("Vibration", PORT_COLUMNS, port_rows(result))],
         notes=[("How it was computed", _NOTES)],
     )
 

@@ -14,11 +14,16 @@ from cdpr_struct.robot.pose import angles_from_rotation
 def transient_json(record: VibrationRecord, described: Mapping[str, Any]) -> dict[str, Any]:
     """The result under the keys that scripts rely on; `described` is what the command was told, as text.
 
-    `dominant_hz` is the highest peak in the spectrum of the platform's translational acceleration.
+    `dominant_hz` is the highest peak in the spectrum of the platform's translational acceleration,
+    `dominant_displacement_hz` that of its displacement: slow motions count for more.
     """
     vibration, time = record.vibration, record.vibration.time
     angles = np.degrees(angles_from_rotation(record.point.rotation))
     moving = not is_silent(record)[:3].all()
+
+    def dominant(signal: np.ndarray) -> float:
+        return dominant_frequency(time, signal[:, :3]) if moving else float("nan")
+
     return {
         "robot": record.point.entered.name,
         "pose": [*record.point.position, *angles],
@@ -27,7 +32,8 @@ def transient_json(record: VibrationRecord, described: Mapping[str, Any]) -> dic
         "duration_s": float(time[-1]),
         "sample_rate_hz": 1.0 / float(time[1] - time[0]),
         "highest_hz": record.highest_hertz,
-        "dominant_hz": dominant_frequency(time, vibration.acceleration[:, :3]) if moving else float("nan"),
+        "dominant_hz": dominant(vibration.acceleration),
+        "dominant_displacement_hz": dominant(vibration.displacement),
         "energy_share": vibration.energy_share,
         "energy_first_J": float(vibration.energy[0]),
         "energy_last_J": float(vibration.energy[-1]),
@@ -43,13 +49,15 @@ def transient_json(record: VibrationRecord, described: Mapping[str, Any]) -> dic
 def _port(record: VibrationRecord, column: int) -> dict[str, Any]:
     port, vibration = record.ports[column], record.vibration
     length = "rad" if port.turns else "m"
-    signal = vibration.acceleration[:, [column]]
+    moved, signal = vibration.displacement[:, [column]], vibration.acceleration[:, [column]]
+    silent = is_silent(record)[column]
     return {
         "name": port.name,
         "on": f"cable {port.cable + 1}" if isinstance(port, CablePort) else "platform",
-        f"largest_displacement_{length}": float(np.abs(vibration.displacement[:, column]).max()),
+        f"largest_displacement_{length}": float(np.abs(moved).max()),
         f"largest_acceleration_{length}_s2": float(np.abs(signal).max()),
-        "dominant_hz": float("nan") if is_silent(record)[column] else dominant_frequency(vibration.time, signal),
+        "dominant_hz": float("nan") if silent else dominant_frequency(vibration.time, signal),
+        "dominant_displacement_hz": float("nan") if silent else dominant_frequency(vibration.time, moved),
     }
 
 

@@ -5,8 +5,8 @@ import numpy as np
 from cdpr_struct.crosscheck.verification import Verification
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import convergence, determinant, interactive, limits, mode_errors, robot_drawing
-from cdpr_struct.reports.figures.style import svg
-from cdpr_struct.reports.html import Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.html import Page, Plate, page_files
 from cdpr_struct.reports.verification_notes import verification_notes
 from cdpr_struct.reports.verification_result import eigenfrequency_columns
 from cdpr_struct.reports.verification_tables import verification_tables
@@ -16,14 +16,12 @@ from cdpr_struct.reports.verification_text import verdict
 def verification_files(trial: Verification) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name; equal results give equal bytes."""
     plates = verification_plates(trial)
-    page = render_page(verification_page(trial, plates), interactive.plotly_packed())
     return {
         "eigenfrequencies.csv": csv_text(eigenfrequency_columns(trial)),
         "convergence.csv": _convergence_csv(trial),
         "cables.csv": _cables_csv(trial),
         "determinant_scan.csv": _determinant_csv(trial),
-        **{f"{plate.name}.svg": plate.svg for plate in plates},
-        "report.html": page,
+        **page_files(verification_page(trial, plates)),
     }
 
 
@@ -31,6 +29,7 @@ def verification_page(trial: Verification, plates: list[Plate]) -> Page:
     """The report page around the given figures."""
     robot, (x, y, z) = trial.point.entered, trial.point.position
     return Page(
+        robot=robot.name,
         title=f"{robot.name}: the closed-form dynamic stiffness on trial",
         subtitle=(
             f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg at ({x:g}, {y:g}, {z:g}) m, "
@@ -51,32 +50,32 @@ def verification_plates(trial: Verification) -> list[Plate]:
 
 
 def _determinant(trial: Verification) -> Plate:
-    picture = svg("determinant", determinant.SIZE, lambda f: determinant.draw_determinant(f, trial))
+    picture = Drawing("determinant", determinant.SIZE, lambda f: determinant.draw_determinant(f, trial))
     caption, plot = determinant.determinant_caption(trial), interactive.determinant_plot(trial)
     return Plate("determinant", "What a determinant scan sees", picture, caption, plot)
 
 
 def _convergence(trial: Verification) -> Plate:
-    picture = svg("convergence", convergence.SIZE, lambda f: convergence.draw_convergence(f, trial))
+    picture = Drawing("convergence", convergence.SIZE, lambda f: convergence.draw_convergence(f, trial))
     caption = convergence.convergence_caption(trial)
     return Plate("convergence", "Is the mesh fine enough to judge?", picture, caption)
 
 
 def _mode_errors(trial: Verification) -> Plate:
-    picture = svg("mode_errors", mode_errors.SIZE, lambda f: mode_errors.draw_mode_errors(f, trial))
+    picture = Drawing("mode_errors", mode_errors.SIZE, lambda f: mode_errors.draw_mode_errors(f, trial))
     caption = mode_errors.mode_errors_caption(trial)
     return Plate("mode_errors", "DSM against FEM, mode by mode", picture, caption)
 
 
 def _limits(trial: Verification) -> Plate:
-    picture = svg("limits", limits.SIZE, lambda f: limits.draw_limits(f, trial.limits))
+    picture = Drawing("limits", limits.SIZE, lambda f: limits.draw_limits(f, trial.limits))
     caption = limits.limits_caption(trial.limits)
     return Plate("limits", "Cables against the printed validity limits", picture, caption)
 
 
 def _robot(trial: Verification) -> Plate:
     point = trial.point
-    picture = svg("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point))
+    picture = Drawing("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point))
     caption, plot = robot_drawing.robot_caption(point), interactive.robot_plot(point)
     return Plate("robot", "The robot at rest", picture, caption, plot)
 

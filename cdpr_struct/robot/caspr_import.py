@@ -242,6 +242,8 @@ def _toml(
         lines += ["", f"[[cables]]  # {i}", f"platform_anchor = {_list(cable.platform)}"]
         lines += [f"frame_anchor = {_list(cable.frame)}", f"axial_stiffness = {ea!r}"]
         lines += [] if alike else cable.limit_lines()
+        if cable.pulley is not None:
+            lines.append(f"pulley = {{ radius = {cable.pulley.radius!r}, axis = {_list(cable.pulley.axis)} }}")
     return "\n".join(lines) + "\n"
 
 

@@ -80,7 +80,16 @@ def load_robot(name_or_path: str | Path) -> Robot:
     ------
     InputError : no such robot, not TOML, or a field that is missing, unknown or out of range.
     """
-    text, source = _read(str(name_or_path))
+    return robot_of_text(*_read(str(name_or_path)))
+
+
+def robot_of_text(text: str, source: str) -> Robot:
+    """Robot from the text of a robot file; complaints call the file `source`.
+
+    Raises
+    ------
+    InputError : as `load_robot`.
+    """
     try:
         table = RobotTable.model_validate(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:

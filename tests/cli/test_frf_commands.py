@@ -186,6 +186,16 @@ def test_transient_finds_the_dominant_frequency(capsys):
     assert r["energy_share"] > 0.999
 
 
+def test_displacement_and_acceleration_may_have_different_dominant_frequencies(capsys):
+    """Of two tones the acceleration shows the faster one, which is the smaller motion here."""
+    stop = ["--initial-velocity", "0.1,0,0.1", "--duration", "8"]
+    r = result_of(["transient", "thesis-3-1", "--pose", "0.5,-1,0.8", *stop], capsys)
+    along_x, along_z = (next(port for port in r["ports"] if port["name"] == name) for name in "xz")
+    assert r["dominant_hz"] == pytest.approx(along_x["dominant_hz"], rel=1e-2)
+    assert r["dominant_displacement_hz"] == pytest.approx(along_z["dominant_displacement_hz"], rel=1e-2)
+    assert r["dominant_hz"] > 2.0 * r["dominant_displacement_hz"]
+
+
 def test_transient_file_feeds_the_spectrogram(tmp_path, capsys):
     assert run([*STOP, "--out", str(tmp_path)]) == 0
     rows = list(csv.DictReader((tmp_path / "transient.csv").read_text().splitlines()))

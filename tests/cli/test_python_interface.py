@@ -13,7 +13,14 @@ from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.plain_json import json_text
 from tests.cli.conftest import EXAMPLES, ROOT, words_of
 
-NOT_IN_PYTHON = {"derive", "import-caspr"}  # they write files of their own kind
+NOT_IN_PYTHON = {
+    "derive",
+    "import-caspr",
+    "new-robot",
+    "new-campaign",
+    "export",
+    "rerun",
+}  # they write files of their own kind
 LONG = ("diagnose", "plan")
 MAIN_TABLE = {
     "robots": "robots.csv",
@@ -74,7 +81,7 @@ def line_of(monkeypatch):
 def test_python_answers_as_the_command_does(name, number, runs, line_of):
     files = runs(name, number)
     commanded = json.loads((files / "result.json").read_text("utf-8"))
-    commanded.pop("files")
+    del commanded["files"], commanded["run"]
     found = called(line_of[name, number])
     answered = found.to_json()
     if "command" in commanded:

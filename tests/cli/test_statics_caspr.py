@@ -203,6 +203,63 @@ def test_bad_options(extra, words, tmp_path, capsys):
     assert all(word in line for word in words), line
 
 
+ONE_SET = cables().partition('<cables default_cable_set="a">')[2].removesuffix("</cables>")
+SEVERAL = "<cables>{}{}</cables>".format(
+    ONE_SET.replace('id="a"', 'id="short"'), ONE_SET.replace('id="a"', 'id="long"').replace("-4 -3 5", "-9 -3 5")
+)
+PULLEY = (
+    "<base_rotating_pulley><fixed_location>-4 -3 5</fixed_location><pulley_radius>0.05</pulley_radius>"
+    "<cable_entry_vector>0 0 2</cable_entry_vector></base_rotating_pulley>"
+)
+
+
+def test_of_several_cable_sets_one_is_chosen_by_name(tmp_path, capsys):
+    for name, x in (("short", -4.0), ("long", -9.0)):
+        result, robot = convert(tmp_path, capsys, cable_text=SEVERAL, extra=["--cable-set", name, "--overwrite"])
+        assert robot.frame_anchors[0, 0] == x
+        assert f"cable set '{name}' of short, long" in " ".join(result["warnings"])
+        (tmp_path / "robot.toml").unlink()
+
+
+def test_without_a_default_several_cable_sets_are_listed(tmp_path, capsys):
+    line, _ = convert(tmp_path, capsys, cable_text=SEVERAL)
+    assert "--cable-set: got 'nothing'; a cable set of the file: short, long" in line
+    line, _ = convert(tmp_path, capsys, cable_text=SEVERAL.replace('id="long"', 'id="short"'))
+    assert "a name of its own" in line
+
+
+def test_points_on_the_frame_are_in_the_world_whatever_counts_on_the_platform(tmp_path, capsys):
+    """CASPR's link 0 has neither joint nor centre of mass of its own."""
+    for reference in ("joint", "com"):
+        _, robot = convert(tmp_path, capsys, cable_text=cables(reference=reference), extra=["--overwrite"])
+        np.testing.assert_array_equal(robot.frame_anchors[1], [4.0, -3.0, 5.0])
+        (tmp_path / "robot.toml").unlink()
+
+
+def test_a_pulley_at_the_frame_is_one(tmp_path, capsys):
+    plain = "<attachment><link>0</link><location>-4 -3 5</location></attachment>"
+    _, robot = convert(tmp_path, capsys, cable_text=cables().replace(plain, PULLEY))
+    assert robot.pulleys[0].radius == 0.05
+    np.testing.assert_array_equal(robot.pulleys[0].axis, [0.0, 0.0, 1.0])
+    np.testing.assert_array_equal(robot.frame_anchors[0], [-4.0, -3.0, 5.0])
+    assert robot.pulleys[1:] == (None, None, None)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("0.05", "0", ["cable 1.pulley_radius", "above zero"]),
+        ("0 0 2", "0 0 0", ["cable_entry_vector"]),
+        ("fixed_location", "somewhere", ["fixed_location", "required"]),
+        ("base_rotating_pulley", "screw_base_rotating_pulley", ["screw_base_rotating_pulley", "plain attachment"]),
+    ],
+)
+def test_bad_pulleys(old, new, words, tmp_path, capsys):
+    plain = "<attachment><link>0</link><location>-4 -3 5</location></attachment>"
+    line, _ = convert(tmp_path, capsys, cable_text=cables().replace(plain, PULLEY.replace(old, new)))
+    assert all(word in line for word in words), line
+
+
 def test_a_name_with_quotes_cannot_break_the_file(tmp_path, capsys):
     _, robot = convert(tmp_path, capsys, BODIES.replace('name="box"', 'name="a&quot;&#10;mass = 1 \\ b"'))
     assert robot.platform.mass == 12.5

@@ -71,7 +71,7 @@ def test_forward_and_inverse_write_whole_reports(tmp_path):
     ):
         out = tmp_path / arguments[0]
         assert run([*arguments, "--out", str(out)]) == 0
-        assert {p.name for p in out.iterdir()} == {"result.json", "cables.csv", "robot.svg", "report.html"}
+        assert {p.name for p in out.iterdir()} == {"result.json", "cables.csv", "robot.svg", "robot.pdf", "report.html"}
         assert "nan" not in (out / "cables.csv").read_text()
 
 
@@ -132,7 +132,8 @@ def test_pose_error_writes_every_file(tmp_path):
     assert run(arguments) == 0
     names = {path.name for path in tmp_path.iterdir()}
     tables = {"result.json", "pose_error.csv", "sufficient_load.csv"}
-    assert names == tables | {"pose_error.svg", "sufficient_load.svg", "report.html"}
+    figures = {f"{name}.{form}" for name in ("pose_error", "sufficient_load") for form in ("svg", "pdf")}
+    assert names == tables | figures | {"report.html"}
 
 
 @pytest.mark.parametrize("name", [*quantities.QUANTITIES, "mode-1"])
@@ -141,7 +142,7 @@ def test_every_quantity_can_be_mapped(name, tmp_path):
     assert run(["map", "thesis-3-1", "--grid=-2:2:3,-2:2:3,0.5", "--quantity", name, "--out", str(out)]) == 0
     result = json.loads((out / "result.json").read_text())
     assert result["smallest"]["value"] <= result["mean"] <= result["largest"]["value"]
-    assert {p.name for p in out.iterdir()} == {"result.json", "map.csv", "map.svg", "report.html"}
+    assert {p.name for p in out.iterdir()} == {"result.json", "map.csv", "map.svg", "map.pdf", "report.html"}
 
 
 def test_smallest_stiffness_is_the_softest_direction(capsys):

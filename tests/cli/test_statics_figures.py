@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from cdpr_struct.reports.figures.frame_plan import FramePlan
 from cdpr_struct.reports.figures.pose_error import draw_pose_error, pose_error_caption, pose_error_size
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.figures.workspace_map import OTHER, UNHELD, Layer, draw_map
@@ -52,7 +53,8 @@ def test_equal_results_give_equal_bytes():
 @pytest.mark.parametrize("signed", [False, True])
 def test_any_values_can_be_drawn(values, signed):
     layer = Layer("quantity", "N", values, np.zeros(20, bool), signed)
-    assert "</svg>" in svg("m", (6.0, 4.0), lambda f: draw_map(f, grid(), layer))
+    plan = FramePlan.of(load_robot("thesis-3-1"), grid())
+    assert "</svg>" in svg("m", (6.0, 4.0), lambda f: draw_map(f, grid(), layer, plan))
 
 
 @pytest.mark.parametrize(

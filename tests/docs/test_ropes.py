@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from cdpr_struct.robot.ropes import ROPES as KINDS
+
 PAGE = (Path(__file__).parents[2] / "docs" / "ropes.md").read_text("utf-8")
 
 
@@ -38,3 +40,13 @@ def test_computed_values_follow_from_the_factors(rope):
         stiffness, mass = map(float, cell.split("; "))
         assert stiffness == pytest.approx(section * modulus, rel=5e-3)  # printed with three digits
         assert mass == pytest.approx(section * 1e-6 * density * lay, rel=5e-3)
+
+
+def test_new_robots_have_the_ropes_of_the_page():
+    assert [kind.name for kind in KINDS.values()] == ROPES
+    for kind in KINDS.values():
+        fill, lay, density, modulus = map(float, FACTORS[kind.name][:4])
+        assert (kind.fill, kind.lay, kind.density, kind.modulus) == (fill, lay, density, 1e9 * modulus)
+        stiffness, mass = map(float, COMPUTED[kind.name][COMPUTED[HEAD].index("4 mm")].split("; "))
+        assert kind.axial_stiffness(0.004) == pytest.approx(1e3 * stiffness, rel=5e-3)
+        assert kind.linear_density(0.004) == pytest.approx(mass, rel=5e-3)

@@ -15,8 +15,14 @@ ROOT = Path(__file__).parents[2]
 PAGE, SOURCE = ROOT / "docs" / "python.md", ROOT / "cdpr_struct" / "__init__.py"
 _BEGIN, _END = "<!-- generated: python -m tests.interface.reference -->\n", "<!-- end of what is generated -->\n"
 _GROUPS = {
-    "Robots": ("robot.", "interface.robots"),
-    "Measured data": ("measurement.", "interface.diagnose", "interface.plan", "interface.campaigns"),
+    "Robots": ("robot.", "interface.robots", "interface.new_robot", "interface.export"),
+    "Measured data": (
+        "measurement.",
+        "interface.diagnose",
+        "interface.plan",
+        "interface.campaigns",
+        "interface.new_campaign",
+    ),
     "Errors": ("errors", "crosscheck."),
     "Values": ("workspace.", "statics.", "interface.result"),
 }

@@ -90,6 +90,12 @@ def read_page():
 
 
 @pytest.fixture(scope="session")
+def inlined():
+    """An SVG file as it stands on the page: without prologue and title."""
+    return lambda svg: re.sub(r"\n <title>[^<]*</title>", "", svg[svg.index("<svg") :], count=1)
+
+
+@pytest.fixture(scope="session")
 def same():
     """Equality of arrays in which nan equals nan."""
     return lambda a, b: np.array_equal(np.asarray(a, float), np.asarray(b, float), equal_nan=True)

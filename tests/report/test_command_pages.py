@@ -126,18 +126,18 @@ TABLES = {
 
 @pytest.mark.parametrize("command", FIGURES)
 def test_files_are_those_promised(command, made):
-    assert set(made[command]) == {"report.html"} | {f"{name}.svg" for name in FIGURES[command]} | TABLES[command]
+    figures = {f"{name}.{form}" for name in FIGURES[command] for form in ("svg", "pdf")}
+    assert set(made[command]) == {"report.html"} | figures | TABLES[command]
 
 
 @pytest.mark.parametrize("command", FIGURES)
-def test_page_is_whole_and_loads_nothing(command, made, read_page):
+def test_page_is_whole_and_loads_nothing(command, made, read_page, inlined):
     files = made[command]
     page = read_page(files["report.html"])
     assert page.foreign == []
     assert page.values("figure", "id") == FIGURES[command]
     for name in FIGURES[command]:
-        picture = files[f"{name}.svg"]
-        assert picture[picture.index("<svg") :] in files["report.html"]
+        assert inlined(files[f"{name}.svg"]) in files["report.html"]
     captions = re.findall(r"<figcaption>(.*?)</figcaption>", files["report.html"], re.DOTALL)
     assert [len(caption) > 100 for caption in captions] == [True] * len(FIGURES[command])
     ids = [value for _, name, value in page.attributes if name == "id"]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from cdpr_struct.reports.figures.frame_plan import FramePlan
 from cdpr_struct.reports.figures.pose_error import draw_pose_error, pose_error_caption, pose_error_size
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.reports.figures.workspace_map import OTHER, UNHELD, Layer
@@ -35,7 +36,9 @@ def drawn(over: Grid, values: np.ndarray, marked=()) -> str:
     flags = np.zeros(over.size, bool)
     flags[list(marked)] = True
     layer = Layer("quantity", "N", values, flags)
-    return svg("m", slices_size(over), lambda f: draw_slices(f, over, layer))
+    return svg(
+        "m", slices_size(over), lambda f: draw_slices(f, over, layer, FramePlan.of(load_robot("thesis-3-1"), over))
+    )
 
 
 @pytest.mark.parametrize(
@@ -116,7 +119,7 @@ def test_pose_error_over_three_axes_has_a_row_a_slice():
     assert UNHELD in picture
     assert "4 values of z, z = 0 to 0.75 m; all on one colour scale in each column" in pose_error_caption(errors)
     files = pose_error_files(load_robot("thesis-3-1"), errors, None)
-    assert set(files) == {"pose_error.csv", "pose_error.svg", "report.html"}
+    assert set(files) == {"pose_error.csv", "pose_error.svg", "pose_error.pdf", "report.html"}
 
 
 def test_page_of_a_single_pose_says_its_value_once(read_page):

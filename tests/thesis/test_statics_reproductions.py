@@ -91,7 +91,8 @@ def test_reproduce_writes_figures_tables_and_page(tmp_path):
     assert run(["reproduce", "fig-2.4", "table-3.2", "fig-4.4", "--out", str(tmp_path)]) == 0
     names = {path.name for path in tmp_path.iterdir()}
     tables = {"fig-2.4.csv", "fig-2.4-data.csv", "table-3.2.csv", "fig-4.4.csv", "fig-4.4-data.csv"}
-    assert names == tables | {"result.json", "report.html", "fig_2_4.svg", "fig_4_4.svg"}
+    figures = {f"{name}.{form}" for name in ("fig_2_4", "fig_4_4") for form in ("svg", "pdf")}
+    assert names == tables | figures | {"result.json", "report.html"}
     page = (tmp_path / "report.html").read_text()
     assert "http://" not in page.replace("http://www.w3.org", "")
     assert "4.75123" in page

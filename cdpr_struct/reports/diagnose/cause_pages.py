@@ -6,6 +6,9 @@ from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.cause import Cause, Parameter
 from cdpr_struct.hypotheses.causes.library import LIBRARY
 from cdpr_struct.hypotheses.hypothesis import PRICE
+from cdpr_struct.reports.diagnose.cause_descriptions import DESCRIPTIONS
+from cdpr_struct.reports.diagnose.cause_rivals import confused_with
+from cdpr_struct.robot.parameters import PARAMETERS
 
 BLOCKS = {
     "EQ": "wrench balance", "CO": "cable lengths", "NS": "internal force", "CF": "cable frequencies",
@@ -19,19 +22,58 @@ _CARRIED = {"": "of the robot as a whole", "state": "of one state"} | dict.fromk
 """Whose the parameters of a cause are, by its carrier."""
 
 
+NO_PICTURE = ("coulomb_damping",)
+"""Causes whose effect depends on the amplitude: no one picture shows it."""
+
+
 def cause_page(cause: Cause) -> str:
     """One cause as Markdown."""
     kind = _CARRIED[cause.carrier].format(cause.carrier)
     kind += "; " + ", ".join(label for label, _, _ in cause.shapes) if cause.tuned else ""
     rows = [f"| {p.name} | {'ratio' if p.ratio else p.unit} | {_prior(p)} |" for p in cause.parameters]
-    lines = [
-        f"# {cause.name}", "", f"{cause.title[:1].upper()}{cause.title[1:]}. Parameters are {kind}.", "",
-        "| parameter | unit | prior, one sigma (of the logarithm for ratios) |", "|---|---|---|", *rows, "",
-        f"Seen in: {', '.join(BLOCKS[b] for b in cause.seen_in)}.", "",
-        f"Separated from its rivals by: {cause.separated_by}.", "",
+    table = ["| parameter | unit | prior, one sigma (of the logarithm for ratios) |", "|---|---|---|", *rows]
+    sign = cause.sign or DESCRIPTIONS[cause.name].sign
+    seen = ", ".join(BLOCKS[b] for b in cause.seen_in)
+    title = f"{cause.title[:1].upper()}{cause.title[1:]}. Parameters are {kind}."
+    return "\n".join(_page(cause.name, title, table, sign, seen, cause.separated_by, _extended(cause)))
+
+
+def _page(
+    name: str, title: str, table: list[str], sign: str, seen: str, separated_by: str, extended: list[str]
+) -> list[str]:
+    """All lines of a page."""
+    said = DESCRIPTIONS[name]
+    picture = (
+        [] if name in NO_PICTURE else [f"![{name} in every kind of reading](pictures/{name}.svg)", "", _CAPTION, ""]
+    )
+    others = ", ".join(f"[{other}]({other}.md)" for other in confused_with(name))
+    return [
+        f"# {name}", "", title, "", *table, "",
+        "## Law", "", f"{said.law[:1].upper()}{said.law[1:]}.", "", *extended,
+        *([f"Sign: {sign}.", ""] if sign else []),
+        *([f"Reference: {said.reference}.", ""] if said.reference else []),
+        "## What it looks like", "", f"{said.looks}.", "", *picture, f"Seen in: {seen}.", "",
+        "## Confused with", "",
+        f"Campaigns often do not tell it from {others}." if others else _NO_RIVAL,
+        "", "## What to measure next", "", f"{separated_by[:1].upper()}{separated_by[1:]}.", "",
         "Generated from the library: `python -m cdpr_struct.reports.diagnose.cause_pages`.", "",
     ]  # fmt: skip
-    return "\n".join(lines)
+
+
+_NO_RIVAL = "No cause of the library is often taken for it."
+_CAPTION = (
+    "Bars: real less simulated, winches locked at the same encoder lengths. How the pictures are made, and all others: "
+    "[gallery](gallery.md)."
+)
+
+
+def _extended(cause: Cause) -> list[str]:
+    """What of the extended robot holds it."""
+    if cause.outside or cause.extension not in PARAMETERS:
+        return []
+    rule = PARAMETERS[cause.extension]
+    place = rule.place if rule.place != "extensions" else f"extensions.{cause.extension}"
+    return [f"In the [extended robot](../files.md#extensions): `{place}` [{rule.unit}].", ""]
 
 
 def _prior(parameter: Parameter) -> str:
@@ -92,12 +134,8 @@ BESIDE = {
 def beside_page(name: str) -> str:
     """The page of a cause that is no change of the robot."""
     title, parameters, seen, separated = BESIDE[name]
-    lines = [
-        f"# {name}", "", f"{title}.", "", f"Parameters: {parameters}.", "", f"Seen in: {seen}.", "",
-        f"Separated from its rivals by: {separated}.", "",
-        "Generated from the library: `python -m cdpr_struct.reports.diagnose.cause_pages`.", "",
-    ]  # fmt: skip
-    return "\n".join(lines)
+    table = [f"Parameters: {parameters}."]
+    return "\n".join(_page(name, f"{title}.", table, DESCRIPTIONS[name].sign, seen, separated, []))
 
 
 def index_page() -> str:
@@ -108,7 +146,8 @@ def index_page() -> str:
     lines = [
         "# Library of causes", "",
         "What [`diagnose`](../measuring.md) tests, and [how](../diagnosis.md). A cause that is missing here can be "
-        "[added](../own_cause.md).", "", "| cause | meaning |", "|---|---|", *rows, "",
+        "[added](../own_cause.md). All of them in pictures: [gallery](gallery.md).", "",
+        "| cause | meaning |", "|---|---|", *rows, "",
         "Generated from the library: `python -m cdpr_struct.reports.diagnose.cause_pages`.", "",
     ]  # fmt: skip
     return "\n".join(lines)

@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from cdpr_struct.reports.figures import many_inputs as figures
-from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.html import Plate
-from cdpr_struct.reports.many_inputs import rows_csv, rows_page, rows_text, unanswered
+from cdpr_struct.reports.many_inputs import rows_csv, rows_files, rows_text, unanswered
 
 Row = Mapping[str, Any]
 STATUSES = ("named", "class", "unknown", "adequate")
@@ -47,7 +47,7 @@ def campaigns_files(rows: Sequence[Row]) -> dict[str, str | bytes]:
     if told:
         names, values = [row["folder"] for row in told], [row["probability"] for row in told]
         groups = [row["status"] for row in told]
-        picture = svg(
+        picture = Drawing(
             "verdicts",
             figures.size(len(told)),
             lambda f: figures.draw_values(f, names, values, groups, STATUSES, "probability of the verdict [-]"),
@@ -61,8 +61,7 @@ def campaigns_files(rows: Sequence[Row]) -> dict[str, str | bytes]:
     facts = [(str(counts[status]), status) for status in STATUSES]
     return {
         "campaigns.csv": rows_csv(rows),
-        **{f"{plate.name}.svg": plate.svg for plate in plates},
-        "report.html": rows_page(
+        **rows_files(
             "Diagnoses of many campaigns", [_summary(rows)], facts, plates, _ON_THE_PAGE, rows, frozenset({0, 1, 2, 6})
         ),
     }

@@ -10,8 +10,9 @@ from cdpr_struct.reports.diagnose.residual_table import residual_columns
 from cdpr_struct.reports.diagnose.signals import signal_plates, signal_table
 from cdpr_struct.reports.diagnose.text import diagnosis_sentences
 from cdpr_struct.reports.figures import diagnose as figures
-from cdpr_struct.reports.figures.style import svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.interactive_residuals import residuals_plot
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.robot.robot_writing import robot_toml
 
 _METHOD = (
@@ -29,8 +30,7 @@ def result_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, str |
     shown = plates(found, result)
     files: dict[str, str | bytes] = {
         "residuals.csv": csv_text(residual_columns(found)),
-        **{f"{plate.name}.svg": plate.svg for plate in shown},
-        "report.html": render_page(page(found, result, shown)),
+        **page_files(page(found, result, shown)),
     }
     if found.extended is not None:
         comments = [*robot_comments(result), *_without_place(found)]
@@ -44,19 +44,20 @@ def plates(found: Diagnosis, result: Mapping[str, Any]) -> list[Plate]:
         Plate(
             "residuals",
             "What the simulation gets wrong",
-            svg("residuals", figures.RESIDUAL_SIZE, lambda f: figures.draw_residuals(f, found)),
+            Drawing("residuals", figures.RESIDUAL_SIZE, lambda f: figures.draw_residuals(f, found)),
             "Each point is one residual, simulated minus measured at the measured state, divided by its standard "
             "deviation under noise and tolerances. Look for points outside the shaded band of +-2 sigma, and for "
             "several points inside it with the same trend; a single point inside it means nothing. Faint lines "
             "separate the states, named above where there is room. Values of all points: residuals.csv.",
+            residuals_plot(residual_columns(found), figures.ROW_NAMES),
         )
     ]
     if result["candidates"]:
-        drawn = svg("evidence", figures.EVIDENCE_SIZE, lambda f: figures.draw_evidence(f, result))
+        drawn = Drawing("evidence", figures.EVIDENCE_SIZE, lambda f: figures.draw_evidence(f, result))
         said = "Look for the longest bar, and for those within 3 nats of it (a factor of 20 in probability): the data "
         said += "hardly distinguish these causes. Nats: log Bayes factor against the nominal model, prior included."
         shown.append(Plate("evidence", "Which cause explains it", drawn, said))
-    drawn = svg("probabilities", figures.PROBABILITY_SIZE, lambda f: figures.draw_probabilities(f, result))
+    drawn = Drawing("probabilities", figures.PROBABILITY_SIZE, lambda f: figures.draw_probabilities(f, result))
     said = (
         "Posterior probabilities of the likeliest sets of causes; blue: those named in the verdict. Look whether one "
     )
@@ -96,6 +97,7 @@ def page(found: Diagnosis, result: Mapping[str, Any], shown: list[Plate]) -> Pag
     states = len(found.campaign.states.names)
     counted = "1 state" if states == 1 else f"{states} states"
     return Page(
+        robot=found.campaign.robot_name,
         title=f"{found.campaign.robot_name}: what the simulation gets wrong, and why",
         subtitle=f"model {found.campaign.model}, {counted}, {found.campaign.source}",
         verdict=diagnosis_sentences(result),

@@ -10,7 +10,7 @@ from cdpr_struct.diagnosis.damping_law import SCATTER, UNITS, DampingFinding, La
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.reports.diagnose.words import listed, plain
 from cdpr_struct.reports.figures import signals as figures
-from cdpr_struct.reports.figures.style import svg
+from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.html import HtmlTable, Plate
 
 LAWS = ("viscous_damping", "hysteretic_damping", "coulomb_damping")
@@ -112,7 +112,7 @@ def signal_plates(found: Damped | None, entered: tuple[Identified, ...]) -> list
             Plate(
                 "damping",
                 "Damping ratio over amplitude",
-                svg("damping", figures.DAMPING_SIZE, lambda f: figures.draw_damping(f, found.finding.rows)),
+                Drawing("damping", figures.DAMPING_SIZE, lambda f: figures.draw_damping(f, found.finding.rows)),
                 "One line per mode and record, one point per window of the decay, or one for the whole record where "
                 "that is more accurate. Bars: two sigma; dashes: the entered law. Level lines indicate viscous or "
                 "structural damping, lines that rise towards small amplitudes indicate friction.",
@@ -125,7 +125,7 @@ def _plate(name: str, item: Identified) -> Plate:
     return Plate(
         name,
         f"Peaks in {item.record.case} ({plain(item.record.kind)})",
-        svg(name, figures.SPECTRUM_SIZE, lambda f: figures.draw_spectrum(f, item)),
+        Drawing(name, figures.SPECTRUM_SIZE, lambda f: figures.draw_spectrum(f, item)),
         "Measured spectrum. Blue dots: peaks used as robot frequencies. Orange rings: peaks not used, because they are "
         "weak, have no matching mode, or are combination tones of a large motion. Triangles: peaks without a fitted "
         "mode, for example where several lie closer than their widths. Vertical lines: modes of the model, black where "

@@ -3,6 +3,8 @@
 | file                | shows                                                                  |
 |---------------------|------------------------------------------------------------------------|
 | style.py            | the common look, and deterministic SVG with text as text               |
+| drawing.py          | one figure in every form: SVG and PDF for papers, SVG for narrow screens |
+| narrow.py           | panels, legends and letters on narrow screens                          |
 | mode_stacks.py      | which frequencies sit so close that a plot must stack them             |
 | determinant.py      | what the thesis's scan sees of the eigenfrequencies, and what it misses |
 | convergence.py      | how fine the FEM mesh must be to judge the model                       |
@@ -18,5 +20,6 @@
 | workspace_slices.py | the same over three axes, as slices                                    |
 | pose_error.py       | static pose error over the workspace, and over the load                |
 | shown.py            | a figure on the screen, in a notebook or a window of its own           |
-| interactive.py      | the same data as plotly figures, and plotly.js itself                  |
+| interactive.py      | the same data as plotly figures                                        |
+| plotly_source.py    | plotly.js itself, as a page carries it                                 |
 """

@@ -16,6 +16,7 @@ from cdpr_struct.reports.figures.style import BLUE, GREY, LIGHT, ORANGE, plain_n
 
 RESIDUAL_SIZE, EVIDENCE_SIZE, PROBABILITY_SIZE = (9.6, 4.2), (9.6, 3.2), (9.6, 2.6)
 _BARS, _MOST_NAMES, _LETTERS, _ANSWERS = 10, 30, 18, 6
+_FEWEST = 4  # places for bars: a single bar does not fill the figure
 _NARROW = 0.3  # of the width: two blocks together on which their names would touch
 _TENS = tuple(10.0**n for n in range(1, 16))
 _TICKS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, *_TENS[1:])
@@ -54,6 +55,7 @@ def draw_evidence(figure: Figure, result: Mapping[str, Any]) -> None:
     bars = axes.barh([_plain(h.name) for h in rows], [h.gain for h in rows], color=BLUE)
     axes.bar_label(bars, [f" {shown(h.gain)}" for h in rows], fontsize=8.5, padding=3)
     axes.axvline(0.0, color=GREY, linewidth=0.9)
+    axes.set_ylim(min(-0.5, len(rows) - _FEWEST - 0.5), len(rows) - 0.5)
     axes.set_xlabel("log evidence against the nominal model, which stands at 0 [nats]")
     quiet(axes, "x")
 

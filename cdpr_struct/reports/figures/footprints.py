@@ -5,8 +5,8 @@ from itertools import cycle
 
 import numpy as np
 from matplotlib.figure import Figure
-from scipy.spatial import ConvexHull
 
+from cdpr_struct.reports.figures.frame_plan import outline
 from cdpr_struct.reports.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION
 from cdpr_struct.robot.robot import Robot
 
@@ -23,17 +23,9 @@ def draw_footprints(figure: Figure, robots: Sequence[Robot]) -> None:
     for colour, group in zip(cycle(_COLOURS), alike.values(), strict=False):
         anchors = group[0].frame_anchors[:, :2]
         label = ", ".join(robot.name for robot in group)
-        axes.plot(*anchors[_outline(anchors)].T, color=colour, linewidth=1.3, label=label)
+        axes.plot(*outline(anchors).T, color=colour, linewidth=1.3, label=label)
         axes.plot(*anchors.T, "o", color=colour, markersize=4)
     axes.set_aspect("equal")
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
-
-
-def _outline(points: np.ndarray) -> np.ndarray:
-    """Numbers of the points (n, 2) around the others, the first again at the end; all of them if they lie in a row."""
-    if len(points) < 3 or np.linalg.matrix_rank(points - points.mean(axis=0), tol=1e-9) < 2:
-        return np.arange(len(points))
-    around = ConvexHull(points).vertices
-    return np.append(around, around[0])

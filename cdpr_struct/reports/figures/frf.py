@@ -15,11 +15,12 @@ from cdpr_struct.reports.figures.style import (
     SKY,
     VERMILLION,
     kind_group,
+    plain_ticks,
     quiet,
 )
 
 SIZE = (9.6, 6.2)
-_COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, SKY, BLACK)
+COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, SKY, BLACK)
 _MOST_POINTS = 4000
 
 
@@ -29,20 +30,21 @@ def draw_frf(figure: Figure, sweep: ResponseSweep) -> None:
     found = sweep.response
     units = [response_unit(port, found.excite, found.quantity) for port in found.respond]
     for column, (port, unit) in enumerate(zip(found.respond, units, strict=True)):
-        colour = _COLOURS[column % len(_COLOURS)]
+        colour = COLOURS[column % len(COLOURS)]
         if sweep.silent[column]:
             upper.plot([], [], color=colour, linewidth=1.1, label=f"{port.name}: no answer")
             continue
         values = found.response[:, column]
         size = np.abs(values)
-        hertz, thin = _thinned(found.hertz, size)
+        hertz, thin = thinned(found.hertz, size)
         name = port.name if len(set(units)) == 1 else f"{port.name} [{unit}]"
         upper.plot(hertz, np.where(size[thin] > 0.0, size[thin], np.nan), color=colour, linewidth=1.1, label=name)
         lower.plot(hertz, np.degrees(np.angle(values[thin])), color=colour, linewidth=0.8)
     upper.set_yscale("log")
+    plain_ticks(upper.yaxis)
     shared = units[0] if len(set(units)) == 1 else "unit in the legend"
     upper.set_ylabel(f"{found.quantity} under {found.excite.name} [{shared}]")
-    upper.legend(loc="upper right", ncols=3)
+    figure.legend(*upper.get_legend_handles_labels(), loc="outside upper right", ncols=3)
     draw_mode_ticks(ticks, sweep.modes)
     lower.set_ylabel("phase [deg]")
     lower.set_ylim(-190.0, 190.0)
@@ -53,7 +55,7 @@ def draw_frf(figure: Figure, sweep: ResponseSweep) -> None:
     quiet(lower)
 
 
-def _thinned(hertz: np.ndarray, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def thinned(hertz: np.ndarray, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Frequencies and their numbers: of each bundle of a long sweep the largest and the smallest response."""
     bundle = -(-2 * len(hertz) // _MOST_POINTS)
     if bundle <= 2:

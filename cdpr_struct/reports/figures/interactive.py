@@ -1,13 +1,8 @@
-"""Plotly figures of the report page, as the plain data that plotly.js draws, and plotly.js itself.
+"""Plotly figures of the report page, as the plain data that plotly.js draws.
 
 Plain data rather than plotly's Python objects: importing and validating those takes longer than the report itself; the
 tests validate the data instead.
 """
-
-import base64
-import gzip
-from importlib import resources
-from typing import Any
 
 import numpy as np
 
@@ -15,19 +10,13 @@ from cdpr_struct.crosscheck.verification import Verification
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.reports.figures.determinant import DETERMINANT_LABEL, FREQUENCY_LABEL, zoom_window
 from cdpr_struct.reports.figures.mode_stacks import stack_levels
+from cdpr_struct.reports.figures.plot_parts import Plot, plot_axis, plot_layout, plot_line
 from cdpr_struct.reports.figures.robot_drawing import TENSION_LABEL, tension_range
 from cdpr_struct.reports.figures.robot_geometry import RobotGeometry, robot_geometry
-from cdpr_struct.reports.figures.style import BAD, BLACK, BLUE, FONT_STACK, GOOD, GREY, LIGHT
+from cdpr_struct.reports.figures.style import BAD, BLACK, BLUE, GOOD, GREY, LIGHT
 
-Plot = dict[str, Any]
 _STACKS_ACROSS = 130
 _TENSION_SCALE = "Viridis"
-
-
-def plotly_packed() -> str:
-    """plotly.js, gzipped, in base64: a third of its size, and no markup of the page can clash with it."""
-    source = resources.files("plotly").joinpath("package_data", "plotly.min.js").read_bytes()
-    return base64.b64encode(gzip.compress(source, compresslevel=6, mtime=0)).decode("ascii")
 
 
 def determinant_plot(trial: Verification) -> Plot:
@@ -35,8 +24,8 @@ def determinant_plot(trial: Verification) -> Plot:
     scan = trial.scan
     depth = np.interp(scan.minima_hertz, scan.hertz, scan.log_dynamic)
     curves = [
-        _line(scan.hertz, scan.log_static, "static K", {"color": GREY, "width": 1.3, "dash": "dash"}),
-        _line(scan.hertz, scan.log_dynamic, "dynamic K (DSM, damped)", {"color": BLUE, "width": 1.8}),
+        plot_line(scan.hertz, scan.log_static, "static K", {"color": GREY, "width": 1.3, "dash": "dash"}),
+        plot_line(scan.hertz, scan.log_dynamic, "dynamic K (DSM, damped)", {"color": BLUE, "width": 1.8}),
         {
             "type": "scatter", "mode": "markers", "name": "minimum of the scan",
             "x": scan.minima_hertz.tolist(), "y": depth.tolist(), "marker": {"color": BLACK, "size": 7},
@@ -44,10 +33,10 @@ def determinant_plot(trial: Verification) -> Plot:
         },
     ]  # fmt: skip
     layout = {
-        **_layout(560),
-        "xaxis": {**_axis(FREQUENCY_LABEL), "anchor": "y2", "range": [0.0, float(scan.hertz[-1])]},
-        "yaxis": {**_axis(DETERMINANT_LABEL), "domain": [0.34, 1.0]},
-        "yaxis2": {**_axis("FEM modes [count]"), "domain": [0.0, 0.26], "rangemode": "tozero", "fixedrange": True},
+        **plot_layout(560),
+        "xaxis": {**plot_axis(FREQUENCY_LABEL), "anchor": "y2", "range": [0.0, float(scan.hertz[-1])]},
+        "yaxis": {**plot_axis(DETERMINANT_LABEL), "domain": [0.34, 1.0]},
+        "yaxis2": {**plot_axis("FEM modes [count]"), "domain": [0.0, 0.26], "rangemode": "tozero", "fixedrange": True},
         "shapes": [_shade(*zoom_window(trial))],
     }
     return {"data": curves + _mode_marks(trial), "layout": layout}
@@ -94,7 +83,7 @@ def robot_plot(point: OperatingPoint) -> Plot:
     scale = {"colorscale": _TENSION_SCALE, "reversescale": True, "cmin": low, "cmax": high}
     lines = [_cable_line(point, i, curve, scale) for i, curve in enumerate(geometry.curves)]
     anchors = _frame_anchors(geometry, point.cables.tension_at_platform, scale)
-    layout = {**_layout(580), "margin": {"l": 0, "r": 0, "t": 10, "b": 0}, "scene": _scene(geometry.box())}
+    layout = {**plot_layout(580), "margin": {"l": 0, "r": 0, "t": 10, "b": 0}, "scene": _scene(geometry.box())}
     return {"data": [*lines, anchors, *_platform(geometry)], "layout": layout}
 
 
@@ -127,7 +116,13 @@ def _frame_anchors(geometry: RobotGeometry, tension: np.ndarray, scale: Plot) ->
 def _scene(box: np.ndarray) -> Plot:
     size = box[1] - box[0]
     axes = {
-        f"{name}axis": {**_axis(f"{name} [m]"), "backgroundcolor": "white", "range": ends, "nticks": 6}
+        f"{name}axis": {
+            **plot_axis(f"{name} [m]"),
+            "backgroundcolor": "white",
+            "color": BLACK,
+            "range": ends,
+            "nticks": 6,
+        }
         for name, ends in zip("xyz", box.T.tolist(), strict=True)
     }
     return {
@@ -156,36 +151,6 @@ def _platform(geometry: RobotGeometry) -> list[Plot]:
     return [outline, faces]
 
 
-def _line(x: np.ndarray, y: np.ndarray, name: str, line: Plot) -> Plot:
-    values = [v if np.isfinite(v) else None for v in np.round(y, 5).tolist()]
-    return {
-        "type": "scatter", "mode": "lines", "name": name, "x": np.round(x, 9).tolist(), "y": values, "line": line,
-        "hovertemplate": "%{x:.2f} Hz: %{y:.2f}<extra>" + name + "</extra>",
-    }  # fmt: skip
-
-
 def _xyz(points: np.ndarray) -> Plot:
     x, y, z = points.T.tolist()
     return {"x": x, "y": y, "z": z}
-
-
-def _layout(height: int) -> Plot:
-    return {
-        "height": height,
-        "paper_bgcolor": "white",
-        "plot_bgcolor": "white",
-        "font": {"family": FONT_STACK, "size": 13, "color": BLACK},
-        "margin": {"l": 64, "r": 16, "t": 72, "b": 48},
-        "legend": {"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 0.0},
-        "hovermode": "closest",
-    }
-
-
-def _axis(title: str) -> Plot:
-    return {
-        "title": {"text": title, "font": {"size": 13}},
-        "gridcolor": LIGHT,
-        "zeroline": False,
-        "linecolor": GREY,
-        "ticks": "outside",
-    }

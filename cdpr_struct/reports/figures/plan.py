@@ -14,7 +14,7 @@ from cdpr_struct.reports.figures.style import BLACK, BLUE, LIGHT, quiet
 NAMED = 3.0  # nats: a factor of 20 in probability
 GAINS_SHOWN = 20
 _CELL = (0.8, 0.32)  # of the matrix, at most so wide and so high [inch]
-_MOST_WIDE = 6.0  # of all cells together [inch]
+_MOST_WIDE = 0.625  # of the figure: all cells together
 
 
 def confused_causes(result: Mapping[str, Any]) -> list[str]:
@@ -52,7 +52,7 @@ def draw_confusions(figure: Figure, result: Mapping[str, Any]) -> None:
         )  # fmt: skip
     _lattice(figure, names)
     height = _CELL[1] * len(names)
-    axes.set_box_aspect(height / min(_CELL[0] * len(names), _MOST_WIDE))
+    axes.set_box_aspect(height / min(_CELL[0] * len(names), _MOST_WIDE * float(figure.get_figwidth())))
     bar = figure.colorbar(image, ax=axes, shrink=min(1.0, 2.2 / height))
     bar.ax.set_title("[nats]", fontsize=8, fontweight="normal", loc="left")
     bar.outline.set_visible(False)

@@ -39,13 +39,18 @@ def pose_error_size(errors: PoseErrorMap) -> tuple[float, float]:
 
 def draw_pose_error(figure: Figure, errors: PoseErrorMap) -> None:
     """Error along z: global, from sag, from stretch."""
-    layers = {
-        part: Layer(title, "mm", errors.vertical(part), errors.more_stable, signed=True)
-        for part, title in _TITLES.items()
-    }
+    layers = error_layers(errors)
     draw = {1: _draw_curves, 2: _draw_maps, 3: _draw_slices}[len(errors.grid.free)]
     draw(figure, errors, layers)
     add_legend(figure, list(layers.values()))
+
+
+def error_layers(errors: PoseErrorMap) -> dict[str, Layer]:
+    """Error along z of each part."""
+    return {
+        part: Layer(title, "mm", errors.vertical(part), errors.more_stable, signed=True)
+        for part, title in _TITLES.items()
+    }
 
 
 def _draw_curves(figure: Figure, errors: PoseErrorMap, layers: Mapping[str, Layer]) -> None:
@@ -66,7 +71,7 @@ def _draw_maps(figure: Figure, errors: PoseErrorMap, layers: Mapping[str, Layer]
 def _draw_slices(figure: Figure, errors: PoseErrorMap, layers: Mapping[str, Layer]) -> None:
     """One row a slice, one column a part, and below each column its colour scale."""
     slices = Slices.of(errors.grid, _MOST_SLICES)
-    panels = figure.subplots(len(slices.index), 3, sharex=True, sharey=True, squeeze=False)
+    panels = figure.subplots(len(slices.index), 3, sharex="col", sharey="row", squeeze=False)
     for column, layer in zip(panels.T, layers.values(), strict=True):
         scale, levels = colour_scale(layer), shared_levels(layer)
         for axes, index in zip(column, slices.index.tolist(), strict=True):

@@ -39,7 +39,7 @@ def draw_spectrum(figure: Figure, item: Identified) -> None:
     axes.set_xlim(low, high)
     axes.set_xlabel("frequency [Hz]")
     axes.set_ylabel("response [1/its noise]")
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=5, borderaxespad=0.2)
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper right", ncols=5)
     quiet(axes)
 
 

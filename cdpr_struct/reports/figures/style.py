@@ -10,9 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator
+from matplotlib.transforms import Bbox
 
 # Okabe and Ito's palette, distinguishable with any colour vision.
 BLACK, GREY, LIGHT = "#222222", "#8a8f98", "#e3e6ea"
+ON_MAP = "#1a1a1a"
+"""Lines and letters on coloured areas, which stay light where the page is dark."""
 BLUE, SKY, GREEN = "#0072B2", "#56B4E9", "#009E73"
 ORANGE, VERMILLION, PURPLE = "#E69F00", "#D55E00", "#CC79A7"
 
@@ -66,18 +69,30 @@ def svg(name: str, size: tuple[float, float], draw: Draw) -> str:
     size : width and height [inch]
     draw : called with the empty figure
     """
-    with mpl.rc_context({**LOOK, "svg.hashsalt": name}):
+    with mpl.rc_context(LOOK):
         figure = Figure(figsize=size, layout="constrained")
-        canvas = FigureCanvasSVG(figure)
         draw(figure)
-        buffer = io.StringIO()
-        canvas.print_svg(buffer, metadata=_NO_METADATA)
+    return svg_of(figure, name)
+
+
+def svg_of(figure: Figure, name: str) -> str:
+    """A drawn figure as SVG."""
+    buffer = io.StringIO()
+    with mpl.rc_context({**LOOK, "svg.hashsalt": name}):
+        FigureCanvasSVG(figure).print_svg(buffer, metadata=_NO_METADATA)
     return _portable(buffer.getvalue(), name)
+
+
+def shown_part(text: str, height: float, part: Bbox) -> str:
+    """SVG text of a figure so high, cut or widened to a part of it [inch]: sizes in points, y downwards."""
+    left, top, width, high = (72.0 * v for v in (part.x0, height - part.y1, part.width, part.height))
+    size = f'width="{width:.3f}pt" height="{high:.3f}pt" viewBox="{left:.3f} {top:.3f} {width:.3f} {high:.3f}"'
+    return re.sub(r'width="[\d.]+pt" height="[\d.]+pt" viewBox="[-\d. ]+"', size, text, count=1)
 
 
 def _portable(text: str, name: str) -> str:
     """Fonts that every system has, ids of this figure only."""
-    text = text.replace("'DejaVu Sans'", FONT_STACK).replace("DejaVu Sans", FONT_STACK)
+    text = re.sub(r"'?DejaVu Sans'?(, sans-serif)?", FONT_STACK, text)
     text = re.sub(r'\bid="', f'id="{name}-', text)
     text = re.sub(r"url\(#", f"url(#{name}-", text)
     return re.sub(r'href="#', f'href="#{name}-', text)

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
@@ -12,7 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from cdpr_struct.reports.figures.style import BLACK, BLUE, GREY, LIGHT
+from cdpr_struct.reports.figures.frame_plan import FramePlan, draw_plan
+from cdpr_struct.reports.figures.style import BLACK, BLUE, GREY, LIGHT, ON_MAP
 from cdpr_struct.workspace.grid import AXES, Grid
 
 WIDTH, HIGHEST = 9.6, 5.8
@@ -55,12 +57,14 @@ def map_size(grid: Grid) -> tuple[float, float]:
     return WIDTH, float(np.clip(1.1 + 7.2 * up / across, 2.4, HIGHEST))
 
 
-def draw_map(figure: Figure, grid: Grid, layer: Layer) -> None:
-    """One quantity over one or two axes of the grid."""
-    axes = figure.subplots()
+def draw_map(figure: Figure, grid: Grid, layer: Layer, plan: FramePlan) -> None:
+    """One quantity over one or two axes of the grid; beside a map, where it lies in the frame."""
     if len(grid.free) == 2:
+        axes, beside = figure.subplots(1, 2, width_ratios=[3.2, 1.0])
         draw_heat(figure, axes, grid, layer)
+        draw_plan(beside, plan, grid, *grid.free)
     else:
+        axes = figure.subplots()
         draw_line(axes, grid, layer, BLUE)
         hatch_gaps(axes, grid, layer.values)
         axes.set_ylabel(f"{layer.title} [{layer.unit}]")
@@ -90,9 +94,8 @@ def paint_heat(axes: Axes, grid: Grid, layer: Layer, scale: Scale, levels: int |
     _levels(axes, x, y, value, levels)
     if layer.marked.any():
         place = grid.positions[layer.marked]
-        axes.plot(
-            place[:, across], place[:, up], "^", color=BLACK, markersize=3, markeredgecolor="white", markeredgewidth=0.4
-        )
+        edge: Any = {"markeredgecolor": "white", "markeredgewidth": 0.4}
+        axes.plot(place[:, across], place[:, up], "^", color=ON_MAP, markersize=3, **edge)
     axes.set_aspect("equal")
     axes.set_xlabel(f"{AXES[across]} [m]")
     axes.set_ylabel(f"{AXES[up]} [m]")
@@ -171,5 +174,5 @@ def _levels(axes: Axes, x: np.ndarray, y: np.ndarray, value: np.ndarray, levels:
     if finite.size < 9 or np.ptp(finite) < 1e-6 * np.abs(finite).max() or not np.size(levels):
         return
     field = np.ma.masked_invalid(value)
-    lines = axes.contour(x, y, field, levels=levels, colors=BLACK, linewidths=0.5, linestyles="solid", alpha=0.7)
+    lines = axes.contour(x, y, field, levels=levels, colors=ON_MAP, linewidths=0.5, linestyles="solid", alpha=0.7)
     axes.clabel(lines, fontsize=6.5, fmt=lambda level: f"{level:.4g}")

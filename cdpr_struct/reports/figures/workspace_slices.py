@@ -6,6 +6,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from cdpr_struct.reports.figures.frame_plan import FramePlan, draw_plan
+from cdpr_struct.reports.figures.panels import label_ends
 from cdpr_struct.reports.figures.workspace_map import Layer, add_bar, add_legend, colour_scale, paint_heat
 from cdpr_struct.workspace.grid import AXES, Grid
 
@@ -81,29 +83,27 @@ def _plane(slices: Slices) -> list[np.ndarray]:
 
 def _arrangement(slices: Slices) -> tuple[int, int]:
     """Rows and columns of panels: fewer columns for wide slices, and few empty places."""
-    count = len(slices.index)
+    count = len(slices.index) + 1  # the plan of the frame
     fewest = 2 if _slope(slices) < 0.5 else 3
     columns = min(range(min(count, fewest), fewest + 2), key=lambda n: -count % n)
     return -(-count // columns), columns
 
 
-def draw_slices(figure: Figure, grid: Grid, layer: Layer) -> None:
-    """Small multiples of one quantity."""
+def draw_slices(figure: Figure, grid: Grid, layer: Layer, plan: FramePlan) -> None:
+    """Small multiples of one quantity; in the last place, where they lie in the frame."""
     slices = Slices.of(grid)
     rows, columns = _arrangement(slices)
     panels = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel().tolist()
     scale, levels, count = colour_scale(layer), shared_levels(layer), len(slices.index)
     for axes, index in zip(panels, slices.index.tolist(), strict=False):
         image = paint_heat(axes, slices.grid_at(index), slices.layer_at(layer, index), scale, levels)
-    for place, axes in enumerate(panels):
-        axes.set_visible(place < count)
-        if place % columns:
-            axes.set_ylabel("")
-        lowest = place + columns >= count  # of its column
-        axes.tick_params(labelbottom=lowest)
-        if not lowest:
-            axes.set_xlabel("")
-    add_bar(figure, image, panels, layer.unit)
+    free = [panels[place].get_subplotspec() for place in range(count, len(panels))]
+    for spare in panels[count:]:
+        spare.remove()
+    across, up = (i for i in range(3) if i != slices.axis)
+    label_ends(panels[:count], f"{AXES[up]} [m]", f"{AXES[across]} [m]")
+    draw_plan(figure.add_subplot(free[0]), plan, grid, across, up)
+    add_bar(figure, image, panels[:count], layer.unit)
     add_legend(figure, [layer])
 
 

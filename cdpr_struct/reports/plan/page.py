@@ -5,8 +5,8 @@ from typing import Any
 
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import plan as figures
-from cdpr_struct.reports.figures.style import svg
-from cdpr_struct.reports.html import HtmlTable, Page, Plate, render_page
+from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.plan.measurements import MANY
 from cdpr_struct.reports.plan.result import detectable_columns
 from cdpr_struct.reports.plan.text import plan_sentences
@@ -20,8 +20,7 @@ def plan_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
     plates = _plates(result)
     return {
         **_tables(result),
-        **{f"{plate.name}.svg": plate.svg for plate in plates},
-        "report.html": render_page(_page(result, plates)),
+        **page_files(_page(result, plates)),
     }
 
 
@@ -54,10 +53,10 @@ def _tables(result: Mapping[str, Any]) -> dict[str, str]:
 def _plates(result: Mapping[str, Any]) -> list[Plate]:
     plates = []
     if result["confusable"]:
-        drawn = svg("confusions", figures.confusion_size(result), lambda f: figures.draw_confusions(f, result))
+        drawn = Drawing("confusions", figures.confusion_size(result), lambda f: figures.draw_confusions(f, result))
         plates.append(Plate("confusions", "Which causes would be confused", drawn, figures.confusion_caption(result)))
     if result["next"]:
-        drawn = svg("gains", figures.gain_size(result), lambda f: figures.draw_gains(f, result))
+        drawn = Drawing("gains", figures.gain_size(result), lambda f: figures.draw_gains(f, result))
         plates.append(Plate("gains", "What to measure next", drawn, figures.gain_caption(result)))
     return plates
 

@@ -1,0 +1,286 @@
+"""What the pages of the causes say beyond the library's own fields: law, sign, appearance, look-alikes, reference."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Description:
+    """Half sentences of one cause.
+
+    law : what it does, as a formula;  sign : what a value above its neutral one means, "" without one
+    looks : what a reader sees in the data;  reference : where the law comes from, "" where it needs no source
+    """
+
+    law: str
+    sign: str
+    looks: str
+    reference: str = ""
+
+
+_HOOKE = "Hooke's law of the elastic catenary: [formulas](../formulas/catenary.md)"
+_MASSES = "Mass matrix of the platform: [formulas](../formulas/platform.md), thesis eq. (3.12)"
+_DAMPING = "[Damping laws](../damping.md)"
+_ALL_LENGTHS = "Lengths of all cables are off in the same sense, most where {more}. The wrenches balance"
+
+DESCRIPTIONS = {
+    "axial_stiffness": Description(
+        "EA of the cable becomes EA times the factor",
+        "above 1: stiffer than entered",
+        _ALL_LENGTHS.format(more="tension times free length is largest")
+        + ". Platform frequencies move together, by up to half of the change of EA; cable frequencies follow the "
+        "tensions",
+        _HOOKE,
+    ),
+    "joint_compliance": Description(
+        "the frame end of the cable gives way along the cable by compliance times tension",
+        "never negative: the cable is softer than entered",
+        _ALL_LENGTHS.format(more="the tension is largest, whatever the free length") + ". Platform frequencies fall",
+        "Springs in series: [dynamics](../dynamics.md#extensions)",
+    ),
+    "dead_length": Description(
+        "the frame end of the cable gives way along the cable by dead length / EA times tension",
+        "never negative: the cable is softer than entered",
+        _ALL_LENGTHS.format(more="the tension is largest, whatever the free length")
+        + ". To the model it is a compliance in series: it differs from joint_compliance only in what one checks",
+        "Springs in series: [dynamics](../dynamics.md#extensions)",
+    ),
+    "frame_compliance": Description(
+        "the exits of a mast move by compliance times the sum of its cables' forces on it; bending sideways, as an "
+        "upright clamped at its foot",
+        "never negative: the frame is softer than entered",
+        "Lengths are off where the cables of a mast pull in the same direction. A cable's error depends on the "
+        "tension of "
+        "its neighbours at the same mast. Platform frequencies fall",
+        "Euler-Bernoulli beam for masts that bend: [dynamics](../dynamics.md#extensions)",
+    ),
+    "nonlinear_elasticity": Description(
+        "EA becomes EA (1 + k (T / T0 - 1)), T the tension at the platform, T0 the mean tension of the campaign",
+        "k above 0: stiffer at high tension",
+        "Lengths of tight and of slack cables are off in opposite senses; at one preload it looks like another EA",
+    ),
+    "creep": Description(
+        "EA becomes EA / (1 + creep log10(1 + t / 1 min))",
+        "never negative: cables grow longer under load",
+        "Length errors that grow with the logarithm of time, in proportion to tension times free length",
+    ),
+    "frame_anchor_position": Description(
+        "the frame anchor of the cable moves by the vector",
+        "true minus entered, world axes",
+        "Lengths of that cable are off by the part of the vector along the cable, so the error changes sign "
+        "between poses. "
+        "The wrench balance hardly changes: the direction of a long cable turns little",
+    ),
+    "platform_anchor_position": Description(
+        "the platform anchor of the cable moves by the vector",
+        "true minus entered, platform axes",
+        "Lengths of that cable are off, and the moments do not balance: its lever arm is another",
+    ),
+    "unstrained_length_offset": Description(
+        "length paid out = encoder length + offset",
+        "above 0: more cable is out than the encoder says",
+        "Length of that cable is off by the same amount at every pose. In a preloaded robot all tensions change",
+    ),
+    "drum_scale": Description(
+        "length paid out = encoder length times the factor",
+        "above 1: more cable is out than the encoder says",
+        "Lengths are off in proportion to the length of the cable",
+    ),
+    "temperature": Description(
+        "cables and frame expand by 1.2e-5 per kelvin (steel)",
+        "above 0: warmer than at calibration",
+        "Lengths are off in proportion to length and, in the other sense, to the distance of the frame anchors "
+        "from the "
+        "origin; the two nearly cancel where cables and frame are of one metal",
+    ),
+    "pulley_radius": Description(
+        "the radius of the pulley becomes radius + change; the cable wraps more or less of it",
+        "above 0: larger than entered",
+        "Lengths are off by amounts that depend on the wrap angle, so they change with height and distance",
+    ),
+    "tracker_frame": Description(
+        "true pose = pose read, turned and shifted by the parameters",
+        "what turns the tracker's frame into the robot's",
+        "Lengths of all cables are off as if the platform stood elsewhere, by the same vector at every pose. With a "
+        "rotation the wrench balance is off as well. Tensions and frequencies do not change",
+    ),
+    "gravity_tilt": Description(
+        "the weight acts along (tilt_x, tilt_y, -1)",
+        "above 0: the weight has a part along +x or +y",
+        "A horizontal force is missing from the balance, the same at every pose and in proportion to mass plus payload",
+    ),
+    "pose_mismatch": Description(
+        "true pose of one state = pose read, turned and shifted by the parameters",
+        "what turns the entered pose into the true one",
+        "Everything is off in one state and nothing in the others",
+    ),
+    "platform_mass": Description(
+        "mass becomes mass times the factor; the inertia stays",
+        "above 1: heavier than entered",
+        "A vertical force is missing from the balance, the same at every pose and payload. Frequencies of the "
+        "translations move by half of the change, the other way",
+        _MASSES,
+    ),
+    "joint_mass": Description(
+        "a point mass sits at the platform anchor of the cable",
+        "never negative: the platform is heavier than entered",
+        "As platform_mass, and the frequencies of the rotations fall more than those of the translations: the "
+        "masses sit "
+        "far from the centre",
+        _MASSES,
+    ),
+    "center_of_mass": Description(
+        "the centre of mass moves by the vector",
+        "true minus entered, platform axes",
+        "Horizontal moments are missing from the balance: mass times gravity times the lever arm. The height of "
+        "the centre "
+        "shows at tilted poses only",
+        _MASSES,
+    ),
+    "platform_inertia": Description(
+        "moments and products of inertia about an axis become larger by the factor (products by its root)",
+        "above 1: larger than entered",
+        "Frequencies of the rotations alone move, by half of the change, the other way. Nothing static changes",
+        _MASSES,
+    ),
+    "external_force": Description(
+        "a force acts on the platform origin",
+        "force on the platform, world axes",
+        "A force is missing from the balance, the same at every pose and payload",
+    ),
+    "hose_stiffness": Description(
+        "a force on the platform origin: constant part minus stiffness times distance from the campaign's mean "
+        "position",
+        "never negative: the hose pulls back",
+        "A force is missing from the balance that grows with the distance from the mean position",
+    ),
+    "flexible_platform": Description(
+        "a part of the platform's mass moves along one axis on a spring, with this frequency when the platform is held",
+        "mass and frequency are positive",
+        "One peak more than the model has, and the modes on both sides of it are pushed apart. Nothing static changes",
+        "Den Hartog, *Mechanical Vibrations*, 4th edition, 1956, dynamic vibration absorber",
+    ),
+    "steady_disturbance": Description(
+        "a line at this frequency is in the list of peaks and belongs to no mode",
+        "a frequency is positive",
+        "One peak more, at the same frequency at every pose and payload",
+    ),
+    "cable_linear_density": Description(
+        "mass per length of the cable becomes larger by the factor",
+        "above 1: heavier than entered",
+        "Cable frequencies move by half of the change, the other way, in all modes alike. The rest is small unless the "
+        "cables are heavy",
+        "Taut string, and [the closed form](../formulas/cable_dsm.md)",
+    ),
+    "bending_stiffness": Description(
+        "the cable resists bending with EI; ends are clamped in direction",
+        "never negative: frequencies rise",
+        "Cable frequencies rise, the higher modes more. Short and loose cables show it most",
+        "Fletcher and Rossing, *The Physics of Musical Instruments*, 2nd edition, 1998, stiff string",
+    ),
+    "cable_added_mass": Description(
+        "a point mass sits at the middle of the cable",
+        "never negative: frequencies fall",
+        "Odd modes of that cable fall, even ones, whose node is at the middle, do not",
+    ),
+    "load_cell_gain": Description(
+        "load cell reading = gain times tension",
+        "above 1: the cell reads too much",
+        "The readings do not balance the weight, in proportion to it; cable frequencies contradict the readings of "
+        "tension. The robot itself, its pose and frequencies, does not change",
+    ),
+    "load_cell_bias": Description(
+        "load cell reading = tension + bias",
+        "above 0: the cell reads too much",
+        "The balance is off by the same force along that cable at every tension",
+    ),
+    "pulley_friction": Description(
+        "load cell reading = tension times exp(friction times right angles of wrap), the sign that of the last motion",
+        "never negative",
+        "As load_cell_gain, but the error changes sign with the direction from which the pose was reached",
+        "Capstan equation (Euler and Eytelwein)",
+    ),
+    "brake_slip": Description(
+        "length paid out = encoder length + rate times time",
+        "above 0: cable is paid out",
+        "Length error of one cable that grows evenly with time",
+    ),
+    "accelerometer_gain": Description(
+        "the FRF is multiplied by the gain",
+        "above 1: the sensor reads too much",
+        "All FRFs of a direction are too high by one factor; no frequency and no damping ratio changes",
+        "Ewins, *Modal Testing*, 2nd edition, 2000",
+    ),
+    "accelerometer_mass": Description(
+        "a point mass at the platform origin, while vibration is measured and only then",
+        "never negative: frequencies of translations fall",
+        "Frequencies are as for a heavier platform although tensions are not; cable frequencies rise with the weight "
+        "that hangs on them",
+        "Ewins, *Modal Testing*, 2nd edition, 2000",
+    ),
+    "internal_force": Description(
+        "tensions change by a vector of the null space of the structure matrix",
+        "tension read minus tension commanded",
+        "Tensions differ from the commanded ones although they balance the same wrench at the same pose; cable "
+        "frequencies "
+        "follow the tensions",
+        "Pott, *Cable-Driven Parallel Robots: Theory and Application*, 2018",
+    ),
+    "unit_error": Description(
+        "the column is multiplied by a factor between units: mm, kN, kgf, degrees, rad/s and others",
+        "",
+        "All readings of a column are off by one factor far from 1",
+    ),
+    "sign_error": Description(
+        "the column is multiplied by -1",
+        "",
+        "The error of the column is twice the reading: none where it is zero. Lengths and balance are off by far "
+        "more than "
+        "any tolerance",
+    ),
+    "swapped_channels": Description(
+        "readings of two cables change places",
+        "",
+        "Two tensions (or lengths) are off by equal and opposite amounts at every pose",
+    ),
+    "cable_sag": Description(
+        "straight cables without weight take the place of catenaries",
+        "",
+        "The weight of the cables is missing from the balance, and heavy, slack cables seem too short",
+        "Irvine, *Cable Structures*, 1981; thesis section 2.2",
+    ),
+    "cable_dynamics": Description(
+        "cables without mass take the place of vibrating ones",
+        "",
+        "Platform frequencies near those of the cables are off in both directions, and the cables' own peaks "
+        "belong to no "
+        "mode",
+        "Thesis section 2.3",
+    ),
+    "attachment_geometric_stiffness": Description(
+        "the stiffness loses the work of the static cable forces on the turning lever arms",
+        "",
+        "Frequencies of rotations are off, the more the higher the preload. Statics does not change",
+        "[Models](../dynamics.md#the-thesis-assembly), thesis eq. (3.8)",
+    ),
+    "viscous_damping": Description(
+        "damping rate proportional to mass (medium) or to stiffness (material)",
+        "a factor above 1: more damping than entered",
+        "Peaks are lower and broader, decays are shorter; in the material, high modes most. Frequencies do not change",
+        _DAMPING,
+    ),
+    "hysteretic_damping": Description(
+        "stiffness of the cables becomes K (1 + i times loss factor)",
+        "a loss factor is positive",
+        "Damping ratios of all stretch modes are alike, at half of the loss factor. Frequencies do not change",
+        _DAMPING,
+    ),
+    "coulomb_damping": Description(
+        "a constant moment opposes the rotation of the cable at both ends",
+        "a moment is positive",
+        "The damping ratio grows as the amplitude falls: the envelope of a decay is a straight line that ends. "
+        "An FRF of one "
+        "amplitude does not show it, so there is no picture",
+        _DAMPING,
+    ),
+}
+"""By name, all that a verdict can name."""

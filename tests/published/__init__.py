@@ -1,0 +1,1 @@
+"""Cases that others have published, computed by the model and by the finite-element referee."""
