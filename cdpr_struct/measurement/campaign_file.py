@@ -18,6 +18,7 @@ from cdpr_struct.measurement.missing_readings import missing_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
 from cdpr_struct.measurement.unit_scale import check_scale
+from cdpr_struct.robot.file_complaints import input_error
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import (
     Matrix,
@@ -25,7 +26,6 @@ from cdpr_struct.robot.robot_file import (
     Positive,
     Vector,
     builtin_names,
-    input_error,
     load_robot,
 )
 

@@ -7,10 +7,13 @@ import pytest
 
 import cdpr_struct as cs
 from cdpr_struct.robot.cable import Cable
+from cdpr_struct.robot.fingerprint import fingerprint
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.robot_from_arrays import robot_from_arrays
 from cdpr_struct.robot.robot_writing import robot_toml
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
@@ -176,3 +179,22 @@ def test_what_is_no_guide_is_refused_in_one_sentence(tmp_path, given):
     path.write_text(text)
     with pytest.raises(cs.InputError, match=r"platform\.guided"):
         load_robot(path)
+
+
+def test_codes_of_free_bodies_are_not_handed_a_guided_one(tmp_path):
+    assert cs.export(planar(density=0.02), to="gltf").content
+    for form in ("moordyn", "moorpy"):
+        with pytest.raises(cs.InputError, match="a body is free"):
+            cs.export(planar(density=0.02), to=form)
+
+
+def test_another_guide_or_gravity_is_another_robot():
+    robots = [planar(), planar(guided=()), planar(gravity=0.0), planar(gravity=np.array([0.0, 1.0, -9.0]))]
+    assert len({fingerprint("robot", robot) for robot in robots}) == 4
+
+
+def test_arrays_keep_the_guide():
+    robot = planar(gravity=np.array([0.0, 1.0, -9.0]))
+    again = robot_from_arrays(robot, RobotArrays.of(robot))
+    assert again.guided == PLANE
+    assert again.gravity_vector == pytest.approx(robot.gravity_vector, rel=1e-15)

@@ -11,10 +11,12 @@ from cdpr_struct.dynamics.natural_frequencies import natural_frequencies, static
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import stability_at
 from cdpr_struct.errors import UnstableEquilibriumError
+from cdpr_struct.observation.robot_modes import modes_at
 from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.forward_kinematics import ForwardStatus, forward
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.static_stiffness import static_stiffness
@@ -202,7 +204,7 @@ def test_maps_give_the_first_frequency_above_zero_and_count_the_neutral_ones():
 
 
 def test_an_origin_that_a_free_motion_carries_along_has_no_stiffness_there():
-    """Two ropes from one point hold a platform whose origin lies beside it: it turns about the vertical through that."""
+    """Two ropes from one point hold a platform whose origin lies beside the vertical through it."""
     robot = hung([[-0.7, 0, 0], [0.3, 0, 0]], [[-0.2, 0, 5], [-0.2, 0, 5]], 0.3)
     body = replace(robot.platform, center_of_mass=np.array([-0.2, 0.0, -0.3]))
     found = cs.map(replace(robot, platform=body), "0:0.1:2,0,0", "stiffness-min").frame()
@@ -250,3 +252,14 @@ def test_symmetry_is_found_wherever_the_axis_lies(seed):
     assert matrix.proved.all()
     found = matrix.twists[:, 0]
     assert np.abs(found / found[5] - straight).max() < 1e-9
+
+
+def test_observed_modes_begin_above_zero():
+    """What a diagnosis compares with peaks: frequencies, without those of nothing."""
+    robot = replace(one_point(0.2, density=0.03), cables=(Cable(3e5, 0.03, force_min=100.0),) * 4)
+    held = inverse(robot, np.zeros((1, 3)), np.eye(3)[None])
+    point = OperatingPoint(RobotArrays.of(robot), np.zeros((1, 3)), np.eye(3)[None], held.cables)
+    seen = modes_at(point, np.array([20.0]))
+    own = certified_frequencies(at_home(robot), "exact", 4).hertz[1:]
+    assert np.exp(seen.log_hertz[0, :3]) == pytest.approx(own, rel=1e-6)
+    assert np.isfinite(seen.gradient).all()
