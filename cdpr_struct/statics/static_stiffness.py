@@ -41,7 +41,10 @@ class RobotStiffness:
 
         Of a guided platform zero in the guided directions; with neutral freedoms that of the platform held in these.
         """
-        held = self.stability
+        return self.compliance_of(self.stability)
+
+    def compliance_of(self, held: Stability) -> np.ndarray:
+        """The same where the stability is known."""
         inverse = np.linalg.inv(behind_guides(self.matrix, self.arrays) + held.holding)
         twists = held.twists
         if twists.shape[-1]:  # what the holding stiffness itself gives way is no compliance of the robot

@@ -16,6 +16,7 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.guides import free_block
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
+from cdpr_struct.statics.neutral_freedoms import Stability
 from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.statics.static_stiffness import RobotStiffness, static_stiffness
@@ -147,13 +148,13 @@ def stiffnesses(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Co
         states = solution.cables.at(good)
         stiffness = static_stiffness(robot, positions[good], rotation, states)
         held = stiffness.stability
-        compliance = stiffness.compliance[:, :3, :3]
+        compliance = stiffness.compliance_of(held)[:, :3, :3]
         softest = np.linalg.eigvalsh(0.5 * (compliance + np.swapaxes(compliance, -1, -2)))[:, -1]
         loose = np.abs(held.twists[:, :3]).max(axis=-1, initial=0.0) > _STILL
         with np.errstate(divide="ignore"):  # along a guide nothing gives way
             values["stiffness_min_N_mm"][good] = np.where(loose.any(axis=-1), 0.0, 1e-3 / softest)
             values["stiffness_vertical_N_mm"][good] = np.where(loose[:, 2], 0.0, 1e-3 / compliance[:, 2, 2])
-        values["platform_frequency_Hz"][good] = _first_frequency(robot, rotation, stiffness)
+        values["platform_frequency_Hz"][good] = _first_frequency(robot, rotation, stiffness, held)
         neutral[good] = held.neutral
     return {
         **values,
@@ -163,9 +164,9 @@ def stiffnesses(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Co
     }
 
 
-def _first_frequency(robot: Robot, rotation: np.ndarray, stiffness: RobotStiffness) -> np.ndarray:
+def _first_frequency(robot: Robot, rotation: np.ndarray, stiffness: RobotStiffness, held: Stability) -> np.ndarray:
     """(k,) first frequency above zero of the platform on static stiffnesses [Hz]; nan where it is not stable."""
-    arrays, held = RobotArrays.of(robot), stiffness.stability
+    arrays = RobotArrays.of(robot)
     pencil = with_internal_mass(arrays, rotation, stiffness.symmetric, platform_mass_matrix(robot, rotation))
     matrix, mass = (free_block(part, arrays) for part in pencil)
     inverse_root = np.linalg.inv(np.linalg.cholesky(mass))

@@ -74,7 +74,7 @@ def _of_chunk(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Colu
         massless, momentum = _first_static_mode(point, how.neutral)
         stable = np.flatnonzero((massless > 0.0) & ~how.unstable)
         rest = poses_of(point, stable)
-        found = _at_rest(rest, massless[stable], momentum[stable]) if stable.size else {}
+        found = _at_rest(rest, massless[stable], momentum[stable], how.neutral[stable]) if stable.size else {}
         for name, values in found.items():
             columns[name][held[stable]] = values if name in (SHARE, SHAPE) else np.sqrt(values) / (2.0 * np.pi)
     columns[SHAPE] = as_records(unit_shapes(columns[SHAPE]))
@@ -125,12 +125,14 @@ def _first_static_mode(point: OperatingPoint, neutral: np.ndarray) -> tuple[np.n
     return squared[row, neutral], momentum
 
 
-def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> Columns:
-    """Squared frequencies by name, and the share, at stable poses: the fast path's, else the general solver's."""
+def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray, neutral: np.ndarray) -> Columns:
+    """Squared frequencies by name, and the share, at stable poses: the fast path's, else the general solver's.
+
+    neutral : (n,) number of neutral freedoms
+    """
     names = _names(point.entered)
     found = _empty(point.entered, len(massless))
     found["platform_massless_Hz"] = massless
-    neutral = stability_at(point).neutral
     fast = np.flatnonzero(fits(point) & (neutral == 0))
     if fast.size:
         for name, values in _fast(poses_of(point, fast), massless[fast], momentum[fast]).items():
@@ -139,7 +141,7 @@ def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) 
     size = max(1, _GENERAL_CABLES // point.cables.length.shape[-1])
     for start in range(0, left.size, size):
         chosen = left[start : start + size]
-        for name, values in _general(poses_of(point, chosen), momentum[chosen]).items():
+        for name, values in _general(poses_of(point, chosen), momentum[chosen], neutral[chosen]).items():
             known = found[name][chosen]
             found[name][chosen] = np.where(np.isfinite(known), known, values)
     return found
@@ -159,7 +161,7 @@ def _fast(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> 
     return found
 
 
-def _general(point: OperatingPoint, momentum: np.ndarray) -> Columns:
+def _general(point: OperatingPoint, momentum: np.ndarray, neutral: np.ndarray) -> Columns:
     """Expansions of high order and as many modes as the definition asks for."""
     full = expand_catenaries_at(point, _ORDER)
     clamped = full.omega_squared[..., 0]
@@ -170,7 +172,7 @@ def _general(point: OperatingPoint, momentum: np.ndarray) -> Columns:
     best = alike.argmax(axis=-1)[:, None]
     omega, share = (np.take_along_axis(values, best, axis=-1)[:, 0] for values in (modes.omega, alike))
     shape = np.take_along_axis(ritz_shapes(point, modes, HARMONICS), best[:, :, None], axis=1)[:, 0]
-    first = np.take_along_axis(modes.omega, stability_at(point).neutral[:, None], axis=1)[:, 0]
+    first = np.take_along_axis(modes.omega, neutral[:, None], axis=1)[:, 0]
     found = {"first_Hz": first**2, "platform_Hz": omega**2, SHARE: share, SHAPE: shape}
     return found | _of_cables(clamped.T)
 
