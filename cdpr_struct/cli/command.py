@@ -3,7 +3,7 @@
 import functools
 import inspect
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
@@ -43,16 +43,20 @@ def register(app: typer.Typer, command: ModuleType) -> None:
 def with_output(run: Callable[..., int]) -> Callable[..., int]:
     """The command with options in place of its parameter `output`, an `Output`.
 
-    A command that writes no directory of results declares some of these options itself.
+    A command that writes no directory of results declares some of these options itself; one that has no parameter
+    `output` has none of them.
     """
     own = [p for p in inspect.signature(run, eval_str=True).parameters.values() if p.name != "output"]
+    delivers = "output" in inspect.signature(run).parameters
     declared = {p.name for p in own}
     left_out = declared | set(_OF_RESULTS) if "out" in declared else declared
-    added = {name: pair for name, pair in _SHARED.items() if name not in left_out}
+    added = {name: pair for name, pair in _SHARED.items() if delivers and name not in left_out}
     keyword = inspect.Parameter.KEYWORD_ONLY
 
     @functools.wraps(run)
     def command(context: typer.Context, **given: object) -> int:
+        if not delivers:
+            return _asked(run, given, own)
         where = {name: given.pop(name) if name in added else given.get(name) for name in _SHARED}
         tables = _table_form(where["tables"])
         out = where["out"] if "out" in added else None
@@ -60,10 +64,7 @@ def with_output(run: Callable[..., int]) -> Callable[..., int]:
         flags = (bool(where["json"]), bool(where["quiet"]), bool(where["overwrite"]))
         output = Output(out, *flags, repeating(context.obj or ()), tables)
         output.check()
-        try:
-            return run(**given, output=output)
-        except InputError as error:
-            raise _of_option(error, own) from error
+        return _asked(run, {**given, "output": output}, own)
 
     shown = [inspect.Parameter("context", keyword, annotation=typer.Context)]
     shown += [p.replace(kind=keyword) for p in own]
@@ -81,6 +82,14 @@ def _table_form(given: object) -> TableForm | None:
     if form == "parquet" and find_spec("pyarrow") is None:
         raise InputError("--tables", "", form, "Parquet needs the extra: pip install 'cdpr-struct[parquet]'")
     return form
+
+
+def _asked(run: Callable[..., int], given: Mapping[str, object], own: Sequence[inspect.Parameter]) -> int:
+    """What the command returns; complaints about arguments name options."""
+    try:
+        return run(**given)
+    except InputError as error:
+        raise _of_option(error, own) from error
 
 
 def _of_option(error: InputError, own: Sequence[inspect.Parameter]) -> InputError:

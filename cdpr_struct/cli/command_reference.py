@@ -38,6 +38,7 @@ MORE = {
     "spectrogram": ("recordings.md", "how to use recordings"),
     "audit": ("limits.md", "limits of the closed form"),
     "diagnose": ("measuring.md", "how to measure and read a verdict"),
+    "view": ("live_view.md", "how to watch a robot live"),
     "plan": ("measuring.md", "how to measure and read a verdict"),
 }
 HEAD = """# Command-line reference

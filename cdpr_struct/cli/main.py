@@ -31,6 +31,7 @@ from cdpr_struct.cli import (
     spectrogram,
     transient,
     verify,
+    view,
 )
 from cdpr_struct.cli.command import examples, register
 from cdpr_struct.cli.complaints import complaint
@@ -65,6 +66,7 @@ COMMANDS = (
     new_campaign,
     export,
     rerun,
+    view,
 )
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 import cdpr_struct.fem_reference as fem
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import attachment
 from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import FREEDOMS, Robot
 from cdpr_struct.statics.masts import carriers, of_each_mast
@@ -73,6 +74,23 @@ def fem_shapes(modes: fem.RobotModes, stations: int) -> np.ndarray:
         raise ValueError(f"element count {inner + 1} must be a multiple of {stations}")
     picked = modes.cable_shapes[:, :, stride - 1 :: stride][:, :, : stations - 1]
     return np.concatenate([modes.platform_shapes, picked.reshape(count, m * (stations - 1) * 3)], axis=1)
+
+
+def fem_cable_motion(point: OperatingPoint, modes: fem.RobotModes, stations: np.ndarray) -> np.ndarray:
+    """Motion (k, m, s, 3) at fractions (s,) of each cable from the frame, world axes, linear between the nodes.
+
+    Frame ends that give way (pulleys, compliance in line, masts) continue the line of the first two nodes.
+    """
+    end = np.einsum("mab,kb->kma", attachment(point), modes.platform_shapes)[:, :, None]
+    moving = np.concatenate([modes.cable_shapes, end], axis=2)
+    frame = np.zeros_like(end)
+    if point.arrays.has_yielding_frame_ends or point.arrays.has_masts:
+        frame = 2.0 * moving[:, :, :1] - moving[:, :, 1:2]
+    nodes = np.concatenate([frame, moving], axis=2)
+    place = np.asarray(stations) * (nodes.shape[2] - 1)
+    first = np.minimum(place.astype(int), nodes.shape[2] - 2)
+    share = (place - first)[:, None]
+    return np.asarray((1.0 - share) * nodes[:, :, first] + share * nodes[:, :, first + 1])
 
 
 def sampling_mass(robot: Robot, lengths: np.ndarray, stations: int, platform_mass: np.ndarray) -> np.ndarray:

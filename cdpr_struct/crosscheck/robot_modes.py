@@ -1,12 +1,13 @@
 """Modes of the whole robot by any of the four models, in one form."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
 
 import cdpr_struct.fem_reference as fem
-from cdpr_struct.crosscheck.fem_robot import solve_in_fem
+from cdpr_struct.crosscheck.fem_robot import fem_cable_motion, solve_in_fem
 from cdpr_struct.crosscheck.validity_limits import check_limits
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
@@ -30,6 +31,8 @@ class RobotModes:
     platform        : (k, 6) motion of the platform origin and rotation, world axes, unit modal mass
     platform_energy : (k,) and cable_energy (k, m): shares of the kinetic energy [-]
     count_certified : an exact count proves that no frequency is missing
+    cable_motion    : at fractions (s,) of each cable from the frame, 0 and 1 included: its motion (k, m, s, 3) in world
+                      axes, in the units of `platform`
     """
 
     hertz: np.ndarray
@@ -37,6 +40,7 @@ class RobotModes:
     platform_energy: np.ndarray
     cable_energy: np.ndarray
     count_certified: bool
+    cable_motion: Callable[[np.ndarray], np.ndarray]
 
     def kinds(self) -> list[str]:
         """Per mode "platform", "cable i", "cables" or "mixed", by the kinetic energy."""
@@ -64,6 +68,7 @@ def robot_modes(
         shapes.platform_energy,
         shapes.cable_energy,
         found.frequencies.certified,
+        shapes.cable_motion,
     )
 
 
@@ -86,5 +91,6 @@ def _fem_modes(point: OperatingPoint, count: int, elements: int) -> RobotModes:
     found = fem.robot_modes(equilibrium, count)
     below = fem.count_below(equilibrium, 2.0 * np.pi * found.frequencies_hz[-1] * (1.0 + 1e-9))
     return RobotModes(
-        found.frequencies_hz, found.platform_shapes, found.platform_energy, found.cable_energy, below >= count
-    )
+        found.frequencies_hz, found.platform_shapes, found.platform_energy, found.cable_energy, below >= count,
+        lambda stations: fem_cable_motion(point, found, stations),
+    )  # fmt: skip

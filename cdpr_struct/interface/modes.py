@@ -4,9 +4,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args
 
+from cdpr_struct.crosscheck.mode_motion import ModeMotion, mode_motion
 from cdpr_struct.crosscheck.robot_modes import MODELS, RobotModes, require_validity, robot_modes
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.platform_directions import direction_shares
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
@@ -15,6 +17,7 @@ from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import pose_in_degrees, rest
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.reports.mode_words import motion_words
 from cdpr_struct.reports.modes_text import modes_columns, modes_sentence, modes_text
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
@@ -29,10 +32,12 @@ class ModesResult(Result):
     """Eigenfrequencies of a robot at rest.
 
     point : the robot at rest;  modes : hertz (k,) [Hz], platform (k, 6), energies, kinds(), count_certified
+    motion : how cables (k, m, p, 3) and platform (k, 6) move, the largest component of each mode 1
     """
 
     point: OperatingPoint
     modes: RobotModes
+    motion: ModeMotion
 
     @property
     def title(self) -> str:
@@ -61,7 +66,7 @@ class ModesResult(Result):
         """Tables, figures and page."""
         from cdpr_struct.reports.modes_page import modes_files
 
-        return modes_files(self.point, self.answer)
+        return modes_files(self.point, self.answer, self.motion)
 
     def universal_file(self) -> bytes:
         """Shapes of platform and cables as a universal file: datasets 15, 82 and 55.
@@ -123,6 +128,7 @@ def modes(
     with state.advised():
         most = 6 - len(machine.guided) if name == "static" else count
         found = robot_modes(point, name, min(count, most), way, elements)
+    motion, shares = mode_motion(point, found), direction_shares(point, found.platform)
     told = {
         "robot": machine.name,
         "pose": pose_in_degrees(point),
@@ -132,8 +138,12 @@ def modes(
         "count_certified": found.count_certified,
         "kinds": found.kinds(),
         "platform_energy": found.platform_energy,
+        "cable_energy": found.cable_energy,
+        "motion": motion.platform,
+        "platform_directions": shares,
+        "motion_words": motion_words(found.platform_energy, shares),
         "tensions_N": point.cables.tension_at_platform,
         "lengths_m": RobotArrays.of(machine).reading(point.cables.total_length),
         **state.told(),
     }
-    return ModesResult(with_extensions(told, machine, "modes", name), point, found)
+    return ModesResult(with_extensions(told, machine, "modes", name), point, found, motion)

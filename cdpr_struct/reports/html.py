@@ -25,6 +25,7 @@ class Plate:
     name        : letters and underscores; the figure's id and the name of its files
     picture     : what is shown where scripts do not run, in print, and in papers
     interactive : the same as plotly data, or None
+    live        : the same as markup with a script of its own, which hides the static figure; "" for none
     """
 
     name: str
@@ -32,6 +33,7 @@ class Plate:
     picture: "Drawing"
     caption: str
     interactive: Mapping[str, Any] | None = None
+    live: str = ""
 
     @property
     def markup(self) -> str:

@@ -5,37 +5,49 @@ from typing import Any
 
 import numpy as np
 
+from cdpr_struct.crosscheck.mode_motion import ModeMotion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.figures import interactive, mode_ladder, robot_drawing
+from cdpr_struct.reports.figures import interactive, mode_ladder, mode_shapes, robot_drawing
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
-from cdpr_struct.reports.modes_text import modes_columns, modes_sentence
+from cdpr_struct.reports.mode_viewer import viewer_markup
+from cdpr_struct.reports.mode_words import WORDS_NOTE
+from cdpr_struct.reports.modes_text import modes_columns, modes_sentence, motion_columns
 from cdpr_struct.reports.text import place
 
 
-def modes_files(point: OperatingPoint, result: Mapping[str, Any]) -> dict[str, str | bytes]:
+def modes_files(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMotion) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name.
 
     point   : the robot at rest that the modes belong to
     result  : as the command `modes` gives it
     """
-    plates = _plates(point, result)
+    plates = _plates(point, result, motion)
     lengths, tensions = result["lengths_m"], result["tensions_N"]
     return {
         "modes.csv": csv_text(modes_columns(result)),
+        "platform_motion.csv": csv_text(motion_columns(result)),
         "cables.csv": csv_text({"cable": range(1, len(lengths) + 1), "length_m": lengths, "tension_N": tensions}),
         **page_files(_page(point, result, plates)),
     }
 
 
-def _plates(point: OperatingPoint, result: Mapping[str, Any]) -> list[Plate]:
+def _plates(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMotion) -> list[Plate]:
+    shapes = mode_shapes.size(point, len(motion.platform))
     return [
         Plate(
             "modes",
             "Eigenfrequencies",
             Drawing("modes", mode_ladder.SIZE, lambda f: mode_ladder.draw_ladder(f, result)),
             mode_ladder.ladder_caption(result),
+        ),
+        Plate(
+            "mode_shapes",
+            "Mode shapes",
+            Drawing("mode_shapes", shapes, lambda f: mode_shapes.draw_shapes(f, point, result, motion)),
+            mode_shapes.shapes_caption(len(motion.platform)),
+            live=viewer_markup(point, result, motion),
         ),
         Plate(
             "robot",
@@ -61,7 +73,7 @@ def _page(point: OperatingPoint, result: Mapping[str, Any], plates: list[Plate])
         facts=_facts(result),
         plates=plates,
         tables=[_mode_table(result), _cable_table(point, result)],
-        notes=[("How it was computed", (_MODELS[result["model"]], _KINDS, _ASSUMED))],
+        notes=[("How it was computed", (_MODELS[result["model"]], _KINDS, WORDS_NOTE, _ASSUMED))],
     )
 
 
@@ -98,13 +110,19 @@ def _facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 
 def _mode_table(result: Mapping[str, Any]) -> HtmlTable:
-    columns = (result["frequencies_hz"], result["platform_energy"], result["kinds"])
+    columns = (result[key] for key in ("frequencies_hz", "platform_energy", "kinds", "motion_words"))
     rows = [
-        [str(i), f"{hertz:.5f}", f"{100.0 * share:.1f}", kind]
-        for i, (hertz, share, kind) in enumerate(zip(*columns, strict=True), start=1)
+        [str(i), f"{hertz:.5f}", f"{100.0 * share:.1f}", kind, words]
+        for i, (hertz, share, kind, words) in enumerate(zip(*columns, strict=True), start=1)
     ]
-    names = ["mode", "frequency [Hz]", "platform's share of the kinetic energy [%]", "kind"]
-    return HtmlTable("Modes", names, rows, "All digits: modes.csv.", prose=frozenset({3}))
+    names = ["mode", "frequency [Hz]", "platform's share of the kinetic energy [%]", "kind", "platform motion"]
+    return HtmlTable(
+        "Modes",
+        names,
+        rows,
+        "All digits: modes.csv; motion of the platform: platform_motion.csv.",
+        prose=frozenset({3, 4}),
+    )
 
 
 def _cable_table(point: OperatingPoint, result: Mapping[str, Any]) -> HtmlTable:

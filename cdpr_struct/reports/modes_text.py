@@ -3,15 +3,20 @@
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from cdpr_struct.reports.text import paragraphs, plain_table
+
+_AXES = ("x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad")
 
 
 def modes_text(result: Mapping[str, Any]) -> str:
     """Table of modes, and whether the count is certified."""
     rows = [
-        [str(i), f"{hertz:.6f}", f"{100.0 * share:.1f}", kind]
-        for i, (hertz, share, kind) in enumerate(
-            zip(result["frequencies_hz"], result["platform_energy"], result["kinds"], strict=True), start=1
+        [str(i), f"{hertz:.6f}", f"{100.0 * share:.1f}", kind, words]
+        for i, (hertz, share, kind, words) in enumerate(
+            zip(*(result[key] for key in ("frequencies_hz", "platform_energy", "kinds", "motion_words")), strict=True),
+            start=1,
         )
     ]
     x, y, z = (round(v, 4) + 0.0 for v in result["pose"][:3])
@@ -21,7 +26,9 @@ def modes_text(result: Mapping[str, Any]) -> str:
         if result["count_certified"]
         else "The count could not be certified."
     )
-    return paragraphs(plain_table(title, ["mode", "[Hz]", "platform energy [%]", "kind"], rows), certified)
+    return paragraphs(
+        plain_table(title, ["mode", "[Hz]", "platform energy [%]", "kind", "platform motion"], rows), certified
+    )
 
 
 def modes_sentence(result: Mapping[str, Any]) -> str:
@@ -42,4 +49,18 @@ def modes_columns(result: Mapping[str, Any]) -> dict[str, Any]:
         "frequency_hz": result["frequencies_hz"],
         "platform_energy": result["platform_energy"],
         "kind": result["kinds"],
+    }
+
+
+def motion_columns(result: Mapping[str, Any]) -> dict[str, Any]:
+    """Columns of platform_motion.csv, one row a mode.
+
+    Motion [m, rad], the largest component of the whole mode 1; shares of the directions in the platform's own energy.
+    """
+    motion, shares = (np.asarray(result[key], dtype=float) for key in ("motion", "platform_directions"))
+    return {
+        "mode": range(1, len(motion) + 1),
+        "platform_motion": result["motion_words"],
+        **dict(zip(_AXES, motion.T, strict=True)),
+        **{f"share_{name.partition('_')[0]}": share for name, share in zip(_AXES, shares.T, strict=True)},
     }

@@ -1,6 +1,7 @@
 """Imports go one way; the numerics know nothing of files, plots or screens."""
 
 import ast
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -50,6 +51,16 @@ MAY_IMPORT = {
         "workspace",
         "thesis",
         "reports",
+        "live",
+    },
+    "live": {
+        "robot",
+        "statics",
+        "dynamics",
+        "crosscheck",
+        "measurement",
+        "observation",
+        "reports",
     },
     "cli": {
         "robot",
@@ -66,12 +77,14 @@ MAY_IMPORT = {
     },
 }
 NUMERICS = ("generated", "statics", "dynamics", "crosscheck", "workspace", "residuals", "hypotheses")
+WINDOW = "viser"
 SCREEN_AND_FILES = {"matplotlib", "plotly", "rich", "typer", "jinja2", "pathlib", "json", "csv"}
 BESIDE = {"fem_reference", "derivations"}  # folders of their own; their directions are tested further down
 MAY_IMPORT_THE_REFEREE = {"crosscheck"}
 MAY_IMPORT_THE_PACKAGE = {"cli"}
 
 
+@cache
 def imports_of(path: Path) -> set[str]:
     """Dotted names of everything that a file imports."""
     found = set()
@@ -110,6 +123,13 @@ def test_numerics_know_nothing_of_files_and_screens(room):
     for path in files_of(room):
         foreign = {name.split(".")[0] for name in imports_of(path)} & SCREEN_AND_FILES
         assert not foreign, f"{path.relative_to(ROOT)} imports {sorted(foreign)}"
+
+
+def test_one_file_knows_the_browser_window():
+    knowing = [p for p in PACKAGE.rglob("*.py") if WINDOW in {n.split(".")[0] for n in imports_of(p)}]
+    assert [p.relative_to(PACKAGE).as_posix() for p in knowing] == ["live/window.py"]
+    for path in files_of("live"):
+        assert not {name.split(".")[0] for name in imports_of(path)} & SCREEN_AND_FILES, path
 
 
 def test_every_room_is_listed():

@@ -20,7 +20,8 @@ NOT_IN_PYTHON = {
     "new-campaign",
     "export",
     "rerun",
-}  # they write files of their own kind
+    "view",
+}  # they write files of their own kind, or open a window
 LONG = ("diagnose", "plan")
 MAIN_TABLE = {
     "robots": "robots.csv",

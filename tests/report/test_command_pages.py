@@ -9,7 +9,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from cdpr_struct.crosscheck.robot_modes import robot_modes
+import cdpr_struct as cs
+from cdpr_struct.interface.modes import ModesResult
 from cdpr_struct.planning.campaign_plan import Confusion, Plan
 from cdpr_struct.planning.measurements import Measurement
 from cdpr_struct.planning.separations import Gain, Separation
@@ -24,22 +25,6 @@ from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot_file import load_robot
 
 NAMES = ("thesis-3-1", "thesis-5")
-
-
-def modes_result(point) -> dict:
-    found = robot_modes(point, "exact", 24)
-    return {
-        "robot": point.robot.name,
-        "pose": [*point.position.tolist(), 0.0, 0.0, 0.0],
-        "model": "exact",
-        "assembly": "consistent",
-        "frequencies_hz": found.hertz,
-        "count_certified": found.count_certified,
-        "kinds": found.kinds(),
-        "platform_energy": found.platform_energy,
-        "tensions_N": point.cables.tension_at_platform,
-        "lengths_m": point.cables.total_length,
-    }
 
 
 def record(hertz=3.4, seconds=4.0):
@@ -77,8 +62,13 @@ def derive_result(diff="", value_errors=()) -> dict:
 
 
 @pytest.fixture(scope="module")
-def modes_of(thesis_point) -> dict:
-    return modes_result(thesis_point)
+def modes_found() -> ModesResult:
+    return cs.modes("thesis-3-1", count=24)
+
+
+@pytest.fixture(scope="module")
+def modes_of(modes_found) -> dict:
+    return modes_found.answer
 
 
 @pytest.fixture(scope="module")
@@ -92,10 +82,10 @@ def robots_of():
 
 
 @pytest.fixture(scope="module")
-def make(thesis_point, modes_of, measured_of):
+def make(modes_found, measured_of):
     """Per command, a function that makes its files."""
     return {
-        "modes": lambda: modes_files(thesis_point, modes_of),
+        "modes": modes_found.files,
         "spectrogram": lambda: measured_files(*record(), measured_of, None),
         "plan": lambda: plan_files(plan_result()),
         "derive": lambda: derive_files(derive_result()),
@@ -109,14 +99,14 @@ def made(make) -> dict:
 
 
 FIGURES = {
-    "modes": ["modes", "robot"],
+    "modes": ["modes", "mode_shapes", "robot"],
     "spectrogram": ["spectrogram"],
     "plan": ["confusions", "gains"],
     "derive": [],
     "robots": ["robot_thesis_3_1", "robot_thesis_5"],
 }
 TABLES = {
-    "modes": {"modes.csv", "cables.csv"},
+    "modes": {"modes.csv", "platform_motion.csv", "cables.csv"},
     "spectrogram": {"modes.csv", "spectrogram.csv"},
     "plan": {"detectable.csv", "confusable.csv", "not_testable.csv", "next.csv", "separates.csv"},
     "derive": {"formulas.csv"},
@@ -234,8 +224,9 @@ def test_cables_that_differ_have_no_common_stiffness():
 
 
 @pytest.mark.parametrize(("certified", "colour"), [(True, "holds"), (False, "fails")])
-def test_modes_page_says_whether_the_count_is_certified(certified, colour, thesis_point, modes_of, read_page):
-    page = read_page(modes_files(thesis_point, {**modes_of, "count_certified": certified})["report.html"])
+def test_modes_page_says_whether_the_count_is_certified(certified, colour, modes_found, modes_of, read_page):
+    answer = {**modes_of, "count_certified": certified}
+    page = read_page(modes_files(modes_found.point, answer, modes_found.motion)["report.html"])
     assert [c for c in page.values("section", "class") if c.startswith("verdict")] == [f"verdict {colour}"]
     assert ("the count is certified" in page.text) is certified
     first = next(f for f, kind in zip(modes_of["frequencies_hz"], modes_of["kinds"], strict=True) if kind == "platform")
@@ -251,10 +242,8 @@ def test_ladder_shows_every_mode_in_the_colour_of_its_kind(made, modes_of):
         assert len(marks) == 2 * count + (count > 0), colour  # and one in the legend
 
 
-def test_ladder_of_a_single_mode_can_be_drawn(thesis_point, modes_of):
-    lists = ("frequencies_hz", "platform_energy", "kinds")
-    one = {key: value[:1] if key in lists else value for key, value in modes_of.items()}
-    files = modes_files(thesis_point, one)
+def test_ladder_of_a_single_mode_can_be_drawn():
+    files = cs.modes("thesis-3-1", count=1).files()
     assert "The first eigenfrequency is 2.483 Hz" in files["report.html"]
 
 

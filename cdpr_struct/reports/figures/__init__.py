@@ -15,6 +15,7 @@
 | footprints.py       | frames of several robots from above                                    |
 | single_cable.py     | profile and dynamic stiffness of one cable                             |
 | mode_ladder.py      | eigenfrequencies by kind, how close they lie, and the tensions         |
+| mode_shapes.py      | the robot in its first modes, at rest and at the end of a swing        |
 | plan.py             | what a test plan would confuse, and what to measure next               |
 | workspace_map.py    | a quantity over one or two axes of the workspace                       |
 | workspace_slices.py | the same over three axes, as slices                                    |

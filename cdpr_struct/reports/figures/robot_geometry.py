@@ -11,6 +11,7 @@ from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot, anchors_in_world
 
 _POINTS_PER_CABLE = 41
+_POINTS_PER_WHEEL = 25
 _SAME_PLANE = 1e-6
 
 
@@ -49,7 +50,8 @@ def robot_geometry(point: OperatingPoint) -> RobotGeometry:
     platform, _ = anchors_in_world(point.entered, point.position, point.rotation)
     frame = platform - point.cables.offset
     edges, triangles = _hull(platform, point.position)
-    return RobotGeometry(_curves(point, frame), frame, platform, edges, triangles)
+    curves = cable_curves(point, np.linspace(0.0, 1.0, _POINTS_PER_CABLE))
+    return RobotGeometry(curves, frame, platform, edges, triangles)
 
 
 def unloaded_geometry(robot: Robot, pose: Pose) -> RobotGeometry:
@@ -60,16 +62,31 @@ def unloaded_geometry(robot: Robot, pose: Pose) -> RobotGeometry:
     return RobotGeometry(curves, np.array(robot.frame_anchors), platform, edges, triangles)
 
 
-def _curves(point: OperatingPoint, frame: np.ndarray) -> np.ndarray:
+def cable_curves(point: OperatingPoint, fractions: np.ndarray) -> np.ndarray:
+    """(m, p, 3) the hanging cables at fractions (p,) of their unstrained lengths from the frame ends, world [m]."""
     cables = point.cables
-    s = np.linspace(0.0, 1.0, _POINTS_PER_CABLE)[None, :] * cables.length[:, None]
+    platform, _ = anchors_in_world(point.entered, point.position, point.rotation)
+    s = fractions[None, :] * cables.length[:, None]
     straight = cables.weight == 0.0
     pull, weight = np.where(straight, 1.0, cables.force_z), np.where(straight, 1.0, cables.weight)
     five = (cables.force_x, pull, cables.length, cables.axial_stiffness, weight)
     along, up = catenary.profile(s, *(value[:, None] for value in five))
     hanging = along[..., None] * cables.heading[:, None, :] + up[..., None] * cables.up[:, None, :]
-    taut = np.linspace(0.0, 1.0, _POINTS_PER_CABLE)[None, :, None] * cables.offset[:, None, :]
-    return frame[:, None, :] + np.where(straight[:, None, None], taut, hanging)
+    taut = fractions[None, :, None] * cables.offset[:, None, :]
+    start = (platform - cables.offset)[:, None, :]
+    return np.asarray(start + np.where(straight[:, None, None], taut, hanging))
+
+
+def pulley_wheels(point: OperatingPoint) -> np.ndarray:
+    """(w, 25, 3) rims of the wheels that the cables run over, closed, world [m]; empty without pulleys."""
+    robot, frame = point.arrays, point.cables.force_at_frame
+    turning = robot.pulley_radius > 0.0
+    axis, radius = robot.pulley_axis[turning], robot.pulley_radius[turning]
+    across = frame[turning] - np.einsum("wi,wi->w", frame[turning], axis)[:, None] * axis
+    radial = across / np.maximum(np.linalg.norm(across, axis=1), 1e-300)[:, None]
+    angle = np.linspace(0.0, 2.0 * np.pi, _POINTS_PER_WHEEL)[:, None]
+    rim = (1.0 - np.cos(angle)) * radial[:, None, :] + np.sin(angle) * axis[:, None, :]
+    return np.asarray(point.entered.frame_anchors[turning, None, :] + radius[:, None, None] * rim)
 
 
 def _hull(platform: np.ndarray, origin: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
