@@ -7,6 +7,7 @@ from hypothesis import settings
 
 import cdpr_struct.cli  # noqa: F401, one thread for NumPy, which must be said before it is imported
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
 
@@ -14,6 +15,19 @@ from cdpr_struct.statics.inverse_kinematics import inverse
 settings.register_profile("ci", derandomize=True)
 if os.environ.get("CI"):
     settings.load_profile("ci")
+
+
+_FORMS = {name: vars(Drawing)[name] for name in ("pdf", "narrow_svg")}
+_EMPTY = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1 1"></svg>'
+_LEFT_OUT = {"pdf": lambda self, title: b"%PDF-1.4", "narrow_svg": property(lambda self: _EMPTY)}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def one_form_of_figures(request: pytest.FixtureRequest) -> None:
+    """Pages draw each figure once, not three times: phone and paper are left to modules marked `every_form`."""
+    every = request.node.get_closest_marker("every_form") is not None
+    for name, form in (_FORMS if every else _LEFT_OUT).items():
+        setattr(Drawing, name, form)
 
 
 def at_rest(name: str, position=None, mass=None, payload=0.0) -> OperatingPoint:

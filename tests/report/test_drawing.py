@@ -8,6 +8,8 @@ import pytest
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.figures.narrow import WIDTH
 
+pytestmark = pytest.mark.every_form
+
 SCREEN = 400 - 2 * 12  # width of a phone less the page's margins [px]
 
 

@@ -98,7 +98,7 @@ def test_parquet_has_the_numbers_of_the_csv_file(tmp_path):
     assert run(words) == 0
     for path in tmp_path.glob("*.csv"):
         pd.testing.assert_frame_equal(pd.read_parquet(path.with_suffix(".parquet")), pd.read_csv(path))
-    assert len(list(tmp_path.glob("*.parquet"))) == 2
+    assert len(list(tmp_path.glob("*.parquet"))) == len(list(tmp_path.glob("*.csv"))) > 1
     told = json.loads((tmp_path / "result.json").read_text())["frequencies_hz"]
     assert pd.read_parquet(tmp_path / "modes.parquet")["frequency_hz"].tolist() == pytest.approx(told, rel=1e-15)
 
