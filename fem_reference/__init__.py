@@ -25,7 +25,7 @@ from cdpr_struct.fem_reference.motion_problem import TimeHistory
 from cdpr_struct.fem_reference.pulley import PulleyData, Wrap
 from cdpr_struct.fem_reference.rigid_platform import PlatformData
 from cdpr_struct.fem_reference.robot import PointForce, RobotData, RobotEquilibrium
-from cdpr_struct.fem_reference.robot_dynamics import count_below, platform_dynamic_stiffness
+from cdpr_struct.fem_reference.robot_dynamics import count_below, neutral_freedoms, platform_dynamic_stiffness
 from cdpr_struct.fem_reference.robot_modes import RobotModes, robot_modes
 from cdpr_struct.fem_reference.robot_statics import solve_robot
 from cdpr_struct.fem_reference.surroundings import SurroundingsData
@@ -63,6 +63,7 @@ __all__ = [
     "extrapolate",
     "frequency_response",
     "integrate",
+    "neutral_freedoms",
     "platform_dynamic_stiffness",
     "robot_modes",
     "solve_cable",

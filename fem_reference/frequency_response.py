@@ -29,10 +29,15 @@ def frequency_response(
     Returns
     -------
     (..., 6, 6) symmetric, world axes: displacement of the reference point and rotation vector, per force and
-    moment about the reference point; complex if the damping or an omega is.
+    moment about the reference point; complex if the damping or an omega is. Zero where a guide holds the platform.
 
     Raises
     ------
     ValueError : unfit damping ratios.
     """
-    return np.asarray(np.linalg.inv(platform_dynamic_stiffness(equilibrium, omegas, mass, damping_ratio=damping_ratio)))
+    stiffness = platform_dynamic_stiffness(equilibrium, omegas, mass, damping_ratio=damping_ratio)
+    free = equilibrium.robot.free_unknowns
+    rows, columns = np.ix_(free, free)
+    moved = np.zeros_like(stiffness)
+    moved[..., rows, columns] = np.linalg.inv(stiffness[..., rows, columns])
+    return moved

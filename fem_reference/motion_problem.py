@@ -101,6 +101,8 @@ def motion_problem(
             raise ValueError(
                 f"record must hold cables 0 ... {cables - 1}, nodes 1 ... {elements - 1}, got {cable, node}"
             )
+    if equilibrium.robot.guided:
+        raise ValueError("the motion of a guided platform in time is not among what this program integrates")
     twist = fixed_array("initial_velocity", np.zeros(6) if initial_velocity is None else initial_velocity, (6,))
     rates = damping_rates(equilibrium, damping_ratio, mass)
     return MotionProblem(equilibrium, time, twist, rates, wrenches, recorded, mass)

@@ -27,6 +27,8 @@ class RobotData:
     gravity          : (3,) [m/s^2], world, z up
     pulleys          : m PulleyData or None, or empty for none at all
     surroundings     : SurroundingsData, what the robot stands and leans on
+    guided           : numbers, from 0, of the platform's six unknowns (displacement of the reference point along x, y,
+                       z, rotation about them) that a guide holds
     """
 
     frame_anchors: np.ndarray
@@ -36,6 +38,7 @@ class RobotData:
     gravity: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -9.81]))
     pulleys: tuple[PulleyData | None, ...] = ()
     surroundings: SurroundingsData = field(default_factory=SurroundingsData)
+    guided: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
         cables = tuple(self.cables)
@@ -51,6 +54,13 @@ class RobotData:
         object.__setattr__(self, "pulleys", pulleys)
         if any(pulleys) and self.surroundings.bending:
             raise ValueError("RobotData: pulleys do not go with masts that bend")
+        if any(number not in range(6) for number in self.guided) or len(set(self.guided)) >= 6:
+            raise ValueError(f"RobotData.guided must be numbers from 0 to 5, not all six, got {self.guided!r}")
+
+    @property
+    def free_unknowns(self) -> np.ndarray:
+        """Numbers (f,) of the platform's unknowns that no guide holds."""
+        return np.setdiff1d(np.arange(6), self.guided)
 
     @property
     def soft_masts(self) -> tuple[Mast, ...]:
@@ -110,7 +120,8 @@ class RobotEquilibrium:
     position, rotation    : (3,) [m], (3, 3) platform to world
     cables                : m CableEquilibrium
     residual_wrench       : (6,) [N, N m], world, about the reference point, of all forces on the platform;
-                            zero but for round-off if the platform was free, else what would have to hold it
+                            zero but for round-off where the platform was free, else what would have to hold it; minus
+                            what a guide does to it
     iterations            : Newton steps on the pose
     """
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy.linalg
 from numpy.typing import ArrayLike
 
 from cdpr_struct.fem_reference.bar_element import MassModel
@@ -11,6 +12,8 @@ from cdpr_struct.fem_reference.cable_damping import damping_rates
 from cdpr_struct.fem_reference.rigid_platform import platform_mass_matrix
 from cdpr_struct.fem_reference.robot import RobotEquilibrium
 from cdpr_struct.fem_reference.substructure import Pieces, condensed_and_counted, condensed_both_ends, dynamic_ends
+
+NEUTRAL = 1e-9  # of the largest eigenvalue: what is less counts as nothing
 
 
 def platform_dynamic_stiffness(
@@ -33,7 +36,7 @@ def platform_dynamic_stiffness(
 
     Returns
     -------
-    (..., 6, 6) symmetric, world axes, moments about the reference point; platform mass included.
+    (..., 6, 6) symmetric, world axes, moments about the reference point; platform mass included, a guide left out.
     """
     omega = np.asarray(omegas)
     squares = (omega * omega * 1.0).reshape(-1)
@@ -49,6 +52,16 @@ def platform_dynamic_stiffness(
     if geometric_terms:
         matrix = matrix + equilibrium.geometric_stiffness()
     return (0.5 * (matrix + np.swapaxes(matrix, -1, -2))).reshape(*omega.shape, 6, 6)
+
+
+def neutral_freedoms(equilibrium: RobotEquilibrium) -> int:
+    """Number of directions in which nothing pushes the platform back at rest: eigenvalues of its condensed stiffness,
+    by its own mass, below `NEUTRAL` of the largest."""
+    free = np.ix_(equilibrium.robot.free_unknowns, equilibrium.robot.free_unknowns)
+    stiffness = platform_dynamic_stiffness(equilibrium, 0.0)[free]
+    mass = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)[free]
+    values = scipy.linalg.eigh(stiffness, mass, eigvals_only=True)
+    return int((np.abs(values) <= NEUTRAL * values[-1]).sum())
 
 
 def _on_masts(equilibrium: RobotEquilibrium, omega: complex, mass: MassModel, rates: np.ndarray) -> np.ndarray:
@@ -80,8 +93,8 @@ def count_below(equilibrium: RobotEquilibrium, omega: float, mass: MassModel = "
     """Number of eigenfrequencies of the robot below omega [rad/s].
 
     Sylvester's law of inertia on K - omega^2 M: negative pivots of every cable, eliminated to its end, and of the
-    masts, eliminated next, plus the negative eigenvalues of the remaining 6 x 6 matrix. No eigenvalue is computed,
-    so none is missed.
+    masts, eliminated next, plus the negative eigenvalues of the free part of the remaining 6 x 6 matrix. No eigenvalue
+    is computed, so none is missed.
     """
     matrices = equilibrium.element_stiffness() - omega**2 * equilibrium.element_mass(mass)
     platform = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
@@ -94,6 +107,7 @@ def count_below(equilibrium: RobotEquilibrium, omega: float, mass: MassModel = "
         motion, in_masts = equilibrium.end_motion(), 0
         remaining = np.einsum("mka,mkl,mlb->ab", motion, ends, motion, optimize=True)
     remaining = remaining + equilibrium.geometric_stiffness() - omega**2 * platform
-    size = np.sqrt(np.diag(platform))
+    free = equilibrium.robot.free_unknowns
+    remaining, size = remaining[np.ix_(free, free)], np.sqrt(np.diag(platform))[free]
     remaining = 0.5 * (remaining + remaining.T) / np.outer(size, size)
     return int(in_cables.sum()) + in_masts + int((np.linalg.eigvalsh(remaining) < 0.0).sum())

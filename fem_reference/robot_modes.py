@@ -55,7 +55,7 @@ def node_motion(equilibrium: RobotEquilibrium) -> csc_array:
 def robot_matrices(equilibrium: RobotEquilibrium, mass: MassModel = "lumped") -> tuple[csc_array, csc_array]:
     """Tangent stiffness and mass of the whole robot in the unknowns of `node_motion`, sparse.
 
-    Masts that bend add three unknowns each, between the cables' and the platform's.
+    Masts that bend add three unknowns each, between the cables' and the platform's. What a guide holds is among them.
     """
     motion, robot = node_motion(equilibrium), equilibrium.robot
     elements = (equilibrium.element_stiffness(), equilibrium.element_mass(mass))
@@ -110,7 +110,8 @@ def robot_modes(equilibrium: RobotEquilibrium, count: int, mass: MassModel = "lu
     UnstableEquilibriumError : the platform does not rest stably.
     MissedModesError : the sign count contradicts the eigensolver.
     """
-    stiffness, inertia = robot_matrices(equilibrium, mass)
+    held = 6 - len(equilibrium.robot.free_unknowns)
+    stiffness, inertia = (_of_free(equilibrium, matrix) for matrix in robot_matrices(equilibrium, mass))
     if not 1 <= count <= stiffness.shape[0]:
         raise ValueError(f"count must be between 1 and {stiffness.shape[0]}, got {count!r}")
     for spare in SPARE_MODES:
@@ -121,7 +122,10 @@ def robot_modes(equilibrium: RobotEquilibrium, count: int, mass: MassModel = "lu
             break
     else:
         raise MissedModesError(found, counted, omega / (2.0 * np.pi))
+    platform = vectors[vectors.shape[0] - 6 + held :, :count]
     vectors = np.delete(vectors[:, :count], _mast_unknowns(equilibrium), axis=0)
+    vectors = np.concatenate([vectors[: len(vectors) - 6 + held], np.zeros((6, count))])
+    vectors[-6 + equilibrium.robot.free_unknowns] = platform
     cables, interior = len(equilibrium.cables), equilibrium.elements - 1
     platform_energy, cable_energy = _energy_shares(equilibrium, vectors, mass)
     return RobotModes(
@@ -131,6 +135,13 @@ def robot_modes(equilibrium: RobotEquilibrium, count: int, mass: MassModel = "lu
         platform_energy,
         cable_energy,
     )
+
+
+def _of_free(equilibrium: RobotEquilibrium, matrix: csc_array) -> csc_array:
+    """The matrix without rows and columns of what a guide holds of the platform, whose unknowns come last."""
+    first = matrix.shape[0] - 6
+    kept = np.concatenate([np.arange(first), first + equilibrium.robot.free_unknowns])
+    return csc_array(csc_array(matrix[kept])[:, kept])
 
 
 def _mast_unknowns(equilibrium: RobotEquilibrium) -> np.ndarray:
@@ -143,7 +154,8 @@ def _shift(equilibrium: RobotEquilibrium) -> float:
     scales = [string_eigenvalue(cable) for cable in equilibrium.cables]
     stiffness = platform_dynamic_stiffness(equilibrium, 0.0)
     platform = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
-    rigid = scipy.linalg.eigh(stiffness, platform, eigvals_only=True)
+    free = np.ix_(equilibrium.robot.free_unknowns, equilibrium.robot.free_unknowns)
+    rigid = scipy.linalg.eigh(stiffness[free], platform[free], eigvals_only=True)
     scales += [float(value) for value in rigid if value > 1e-12 * rigid[-1]]
     return -1e-3 * min(scales)
 
@@ -156,7 +168,7 @@ def _counted_in_gap(
     A gap too narrow to count in is reported as found = -1. With every unknown solved nothing can be missed.
     """
     roots = np.sqrt(np.maximum(values, 0.0))
-    free = 3 * len(equilibrium.cables) * (equilibrium.elements - 1) + 6
+    free = 3 * len(equilibrium.cables) * (equilibrium.elements - 1) + len(equilibrium.robot.free_unknowns)
     if len(roots) == free + len(_mast_unknowns(equilibrium)):
         return len(roots), len(roots), float(roots[-1])
     gaps = np.diff(roots[count - 1 :])

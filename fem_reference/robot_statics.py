@@ -90,13 +90,15 @@ def platform_state(
     return PlatformState(position, rotation, chains, bent.iterations, wrench, tangent, energy, bent.starts)
 
 
-def _step(state: PlatformState, reach: float) -> np.ndarray:
-    """Newton step (6,) that goes downhill even where the tangent is not positive, of limited size."""
+def _step(state: PlatformState, reach: float, free: np.ndarray) -> np.ndarray:
+    """Newton step (6,) that goes downhill even where the tangent is not positive, of limited size, in unknowns (f,)."""
     scale = np.array([1.0] * 3 + [1.0 / reach] * 3)
     tangent = scale[:, None] * 0.5 * (state.tangent + state.tangent.T) * scale
-    values, vectors = np.linalg.eigh(tangent)
+    values, vectors = np.linalg.eigh(tangent[np.ix_(free, free)])
     values = np.maximum(np.abs(values), 1e-12 * np.abs(values).max())
-    step = scale * (vectors @ (vectors.T @ (scale * state.wrench) / values))
+    step = np.zeros(6)
+    step[free] = vectors @ (vectors.T @ (scale * state.wrench)[free] / values)
+    step *= scale
     size = float(max(np.linalg.norm(step[3:]), np.linalg.norm(step[:3]) / reach))
     return step * min(1.0, LARGEST_TURN / max(size, 1e-300))
 
@@ -131,7 +133,8 @@ def _descend(
 
     A step so long that a cable goes slack and folds is halved, too; `FoldedCableError` if short ones fold as well.
     """
-    slope, size = float(state.wrench @ step), float(np.abs(state.wrench).max())
+    free = robot.free_unknowns
+    slope, size = float(state.wrench @ step), float(np.abs(state.wrench[free]).max())
     scale = 1.0
     for _ in range(40):
         place, turn = state.position + scale * step[:3], turned(state.rotation, scale * step[3:])
@@ -144,7 +147,7 @@ def _descend(
             continue
         work = scale * float(loads.moment @ step[3:])  # of the moment, which is constant along this turn
         lower = trial.energy - work <= state.energy - 1e-4 * scale * slope
-        if lower or float(np.abs(trial.wrench).max()) <= max(0.5 * size, floor):
+        if lower or float(np.abs(trial.wrench[free]).max()) <= max(0.5 * size, floor):
             break
         scale *= 0.5
     return trial
@@ -158,7 +161,7 @@ def solve_robot(
     hold_pose: bool = False,
     external_force: PointForce | None = None,
 ) -> RobotEquilibrium:
-    """Static equilibrium of the robot with all unstrained lengths fixed.
+    """Static equilibrium of the robot with all unstrained lengths fixed; guided unknowns stay as guessed.
 
     Parameters
     ----------
@@ -218,12 +221,14 @@ def _settled(
 
 def _balanced(robot: RobotData, batch: CableBatch, loads: DeadLoads, state: PlatformState) -> tuple[PlatformState, int]:
     """Newton steps until the wrench is round-off."""
-    reach = _reach(robot, loads)
+    reach, free = _reach(robot, loads), robot.free_unknowns
     far = float(np.abs(robot.frame_anchors).max()) + reach
     for iteration in range(MAX_ITERATIONS):
         force, moment = _tolerances(batch, loads, state, far + float(np.abs(state.position).max()), reach)
-        sizes = np.linalg.norm(state.wrench[:3]), np.linalg.norm(state.wrench[3:])
+        left = np.zeros(6)
+        left[free] = state.wrench[free]
+        sizes = np.linalg.norm(left[:3]), np.linalg.norm(left[3:])
         if sizes[0] <= force and sizes[1] <= moment:
             return state, iteration
-        state = _descend(robot, batch, loads, state, _step(state, reach), force)
+        state = _descend(robot, batch, loads, state, _step(state, reach, free), force)
     raise RobotNotConvergedError(state.wrench, force, MAX_ITERATIONS, state.position, state.rotation)

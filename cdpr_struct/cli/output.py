@@ -13,7 +13,7 @@ from cdpr_struct.cli.progress import Begin, silent, steps
 from cdpr_struct.cli.run_record import RUN, run_record
 from cdpr_struct.cli.written_files import RESULT, Content, refuse_foreign, replace_files
 from cdpr_struct.reports.plain_json import json_text
-from cdpr_struct.reports.remarks import extensions_of, locked_of, remarks, warnings_of
+from cdpr_struct.reports.remarks import extensions_of, remarks, rest_of, warnings_of
 
 if TYPE_CHECKING:
     from cdpr_struct.interface.result import Result
@@ -99,7 +99,7 @@ class Output:
         bare = files["report.html"]
         if not isinstance(bare, str | bytes):
             raise TypeError("report.html must be whole, not in parts")
-        page = completed(bare, shlex.join(self.words), warnings_of(result), extensions_of(result), locked_of(result))
+        page = completed(bare, shlex.join(self.words), warnings_of(result), extensions_of(result), rest_of(result))
         return {**files, "report.html": page, **self._tables(files)}
 
     def _tables(self, files: Files) -> Files:

@@ -16,6 +16,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     platform_mass_matrix,
     platform_static_stiffness,
 )
+from cdpr_struct.statics.guides import free_block
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,12 +47,12 @@ def scan_determinant(
     cables = cable_dynamics(point, "dsm")
     hertz = np.arange(first, last + 0.5 * step, step)
     omega = 2.0 * np.pi * hertz
-    mass = platform_mass_matrix(point.entered, point.rotation)
+    mass = free_block(platform_mass_matrix(point.entered, point.rotation), point.arrays)
     dynamic = platform_dynamic_stiffness(
         point, cables, damped(cables, point.entered.damping_ratio, omega[:, None]), assembly
     )
-    log_dynamic = _log_determinant(omega, mass, dynamic)
-    log_static = _log_determinant(omega, mass, platform_static_stiffness(point, assembly))
+    log_dynamic = _log_determinant(omega, mass, free_block(dynamic, point.arrays))
+    log_static = _log_determinant(omega, mass, free_block(platform_static_stiffness(point, assembly), point.arrays))
     inner = log_dynamic[1:-1]
     lower = (inner < log_dynamic[:-2]) & (inner <= log_dynamic[2:])
     return DeterminantScan(hertz, log_dynamic, log_static, hertz[1:-1][lower])
@@ -59,7 +60,7 @@ def scan_determinant(
 
 def _log_determinant(omega: np.ndarray, mass: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
     squared = (omega**2)[:, None, None]
-    _, log = np.linalg.slogdet(squared * np.eye(6) - np.linalg.solve(mass, stiffness))
+    _, log = np.linalg.slogdet(squared * np.eye(len(mass)) - np.linalg.solve(mass, stiffness))
     return log / np.log(10.0)
 
 

@@ -1,12 +1,14 @@
 """Hands a robot to the referee: plain numbers in, equilibria and modes out."""
 
+from dataclasses import fields
+
 import numpy as np
 
 import cdpr_struct.fem_reference as fem
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import attachment
 from cdpr_struct.robot.extensions import masts_of
-from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot import FREEDOMS, Robot
 from cdpr_struct.statics.masts import carriers, of_each_mast
 
 NOT_IN_FEM = ("bending_stiffness", "added_mass", "internal_mass")
@@ -26,14 +28,14 @@ def to_fem(robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None
     )
     body = robot.platform
     platform = fem.PlatformData(body.mass, np.array(body.center_of_mass), np.array(body.inertia))
-    gravity = np.array([0.0, 0.0, -robot.gravity])
+    guided = tuple(i for i, name in enumerate(FREEDOMS) if name in robot.guided)
     pulleys = tuple(None if p is None else fem.PulleyData(p.radius, np.array(p.axis)) for p in robot.pulleys)
     anchors = np.array(robot.frame_anchors), np.array(robot.platform_anchors)
-    return fem.RobotData(*anchors, cables, platform, gravity, pulleys, _surroundings(robot))
+    return fem.RobotData(*anchors, cables, platform, robot.gravity_vector, pulleys, _surroundings(robot), guided)
 
 
 def _surroundings(robot: Robot) -> fem.SurroundingsData:
-    more, tilted = robot.extensions, np.append(robot.extensions.tilt, -1.0) * robot.gravity
+    more, tilted = robot.extensions, (np.append(robot.extensions.tilt, 0.0) + robot.down) * robot.gravity
     shared = masts_of(robot.frame_anchors)
     masts = tuple(tuple(np.flatnonzero(column).tolist()) for column in carriers(shared).T)
     bracket, upright = (tuple(of_each_mast(shared, c).tolist()) for c in (more.frame_compliance, more.mast_bending))
@@ -52,6 +54,11 @@ def solve_in_fem(point: OperatingPoint, elements: int) -> fem.RobotEquilibrium:
     """Equilibrium that the referee finds at the same unstrained lengths, started from the point's pose."""
     data = to_fem(point.entered, point.cables.total_length, point.cables.axial_stiffness)
     return fem.solve_robot(data, point.position, point.rotation, elements, external_force=push_of(point.entered))
+
+
+def vibrating(modes: fem.RobotModes, neutral: int) -> fem.RobotModes:
+    """The referee's modes without the first, neutral ones."""
+    return fem.RobotModes(*(getattr(modes, part.name)[neutral:] for part in fields(modes)))
 
 
 def fem_shapes(modes: fem.RobotModes, stations: int) -> np.ndarray:

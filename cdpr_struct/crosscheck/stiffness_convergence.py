@@ -14,6 +14,8 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     platform_mass_matrix,
     platform_static_stiffness,
 )
+from cdpr_struct.statics.guides import free_block
+from cdpr_struct.statics.neutral_freedoms import NEUTRAL
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,17 +39,24 @@ def stiffness_convergence(
     """Compare K(omega) in the middle of the widest gaps between the natural frequencies (k,) [Hz]."""
     hertz = quiet_frequencies(frequencies)
     omega = 2.0 * np.pi * hertz
-    scale = 1.0 / np.sqrt(np.abs(np.diag(platform_static_stiffness(point, assembly))))
+    scale = _scale(np.abs(np.diag(platform_static_stiffness(point, assembly))))
     exact = _model(point, "exact", omega, assembly)
 
     def error(stiffness: np.ndarray) -> np.ndarray:
-        return np.abs((stiffness - exact) * scale[:, None] * scale).max(axis=(-1, -2))
+        return np.abs(free_block((stiffness - exact) * scale[:, None] * scale, point.arrays)).max(axis=(-1, -2))
 
     geometric = assembly == "consistent"
     found = [fem.platform_dynamic_stiffness(mesh, omega, geometric_terms=geometric) for mesh in meshes]
     return StiffnessConvergence(
         hertz, np.array([error(k) for k in found]), error(_model(point, "dsm", omega, assembly))
     )
+
+
+def _scale(diagonal: np.ndarray) -> np.ndarray:
+    """(6,) one over the roots of a stiffness's diagonal (6,); zero in a direction that nothing holds."""
+    largest = np.repeat(diagonal.reshape(2, 3).max(axis=1), 3)
+    held = diagonal > NEUTRAL * largest
+    return np.where(held, 1.0 / np.sqrt(np.where(held, diagonal, 1.0)), 0.0)
 
 
 def quiet_frequencies(frequencies: np.ndarray, count: int = 8) -> np.ndarray:

@@ -9,7 +9,7 @@ from scipy.optimize import linear_sum_assignment
 
 import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.determinant_minima import DeterminantScan, match_minima, scan_determinant
-from cdpr_struct.crosscheck.fem_robot import fem_shapes, sampling_mass, solve_in_fem
+from cdpr_struct.crosscheck.fem_robot import fem_shapes, sampling_mass, solve_in_fem, vibrating
 from cdpr_struct.crosscheck.mode_pairing import modal_assurance, pair_modes, shared_subspace
 from cdpr_struct.crosscheck.stiffness_convergence import StiffnessConvergence, stiffness_convergence
 from cdpr_struct.crosscheck.validity_limits import ValidityLimits, check_limits
@@ -20,8 +20,10 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     Assembly,
     platform_mass_matrix,
     platform_static_stiffness,
+    stability_at,
 )
 from cdpr_struct.errors import CdprError
+from cdpr_struct.statics.guides import free_axes, free_block
 
 SCAN_STEPS_HERTZ = (0.05, 0.02, 0.01, 0.005)
 _REPORTED_STEP = 0.01
@@ -58,6 +60,8 @@ class Verification:
     missed, spurious  : per scan step [Hz], how many frequencies have no minimum, and how many minima no frequency
     consistent_hertz  : (e, k) the FEM with consistent instead of lumped mass;  stiffness : K(omega) itself
     geometric_effect  : largest relative change of a frequency if eq. (3.8) is assembled as printed [-]
+    neutral, fem_neutral : directions in which nothing pushes the platform back, by model and referee; their frequency
+                        is zero, and they are not among the modes
     """
 
     point: OperatingPoint
@@ -82,6 +86,8 @@ class Verification:
     stiffness: StiffnessConvergence
     geometric_effect: float
     limits: ValidityLimits
+    neutral: int
+    fem_neutral: int
 
     @property
     def relative_error(self) -> np.ndarray:
@@ -170,28 +176,32 @@ def verify(
         spurious={step: len(scans[step].minima_hertz) - int(np.isfinite(m).sum()) for step, m in matched.items()},
         consistent_hertz=sweep.consistent_hertz,
         stiffness=stiffness_convergence(point, sweep.meshes, exact.hertz[:modes], assembly),
-        geometric_effect=_geometric_effect(point, exact.hertz[:modes], assembly),
+        geometric_effect=_geometric_effect(point, exact.hertz[:modes], exact.neutral, assembly),
         limits=check_limits(point),
+        neutral=exact.neutral,
+        fem_neutral=fem.neutral_freedoms(sweep.meshes[-1]),
     )
 
 
-def _geometric_effect(point: OperatingPoint, hertz: np.ndarray, assembly: Assembly) -> float:
+def _geometric_effect(point: OperatingPoint, hertz: np.ndarray, neutral: int, assembly: Assembly) -> float:
     """Largest relative change of the exact frequencies if the geometric term is left out; nan where that is unstable.
 
-    hertz : (k,) those of `assembly`; the other assembly's are computed
+    hertz : (k,) those of `assembly` above zero, after so many `neutral` freedoms; the other assembly's are computed
     """
     try:
-        other = certified_frequencies(
-            point, "exact", len(hertz), "thesis" if assembly == "consistent" else "consistent"
-        )
+        way: Assembly = "thesis" if assembly == "consistent" else "consistent"
+        other = certified_frequencies(point, "exact", len(hertz) + neutral, way).hertz[neutral:]
     except CdprError:
         return float("nan")
-    ratio = other.hertz / hertz if assembly == "consistent" else hertz / other.hertz
+    ratio = other / hertz if assembly == "consistent" else hertz / other
     return float(np.abs(ratio - 1.0).max())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _ModelModes:
+    """Modes above zero; neutral: number of those at zero before them."""
+
+    neutral: int
     hertz: np.ndarray
     certified: bool
     shapes: np.ndarray
@@ -202,10 +212,12 @@ def _model_modes(
     point: OperatingPoint, model: CableModel, modes: int, assembly: Assembly, stations: int
 ) -> _ModelModes:
     """Frequencies of the model with shapes (k, 6 + 3 m (stations - 1)) sampled where the FEM's are."""
-    found = certified_modes(point, model, modes + _SPARE_MODES, assembly)
+    neutral = int(stability_at(point, assembly).neutral)
+    found = certified_modes(point, model, neutral + modes + _SPARE_MODES, assembly)
     motion = found.shapes.cable_motion(np.arange(1, stations) / stations)
     shapes = np.concatenate([found.shapes.platform, motion.reshape(len(motion), -1)], axis=1)
-    return _ModelModes(found.frequencies.hertz, found.frequencies.certified, shapes, found.shapes.kinds())
+    hertz, kinds = found.frequencies.hertz[neutral:], found.shapes.kinds()[neutral:]
+    return _ModelModes(neutral, hertz, found.frequencies.certified, shapes[neutral:], kinds)
 
 
 def _sweep_elements(
@@ -216,10 +228,12 @@ def _sweep_elements(
     for n in elements:
         progress(f"FEM, {len(point.entered.cables)} x {n} elements")
         spare = 0 if n == elements[-1] else _SPARE_MODES
-        count = min(modes + spare, 5 + 3 * len(point.entered.cables) * (n - 1))
+        every = 5 - len(point.entered.guided) + 3 * len(point.entered.cables) * (n - 1)
         meshes.append(solve_in_fem(point, n))
-        lumped.append(fem.robot_modes(meshes[-1], count))
-        consistent.append(fem.robot_modes(meshes[-1], count, "consistent"))
+        neutral = fem.neutral_freedoms(meshes[-1])
+        count = min(neutral + modes + spare, every)
+        lumped.append(vibrating(fem.robot_modes(meshes[-1], count), neutral))
+        consistent.append(vibrating(fem.robot_modes(meshes[-1], count, "consistent"), neutral))
     finest = lumped[-1]
     shapes = fem_shapes(finest, elements[0])
 
@@ -249,8 +263,10 @@ def _static_partners(
     platform_shapes carry unit modal mass, so the overlap with a static shape is the share of the FEM mode's energy
     that is this platform motion.
     """
-    squared, static_shapes = scipy.linalg.eigh(platform_static_stiffness(point, assembly), mass)
-    overlap = (platform_shapes @ mass @ static_shapes) ** 2
+    free = free_axes(point.arrays)
+    stiffness, own = (free_block(part, point.arrays) for part in (platform_static_stiffness(point, assembly), mass))
+    squared, static_shapes = scipy.linalg.eigh(stiffness, own)
+    overlap = (platform_shapes[:, free] @ own @ static_shapes) ** 2
     result = np.full(len(platform_shapes), np.nan)
     rows, columns = linear_sum_assignment(-overlap)
     for i, j in zip(rows, columns, strict=True):
@@ -278,5 +294,6 @@ def _objections(v: Verification) -> list[tuple[bool, str]]:
             float(np.max(blurred)) > v.criteria.fem_uncertainty,
             f"the FEM has not converged: its limit is uncertain by {100 * np.max(blurred):.2g} %; use more elements",
         ),
+        (v.neutral != v.fem_neutral, f"the model has {v.neutral} neutral freedoms, the FEM {v.fem_neutral}"),
         (not v.dsm_certified, "the count of the DSM's natural frequencies could not be certified"),
     ]

@@ -12,6 +12,7 @@ import numpy as np
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix, platform_static_stiffness
 from cdpr_struct.statics.equilibrium import moment_skew
+from cdpr_struct.statics.guides import free_block
 
 WORTH_SAYING = 1e-3  # of a frequency
 _ROUNDING = 1e-9  # of the largest squared frequency: imaginary parts below it are none
@@ -25,6 +26,7 @@ def frequency_change(point: OperatingPoint) -> float:
     stiffness, mass = platform_static_stiffness(point), platform_mass_matrix(point.arrays, point.rotation)
     whole = stiffness.copy()
     whole[..., 3:, 3:] += moment_skew(-point.arrays.moment)
+    mass, stiffness, whole = (free_block(matrix, point.arrays) for matrix in (mass, stiffness, whole))
     taken, true = (np.linalg.eigvals(np.linalg.solve(mass, matrix)) for matrix in (stiffness, whole))
     if np.abs(true.imag).max() > _ROUNDING * np.abs(true).max():
         return np.inf

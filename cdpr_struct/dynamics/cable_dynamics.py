@@ -18,7 +18,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.taut_cable_expansion import expand_taut_cables
 from cdpr_struct.dynamics.taut_cables import TautCables, closed_form_stiffness, taut_cables
 from cdpr_struct.generated.cable_dsm import damped_omega_squared
-from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.cable_state import VECTORS, CableStates
 
 CableModel = Literal["static", "dsm", "exact"]
 CABLE_MODELS: tuple[CableModel, ...] = get_args(CableModel)
@@ -92,8 +92,7 @@ def flattened(cables: CableStates) -> CableStates:
     def flat(value: np.ndarray, core: tuple[int, ...]) -> np.ndarray:
         return np.broadcast_to(value, shape + core).reshape((-1, *core))
 
-    vectors = ("offset", "heading")
-    return CableStates(**{f.name: flat(getattr(cables, f.name), (3,) * (f.name in vectors)) for f in fields(cables)})
+    return CableStates(**{f.name: flat(getattr(cables, f.name), (3,) * (f.name in VECTORS)) for f in fields(cables)})
 
 
 def damped(cables: CableDynamics, damping_ratio: np.ndarray, omega: np.ndarray) -> np.ndarray:

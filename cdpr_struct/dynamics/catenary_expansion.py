@@ -17,7 +17,7 @@ from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.polynomial_basis import curvatures, on_gauss_nodes, polynomial_basis
 from cdpr_struct.dynamics.stiff_cable import slenderness
-from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.cable_state import CableStates, cable_frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,7 +79,7 @@ def expand_catenaries(
     frame_ends : None where all are fixed points
     extras : None where cables neither resist bending nor carry masses
     """
-    frame = _frame(cables)
+    frame = cable_frame(cables)
     to_local = np.swapaxes(frame, -1, -2)
     nodes, weights, values, slopes = on_gauss_nodes(order)
     coordinate = CatenaryCoordinate.of(cables)
@@ -119,13 +119,6 @@ def expand_catenaries(
         shapes=lambda stations, derivative=0: _shapes(planes, coordinate, order, stations, derivative),
     )
     return found.ascending()
-
-
-def _frame(cables: CableStates) -> np.ndarray:
-    frame = np.zeros((*cables.heading.shape, 3))
-    frame[..., 0] = cables.heading
-    frame[..., 0, 1], frame[..., 1, 1], frame[..., 2, 2] = -cables.heading[..., 1], cables.heading[..., 0], 1.0
-    return frame
 
 
 def _products(functions: np.ndarray, weights: np.ndarray) -> np.ndarray:

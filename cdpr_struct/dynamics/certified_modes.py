@@ -73,15 +73,23 @@ def quickly_certified(
 def certified(
     point: OperatingPoint, cables: CableDynamics, shapes: RitzModes, assembly: Assembly = "consistent"
 ) -> NaturalFrequencies:
-    """The model's natural frequencies near those of Ritz modes, enclosed by the count."""
-    omega = _corrected(point, cables, shapes, assembly)
+    """The model's natural frequencies near those of Ritz modes, enclosed by the count.
+
+    The count at the first one above zero proves that there are no more neutral freedoms, whose frequency is zero.
+    """
+    every = _corrected(point, cables, shapes, assembly)
+    neutral = int((every == 0.0).sum())
+    omega = every[neutral:]
+    if not len(omega):
+        return NaturalFrequencies.in_brackets(np.zeros((neutral, 2)))
     low, high = omega * (1.0 - _BRACKET), omega * (1.0 + _BRACKET)
-    number = np.arange(1, len(omega) + 1)
+    number = np.arange(neutral + 1, len(every) + 1)
     low_count, high_count = np.split(count_below(point, cables, np.concatenate([low, high]), assembly), 2)
     open_ = ~((low_count < number) & (high_count >= number))
     if open_.any():
         low[open_], high[open_] = bisect_count(point, cables, number[open_], assembly, _BRACKET)
-    return NaturalFrequencies.in_brackets(np.stack([low, high], axis=-1) / (2.0 * np.pi))
+    brackets = np.concatenate([np.zeros((neutral, 2)), np.stack([low, high], axis=-1)])
+    return NaturalFrequencies.in_brackets(brackets / (2.0 * np.pi))
 
 
 def _enough_modes(

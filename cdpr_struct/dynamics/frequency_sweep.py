@@ -18,6 +18,7 @@ from cdpr_struct.dynamics.response_peaks import NO_PEAKS, ResponsePeaks, respons
 from cdpr_struct.dynamics.ritz_modes import RitzModes, ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.dynamics.undamped_poles import UNDAMPED_RATIO, undamped_poles
+from cdpr_struct.errors import CdprError
 
 MOST_MODES = 400
 _ROUNDING = 1e-9
@@ -84,17 +85,24 @@ def sweep_response(
     modes, shapes = _modes_and_shapes(point, cables, top, assembly)
     force = _Force(point, cables, damping, excite, respond, quantity, assembly)
     function = force.function((float(hertz[0]), top), modes.hertz)
-    ratios = loss_rates(damping, cables.first_frequency, shapes) / (2.0 * shapes.omega)
-    undamped = ratios < UNDAMPED_RATIO
+    neutral = modes.hertz == 0.0
+    if neutral.any() and not hertz[0] > 0.0:
+        raise CdprError(
+            "the platform is free to move in some direction, so at 0 Hz the response has no bound: begin above"
+        )
+    losses = loss_rates(damping, cables.first_frequency, shapes)
+    ratios = np.where(neutral, 0.0, losses / np.where(neutral, 1.0, 2.0 * shapes.omega))
+    undamped = (ratios < UNDAMPED_RATIO) & ~neutral
     known_to = top if modes.complete else float(modes.hertz[-1])
-    resonances = Resonances(modes.hertz, np.where(undamped, 0.0, ratios) * modes.hertz, known_to)
+    widths = np.where(undamped, 0.0, ratios) * modes.hertz
+    resonances = Resonances(modes.hertz[~neutral], widths[~neutral], known_to)
     lines = resonances.lines(hertz)
     working = np.union1d(hertz, lines.hertz)
     first = FrequencyResponse(working, function.at(working), excite, respond, quantity)
     silent = _silent(point, first, np.isin(working, hertz))
     poles = undamped_poles(shapes, modes.hertz, undamped & (modes.hertz >= hertz[0]), excite, respond)
     peaks = _peaks(function, first, silent, resonances, poles)
-    drawn = _drawn(function, first, hertz, lines, modes.hertz, peaks)
+    drawn = _drawn(function, first, hertz, lines, modes.hertz[~neutral], peaks)
     return ResponseSweep(point, model, drawn, np.isin(drawn.hertz, hertz), peaks, silent, modes, ratios)
 
 

@@ -11,13 +11,14 @@ direction. Its sag under gravity is left out: weight and centre of mass are the 
 import numpy as np
 
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.guides import free_part
 
 
 def internal_coupling(robot: RobotArrays, rotation: np.ndarray) -> np.ndarray:
     """c (..., 6), of the motion of the platform origin, world axes [kg^(1/2)]; zero without an internal mass."""
     root = np.sqrt(robot.internal_mass)
     along = root[..., None] * (rotation @ robot.internal_direction[..., None])[..., 0]
-    return np.concatenate([along, np.zeros_like(along)], axis=-1)
+    return free_part(np.concatenate([along, np.zeros_like(along)], axis=-1), robot)
 
 
 def internal_omega(robot: RobotArrays) -> np.ndarray:

@@ -8,7 +8,7 @@ import numpy as np
 from cdpr_struct.dynamics.batched_modes import Batch, fits, lowest_modes
 from cdpr_struct.dynamics.certified_modes import certified_modes, quickly_certified
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_static_stiffness
+from cdpr_struct.dynamics.robot_dynamic_stiffness import stability_at
 
 _CHUNK = 256
 _FEW = 5  # poses that are faster one after the other
@@ -16,7 +16,8 @@ _FEW = 5  # poses that are faster one after the other
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrequenciesOfPoses:
-    """The first k natural frequencies at n poses, multiplicities repeated; nan where the platform is not stable.
+    """The first k natural frequencies at n poses, multiplicities repeated; nan where the platform is not
+    stable; zero, first, where it is free to move.
 
     hertz         : (n, k) ascending
     bracket_hertz : (n, k, 2) intervals that hold them. Quick ones are proved for the cables as polynomials see them:
@@ -33,8 +34,9 @@ def lowest_frequencies(point: OperatingPoint, count: int) -> FrequenciesOfPoses:
     """First `count` undamped natural frequencies at a flat batch (n) of poses, exact catenaries."""
     n = len(point.position)
     bracket = np.full((n, count, 2), np.nan)
-    stable = np.flatnonzero(np.linalg.eigvalsh(platform_static_stiffness(point))[:, 0] > 0.0)
-    fast = stable[fits(poses_of(point, stable))]
+    held = stability_at(point)
+    stable = np.flatnonzero(~held.unstable)
+    fast = stable[fits(poses_of(point, stable)) & (held.neutral[stable] == 0)]
     if fast.size > _FEW:
         bracket[fast] = _of_batch(poses_of(point, fast), count)
     else:

@@ -12,6 +12,8 @@ from cdpr_struct.dynamics.ports import CablePort, Port
 from cdpr_struct.dynamics.ritz_modes import RitzModes, ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 
+_AT_REST = 1.0  # [rad/s] at which the losses of a neutral freedom are taken: it has no frequency
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ModalBasis:
@@ -76,7 +78,8 @@ def loss_rates(law: Damping, first: np.ndarray, modes: RitzModes) -> np.ndarray:
     if isinstance(law, ModalDamping):
         return 2.0 * law.of_modes(len(modes.omega)) * modes.omega
     expansion, end = modes.expansion, modes.end
-    mass_rate, stiffness_time = rates(law, modes.omega[:, None], first)
+    omega = np.where(modes.omega > 0.0, modes.omega, _AT_REST)
+    mass_rate, stiffness_time = rates(law, omega[:, None], first)
     elastic = np.einsum("kma,mab,kmb->km", end, expansion.static_stiffness, end, optimize=True)
     elastic += np.einsum("kmp,mp->km", modes.modal**2, expansion.omega_squared)
     return np.asarray((mass_rate * modes.cable_energy + stiffness_time * elastic).sum(axis=1))
@@ -86,7 +89,7 @@ def _damping(law: Damping, first: np.ndarray, modes: RitzModes) -> np.ndarray:
     """(k, k) sum over the cables of a_i M_i + b_i K_i in modal coordinates, or its diagonal."""
     if isinstance(law, ModalDamping) or not law.constant_rates:
         return np.diag(loss_rates(law, first, modes))
-    mass_rate, stiffness_time = rates(law, modes.omega[:1, None], first)
+    mass_rate, stiffness_time = rates(law, modes.omega[-1:, None] + _AT_REST, first)
     total = np.zeros((len(modes.end), len(modes.end)))
     for i in range(len(first)):
         own_mass, own_stiffness = _cable_matrices(modes.expansion, modes.end[:, i], modes.modal[:, i], i)

@@ -59,6 +59,7 @@ def ritz_shapes(point: OperatingPoint, modes: RitzModes, harmonics: int) -> np.n
     mass[:, :6, :6] = modes.platform_mass
     mass[:, :6, 6] = mass[:, 6, :6] = modes.internal_coupling
     mass[:, 6, 6] = 1.0
+    mass[:, range(6), range(6)] += point.arrays.guided  # where a guide holds the platform it has no motion
     nodes, weights = np.polynomial.legendre.leggauss(2 * harmonics + _MORE_NODES)
     stations, weights = 0.5 * (nodes + 1.0), 0.5 * weights
     sines = np.sin(np.pi * np.arange(1, harmonics + 1)[:, None] * stations) * weights
@@ -78,4 +79,4 @@ def _chord_axes(point: OperatingPoint) -> np.ndarray:
     states = point.cables
     cables = HangingCables.of(states, point.arrays.linear_density)
     cos, sin = (part.T for part in cables.direction)
-    return np.asarray(cos[..., None] * states.heading + sin[..., None] * np.array([0.0, 0.0, 1.0]))
+    return np.asarray(cos[..., None] * states.heading + sin[..., None] * states.up)

@@ -19,8 +19,10 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
     platform_dynamic_stiffness,
     platform_mass_matrix,
     platform_static_stiffness,
+    stability_at,
 )
 from cdpr_struct.errors import CdprError, UnstableEquilibriumError
+from cdpr_struct.statics.guides import free_block
 from cdpr_struct.statics.masts import negative_junctions
 
 _HALVINGS = 52
@@ -29,7 +31,7 @@ _HOPELESS_OMEGA = 1e6
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NaturalFrequencies:
-    """The first k natural frequencies, multiplicities repeated.
+    """The first k natural frequencies, multiplicities repeated; neutral freedoms come first, at zero.
 
     hertz         : (k,) ascending
     bracket_hertz : (k, 2) interval over which the exact count passes the number of the frequency: the proof that none
@@ -77,9 +79,13 @@ def natural_frequencies(
     UnstableEquilibriumError : the lowest "frequencies" are not real.
     CdprError : the model has fewer than `count` frequencies (massless cables: six, seven with an internal mass).
     """
-    if int(count_below(point, cables, np.array([1e-6]), assembly)[0]) > 0:
+    held = stability_at(point, assembly)
+    if held.unstable:
         raise UnstableEquilibriumError("the equilibrium is unstable: the platform's stiffness has negative eigenvalues")
-    bracket = np.stack(bisect_count(point, cables, np.arange(1, count + 1), assembly), axis=-1)
+    bracket, neutral = np.zeros((count, 2)), min(int(held.neutral), count)
+    if neutral < count:
+        number = np.arange(neutral + 1, count + 1)
+        bracket[neutral:] = np.stack(bisect_count(point, cables, number, assembly), axis=-1)
     return NaturalFrequencies.in_brackets(bracket / (2.0 * np.pi))
 
 
@@ -110,10 +116,13 @@ def highest_omega(point: OperatingPoint, cables: CableDynamics, count: int, asse
 
 
 def static_frequencies(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
-    """Six frequencies [Hz] of the platform on massless cables (K_static), seven with an internal mass; nan where the
-    stiffness is negative."""
+    """Frequencies [Hz] of the platform on massless cables (K_static), one a free direction, one more with an internal
+    mass; zero for neutral freedoms, nan where the stiffness is negative."""
     rigid = platform_static_stiffness(point, assembly), platform_mass_matrix(point.arrays, point.rotation)
-    stiffness, mass = with_internal_mass(point.arrays, point.rotation, *rigid)
+    pencil = with_internal_mass(point.arrays, point.rotation, *rigid)
+    stiffness, mass = (free_block(matrix, point.arrays) for matrix in pencil)
     lower = np.linalg.inv(np.linalg.cholesky(mass))
-    squared = np.linalg.eigvalsh(lower @ stiffness @ lower.T)
-    return np.sqrt(np.where(squared > 0.0, squared, np.nan)) / (2.0 * np.pi)
+    squared, held = np.linalg.eigvalsh(lower @ stiffness @ lower.T), stability_at(point, assembly)
+    neutral = np.argsort(np.abs(squared))[: int(held.neutral)]
+    squared[neutral] = 0.0
+    return np.sort(np.sqrt(np.where(squared >= 0.0, squared, np.nan)) / (2.0 * np.pi))

@@ -88,12 +88,16 @@ class _CablePoint:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ReadyPorts:
-    """n ports of a robot, ready for any number of frequencies; made by `ready_ports`."""
+    """n ports of a robot, ready for any number of frequencies; made by `ready_ports`.
+
+    free : (6,) 1 where the platform moves, 0 where a guide holds it
+    """
 
     ports: tuple[Port, ...]
     law: DampingLaw
     first_frequency: np.ndarray
     points: dict[int, _CablePoint]
+    free: np.ndarray
 
     def at(self, omega: np.ndarray) -> PortResponse:
         """Participation at f frequencies (f,) [rad/s].
@@ -106,7 +110,7 @@ class ReadyPorts:
         direct = np.zeros((len(twist), len(self.ports), len(self.ports)), dtype=kind)
         for i, port in enumerate(self.ports):
             if isinstance(port, PlatformPort):
-                twist[:, i] = port.twist
+                twist[:, i] = port.twist * self.free
         if not self.points:
             return PortResponse(twist, direct)
         inertia = self.law.inertia(omega[:, None], self.first_frequency)
@@ -138,7 +142,7 @@ def ready_ports(
             points[i] = _CablePoint(
                 c, local @ static[c, 0] @ to_cable[c], modes[c, :, 0] @ local, driven, expansion.omega_squared[c]
             )
-    return ReadyPorts(ports, law, cables.first_frequency, points)
+    return ReadyPorts(ports, law, cables.first_frequency, points, point.arrays.free)
 
 
 def _gap(elastic: np.ndarray, inertia: np.ndarray) -> np.ndarray:

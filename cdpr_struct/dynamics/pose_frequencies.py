@@ -19,6 +19,7 @@ _SPARE = 4  # trial motions beyond those asked for
 _LOW, _HIGH = 0.7, 0.3  # shares of the first and of the last squared frequency in the shift
 _FEWEST_LEADS, _LEADS = 2, 1.4  # at least, and for each half wave of the lowest string at the last frequency
 _POLYNOMIALS, _SAGGING = 7.0, 10.0  # beyond two for each half wave, and for each w L / T
+_NEUTRAL = 1e-6  # of the lowest string's squared frequency: below it the general solver tells zero from small
 _FARTHEST = 0.7  # of the reach: no trial motion is followed further than that
 _POWER = HIGHEST_TERM // 2
 
@@ -48,7 +49,7 @@ def quick_frequencies(
         if condensed is None or condensed.motions < count + _SPARE:
             continue
         squared = _upper_bounds(condensed, count)
-        if not squared[0] > 0.0:
+        if not squared[0] > _NEUTRAL * lowest:
             return None
         low, high = (squared * (1.0 + sign * precision) ** 2 for sign in (-1.0, 1.0))
         if condensed.encloses(low, high).all() and np.sqrt(squared[-1] / lowest) <= half_waves + 0.5:

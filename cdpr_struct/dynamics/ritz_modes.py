@@ -1,14 +1,20 @@
 """The robot's modes as an ordinary eigenproblem: platform motion, the clamped cables' modal coordinates, and that of
 an internal mass."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cdpr_struct.dynamics.internal_mass import internal_coupling, internal_squared
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, assemble, attachment, platform_mass_matrix
+from cdpr_struct.dynamics.robot_dynamic_stiffness import (
+    Assembly,
+    assemble,
+    attachment,
+    platform_mass_matrix,
+    stability_at,
+)
 from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.statics.masts import MastShapes
 
@@ -17,7 +23,7 @@ from cdpr_struct.statics.masts import MastShapes
 class RitzModes:
     """The first k undamped modes of unit modal mass that an expansion of the cables spans, at a batch (...) of poses.
 
-    omega         : (..., k) ascending [rad/s], upper bounds of the model's
+    omega         : (..., k) ascending [rad/s], upper bounds of the model's; zero for neutral freedoms
     platform      : (..., k, 6) motion of the platform origin and rotation, world axes
     end           : (..., k, m, 3) motion of the cables' platform ends against their masts, local axes of `expansion`
     mast          : (..., k, m, 3) motion of the cables' masts, local axes; zero where masts stand still
@@ -37,6 +43,17 @@ class RitzModes:
     internal_coupling: np.ndarray
     to_cable: np.ndarray
     expansion: ModalExpansion
+
+    @property
+    def above_zero(self) -> "RitzModes":
+        """Without neutral freedoms; of a batch, without as many first modes as any of it has of these."""
+        first = int((self.omega == 0.0).sum(axis=-1).max(initial=0))
+        if not first:
+            return self
+        own = {name: getattr(self, name)[..., first:] for name in ("omega", "internal")}
+        own["platform"] = self.platform[..., first:, :]
+        own |= {name: getattr(self, name)[..., first:, :, :] for name in ("end", "mast", "modal")}
+        return replace(self, **own)
 
     @property
     def platform_energy(self) -> np.ndarray:
@@ -75,7 +92,7 @@ def ritz_modes(
     ends, masts = _with_masts(point)
     to_cable, to_mast = (np.swapaxes(expansion.frame, -1, -2) @ motion for motion in (ends, masts))
     platform_mass = platform_mass_matrix(point.arrays, point.rotation)
-    turn, stretch = _unit_stiffness(point, expansion, ends, assembly)
+    turn, stretch, neutral = _unit_stiffness(point, expansion, ends, assembly)
     n = ends.shape[-1]
     mass = _mass(expansion, to_cable, to_mast, platform_mass)
     mass[..., :n, :] = np.swapaxes(turn, -1, -2) @ mass[..., :n, :]
@@ -85,9 +102,8 @@ def ritz_modes(
     coupling, slow = _internal(point, mass.shape[:-2])
     if slow is not None:
         mass = _with_internal(mass, turn, coupling, slow)
-    periods, vectors = np.linalg.eigh(mass)
-    omega = 1.0 / np.sqrt(periods[..., : -count - 1 : -1])
-    vectors = vectors[..., : -count - 1 : -1] * omega[..., None, :]
+    count = min(count, mass.shape[-1] - int(point.arrays.guided.sum(axis=-1).max()))
+    omega, vectors = _modes(mass, count) if neutral is None else _beside_neutral(mass, neutral, count)
     moved = np.swapaxes(turn @ vectors[..., :n, :], -1, -2)
     inner = n + stretch.shape[-1]
     modal = np.swapaxes(stretch[..., None] * vectors[..., n:inner, :], -1, -2)
@@ -97,6 +113,36 @@ def ritz_modes(
     return RitzModes(
         omega, moved[..., :6], end, mast, modal, internal, platform_mass, coupling, to_cable[..., :6], expansion
     )
+
+
+def _modes(mass: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """omega (..., k) and coordinates (..., n, k) at unit modal mass, of first modes where the stiffness is one."""
+    periods, vectors = np.linalg.eigh(mass)
+    periods = np.maximum(periods[..., : -count - 1 : -1], np.finfo(float).tiny)
+    omega = 1.0 / np.sqrt(periods)
+    return omega, vectors[..., : -count - 1 : -1] * omega[..., None, :]
+
+
+def _beside_neutral(mass: np.ndarray, neutral: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """The same with neutral freedoms (..., j, q) among the first coordinates, at omega zero.
+
+    Without them the mass matrix is M - M n n' M, n of unit modal mass: its modes, made orthogonal to n,
+    are the robot's.
+    Where some of a batch have fewer, the columns left over are zero; they sort last.
+    """
+    there = (neutral != 0.0).any(axis=-2)
+    moved = np.zeros((*mass.shape[:-1], neutral.shape[-1]))
+    moved[..., : neutral.shape[-2], :] = neutral
+    own = np.swapaxes(moved, -1, -2) @ mass @ moved
+    own[..., range(own.shape[-1]), range(own.shape[-1])] += np.where(there, 0.0, 1.0)
+    moved = moved @ np.swapaxes(np.linalg.inv(np.linalg.cholesky(own)), -1, -2)
+    carried = mass @ moved
+    omega, vectors = _modes(mass - carried @ np.swapaxes(carried, -1, -2), count)
+    vectors = vectors - moved @ (np.swapaxes(carried, -1, -2) @ vectors)
+    omega = np.concatenate([np.where(there, 0.0, np.inf), omega], axis=-1)
+    order = np.argsort(omega, axis=-1, kind="stable")[..., :count]
+    both = np.concatenate([moved, vectors], axis=-1)
+    return np.take_along_axis(omega, order, axis=-1), np.take_along_axis(both, order[..., None, :], axis=-1)
 
 
 def _internal(point: OperatingPoint, lead: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray | None]:
@@ -139,8 +185,12 @@ def _with_masts(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
 
 def _unit_stiffness(
     point: OperatingPoint, expansion: ModalExpansion, ends: np.ndarray, assembly: Assembly
-) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates of unit stiffness: motion of platform and masts (..., n, n) and modal coordinates (..., m p)."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
+    """Coordinates of unit stiffness: motion of platform and masts (..., n, n) and modal coordinates (..., m p).
+
+    Neutral freedoms are given a stiffness; their motions in these coordinates (..., n, q) come last, None without any.
+    """
+    held = stability_at(point, assembly)
     cables = expansion.frame @ expansion.static_stiffness @ np.swapaxes(expansion.frame, -1, -2)
     n = ends.shape[-1]
     stiffness = assemble(point, np.zeros_like(cables) if n > 6 else cables, assembly)
@@ -148,13 +198,24 @@ def _unit_stiffness(
         body, stiffness = stiffness, np.einsum("...mai,...mab,...mbj->...ij", ends, cables, ends, optimize=True)
         stiffness[..., :6, :6] += body
         stiffness[..., range(6, n), range(6, n)] += 1.0
+    own = _with_masts_of(stiffness, held.twists)
+    stiffness[..., :6, :6] += held.holding
     try:
+        if held.unstable.any():
+            raise np.linalg.LinAlgError
         lower = np.linalg.cholesky(stiffness)
     except np.linalg.LinAlgError as error:
         reason = "the equilibrium is unstable: the platform's stiffness has a negative eigenvalue"
         raise UnstableEquilibriumError(reason) from error
     squared = expansion.omega_squared
-    return np.swapaxes(np.linalg.inv(lower), -1, -2), 1.0 / np.sqrt(squared.reshape((*squared.shape[:-2], -1)))
+    turn, stretch = np.swapaxes(np.linalg.inv(lower), -1, -2), 1.0 / np.sqrt(squared.reshape((*squared.shape[:-2], -1)))
+    return turn, stretch, np.swapaxes(lower, -1, -2) @ own if own.shape[-1] else None
+
+
+def _with_masts_of(stiffness: np.ndarray, twists: np.ndarray) -> np.ndarray:
+    """(..., n, q) motions of platform and masts where the platform moves by twists (..., 6, q) and masts follow."""
+    masts = -np.linalg.solve(stiffness[..., 6:, 6:], stiffness[..., 6:, :6] @ twists)
+    return np.concatenate([np.broadcast_to(twists, (*masts.shape[:-2], *twists.shape[-2:])), masts], axis=-2)
 
 
 def _mass(

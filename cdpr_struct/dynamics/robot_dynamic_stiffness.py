@@ -1,5 +1,6 @@
 """Stiffness of the platform on its cables, static and dynamic (thesis section 3.3)."""
 
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -11,22 +12,25 @@ from cdpr_struct.generated import platform as generated
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.equilibrium import weight_force
+from cdpr_struct.statics.guides import behind_guides
 from cdpr_struct.statics.masts import Inertia, behind_masts
+from cdpr_struct.statics.neutral_freedoms import Stability, stability
 
 Assembly = Literal["consistent", "thesis"]
 
 
 def platform_mass_matrix(robot: Robot | RobotArrays, rotation: np.ndarray) -> np.ndarray:
-    """Mass matrix (..., 6, 6) of the platform about its origin, world axes [kg, kg m, kg m^2]."""
+    """Mass matrix (..., 6, 6) of the platform about its origin, world axes [kg, kg m, kg m^2]; zero where guided."""
     body = RobotArrays.of(robot)
     center = np.einsum("...ij,...j->...i", rotation, body.center_of_mass)
     inertia = rotation @ body.inertia @ np.swapaxes(rotation, -1, -2)
-    return generated.mass_matrix(
+    matrix = generated.mass_matrix(
         body.mass,
         *(center[..., i] for i in range(3)),
         *(inertia[..., i, i] for i in range(3)),
         *(inertia[..., i, j] for i, j in ((0, 1), (0, 2), (1, 2))),
     )
+    return behind_guides(matrix, body, held=0.0)
 
 
 def inertia_of_platform(point: OperatingPoint, omega_squared: np.ndarray) -> np.ndarray:
@@ -74,7 +78,7 @@ def beside_cables(point: OperatingPoint, assembly: Assembly = "consistent") -> n
         held = np.zeros((*np.broadcast_shapes(hose.shape, turned.shape[:-2]), 6, 6))
         held[..., 3:, 3:] = turned
     held[..., range(3), range(3)] += hose[..., None]
-    return held
+    return behind_guides(held, point.arrays)
 
 
 def geometric_stiffness(point: OperatingPoint) -> np.ndarray:
@@ -94,6 +98,18 @@ def platform_static_stiffness(point: OperatingPoint, assembly: Assembly = "consi
     return assemble(point, point.end_stiffness, assembly)
 
 
+def stability_at(point: OperatingPoint, assembly: Assembly = "consistent") -> Stability:
+    """How the platform is held at rest, and in which directions it is not.
+
+    Unstable, too, is a platform with a slack cable where there is no gravity: it has no shape to vibrate about.
+    """
+    stiffness = platform_static_stiffness(point, assembly)
+    held = stability(point.arrays, point.rotation, stiffness, weightless=assembly == "thesis")
+    if not point.arrays.is_weightless:
+        return held
+    return replace(held, unstable=held.unstable | point.cables.slack.any(axis=-1))
+
+
 def platform_dynamic_stiffness(
     point: OperatingPoint, cables: CableDynamics, omega_squared: np.ndarray, assembly: Assembly = "consistent"
 ) -> np.ndarray:
@@ -110,6 +126,10 @@ def _arms(point: OperatingPoint) -> np.ndarray:
 
 
 def attachment(point: OperatingPoint) -> np.ndarray:
-    """Attachment matrices A_i (..., m, 3, 6), eq. (3.9) corrected: motion of anchor i is A_i times platform motion."""
+    """Attachment matrices A_i (..., m, 3, 6), eq. (3.9) corrected: motion of anchor i is A_i times platform motion.
+
+    Columns of guided directions are zero: there the platform does not move.
+    """
     arms = _arms(point)
-    return generated.attachment(*(arms[..., i] for i in range(3)))
+    motion = generated.attachment(*(arms[..., i] for i in range(3)))
+    return motion * point.arrays.free[..., None, None, :] if point.arrays.has_guides else motion

@@ -76,7 +76,7 @@ def taut_cables(point: OperatingPoint) -> TautCables:
 
 def _chord_frame(cables: CableStates) -> np.ndarray:
     along = cables.offset / cables.chord[..., None]
-    sideways = np.cross([0.0, 0.0, 1.0], cables.heading)
+    sideways = np.cross(cables.up, cables.heading)
     return np.stack([along, sideways, np.cross(along, sideways)], axis=-1)
 
 

@@ -161,6 +161,20 @@ def _driven(modes: ComplexModes, drive: np.ndarray, acceleration: np.ndarray, st
     return states
 
 
+def _displacement(omega: np.ndarray, state: np.ndarray, force: np.ndarray, time: np.ndarray) -> np.ndarray:
+    """(n, k) modal coordinates; neutral freedoms (omega zero) drift: their velocity summed up, its rate `force` known.
+
+    The sum is exact for a velocity that is a cubic between two instants.
+    """
+    k, drifting = len(omega), omega == 0.0
+    found = state[:, :k] / np.where(drifting, 1.0, omega)
+    if drifting.any():
+        velocity, rate, step = state[:, k:][:, drifting], force[:, drifting], np.diff(time)[:, None]
+        gained = 0.5 * step * (velocity[1:] + velocity[:-1]) + step**2 / 12.0 * (rate[:-1] - rate[1:])
+        found[:, drifting] = np.concatenate([np.zeros((1, gained.shape[1])), np.cumsum(gained, axis=0)])
+    return np.asarray(found)
+
+
 def _vibration(
     basis: ModalBasis,
     modes: ComplexModes,
@@ -180,7 +194,7 @@ def _vibration(
     held = float(np.sum((participation @ twist) ** 2))
     return Vibration(
         time=time,
-        displacement=(stretched / basis.omega) @ shapes,
+        displacement=_displacement(basis.omega, state, force, time) @ shapes,
         velocity=velocity @ shapes,
         acceleration=force @ shapes,
         energy=0.5 * (state**2).sum(axis=1),

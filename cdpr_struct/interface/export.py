@@ -80,12 +80,25 @@ def export(
     """
     form = one_of(to, "to", FORMATS)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    _require_free_body(machine, form)
     state = rest(machine, pose, lengths, start)
     point, told = state.point, list(state.told()["warnings"])
     if form == "gltf":
         return Exported(gltf_bytes(point), pose_in_degrees(point), tuple(told))
     content = moordyn_text(point, "moorpy" if form == "moorpy" else "moordyn").encode("ascii")
     return Exported(content, pose_in_degrees(point), (*told, *_left_out(machine)))
+
+
+def _require_free_body(robot: Robot, form: str) -> None:
+    """Refuse what a free body on lines in water cannot be.
+
+    Raises
+    ------
+    InputError : a guide, or gravity other than along -z.
+    """
+    level = robot.down.tolist() == [0.0, 0.0, -1.0] and robot.gravity > 0.0
+    if form != "gltf" and (robot.guided or not level):
+        raise InputError("to", "", form, f"gltf: in {form} a body is free, and gravity acts along -z")
 
 
 def _left_out(robot: Robot) -> list[str]:

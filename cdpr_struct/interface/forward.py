@@ -13,6 +13,7 @@ from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.reports import statics_rest
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.locked_rest import equilibria_text, locked_json, locked_warnings
+from cdpr_struct.reports.platform_freedoms import freedoms_json
 from cdpr_struct.reports.text import paragraphs
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import outside_limits
@@ -113,4 +114,6 @@ def forward(
     found = locked_rest(machine, length, begin, chosen)
     told = statics_rest.forward_json(machine, chosen, length, found.solution) | {"locked": locked_json(found)}
     told |= {"warnings": [*locked_warnings(found), *outside_limits(machine, found.solution.tensions)]}
+    rest = found.solution
+    told |= freedoms_json(OperatingPoint(machine, rest.position, rest.rotation, rest.cables))
     return ForwardResult(with_extensions(told, machine, "forward", chosen), machine, found, equilibria)

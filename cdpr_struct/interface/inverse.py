@@ -13,6 +13,7 @@ from cdpr_struct.interface.operating_point import held
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.reports import statics_rest
 from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.reports.platform_freedoms import freedoms_json
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
@@ -125,4 +126,5 @@ def inverse(
         "sagging_cables": sagging_cables(solution.cables),
         "warnings": [sentence for sentence in said if sentence is not None],
     }
+    told |= freedoms_json(OperatingPoint(machine, where.position, where.rotation, solution.cables))
     return InverseResult(with_extensions(told, machine, "inverse", chosen), machine, where, solution)

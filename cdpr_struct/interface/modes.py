@@ -133,7 +133,8 @@ def modes(
     if name == "dsm" and not force:
         require_validity(point)
     with state.advised():
-        found = robot_modes(point, name, min(count, 6) if name == "static" else count, way, elements)
+        most = 6 - len(machine.guided) if name == "static" else count
+        found = robot_modes(point, name, min(count, most), way, elements)
     motion, shares = mode_motion(point, found), direction_shares(point, found.platform)
     told = {
         "robot": machine.name,

@@ -14,12 +14,19 @@ from cdpr_struct.interface.arguments import read_lengths, read_pose
 from cdpr_struct.interface.free_angles import FreeAngles, HangingPose, hanging_pose
 from cdpr_struct.interface.given import Numbers, PoseLike
 from cdpr_struct.reports.locked_rest import locked_json, locked_warnings
+from cdpr_struct.reports.platform_freedoms import freedoms_json
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import bound_hint, outside_limits, slack_warning
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.locked_rest import LockedRest, locked_rest
-from cdpr_struct.statics.slack_cables import hangs_slack, sag_sentence, sagging_cables, slack_sentence
+from cdpr_struct.statics.slack_cables import (
+    cables_named,
+    hangs_slack,
+    sag_sentence,
+    sagging_cables,
+    slack_sentence,
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,15 +51,16 @@ class AtRest:
             raise UnstableEquilibriumError(f"{error}.{hint}" if hint else str(error)) from error
 
     def told(self, *warnings: str) -> dict[str, Any]:
-        """What every result says of the state of rest: `warnings`, and `locked` if the lengths were given."""
-        sagging = {"sagging_cables": sagging_cables(self.point.cables)}
+        """What every result says of the state of rest: `warnings`, deep sag, neutral freedoms, what a guide holds, and
+        `locked` if the lengths were given."""
+        state = {"sagging_cables": sagging_cables(self.point.cables), **freedoms_json(self.point)}
         if self.locked is not None:
             said = [*warnings, *locked_warnings(self.locked), *self._warnings()]
-            return {**sagging, "warnings": said, "locked": locked_json(self.locked)}
+            return {**state, "warnings": said, "locked": locked_json(self.locked)}
         if self.hanging is None:
-            return {**sagging, "warnings": [*warnings, *self._warnings()]}
+            return {**state, "warnings": [*warnings, *self._warnings()]}
         said = [*warnings, self.hanging.sentence(), *self._warnings()]
-        return {**sagging, **self.hanging.json(), "warnings": said}
+        return {**state, **self.hanging.json(), "warnings": said}
 
     def _warnings(self) -> list[str]:
         """Sentences on slack cables, on locked cables outside the robot's force limits, and on a constant moment."""
@@ -95,7 +103,9 @@ def rest(
         hanging = None if free is None else hanging_pose(robot, where, free)
         where = where if hanging is None else hanging.pose
         cables = held(robot, where).cables if hanging is None else hanging.solution.cables
-        return AtRest(OperatingPoint(robot, where.position, where.rotation, cables), hanging=hanging)
+        point = OperatingPoint(robot, where.position, where.rotation, cables)
+        _require_shape(point, True)
+        return AtRest(point, hanging=hanging)
     if free is not None:
         raise InputError("free", "", free, "it belongs to `pose`; at locked lengths every angle is found")
     if pose is not None:
@@ -130,7 +140,22 @@ def _locked(robot: Robot, lengths: Numbers, start: PoseLike | None) -> AtRest:
             f"at these lengths the platform has no stable equilibrium here (least {solution.least_stiffness:.3g} N/m); "
             f"stable ones elsewhere: {found.others.count}"
         )
-    return AtRest(OperatingPoint(robot, solution.position, solution.rotation, solution.cables), found)
+    point = OperatingPoint(robot, solution.position, solution.rotation, solution.cables)
+    _require_shape(point, False)
+    return AtRest(point, found)
+
+
+def _require_shape(point: OperatingPoint, advised: bool) -> None:
+    """Refuse cables that hang slack without gravity.
+
+    advised : whether a lower bound may be named that would cure it
+    """
+    if not (point.arrays.is_weightless and point.cables.slack.any()):
+        return
+    numbers = (np.flatnonzero(point.cables.slack) + 1).tolist()
+    loose = f"{cables_named(numbers)} {'does' if len(numbers) == 1 else 'do'} not pull"
+    hint = bound_hint(point.entered, point.position, point.rotation) if advised else ""
+    raise CdprError(f"without gravity a slack cable has no shape to vibrate about, and {loose}.{hint}")
 
 
 def pose_in_degrees(point: OperatingPoint) -> list[float]:

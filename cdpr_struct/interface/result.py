@@ -7,7 +7,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from cdpr_struct.reports.plain_json import plain
-from cdpr_struct.reports.remarks import extensions_of, locked_of, remarks, warnings_of
+from cdpr_struct.reports.remarks import extensions_of, remarks, rest_of, warnings_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -88,7 +88,7 @@ class Result(ABC):
     def _repr_html_(self) -> str:
         """Title, outcome, warnings and the first rows of the table, for notebooks."""
         table = self.frame()
-        said = [*self.sentences(), *locked_of(self.answer), *extensions_of(self.answer)]
+        said = [*self.sentences(), *rest_of(self.answer), *extensions_of(self.answer)]
         warned = [f"<p><b>Warning:</b> {escape(sentence)}</p>" for sentence in self.warnings]
         size = f"<p>{len(table)} rows, {len(table.columns)} columns: <code>.frame()</code></p>"
         return "".join(

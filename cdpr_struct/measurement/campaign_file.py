@@ -18,6 +18,7 @@ from cdpr_struct.measurement.missing_readings import missing_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
 from cdpr_struct.measurement.unit_scale import check_scale
+from cdpr_struct.robot.file_complaints import input_error
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import (
     Matrix,
@@ -25,7 +26,6 @@ from cdpr_struct.robot.robot_file import (
     Positive,
     Vector,
     builtin_names,
-    input_error,
     load_robot,
 )
 
@@ -239,7 +239,19 @@ def _sheet(entry: MeasurementTable, rows: Rows, sigmas: Sigmas) -> Sheet:
 
 
 def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:
-    """The robot with the overrides of the [nominal] table."""
+    """The robot with the overrides of the [nominal] table.
+
+    Raises
+    ------
+    InputError : a robot that a diagnosis does not know.
+    """
+    level = robot.down.tolist() == [0.0, 0.0, -1.0] and robot.gravity > 0.0
+    if robot.guided or not level:
+        what = (
+            f"platform.guided = {list(robot.guided)}" if robot.guided else f"gravity = {robot.gravity_vector.tolist()}"
+        )
+        expected = "a free platform under gravity along -z: guides and other gravity are not among what is diagnosed"
+        raise InputError(str(source), "robot", f"{robot.name} with {what}", expected)
     body, cables = robot.platform, robot.cables
     changes: dict[str, Any] = {
         "mass": table.platform_mass,

@@ -11,6 +11,7 @@ from cdpr_struct.observation.dependence import cable_dependence
 from cdpr_struct.observation.mode_gradient import cable_gradient
 from cdpr_struct.robot.parameters import CABLES, PARAMETERS
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.cable_state import VECTORS
 
 _PER_HALF_WAVE, _SPARE = 2, 14  # order of the polynomials: ten digits of a taut cable's mode
 _SAG = 8.0  # further orders per unit of weight over chord tension: half waves shift, and the tension varies
@@ -98,7 +99,7 @@ def _one_cable_each(point: OperatingPoint, state: np.ndarray, cable: np.ndarray)
             own[name] = np.broadcast_to(value, shape[:-1] + value.shape[value.ndim - rule.axes :])[state]
     arrays: RobotArrays = replace(point.arrays, **own, masts=np.eye(1), uprights=np.zeros((1, 1)))
     cables = point.cables
-    states = {f.name: picked(getattr(cables, f.name), f.name in ("offset", "heading")) for f in fields(cables)}
+    states = {f.name: picked(getattr(cables, f.name), f.name in VECTORS) for f in fields(cables)}
     return OperatingPoint(arrays, point.position[state], point.rotation[state], type(cables)(**states))
 
 

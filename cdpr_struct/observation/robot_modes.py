@@ -58,7 +58,7 @@ def modes_at(
     now = Dependence.of(point, assembly)
     if model == "static":
         inner = int(point.arrays.has_internal_mass)
-        shapes = ritz_modes(point, StaticCables(point).expansion(0.0), 6 + inner, assembly)
+        shapes = ritz_modes(point, StaticCables(point).expansion(0.0), 6 + inner, assembly).above_zero
         own = _massless_gradient(point, shapes, now.cables)
         limit = np.full_like(limit, np.inf)
     elif model == "exact":
@@ -113,7 +113,7 @@ def frequencies_at(
         raise CrowdedModesError(f"a cable has some {order // 2} modes below {highest_omega / (2.0 * np.pi):.4g} Hz")
     expansion = expand_catenaries_at(point, order).reduced(highest_omega)
     below = int((expansion.omega_squared < highest_omega**2).sum(axis=(-2, -1)).max())
-    shapes = ritz_modes(point, expansion, below + _beyond_cables(point), assembly)
+    shapes = ritz_modes(point, expansion, below + _beyond_cables(point), assembly).above_zero
     kept = shapes.omega < highest_omega
     return np.where(kept, np.log(shapes.omega / (2.0 * np.pi)), np.inf), np.where(kept, shapes.platform_energy, 0.0)
 
@@ -138,7 +138,7 @@ def _catenary_modes(
     if not point.arrays.has_masts:  # the reduction keeps how cables answer the platform, not how they answer masts
         expansion = expansion.reduced(highest)
     below = (expansion.omega_squared < highest**2).sum(axis=(-2, -1)).max()
-    shapes = ritz_modes(point, expansion, int(below) + _beyond_cables(point), assembly)
+    shapes = ritz_modes(point, expansion, int(below) + _beyond_cables(point), assembly).above_zero
     shapes = _first(shapes, max(1, int((shapes.omega < highest).sum(axis=-1).max())))
     turn, squared = shapes.platform[..., 3:], shapes.omega**2
     fields = fields_of_expansion(point, order, expansion, shapes.end, shapes.modal, shapes.mast)

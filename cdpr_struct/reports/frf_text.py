@@ -66,7 +66,7 @@ def peak_rows(result: Mapping[str, Any], response: Mapping[str, Any]) -> list[li
 def nearest_mode(result: Mapping[str, Any], hertz: float) -> tuple[float | None, str]:
     """The eigenfrequency [Hz] next to a peak, and its kind; (None, "") if the band holds none."""
     modes = result["natural_frequencies_hz"]
-    if len(modes) == 0:
+    if not any(mode > 0.0 for mode in modes):
         return None, ""
     index = min(range(len(modes)), key=lambda i: abs(modes[i] - hertz))
     return float(modes[index]), result["kinds"][index]

@@ -1,7 +1,9 @@
-"""What stands beside every result: warnings, how the rest at locked lengths was found, notes on extensions."""
+"""What stands beside every result: warnings, what is to be known of the rest, notes on extensions."""
 
 from collections.abc import Mapping
 from typing import Any
+
+from cdpr_struct.reports.freedom_words import freedom_sentences
 
 
 def warnings_of(result: Mapping[str, Any]) -> list[str]:
@@ -14,13 +16,13 @@ def extensions_of(result: Mapping[str, Any]) -> list[str]:
     return list(result.get("extensions", {}).get("sentences", ()))
 
 
-def locked_of(result: Mapping[str, Any]) -> list[str]:
-    """Sentences on how the rest at locked lengths was found."""
-    return list(result.get("locked", {}).get("sentences", ()))
+def rest_of(result: Mapping[str, Any]) -> list[str]:
+    """Sentences on how the rest at locked lengths was found, on neutral freedoms and on what a guide holds."""
+    return [*result.get("locked", {}).get("sentences", ()), *freedom_sentences(result)]
 
 
 def remarks(result: Mapping[str, Any]) -> list[str]:
     """Blocks of text to stand below a result; none if there is nothing to remark."""
     warnings = [f"Warning: {sentence}" for sentence in warnings_of(result)]
-    parts = ["\n".join(part) for part in (locked_of(result), warnings, extensions_of(result))]
+    parts = ["\n".join(part) for part in (rest_of(result), warnings, extensions_of(result))]
     return [part for part in parts if part]

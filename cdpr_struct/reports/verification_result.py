@@ -27,6 +27,7 @@ def verification_json(v: Verification, pose: list[float]) -> dict[str, Any]:
         "tensions_N": v.point.cables.tension_at_platform,
         "eigenfrequencies": [_row(v, i) for i in range(len(v.dsm_hertz))],
         "count_certified": v.dsm_certified,
+        "neutral_freedoms_counted": {"model": v.neutral, "fem": v.fem_neutral},
         "convergence": {
             "elements": list(v.elements),
             "max_relative_error": v.mesh_error.max(axis=1),

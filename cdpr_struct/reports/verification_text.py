@@ -39,6 +39,8 @@ def geometric_text(v: Verification) -> str:
     """What eq. (3.8) as printed would change."""
     if math.isnan(v.geometric_effect):
         return "Without the geometric term of the attachments, which eq. (3.8) lacks, this equilibrium is unstable."
+    if v.geometric_effect > 1.0 - 1e-3:
+        return "Without the geometric term of the attachments, which eq. (3.8) lacks, a frequency falls to zero."
     return (
         "The geometric term of the rotating attachments, which eq. (3.8) lacks, changes frequencies by up to "
         f"{100.0 * v.geometric_effect:.2g} %."

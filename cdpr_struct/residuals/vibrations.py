@@ -30,6 +30,7 @@ from cdpr_struct.observation.robot_modes import (
 from cdpr_struct.observation.vibrating import of_states, vibrating
 from cdpr_struct.residuals.modal_sizes import ModalSizes, measured_sizes
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.cable_state import VECTORS
 
 _BELOW = 0.7  # of the lowest peak: where somebody who picked it began to look
 _ABOVE = 1.02  # of the highest: the list ends there, and modes beyond were not looked for
@@ -211,7 +212,7 @@ def _whole(point: OperatingPoint) -> OperatingPoint:
     """The same states with every field of pose and cables along all batch axes."""
     shape = np.broadcast_shapes(point.position.shape[:-1], point.cables.length.shape[:-1], point.arrays.batch_shape)
     cables = {f.name: getattr(point.cables, f.name) for f in fields(point.cables)}
-    full = {n: np.broadcast_to(v, shape + v.shape[-(1 + (n in ("offset", "heading"))) :]) for n, v in cables.items()}
+    full = {n: np.broadcast_to(v, shape + v.shape[-(1 + (n in VECTORS)) :]) for n, v in cables.items()}
     lengths = {"center_of_mass": (3,), "inertia": (3, 3), "internal_direction": (3,)}
     names = ("mass", "center_of_mass", "inertia", "internal_mass", "internal_frequency", "internal_direction")
     body = {n: np.broadcast_to(getattr(point.arrays, n), shape + lengths.get(n, ())) for n in names}

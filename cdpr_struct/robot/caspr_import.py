@@ -19,6 +19,8 @@ from cdpr_struct.robot.pose import angles_from_rotation
 ASSUMED_AXIAL_STIFFNESS = 251327.4123  # N, 4 mm steel cable of the thesis, E = 20 GPa
 ASSUMED_DENSITY = 0.067  # kg/m, the same cable
 _SIX_DOF = "SPATIAL_EULER_XYZ"
+_PLANAR = {"PLANAR_XY": ("z", "rx", "ry"), "PLANAR_XZ": ("y", "rx", "rz"), "PLANAR_YZ": ("x", "ry", "rz")}
+"""Joints of a platform in a plane, and what a guide then holds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +55,7 @@ class _Body:
     center: np.ndarray
     inertia: np.ndarray
     home: np.ndarray | None
+    guided: tuple[str, ...] = ()
 
 
 def import_caspr(bodies: str, cables: str, bodies_name: str, cables_name: str, choices: Choices) -> ImportedRobot:
@@ -101,7 +104,8 @@ def _body(root: ElementTree.Element, source: str, choices: Choices, warnings: li
         )
     inertia = _inertia(physical, source, mass, center, choices, warnings)
     name = link.get("name") or "caspr-robot"
-    return _Body(name, mass, center, inertia, _home(link, source, warnings))
+    guided = _PLANAR.get(child(link, "joint", source).get("type") or "", ())
+    return _Body(name, mass, center, inertia, _home(link, source, warnings), guided)
 
 
 def _inertia(
@@ -157,6 +161,10 @@ def _home(link: ElementTree.Element, source: str, warnings: list[str]) -> np.nda
     """x, y, z, rx, ry, rz [m, deg] in our order of rotations, from the joint's initial value."""
     joint = child(link, "joint", source)
     kind = joint.get("type") or "nothing"
+    if kind in _PLANAR:
+        held = ", ".join(_PLANAR[kind])
+        warnings.append(f"joint type {kind}: a guide holds {held} of the platform; no home pose was read.")
+        return None
     if kind != _SIX_DOF:
         warnings.append(
             f"joint type {kind}: taken as a free platform with six degrees of freedom, and no home pose was read "
@@ -234,6 +242,7 @@ def _toml(
         f"mass = {body.mass!r}",
         f"center_of_mass = {_list(body.center)}",
         f"inertia = [{rows}]",
+        *([f"guided = {list(body.guided)}".replace("'", '"')] if body.guided else []),
     ]
     alike = len({(cable.force_min, cable.force_max) for cable in ends}) == 1
     lines += ["", "[cable]", f"linear_density = {density!r}", "damping_ratio = 0.01"]

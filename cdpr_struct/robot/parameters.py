@@ -83,7 +83,9 @@ _RULES: dict[str, Parameter] = {
     "mass": Parameter((), "kg", "of the platform", "platform.mass", above=0.0),
     "center_of_mass": Parameter((3,), "m", "of the platform, platform frame", "platform.center_of_mass", 0.0),
     "inertia": Parameter((3, 3), "kg m^2", "about the centre of mass, platform frame", "platform.inertia"),
-    "gravity": Parameter((), "m/s^2", "along world -z", "gravity", above=0.0),
+    "gravity": Parameter((), "m/s^2", "size of gravity", "gravity", least=0.0),
+    "down": Parameter((3,), "1", "unit vector along which gravity acts, world frame", "gravity", (0.0, 0.0, -1.0)),
+    "guided": Parameter((6,), "1", "1 where a guide holds the platform: x, y, z, rx, ry, rz", "platform.guided", 0.0),
     "damping_ratio": _of_cables(
         "1", "viscous, referred to the cable's first frequency", "cable.damping_ratio", 0.0, least=0.0, most=1.0
     ),

@@ -1,15 +1,19 @@
 """The robot: a platform on m cables in a frame."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from cdpr_struct.robot.arrays import frozen_array, require_positive
+from cdpr_struct.robot.arrays import frozen_array
 from cdpr_struct.robot.cable import Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
+
+_ROUNDING = 1e-15  # a vector whose length is one but for this is left as it is: files are read as written
+FREEDOMS = ("x", "y", "z", "rx", "ry", "rz")
+"""Of the platform: displacement of its origin along the world axes, rotation about them."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -19,8 +23,10 @@ class Robot:
     platform_anchors : (m, 3) A_i [m], platform frame
     frame_anchors    : (m, 3) B_i [m], world frame; with a pulley, where the cable enters it
     pulleys          : per cable a `Pulley` or None
-    gravity          : g [m/s^2], along world -z
+    gravity          : g [m/s^2], zero or more; given as a vector (3,), world frame, it becomes its size and `down`
     home             : pose that commands use when none is given, or None
+    guided           : of FREEDOMS, those that a guide holds at the pose at hand: world axes at the platform origin
+    down             : (3,) unit vector along which gravity acts, world frame
     extensions       : compliance in line, masts, loads, encoders and sensors; neutral if not given
     """
 
@@ -34,9 +40,12 @@ class Robot:
     description: str = ""
     home: Pose | None = None
     extensions: Extensions = None  # type: ignore[assignment]
+    guided: tuple[str, ...] = ()
+    down: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
 
     def __post_init__(self) -> None:
-        require_positive(self, "gravity")
+        self._settle_gravity()
+        _check_guided(self.guided)
         m = len(self.cables)
         if m == 0:
             raise ValueError("Robot.cables must hold at least one cable")
@@ -53,6 +62,25 @@ class Robot:
             raise ValueError(f"Robot.extensions must be for {m} cables, got {len(self.extensions.slip)}")
         if fault := internal_mass_fault(self.platform, self.extensions):
             raise ValueError(fault)
+
+    def _settle_gravity(self) -> None:
+        """Size and direction of gravity, which may have been given as one vector."""
+        given = np.asarray(self.gravity, dtype=float)
+        if given.shape == (3,):
+            size = float(np.linalg.norm(given))
+            object.__setattr__(self, "gravity", size)
+            object.__setattr__(self, "down", given / size if size > 0.0 else (0.0, 0.0, -1.0))
+        down = frozen_array(self.down, (3,), "Robot.down")
+        length = float(np.linalg.norm(down))
+        if given.shape not in ((), (3,)) or not 0.0 <= self.gravity < np.inf or length == 0.0:
+            raise ValueError(f"Robot.gravity must be zero or more, or a vector of three numbers, got {self.gravity!r}")
+        unit = down if abs(length - 1.0) <= _ROUNDING else frozen_array(down / length, (3,), "Robot.down")
+        object.__setattr__(self, "down", unit)
+
+    @property
+    def gravity_vector(self) -> np.ndarray:
+        """(3,) [m/s^2], world frame."""
+        return self.gravity * self.down
 
     @property
     def axial_stiffness(self) -> np.ndarray:
@@ -134,8 +162,14 @@ def anchors_in_world(robot: Robot, position: np.ndarray, rotation: np.ndarray) -
 def gravity_wrench(robot: Robot, rotation: np.ndarray) -> np.ndarray:
     """Wrench (..., 6) of the platform's weight about its origin, world axes [N, N m]."""
     center = np.einsum("...ij,j->...i", rotation, robot.platform.center_of_mass)
-    force = np.broadcast_to([0.0, 0.0, -robot.platform.mass * robot.gravity], center.shape)
+    force = np.broadcast_to(robot.platform.mass * robot.gravity_vector, center.shape)
     return np.concatenate([force, np.cross(center, force)], axis=-1)
+
+
+def _check_guided(guided: tuple[str, ...]) -> None:
+    unknown = [name for name in guided if name not in FREEDOMS]
+    if unknown or len(set(guided)) < len(guided) or len(guided) == len(FREEDOMS):
+        raise ValueError(f"Robot.guided must be some of {', '.join(FREEDOMS)}, not all, each once, got {guided!r}")
 
 
 def internal_mass_fault(platform: Platform, more: Extensions) -> str:

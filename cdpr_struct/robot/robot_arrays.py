@@ -9,7 +9,7 @@ import numpy.typing as npt
 from cdpr_struct.robot.extensions import drag, masts_of, uprights_of
 from cdpr_struct.robot.parameters import EXTENSIONS, PARAMETERS
 from cdpr_struct.robot.platform import joined_masses
-from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot import FREEDOMS, Robot
 
 _KEPT = 16  # robots whose arrays are kept
 _LEAST_MODULUS = 0.05  # of E as entered: the law is a straight line and would end below zero
@@ -28,7 +28,8 @@ class RobotArrays:
     pulley_axis     : (..., m, 3) unit, world; the cable passes the frame anchor travelling along +axis
     mass            : (...) [kg]
     center_of_mass  : (..., 3) platform frame [m];  inertia : (..., 3, 3) about it, platform frame [kg m^2]
-    gravity         : (...) g [m/s^2]
+    gravity         : (...) g [m/s^2], along down (..., 3) unit, world
+    guided          : (..., 6) 1 where a guide holds the platform: x, y, z, rx, ry, rz, world axes at its origin
     damping_ratio   : (..., m) xi [-];  thermal_expansion : (..., m) [1/K]
     force_min, force_max : (..., m) [N], limits of the tension at the platform
 
@@ -56,6 +57,8 @@ class RobotArrays:
     center_of_mass: np.ndarray
     inertia: np.ndarray
     gravity: np.ndarray
+    down: np.ndarray = field(default_factory=PARAMETERS["down"].without_effect)
+    guided: np.ndarray = field(default_factory=PARAMETERS["guided"].without_effect)
     damping_ratio: np.ndarray = field(default_factory=PARAMETERS["damping_ratio"].without_effect)
     thermal_expansion: np.ndarray = field(default_factory=PARAMETERS["thermal_expansion"].without_effect)
     force_min: np.ndarray = field(default_factory=PARAMETERS["force_min"].without_effect)
@@ -125,6 +128,31 @@ class RobotArrays:
     def has_yielding_frame_ends(self) -> bool:
         """Whether the length of a free cable depends on its tension, by a pulley or something elastic in line."""
         return self.has_pulleys or bool(self.series_compliance.any())
+
+    @property
+    def up(self) -> np.ndarray:
+        """(..., 1, 3) unit vector against gravity, world frame; one for all cables."""
+        return -self.down[..., None, :]
+
+    @property
+    def is_tilted(self) -> bool:
+        """Whether gravity acts in another direction than world -z."""
+        return bool((self.down[..., 2] != -1.0).any())
+
+    @property
+    def is_weightless(self) -> bool:
+        """Whether there is no gravity."""
+        return not self.gravity.any()
+
+    @property
+    def has_guides(self) -> bool:
+        """Whether a guide holds the platform in any direction."""
+        return bool(self.guided.any())
+
+    @property
+    def free(self) -> np.ndarray:
+        """(..., 6) 1 where the platform can move, 0 where a guide holds it."""
+        return 1.0 - self.guided
 
     @property
     def has_masts(self) -> bool:
@@ -223,6 +251,8 @@ def _entered(robot: Robot) -> RobotArrays:
         center_of_mass=robot.platform.center_of_mass,
         inertia=robot.platform.inertia,
         gravity=np.asarray(robot.gravity, dtype=float),
+        down=robot.down,
+        guided=np.array([float(name in robot.guided) for name in FREEDOMS]),
         damping_ratio=robot.damping_ratio,
         thermal_expansion=np.array([cable.thermal_expansion for cable in robot.cables]),
         force_min=robot.force_min,

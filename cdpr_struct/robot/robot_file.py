@@ -4,18 +4,19 @@ import math
 import tomllib
 from importlib import resources
 from pathlib import Path
-from typing import Annotated, Any, get_args
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from cdpr_struct.errors import InputError, known_names
+from cdpr_struct.errors import InputError
 from cdpr_struct.robot.cable import LARGEST_EXPANSION, Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions, divided_mast
+from cdpr_struct.robot.file_complaints import input_error
 from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
-from cdpr_struct.robot.robot import Robot, internal_mass_fault
+from cdpr_struct.robot.robot import FREEDOMS, Robot, internal_mass_fault
 
 LARGEST, SMALLEST = 1e12, 1e-12  # of any number; beyond them squares and products leave what can be computed
 Number = Annotated[float, Field(strict=True, ge=-LARGEST, le=LARGEST)]
@@ -34,6 +35,7 @@ class PlatformTable(_Table):
     mass: Positive
     center_of_mass: Vector = [0.0, 0.0, 0.0]
     inertia: Matrix
+    guided: list[Any] = []
 
 
 class CableTable(_Table):
@@ -59,7 +61,7 @@ class CablesEntry(CableTable):
 class RobotTable(_Table):
     name: Annotated[str, Field(min_length=1)]
     description: str = ""
-    gravity: Positive = 9.81
+    gravity: Any = 9.81
     home_pose: Annotated[list[Number], Field(min_length=3, max_length=6)] | None = None
     platform: PlatformTable
     cable: CableTable = CableTable()
@@ -99,53 +101,6 @@ def robot_of_text(text: str, source: str) -> Robot:
     return _build(table, source)
 
 
-def input_error(source: str, error: ValidationError, model: type[BaseModel] | None = None) -> InputError:
-    """The first complaint of pydantic as one sentence with file, field, value and what would be right.
-
-    model : of the whole file, to say which keys are known where one is not
-    """
-    found = error.errors()
-    misspelt = [e for e in found if e["type"] == "extra_forbidden"] if found[0]["type"] == "missing" else []
-    first = [*misspelt, *found][0]
-    field = "".join(f"[{p + 1}]" if isinstance(p, int) else f".{p}" for p in first["loc"]).lstrip(".")
-    value = "nothing" if first["type"] == "missing" else first["input"]
-    words = _EXPECTED.get(first["type"])
-    expected = first["msg"].lower() if words is None else words.format(**first.get("ctx", {}))
-    if first["type"] == "extra_forbidden" and model is not None:
-        known = known_keys(model, first["loc"][:-1])
-        expected += "; " + known_names(str(first["loc"][-1]), known)
-    return InputError(source, field, value, expected)
-
-
-def known_keys(model: type[BaseModel], place: tuple[int | str, ...]) -> list[str]:
-    """Keys of the table at a place of a file: names and numbers of entries from the top."""
-    for step in (step for step in place if isinstance(step, str) and step in model.model_fields):
-        inner = [model.model_fields[step].annotation]
-        while inner and not (isinstance(inner[0], type) and issubclass(inner[0], BaseModel)):
-            inner = [*get_args(inner[0]), *inner[1:]]
-        if inner and isinstance(inner[0], type):
-            model = inner[0]
-    return sorted(model.model_fields)
-
-
-_EXPECTED = {
-    "extra_forbidden": "no such key is known here",
-    "missing": "this key is required",
-    "finite_number": "give a finite number",
-    "float_type": "give a number, without quotes",
-    "model_type": "give a table with keys of its own",
-    "dict_type": "give a table with keys of its own",
-    "string_type": "give a text in quotes",
-    "list_type": "give a list in square brackets",
-    "too_short": "give at least {min_length} entries, not {actual_length}",
-    "too_long": "give at most {max_length} entries, not {actual_length}",
-    "greater_than": "give a number above {gt:g}",
-    "greater_than_equal": "give a number not below {ge:g}",
-    "less_than": "give a number below {lt:g}",
-    "less_than_equal": "give a number not above {le:g}",
-}
-
-
 def _read(name: str) -> tuple[str, str]:
     if name in builtin_names():
         return resources.files("cdpr_struct.robot.builtin").joinpath(f"{name}.toml").read_text("utf-8"), name
@@ -167,7 +122,8 @@ def _build(table: RobotTable, source: str) -> Robot:
         return Robot(
             name=table.name,
             description=table.description,
-            gravity=table.gravity,
+            gravity=_gravity(table.gravity, source),
+            guided=_guided(table.platform.guided, source),
             home=home,
             platform=platform,
             cables=cables,
@@ -180,6 +136,23 @@ def _build(table: RobotTable, source: str) -> Robot:
         raise
     except ValueError as error:
         raise InputError(source, "robot", table.name, str(error)) from error
+
+
+def _gravity(given: Any, source: str) -> Any:
+    """A size, downwards, or a vector."""
+    expected = "give a number in m/s^2, zero or more, or three in square brackets, like [0.0, 1.7, -9.66]"
+    _require_numbers("gravity", given, 3, expected, source)
+    if not isinstance(given, list) and given < 0.0:
+        raise InputError(source, "gravity", given, expected)
+    return np.array(given, dtype=float) if isinstance(given, list) else float(given)
+
+
+def _guided(given: list[Any], source: str) -> tuple[str, ...]:
+    """Freedoms that a guide holds, in their order."""
+    if any(name not in FREEDOMS for name in given) or len(set(given)) < len(given) or len(given) == len(FREEDOMS):
+        expected = f"give some of {', '.join(FREEDOMS)} in quotes, each once, and leave at least one free"
+        raise InputError(source, "platform.guided", given, expected)
+    return tuple(name for name in FREEDOMS if name in given)
 
 
 def _home(values: list[float] | None, source: str) -> Pose | None:

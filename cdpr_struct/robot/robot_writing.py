@@ -15,13 +15,14 @@ def robot_toml(robot: Robot, name: str, comments: Sequence[str] = ()) -> str:
     lines = [
         *(f"# {printable(line)}" for line in comments),
         f'name = "{_quotable(name)}"',
-        f"gravity = {float(robot.gravity)!r}",
+        f"gravity = {_gravity(robot)}",
         *_home(robot),
         "",
         "[platform]",
         f"mass = {float(body.mass)!r}",
         f"center_of_mass = {body.center_of_mass.tolist()}",
         f"inertia = {body.inertia.tolist()}",
+        *([f"guided = {_words(robot.guided)}"] if robot.guided else []),
         "",
         "[extensions]",
         f"causes = {_words(robot.extensions.causes)}",
@@ -53,6 +54,12 @@ def _cable(robot: Robot, i: int) -> list[str]:
     if pulley is not None:
         lines.append(f"pulley = {{ radius = {float(pulley.radius)!r}, axis = {pulley.axis.tolist()} }}")
     return lines
+
+
+def _gravity(robot: Robot) -> str:
+    """A number where it acts along world -z, else a vector."""
+    straight = robot.down.tolist() == [0.0, 0.0, -1.0] or robot.gravity == 0.0
+    return repr(float(robot.gravity)) if straight else str(robot.gravity_vector.tolist())
 
 
 def _home(robot: Robot) -> list[str]:

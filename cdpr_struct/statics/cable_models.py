@@ -11,7 +11,7 @@ import numpy as np
 
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import cable_response, let_out
-from cdpr_struct.statics.cable_state import CableStates, heading_and_span
+from cdpr_struct.statics.cable_state import CableStates, heading_and_span, span_and_rise
 from cdpr_struct.statics.catenary import CableStatus
 from cdpr_struct.statics.catenary_length import SLACKEST, force_z_curvature
 from cdpr_struct.statics.hanging_cables import hanging, held_hanging
@@ -112,7 +112,7 @@ class IdealModel(SpringModel):
 
 
 class SaggingModel:
-    """Elastic catenary, eqs. (2.11)-(2.12)."""
+    """Elastic catenary, eqs. (2.11)-(2.12); without gravity the straight spring."""
 
     name = "sagging"
 
@@ -123,6 +123,8 @@ class SaggingModel:
         return arrays
 
     def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
+        if arrays.is_weightless:
+            return SpringModel().states(arrays, points, length)
         near = None
 
         def on_masts(moved: RobotArrays) -> CableStates:
@@ -133,13 +135,16 @@ class SaggingModel:
         return with_settled_masts(arrays, on_masts)[0]
 
     def hold(self, arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> HeldCables:
+        if arrays.is_weightless:
+            return SpringModel().hold(arrays, points, chord_tension)
+
         def states_of(moved: RobotArrays) -> CableStates:
             return held_hanging(moved, points, chord_tension)[0]
 
         _, arrays = with_settled_masts(arrays, states_of, locked=False)
         states, length_rate = held_hanging(arrays, points, chord_tension)
         response = cable_response(replace(arrays, series_compliance=np.zeros(1)), states)
-        bend = -force_z_curvature(states.span, states.offset[..., 2], chord_tension, states.weight)
+        bend = -force_z_curvature(states.span, states.rise, chord_tension, states.weight)
         return HeldCables(states, -response.length_rate * length_rate[..., None], bend)
 
     def least_chord_tension(self, arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
@@ -205,12 +210,13 @@ def _straight(arrays: RobotArrays, points: np.ndarray) -> _StraightCables:
 def _straight_states(
     arrays: RobotArrays, exit_: _StraightCables, tension: np.ndarray, length: np.ndarray, wrapped: np.ndarray
 ) -> CableStates:
-    heading, span = heading_and_span(exit_.offset)
+    up = np.broadcast_to(arrays.up, exit_.offset.shape)
+    (heading, span), rise = heading_and_span(exit_.offset, up), span_and_rise(exit_.offset, up)[1]
     status = np.where(tension > 0.0, CableStatus.CONVERGED, CableStatus.WEIGHTLESS_SLACK)
     share = tension / exit_.chord
     stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
     passed = np.broadcast_to(let_out(arrays, tension, stiff), length.shape)
     return CableStates(
-        exit_.offset, heading, length, wrapped, share * span, share * exit_.offset[..., 2], stiff,
-        np.zeros_like(length), status, passed,
+        exit_.offset, heading, length, wrapped, share * span, share * rise, stiff,
+        np.zeros_like(length), status, passed, up,
     )  # fmt: skip

@@ -11,8 +11,6 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates, cable_stiffness
 from cdpr_struct.statics.pulley import exit_rates
 
-_UP = np.array([0.0, 0.0, 1.0])
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CableResponse:
@@ -50,21 +48,21 @@ def cable_response(arrays: RobotArrays, states: CableStates) -> CableResponse:
     free = cable_stiffness(states)
     if not arrays.has_yielding_frame_ends:
         return CableResponse(free, _free_rate(states, free))
-    top_rate = _free_rate(states, free) - states.weight[..., None] * _UP
+    top_rate = _free_rate(states, free) - states.weight[..., None] * states.up
     length_from_tension, matrix = _exit_equation(arrays, states, free, top_rate)
     inverse = np.linalg.inv(matrix)
-    weight_row = states.weight[..., None, None] * _UP[:, None] * length_from_tension[..., None, :]
+    weight_row = states.weight[..., None, None] * states.up[..., :, None] * length_from_tension[..., None, :]
     back = np.eye(3) + weight_row
     stiffness = back @ inverse @ free
     at_exit = np.einsum("...ij,...j->...i", inverse, top_rate)
-    length_rate = np.einsum("...ij,...j->...i", back, at_exit) + states.weight[..., None] * _UP
+    length_rate = np.einsum("...ij,...j->...i", back, at_exit) + states.weight[..., None] * states.up
     return CableResponse(stiffness, length_rate)
 
 
 def exit_jacobian(arrays: RobotArrays, states: CableStates) -> np.ndarray:
     """(..., m, 3, 3) Jacobian of the exit equation: the tension vector at E less the pull that follows from it."""
     free = cable_stiffness(states)
-    return _exit_equation(arrays, states, free, _free_rate(states, free) - states.weight[..., None] * _UP)[1]
+    return _exit_equation(arrays, states, free, _free_rate(states, free) - states.weight[..., None] * states.up)[1]
 
 
 def _pull_at_frame(states: CableStates) -> tuple[np.ndarray, np.ndarray]:

@@ -8,6 +8,8 @@ from cdpr_struct.generated import catenary
 from cdpr_struct.generated.cable_compliance import compliance, stiffness
 
 _UP = np.array([0.0, 0.0, 1.0])
+VECTORS = ("offset", "heading", "up")
+"""Fields of `CableStates` with an axis of their own."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -16,7 +18,7 @@ class CableStates:
 
     offset          : (..., m, 3) platform anchor minus the point where the free cable starts (the frame anchor, or
                       where it leaves its pulley), world [m]
-    heading         : (..., m, 3) horizontal unit vector from frame end to platform end, world
+    heading         : (..., m, 3) horizontal unit vector from frame end to platform end, world, across `up`
     length          : (..., m) unstrained length of the free cable [m]
     wrapped_length  : (..., m) unstrained length on the pulley [m]
     let_out         : (..., m) unstrained length that elements in line behind the frame end let out by stretching [m]
@@ -24,6 +26,7 @@ class CableStates:
     axial_stiffness : (..., m) EA [N]
     weight          : (..., m) w [N/m]; 0 for a straight, weightless cable
     status          : (..., m) `CableStatus` values
+    up              : (..., m, 3) unit vector against gravity, world; along z if not given
     """
 
     offset: np.ndarray
@@ -36,6 +39,11 @@ class CableStates:
     weight: np.ndarray
     status: np.ndarray
     let_out: np.ndarray
+    up: np.ndarray = None  # type: ignore[assignment]
+
+    def __post_init__(self) -> None:
+        if self.up is None:
+            object.__setattr__(self, "up", np.broadcast_to(_UP, self.heading.shape))
 
     def at(self, index: int | np.ndarray | None) -> "CableStates":
         """The states at an index of the batch: a number, an array of numbers, or None for one more axis."""
@@ -44,12 +52,12 @@ class CableStates:
     @property
     def force_on_platform(self) -> np.ndarray:
         """(..., m, 3) force the cable exerts on the platform, world [N]."""
-        return -self.force_x[..., None] * self.heading - self.force_z[..., None] * _UP
+        return -self.force_x[..., None] * self.heading - self.force_z[..., None] * self.up
 
     @property
     def force_at_frame(self) -> np.ndarray:
         """(..., m, 3) tension vector at the frame end, pointing from frame to platform, world [N]."""
-        return self.force_x[..., None] * self.heading + (self.force_z - self.weight * self.length)[..., None] * _UP
+        return self.force_x[..., None] * self.heading + (self.force_z - self.weight * self.length)[..., None] * self.up
 
     @property
     def total_length(self) -> np.ndarray:
@@ -74,7 +82,12 @@ class CableStates:
     @property
     def span(self) -> np.ndarray:
         """(..., m) horizontal distance of the ends [m]."""
-        return np.hypot(self.offset[..., 0], self.offset[..., 1])
+        return span_and_rise(self.offset, self.up)[0]
+
+    @property
+    def rise(self) -> np.ndarray:
+        """(..., m) height of the platform end above the frame end [m]."""
+        return span_and_rise(self.offset, self.up)[1]
 
     @property
     def chord(self) -> np.ndarray:
@@ -84,7 +97,7 @@ class CableStates:
     @property
     def inclination(self) -> np.ndarray:
         """(..., m) angle of the chord above the horizontal [rad], > 0 if the platform end is the higher one."""
-        return np.arctan2(self.offset[..., 2], self.span)
+        return np.arctan2(self.rise, self.span)
 
     @property
     def tension(self) -> np.ndarray:
@@ -128,22 +141,56 @@ def cable_stiffness(states: CableStates) -> np.ndarray:
     across = np.where(vertical, k_xx, states.force_x / np.where(vertical, 1.0, span))
     h = states.heading
     matrix = np.empty((*span.shape, 3, 3))
-    for i in range(2):
-        for j in range(2):
-            along = h[..., i] * h[..., j]
-            matrix[..., i, j] = k_xx * along + across * (float(i == j) - along)
-        matrix[..., i, 2] = matrix[..., 2, i] = k_xz * h[..., i]
-    matrix[..., 2, 2] = k_zz
+    if (states.up[..., 2] != 1.0).any():
+        matrix = _turned_stiffness(states, (k_xx, k_xz, k_zz, across))
+    else:
+        for i in range(2):
+            for j in range(2):
+                along = h[..., i] * h[..., j]
+                matrix[..., i, j] = k_xx * along + across * (float(i == j) - along)
+            matrix[..., i, 2] = matrix[..., 2, i] = k_xz * h[..., i]
+        matrix[..., 2, 2] = k_zz
     if (states.weight == 0.0).any():
         matrix[states.slack] = 0.0
     return matrix
 
 
-def heading_and_span(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Horizontal unit vector (..., 3) of offsets (..., 3), world x for a vertical one, and their span (...) [m]."""
-    span = np.hypot(offset[..., 0], offset[..., 1])
+def _turned_stiffness(states: CableStates, parts: tuple[np.ndarray, ...]) -> np.ndarray:
+    """(..., m, 3, 3) from its parts along heading, across and up, where up is not z."""
+    frame = cable_frame(states)
+    local = np.zeros(frame.shape)
+    local[..., 0, 0], local[..., 0, 2], local[..., 2, 2], local[..., 1, 1] = parts
+    local[..., 2, 0] = parts[1]
+    return np.asarray(frame @ local @ np.swapaxes(frame, -1, -2))
+
+
+def cable_frame(states: CableStates) -> np.ndarray:
+    """(..., m, 3, 3) unit vectors along heading, across and up of each cable, as columns, world."""
+    return np.stack([states.heading, np.cross(states.up, states.heading), states.up], axis=-1)
+
+
+def span_and_rise(offset: np.ndarray, up: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Horizontal and vertical distance (...) [m] of offsets (..., 3), up (..., 3) a unit vector."""
+    if (up[..., 2] == 1.0).all():
+        return np.hypot(offset[..., 0], offset[..., 1]), offset[..., 2]
+    rise = (offset * up).sum(axis=-1)
+    return np.linalg.norm(offset - rise[..., None] * up, axis=-1), rise
+
+
+def heading_and_span(offset: np.ndarray, up: np.ndarray = _UP) -> tuple[np.ndarray, np.ndarray]:
+    """Horizontal unit vector (..., 3) of offsets (..., 3), world x for a vertical one, and their span (...) [m].
+
+    up : (..., 3) unit vector against gravity; where it is not z, some horizontal direction for a vertical offset
+    """
+    span, rise = span_and_rise(offset, up)
     safe = np.where(span > 0.0, span, 1.0)
     heading = np.zeros_like(offset)
-    heading[..., 0] = np.where(span > 0.0, offset[..., 0] / safe, 1.0)
-    heading[..., 1] = offset[..., 1] / safe
-    return heading, span
+    if (up[..., 2] == 1.0).all():
+        heading[..., 0] = np.where(span > 0.0, offset[..., 0] / safe, 1.0)
+        heading[..., 1] = offset[..., 1] / safe
+        return heading, span
+    level = np.broadcast_to(np.eye(3)[int(np.abs(up).reshape(-1, 3).max(axis=0).argmin())], offset.shape)
+    level = level - (level * up).sum(axis=-1, keepdims=True) * up
+    level = level / np.linalg.norm(level, axis=-1, keepdims=True)
+    across = (offset - rise[..., None] * up) / safe[..., None]
+    return np.where(span[..., None] > 0.0, across, level), span

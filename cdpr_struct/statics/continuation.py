@@ -16,6 +16,7 @@ from cdpr_struct.statics.cable_models import CableModel
 from cdpr_struct.statics.energy_descent import arm_scale
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.locked_balance import LockedBalance
+from cdpr_struct.statics.neutral_freedoms import stability
 
 _SMALLEST = 2.0**-9  # step of a way of length 1
 _AGREEMENT = 0.1  # largest difference between a step and what the rates at its ends say, of the step
@@ -66,6 +67,7 @@ class _Way:
         more, less = (balance.evaluate(position, rotation).wrench for balance in there)
         push = (more - less) / (2.0 * _DIFFERENCE)
         tangent = here.evaluate(position, rotation).tangent
+        tangent = tangent + stability(seen, rotation, tangent).holding  # neutral freedoms stay where they are
         return np.linalg.solve(tangent, push[..., None])[..., 0] * _units(self.arrays)
 
 

@@ -144,11 +144,11 @@ def _missing_direction(matrix: np.ndarray, wrench: np.ndarray, unit: np.ndarray)
     """Axis and size [N, N m] of what no tensions, even pushing ones, could balance, and the matrix's rank."""
     left, values, _ = np.linalg.svd(matrix, full_matrices=False)
     spanned = left[:, values > 1e-9 * values[0]]
-    rest = (wrench - spanned @ (spanned.T @ wrench)) * unit
-    if np.linalg.norm(rest / unit) <= 1e-6 * np.linalg.norm(wrench):
+    rest = wrench - spanned @ (spanned.T @ wrench)
+    if np.linalg.norm(rest) <= 1e-6 * np.linalg.norm(wrench):
         return None
-    axis = int(np.abs(rest / unit).argmax())
-    return axis, float(abs(rest[axis])), spanned.shape[1]
+    axis = int(np.abs(rest).argmax())
+    return axis, float(abs(rest[axis]) * unit[axis]), spanned.shape[1]
 
 
 def _taut_matrix(one: DistributionProblem) -> np.ndarray:

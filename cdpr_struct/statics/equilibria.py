@@ -13,12 +13,18 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.energy_descent import arm_scale
-from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward, starting_position
+from cdpr_struct.statics.forward_kinematics import (
+    ForwardSolution,
+    ForwardStatus,
+    forward,
+    starting_position,
+)
 from cdpr_struct.statics.potential_energy import potential_energy
 from cdpr_struct.statics.slack_cables import hangs_slack
 
 STARTS = 128
 _SAME = 1e-3  # of the anchors' mean radius: equilibria nearer to each other are one
+_ALIKE = 1e-6  # of the largest tension: tensions nearer to each other are the same
 _SPIRAL = 1.533751168755204288  # root of x^4 = x + 4
 
 
@@ -65,7 +71,8 @@ def other_equilibria(
     """
     place = np.tile(answer.position, (STARTS, 1))
     place[1::4] = starting_position(arrays, arrays.paid_out(lengths))
-    found = forward(arrays, lengths, place, _orientations(STARTS), model, wrench)
+    place, turn = _as_guided(arrays, answer, place, _orientations(STARTS))
+    found = forward(arrays, lengths, place, turn, model, wrench)
     good = np.flatnonzero(found.stable)
     first = _told_apart(found, good, answer, arm_scale(arrays))
     states = found.cables.at(first)
@@ -83,6 +90,18 @@ def other_equilibria(
     )
 
 
+def _as_guided(
+    arrays: RobotArrays, answer: ForwardSolution, place: np.ndarray, turn: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Starts (n, 3), (n, 3, 3) with what a guide holds as in the answer; turns about guided axes are left out."""
+    if not arrays.has_guides:
+        return place, turn
+    free = arrays.free
+    vectors = Rotation.from_matrix(turn).as_rotvec() * free[3:]
+    turned = Rotation.from_rotvec(vectors).as_matrix() @ answer.rotation
+    return np.where(free[:3] > 0.0, place, answer.position), turned
+
+
 def _told_apart(found: ForwardSolution, good: np.ndarray, answer: ForwardSolution, radius: float) -> np.ndarray:
     """Items of `good` that are neither the answer nor an earlier one."""
     place = np.concatenate([answer.position[None], found.position[good]])
@@ -90,8 +109,16 @@ def _told_apart(found: ForwardSolution, good: np.ndarray, answer: ForwardSolutio
     apart = np.linalg.norm(place[:, None] - place, axis=-1) + radius * np.linalg.norm(
         turn[:, None] - turn, axis=(-2, -1)
     )
-    near = apart <= _SAME * radius
+    near = (apart <= _SAME * radius) | _turned_alike(found, good, answer)
     return np.asarray(good[~np.tril(near, -1).any(axis=1)[1:]])
+
+
+def _turned_alike(found: ForwardSolution, good: np.ndarray, answer: ForwardSolution) -> np.ndarray:
+    """(1 + g, 1 + g) bool: with a neutral freedom, poses of equal tensions, which that motion connects."""
+    free = np.append(answer.status, found.status[good]) == ForwardStatus.NEUTRAL
+    pulls = np.concatenate([answer.tensions[None], found.tensions[good]])
+    alike = np.abs(pulls[:, None] - pulls).max(axis=-1) <= _ALIKE * pulls.max()
+    return np.asarray(alike & free[:, None] & free)
 
 
 def _orientations(count: int) -> np.ndarray:

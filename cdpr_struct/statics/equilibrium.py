@@ -47,8 +47,8 @@ def weight_wrench(arrays: RobotArrays, arms: PlatformArms) -> np.ndarray:
 def weight_force(arrays: RobotArrays) -> np.ndarray:
     """(..., 3) of the platform, world [N]."""
     size = arrays.mass * arrays.gravity
-    along = np.concatenate([arrays.tilt, np.full((*arrays.tilt.shape[:-1], 1), -1.0)], axis=-1)
-    return size[..., None] * along
+    tilted = np.concatenate([arrays.tilt, np.zeros((*arrays.tilt.shape[:-1], 1))], axis=-1)
+    return np.asarray(size[..., None] * (arrays.down + tilted))
 
 
 def load_wrench(arrays: RobotArrays, arms: PlatformArms) -> np.ndarray:

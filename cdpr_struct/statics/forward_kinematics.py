@@ -17,10 +17,11 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.energy_descent import EnergyDescent, arm_scale, longest_step
+from cdpr_struct.statics.equilibrium import PlatformArms, tangent_stiffness
 from cdpr_struct.statics.locked_balance import LockedBalance
+from cdpr_struct.statics.neutral_freedoms import stability
 
 MAX_ITERATIONS = 200
-NEUTRAL = 1e-9  # smallest over largest eigenvalue of the tangent below which an equilibrium counts as neutral
 _SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
 
 
@@ -28,8 +29,9 @@ class ForwardStatus(IntEnum):
     """What the solver found for one pose."""
 
     CONVERGED = 0
-    NOT_STABLE = 1  # balanced, but neutral or unstable (a platform that spins freely about one cable, say)
+    NOT_STABLE = 1  # balanced, but a small motion grows
     NOT_CONVERGED = 2
+    NEUTRAL = 3  # balanced, and free to move in some direction: a platform that spins about one cable, say
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,8 +60,8 @@ class ForwardSolution:
 
     @property
     def stable(self) -> np.ndarray:
-        """(...) bool: balanced, and every small motion is pushed back."""
-        return self.status == ForwardStatus.CONVERGED
+        """(...) bool: balanced, and no small motion grows; neutral freedoms are allowed."""
+        return (self.status == ForwardStatus.CONVERGED) | (self.status == ForwardStatus.NEUTRAL)
 
     @property
     def tensions(self) -> np.ndarray:
@@ -147,13 +149,13 @@ def _stiffening(
 
 
 def starting_position(arrays: RobotArrays, length: np.ndarray) -> np.ndarray:
-    """(..., 3) a point under the middle of the frame anchors, as deep as the lengths allow on average [m]."""
+    """(..., 3) a point under the middle of the frame anchors, as deep as the lengths allow on average; the middle
+    itself where there is no gravity [m]."""
     middle = arrays.frame_anchors.mean(axis=-2)
     reach = np.linalg.norm(arrays.frame_anchors - middle[..., None, :], axis=-1)
     depth = np.sqrt(np.maximum(length**2 - reach**2, 0.0)).mean(axis=-1)
     start = np.array(np.broadcast_to(middle, (*np.broadcast_shapes(depth.shape, middle.shape[:-1]), 3)))
-    start[..., 2] -= depth
-    return start
+    return np.asarray(start + np.where(arrays.gravity > 0.0, depth, 0.0)[..., None] * arrays.down)
 
 
 def _flat(value: np.ndarray, shape: tuple[int, ...], core_axes: int) -> np.ndarray:
@@ -168,8 +170,10 @@ def _solution(
     cables = CableStates(
         *(getattr(states, name).reshape(shape + getattr(states, name).shape[1:]) for name in states.__slots__)
     )
-    neutral = eigenvalues[:, 0] <= NEUTRAL * eigenvalues[:, -1]
-    status = np.where(neutral, ForwardStatus.NOT_STABLE, ForwardStatus.CONVERGED)
+    arms = PlatformArms.at(balance.arrays, descent.position, descent.rotation)
+    held = stability(balance.arrays, descent.rotation, tangent_stiffness(balance.arrays, states, arms))
+    status = np.where(held.neutral > 0, ForwardStatus.NEUTRAL, ForwardStatus.CONVERGED)
+    status[held.unstable] = ForwardStatus.NOT_STABLE
     status[~descent.converged] = ForwardStatus.NOT_CONVERGED
     return ForwardSolution(
         position=descent.position.reshape((*shape, 3)),

@@ -4,7 +4,7 @@ import numpy as np
 
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import exit_jacobian, let_out
-from cdpr_struct.statics.cable_state import CableStates, heading_and_span
+from cdpr_struct.statics.cable_state import CableStates, heading_and_span, span_and_rise
 from cdpr_struct.statics.catenary import CatenaryForces, solve_end_forces
 from cdpr_struct.statics.catenary_length import length_at_chord_tension
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
@@ -43,12 +43,13 @@ def _catenary(
     passed: np.ndarray,
     near: CatenaryForces | None,
 ) -> tuple[CableStates, CatenaryForces]:
-    heading, span = heading_and_span(offset)
+    up = np.broadcast_to(arrays.up, offset.shape)
+    (heading, span), rise = heading_and_span(offset, up), span_and_rise(offset, up)[1]
     stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
     weight = np.broadcast_to(arrays.weight, length.shape)
-    forces = solve_end_forces(span, offset[..., 2], length, stiff, weight, near)
+    forces = solve_end_forces(span, rise, length, stiff, weight, near)
     pull = forces.force_x, forces.force_z
-    return CableStates(offset, heading, length, wrapped, *pull, stiff, weight, forces.status, passed), forces
+    return CableStates(offset, heading, length, wrapped, *pull, stiff, weight, forces.status, passed, up), forces
 
 
 def _catenary_over_pulley(
@@ -89,15 +90,16 @@ def _catenary_at_tension(
     arrays: RobotArrays, offset: np.ndarray, chord_tension: np.ndarray, wrap: np.ndarray
 ) -> tuple[CableStates, np.ndarray]:
     """State, and rate of the length with the chord tension; `wrap` is the strained length on the pulley."""
-    heading, span = heading_and_span(offset)
-    cable = length_at_chord_tension(span, offset[..., 2], chord_tension, arrays.axial_stiffness, arrays.weight)
+    up = np.broadcast_to(arrays.up, offset.shape)
+    (heading, span), rise = heading_and_span(offset, up), span_and_rise(offset, up)[1]
+    cable = length_at_chord_tension(span, rise, chord_tension, arrays.axial_stiffness, arrays.weight)
     bottom = np.hypot(cable.force_x, cable.force_z - arrays.weight * cable.length)
     wrapped = wrap / (1.0 + bottom / arrays.axial_stiffness)
     stiff = np.broadcast_to(arrays.axial_stiffness, wrapped.shape)
     weight = np.broadcast_to(arrays.weight, wrapped.shape)
     states = CableStates(
         offset, heading, cable.length, wrapped, np.where(span > 0.0, cable.force_x, 0.0), cable.force_z, stiff,
-        weight, cable.status, np.broadcast_to(let_out(arrays, bottom, stiff), wrapped.shape),
+        weight, cable.status, np.broadcast_to(let_out(arrays, bottom, stiff), wrapped.shape), up,
     )  # fmt: skip
     return states, cable.length_rate
 

@@ -7,8 +7,9 @@ import numpy as np
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, tangent_stiffness
+from cdpr_struct.statics.guides import free_axes
+from cdpr_struct.statics.neutral_freedoms import stability
 
-UNSTABLE = 1e-9  # of the largest stiffness: a negative one below it counts as zero
 _MOTIONS = ("along x", "along y", "along z", "about x", "about y", "about z")
 
 
@@ -16,7 +17,7 @@ _MOTIONS = ("along x", "along y", "along z", "about x", "about y", "about z")
 class HeldStability:
     """At locked lengths.
 
-    stable          : (...) bool: no motion of the platform is pushed on
+    stable          : (...) bool: no motion of the platform is pushed on; it may be neutral
     least_stiffness : (...) of all motions, rotations as arcs at the anchors [N/m]
     motion          : (..., 6) the motion of least stiffness, the largest component 1 [m, arc in m]
     """
@@ -39,11 +40,14 @@ def held_stability(
     arms = PlatformArms.at(arrays, position, rotation)
     radius = np.maximum(np.sqrt((arms.arms**2).sum(axis=-1).mean(axis=-1)), 1e-3)[..., None]
     unit = np.concatenate([np.ones((*radius.shape[:-1], 3)), np.repeat(radius, 3, axis=-1)], axis=-1)
-    matrix = tangent_stiffness(arrays, states, arms) / unit[..., :, None] / unit[..., None, :]
+    tangent = tangent_stiffness(arrays, states, arms)
+    free = free_axes(arrays)
+    matrix = (tangent / unit[..., :, None] / unit[..., None, :])[..., free[:, None], free]
     values, vectors = np.linalg.eigh(0.5 * (matrix + np.swapaxes(matrix, -1, -2)))
-    softest = vectors[..., 0]
+    softest = np.zeros(unit.shape)
+    softest[..., free] = vectors[..., 0]
     largest = np.take_along_axis(softest, np.abs(softest).argmax(axis=-1)[..., None], axis=-1)
-    stable = values[..., 0] >= -UNSTABLE * np.abs(values[..., -1])
+    stable = ~stability(arrays, rotation, tangent).unstable
     return HeldStability(np.asarray(stable), values[..., 0], softest / largest)
 
 

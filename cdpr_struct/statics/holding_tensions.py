@@ -22,7 +22,7 @@ class HoldingProblem:
 
     load      : (k, 6) weight and external wrench about the platform origin [N, N m]
     low, high : (k, m) bounds on the tensions at the platform [N]
-    unit      : (k, 6) 1 for forces, the anchors' mean radius [m] for moments
+    unit      : (k, 6) 1 for forces, the anchors' mean radius [m] for moments; inf where a guide takes them
     careful   : solve every program to the end, also where the structure matrix loses rank
     kept      : (k, 3, 3) which moments are balanced: products of its rows with the moment; None for all
     """
@@ -51,6 +51,7 @@ class HoldingProblem:
         radius = np.sqrt((arms.arms**2).sum(axis=-1).mean(axis=-1))
         unit = np.ones((len(radius), 6))
         unit[:, 3:] = np.maximum(radius, 1e-3)[:, None]
+        unit[np.broadcast_to(arrays.guided > 0.0, unit.shape)] = np.inf
         return cls(arrays, model, arms, load_wrench(arrays, arms) + external_wrench, *bounds, unit)
 
     def take(self, index: np.ndarray) -> "HoldingProblem":
@@ -90,7 +91,7 @@ class HoldingProblem:
         shallow = np.where(self._least() > 0.0, 0.5 * self.arrays.weight * chord / _TAUT, 0.0)
         low = np.maximum(self.low, shallow)
         ones = np.ones_like(low)
-        reach = _REACH * np.linalg.norm(self.load / self.unit, axis=1, keepdims=True)
+        reach = _REACH * np.maximum(np.linalg.norm(self.load / self.unit, axis=1, keepdims=True), low)
         top = np.maximum(np.minimum(high, reach), 2.0 * low)
         tension, _ = self._program(ones, 0.0 * ones, self.straight_matrix(), self.load, low, top)
         return np.maximum(tension, 1e-9 * np.linalg.norm(self.load, axis=1, keepdims=True))
@@ -111,12 +112,12 @@ class HoldingProblem:
         """Tensions (k, m) [N] of straight cables that could also push, and the wrench (k, 6) that even these leave."""
         matrix = np.swapaxes(self.straight_matrix(), -1, -2) / self.unit[..., None]
         tension = -(np.linalg.pinv(matrix, rcond=1e-10) @ (self.load / self.unit)[..., None])
-        left = (matrix @ tension)[..., 0] * self.unit + self.load
-        return tension[..., 0], left
+        left = (np.swapaxes(self.straight_matrix(), -1, -2) @ tension)[..., 0] + self.load
+        return tension[..., 0], np.where(np.isfinite(self.unit), left, 0.0)
 
     def _size(self, items: np.ndarray) -> np.ndarray:
         size: np.ndarray = np.linalg.norm(self.load[items] / self.unit[items], axis=1)
-        return size
+        return size + self.low[items].sum(axis=1) if self.arrays.is_weightless else size
 
     def _least(self) -> np.ndarray:
         return self.model.least_chord_tension(self.arrays, self.arms.points)
@@ -146,9 +147,12 @@ class HoldingProblem:
         """(k, m) second derivative of cost minus multipliers times balance, kept positive."""
         lever = self.arms.arms
         scaled = (dual / self.unit)[:, None, :]
-        along_up = scaled[..., 2] + scaled[..., 3] * lever[..., 1] - scaled[..., 4] * lever[..., 0]
+        up = self.arrays.up
+        along_up = (scaled[..., :3] * up + scaled[..., 3:] * np.cross(lever, up)).sum(axis=-1)
         first = np.einsum("kmi,kmi->km", held.force_rate, held.force_rate)
-        return np.maximum(first + (held.states.force_on_platform[..., 2] - along_up) * held.bend, 0.1 * first)
+        return np.maximum(
+            first + ((held.states.force_on_platform * up).sum(axis=-1) - along_up) * held.bend, 0.1 * first
+        )
 
     def _step_bounds(self, held: HeldCables, growth: np.ndarray, tension: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         pull = held.states.tension_at_platform

@@ -21,6 +21,7 @@ from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import cable_wrench
 from cdpr_struct.statics.free_orientation import FreeOrientation
+from cdpr_struct.statics.guides import free_part
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.separating_wrench import separation
 from cdpr_struct.statics.taut_tensions import suits, taut_tensions
@@ -45,7 +46,7 @@ class InverseSolution:
 
     cables             : CableStates (..., m)
     lengths            : (..., m) unstrained, from the frame anchors on, as the encoders are to say them [m]
-    residual_wrench    : (..., 6) what is left unbalanced [N, N m]
+    residual_wrench    : (..., 6) what is left unbalanced, what a guide takes left out [N, N m]
     status, iterations : (...); `InverseStatus` values
     """
 
@@ -205,7 +206,7 @@ def _by_programs(problem: HoldingProblem, start: np.ndarray | None = None) -> In
 def _judged(
     problem: HoldingProblem, states: CableStates, settled: np.ndarray, iterations: np.ndarray
 ) -> InverseSolution:
-    residual = cable_wrench(states, problem.arms) + problem.load
+    residual = free_part(cable_wrench(states, problem.arms) + problem.load, problem.arrays)
     size = np.linalg.norm(problem.load / problem.unit, axis=1) + states.tension_at_platform.sum(axis=1)
     balanced = np.linalg.norm(residual / problem.unit, axis=1) <= BALANCED * size
     pull = states.tension_at_platform

@@ -9,6 +9,7 @@ from cdpr_struct.statics.cable_models import CableModel
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.energy_descent import Evaluation
 from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, tangent_stiffness
+from cdpr_struct.statics.guides import behind_guides, free_part
 
 _TOLERANCE = 1e-11  # of weight plus cable tensions
 
@@ -31,15 +32,25 @@ class LockedBalance:
         return replace(self, arrays=self.arrays.take(index), length=self.length[index], wrench=self.wrench[index])
 
     def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation:
-        """Wrench, tangent and tolerated residual at positions (n, 3) and rotations (n, 3, 3)."""
+        """Wrench, tangent and tolerated residual at positions (n, 3) and rotations (n, 3, 3).
+
+        Of a guided platform those of its free directions, and a stiffness that is coupled with nothing in the others.
+        """
         arms = PlatformArms.at(self.arrays, position, rotation)
         states = self.model.states(self.arrays, arms.points, self.length)
         wrench = cable_wrench(states, arms) + load_wrench(self.arrays, arms) + self.wrench
         rounding = 8.0 * np.finfo(float).eps * states.axial_stiffness.sum(axis=-1)
         size = self.arrays.mass * self.arrays.gravity + states.tension_at_platform.sum(axis=-1)
         tangent = tangent_stiffness(self.arrays, states, arms)
+        if self.arrays.has_guides:
+            wrench, tangent = free_part(wrench, self.arrays), behind_guides(tangent, self.arrays, _held(states))
         return Evaluation(wrench, tangent, _TOLERANCE * size + rounding)
 
     def states(self, position: np.ndarray, rotation: np.ndarray) -> CableStates:
         """The cables there."""
         return self.model.states(self.arrays, PlatformArms.at(self.arrays, position, rotation).points, self.length)
+
+
+def _held(states: CableStates) -> float:
+    """A stiffness [N/m] like that of the cables."""
+    return float((states.axial_stiffness / states.length).max())

@@ -37,7 +37,7 @@ def potential_energy(
     platform = -(weight_force(arrays) * (position + arms.center)).sum(axis=-1)
     loads = -((arrays.constant_force + wrench[..., :3]) * position).sum(axis=-1)
     hose = 0.5 * arrays.hose * ((arrays.hose_center - position) ** 2).sum(axis=-1)
-    height = arms.points[..., 2] - states.offset[..., 2]
+    height = ((arms.points - states.offset) * states.up).sum(axis=-1)
     cables = (_of_cables(states, height) + _behind_frame(arrays, states, height)).sum(axis=-1)
     masts = MastShapes.soft(arrays).energy(states.force_at_frame) if arrays.has_masts else 0.0
     return np.asarray(platform + loads + hose + cables + masts)

@@ -11,6 +11,8 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, moment_skew, tangent_stiffness
+from cdpr_struct.statics.guides import behind_guides
+from cdpr_struct.statics.neutral_freedoms import Stability, stability
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -19,22 +21,42 @@ class RobotStiffness:
 
     Rows force [N] and moment [N m] (of the wrench that displaces), columns displacement [m] and rotation [rad].
 
-    matrix   : (..., 6, 6) world axes, exactly -d(wrench of cables and weight)/d(pose); symmetric at an equilibrium
-               without applied moment
+    matrix   : (..., 6, 6) world axes, exactly -d(wrench of cables and weight)/d(pose), guides left out; symmetric at
+               an equilibrium without applied moment
     axial    : (..., 6, 6) part of the compliance from axial cable elasticity, world axes
     sag      : (..., 6, 6) part from cable sag in the cable planes, eq. (2.28)
     rotation : (..., 3, 3) platform to world
+    arrays   : the robot's
     """
 
     matrix: np.ndarray
     axial: np.ndarray
     sag: np.ndarray
     rotation: np.ndarray
+    arrays: RobotArrays
 
     @property
     def compliance(self) -> np.ndarray:
-        """(..., 6, 6) inverse of `matrix`, world axes; singular for a platform that can move freely."""
-        return np.linalg.inv(self.matrix)
+        """(..., 6, 6) inverse of `matrix`, world axes [m/N, 1/N, 1/(N m)].
+
+        Of a guided platform zero in the guided directions; with neutral freedoms that of the platform held in these.
+        """
+        return self.compliance_of(self.stability)
+
+    def compliance_of(self, held: Stability) -> np.ndarray:
+        """The same where the stability is known."""
+        inverse = np.linalg.inv(behind_guides(self.matrix, self.arrays) + held.holding)
+        twists = held.twists
+        if twists.shape[-1]:  # what the holding stiffness itself gives way is no compliance of the robot
+            stiff = np.swapaxes(twists, -1, -2) @ held.holding @ twists
+            there = np.where((twists != 0.0).any(axis=-2), np.einsum("...ii->...i", stiff), np.inf)
+            inverse = inverse - (twists / there[..., None, :]) @ np.swapaxes(twists, -1, -2)
+        return np.asarray(inverse * self.arrays.free[..., :, None] * self.arrays.free[..., None, :])
+
+    @property
+    def stability(self) -> Stability:
+        """How the platform is held."""
+        return stability(self.arrays, self.rotation, self.symmetric)
 
     @property
     def geometric(self) -> np.ndarray:
@@ -78,7 +100,7 @@ def static_stiffness(
     moment = (cable_wrench(cables, arms) + load_wrench(arrays, arms))[..., 3:] - arrays.moment
     matrix[..., 3:, 3:] += moment_skew(moment)
     axial, sag = _compliance_parts(arrays, cables, arms, matrix)
-    return RobotStiffness(matrix, axial, sag, np.broadcast_to(turn, (*matrix.shape[:-2], 3, 3)))
+    return RobotStiffness(matrix, axial, sag, np.broadcast_to(turn, (*matrix.shape[:-2], 3, 3)), arrays)
 
 
 def _compliance_parts(
@@ -88,9 +110,9 @@ def _compliance_parts(
     force_change = end_stiffness(arrays, cables) @ attachment(*np.moveaxis(arms.arms, -1, 0))
     in_plane = np.zeros((*cables.length.shape, 2, 3))
     in_plane[..., 0, :] = cables.heading
-    in_plane[..., 1, 2] = 1.0
+    in_plane[..., 1, :] = cables.up
     planar = in_plane @ force_change
-    compliance = np.linalg.pinv(matrix, hermitian=False)
+    compliance = np.linalg.pinv(behind_guides(matrix, arrays, held=0.0), hermitian=False)
     parts = []
     for part in cables.compliance_split():
         work = np.einsum("...mai,...mab,...mbj->...ij", planar, part, planar)

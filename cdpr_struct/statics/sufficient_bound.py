@@ -15,6 +15,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, load_wrench, tangent_stiffness
 from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.neutral_freedoms import stability
 from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.statics.slack_cables import hangs_slack
 
@@ -22,6 +23,7 @@ RUNGS = 15
 _FINER = 7  # rungs between the first that will do and the one below it
 _LOWEST = 0.5, 1e-3  # of the lightest cable's weight, of the load: the larger of the two
 _HIGHEST = 30.0, 3.0  # of the heaviest cable's weight, of the load: the larger of the two
+_STRAINS = 1e-5, 1e-2  # of the softest cable, where there is neither weight nor load
 
 Judge = Callable[[np.ndarray], np.ndarray]
 """From lower bounds (b,) [N] to whether each will do at each of n poses, (b, n) bool."""
@@ -107,6 +109,8 @@ def _ladder(
     weight = arrays.weight * np.linalg.norm(arms.points - arrays.frame_anchors, axis=-1)
     wrench = load_wrench(arrays, arms) + (0.0 if external_wrench is None else np.asarray(external_wrench))
     load = float(np.linalg.norm(wrench[..., :3], axis=-1).max())
+    if not (load or weight.any()):
+        return np.asarray(float(arrays.axial_stiffness.min()) * np.geomspace(*_STRAINS, RUNGS))
     lowest = max(_LOWEST[0] * weight.min(), _LOWEST[1] * load)
     return np.geomspace(lowest, max(_HIGHEST[0] * weight.max(), _HIGHEST[1] * load), RUNGS)
 
@@ -114,14 +118,14 @@ def _ladder(
 def _stable(
     arrays: RobotArrays, place: np.ndarray, turn: np.ndarray, states: CableStates, chosen: np.ndarray
 ) -> np.ndarray:
-    """(b, n) bool: chosen, and every small motion of the platform is pushed back at locked lengths."""
+    """(b, n) bool: chosen, and no small motion of the platform grows at locked lengths."""
     stable = np.zeros(chosen.shape, dtype=bool)
     poses = np.nonzero(chosen)[-1]
     if poses.size:
         turns = np.broadcast_to(turn, (*place.shape[:-1], 3, 3))
         arms = PlatformArms.at(arrays, place[poses], turns[poses])
         matrix = tangent_stiffness(arrays, states.at(chosen), arms)
-        stable[chosen] = np.linalg.eigvalsh(matrix + np.swapaxes(matrix, -1, -2))[:, 0] > 0.0
+        stable[chosen] = ~stability(arrays.take(poses) if arrays.batch_shape else arrays, turns[poses], matrix).unstable
     return stable
 
 

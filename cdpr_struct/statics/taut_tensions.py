@@ -9,8 +9,8 @@ where its tension at the frame now points; the conditions have the exact rates w
 
 Bounds act as in an active-set method: cables that would pass one are fixed in it, one after the other, and freed once
 the cost wants them inside. What this leaves to `HoldingProblem.solve`: poses at which a cable hangs slack
-(tau < w L), the last step is not negligible or no set of bounds settles; masts, fewer than six cables. A
-pose's answer does not depend on those it is computed with.
+(tau < w L), the last step is not negligible or no set of bounds settles; masts, guides, gravity that is tilted or zero,
+fewer than six cables. A pose's answer does not depend on those it is computed with.
 """
 
 from dataclasses import dataclass
@@ -67,7 +67,8 @@ def suits(problem: HoldingProblem) -> bool:
     """Whether this batch may be tried."""
     arrays = problem.arrays
     enough = arrays.cable_count >= EQUATIONS and len(problem.load) > 0
-    return not arrays.has_masts and enough and isinstance(problem.model, SaggingModel)
+    other = arrays.is_tilted or arrays.is_weightless
+    return not (arrays.has_masts or arrays.has_guides or other) and enough and isinstance(problem.model, SaggingModel)
 
 
 def taut_tensions(problem: HoldingProblem) -> TautTensions:

@@ -11,7 +11,7 @@ import numpy as np
 
 from cdpr_struct.generated.tension_bound import lower_bound_printed
 from cdpr_struct.statics.cable_models import HeldCables
-from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.cable_state import CableStates, span_and_rise
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 
 MAX_ITERATIONS = 60
@@ -30,7 +30,7 @@ def printed_bound(problem: HoldingProblem, b: float) -> Wanted:
     and lower for longer cables.
     """
     gravity = np.broadcast_to(problem.arrays.gravity, problem.load.shape[:1])[:, None]
-    density = problem.arrays.weight / gravity
+    density = problem.arrays.linear_density
     return lambda states: lower_bound_printed(b, density, gravity, states.total_length)
 
 
@@ -73,8 +73,8 @@ def _shallow_guess(problem: HoldingProblem, tension: np.ndarray) -> np.ndarray:
     """(k, m) chord tension of a shallow cable that pulls with `tension` [N] at the platform."""
     offset = problem.arms.points - problem.arrays.frame_anchors
     half = 0.5 * problem.arrays.weight
-    flat = half * np.hypot(offset[..., 0], offset[..., 1])
-    guess: np.ndarray = np.sqrt(np.maximum(tension**2 - flat**2, 0.0)) - half * offset[..., 2]
+    span, rise = span_and_rise(offset, np.broadcast_to(problem.arrays.up, offset.shape))
+    guess: np.ndarray = np.sqrt(np.maximum(tension**2 - (half * span) ** 2, 0.0)) - half * rise
     return guess
 
 

@@ -40,7 +40,7 @@ class TensionDistribution:
     residual_wrench : (k, 6) what is left unbalanced [N, N m]
     kkt_residual    : (k,) how far the optimality conditions are from being met: largest of the step that would still
                       improve the cost over the largest tension, and the unbalanced wrench over load and tensions
-    rank            : (k,) of the wrench matrix; below 6 the cables leave the platform a direction to move
+    rank            : (k,) of the wrench matrix, and freedoms a guide holds; below 6 the platform can move
     status, iterations : (k,); `DistributionStatus` values
     """
 
@@ -229,15 +229,16 @@ def _distribution(problem: DistributionProblem, optimum: Optimum, status: np.nda
     holding, held = problem.holding, problem.hold(optimum.chord_tension)
     tangent, states = problem.tangent_of(held), held.states
     values = np.linalg.svd(tangent.matrix, compute_uv=False)
+    finite = np.where(np.isfinite(holding.unit), holding.unit, 0.0)  # a guide takes what is left over there
     return TensionDistribution(
         cables=states,
         lengths=holding.arrays.reading(states.total_length),
         lower=holding.low,
         upper=holding.high,
         cost=problem.cost.total(states.tension_at_platform, holding.low, holding.high),
-        residual_wrench=tangent.wrench * holding.unit,
+        residual_wrench=tangent.wrench * finite,
         kkt_residual=np.maximum(optimum.last_step, tangent.unbalanced),
-        rank=(values > 1e-9 * values[:, :1]).sum(axis=1),
+        rank=(values > 1e-9 * values[:, :1]).sum(axis=1) + np.isinf(problem.holding.unit).sum(axis=1),
         status=status,
         iterations=optimum.iterations,
     )

@@ -11,7 +11,7 @@ import numpy as np
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel
 from cdpr_struct.statics.cable_response import let_out
-from cdpr_struct.statics.cable_state import CableStates, heading_and_span
+from cdpr_struct.statics.cable_state import CableStates, heading_and_span, span_and_rise
 from cdpr_struct.statics.catenary_length import CatenaryLength, solve_length
 from cdpr_struct.statics.masts import with_settled_masts
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
@@ -56,8 +56,9 @@ def _between(
     arrays: RobotArrays, offset: np.ndarray, tension: np.ndarray, wrap: np.ndarray, near: CatenaryLength | None
 ) -> tuple[CableStates, CatenaryLength]:
     """Free catenaries over `offset` (..., m, 3), a strained length `wrap` (..., m) on the pulleys behind them [m]."""
-    heading, span = heading_and_span(offset)
-    held = solve_length(span, offset[..., 2], tension, arrays.axial_stiffness, arrays.weight, near)
+    up = np.broadcast_to(arrays.up, offset.shape)
+    (heading, span), rise = heading_and_span(offset, up), span_and_rise(offset, up)[1]
+    held = solve_length(span, rise, tension, arrays.axial_stiffness, arrays.weight, near)
     bottom = np.hypot(held.force_x, held.force_z - arrays.weight * held.length)
     passed = let_out(arrays, bottom, arrays.axial_stiffness)
     shape = np.broadcast_shapes(held.length.shape, passed.shape)
@@ -69,6 +70,6 @@ def _between(
         whole(offset, (3,)), whole(heading, (3,)), whole(held.length),
         whole(wrap / (1.0 + bottom / arrays.axial_stiffness)),
         whole(held.force_x), whole(held.force_z), whole(arrays.axial_stiffness), whole(arrays.weight),
-        whole(held.status), whole(passed),
+        whole(held.status), whole(passed), whole(up, (3,)),
     )  # fmt: skip
     return states, held

@@ -14,10 +14,12 @@ from cdpr_struct.dynamics.internal_mass import with_internal_mass
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.guides import free_block
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
+from cdpr_struct.statics.neutral_freedoms import Stability
 from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.statics.slack_cables import slack_count
-from cdpr_struct.statics.static_stiffness import static_stiffness
+from cdpr_struct.statics.static_stiffness import RobotStiffness, static_stiffness
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.lowest import LOWEST, lowest
 from cdpr_struct.workspace.mode_map import MOST_MODES, ModeMap
@@ -144,32 +146,48 @@ def stiffnesses(
 ) -> Columns:
     """Static stiffness of the platform origin [N/mm], free to turn, and first frequency on massless cables [Hz].
 
+    neutral_freedoms: in so many directions nothing pushes the platform back; a frequency is the first above zero, and
+    the stiffness of an origin that such a motion moves is zero.
+
     Lengths locked, minimum-norm tensions within the robot's force limits.
     """
     solution = _held(robot, positions, rotation) if found is None else found
     names = ("stiffness_min_N_mm", "stiffness_vertical_N_mm", "platform_frequency_Hz")
     values = {name: np.full(len(positions), np.nan) for name in names}
+    neutral = np.zeros(len(positions), dtype=int)
     good = np.flatnonzero(solution.held)
     if good.size:
         states = solution.cables.at(good)
         turned = rotation if np.ndim(rotation) == 2 else rotation[good]
         stiffness = static_stiffness(robot, positions[good], turned, states)
-        compliance = stiffness.compliance[:, :3, :3]
+        held = stiffness.stability
+        compliance = stiffness.compliance_of(held)[:, :3, :3]
         softest = np.linalg.eigvalsh(0.5 * (compliance + np.swapaxes(compliance, -1, -2)))[:, -1]
-        values["stiffness_min_N_mm"][good] = 1e-3 / softest
-        values["stiffness_vertical_N_mm"][good] = 1e-3 / compliance[:, 2, 2]
-        values["platform_frequency_Hz"][good] = _first_frequency(robot, turned, stiffness.symmetric)
-    return {**values, "slack_cables": slack_count(solution.cables, solution.held), "held": solution.held}
+        loose = np.abs(held.twists[:, :3]).max(axis=-1, initial=0.0) > _STILL
+        with np.errstate(divide="ignore"):  # along a guide nothing gives way
+            values["stiffness_min_N_mm"][good] = np.where(loose.any(axis=-1), 0.0, 1e-3 / softest)
+            values["stiffness_vertical_N_mm"][good] = np.where(loose[:, 2], 0.0, 1e-3 / compliance[:, 2, 2])
+        values["platform_frequency_Hz"][good] = _first_frequency(robot, turned, stiffness, held)
+        neutral[good] = held.neutral
+    return {
+        **values,
+        "neutral_freedoms": neutral,
+        "slack_cables": slack_count(solution.cables, solution.held),
+        "held": solution.held,
+    }
 
 
-def _first_frequency(robot: Robot, rotation: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
-    """(k,) first frequency of the platform on springs of stiffness (k, 6, 6) [Hz]; nan where it is not stable."""
-    stiffness, mass = with_internal_mass(
-        RobotArrays.of(robot), rotation, stiffness, platform_mass_matrix(robot, rotation)
-    )
+def _first_frequency(robot: Robot, rotation: np.ndarray, stiffness: RobotStiffness, held: Stability) -> np.ndarray:
+    """(k,) first frequency above zero of the platform on static stiffnesses [Hz]; nan where it is not stable."""
+    arrays = RobotArrays.of(robot)
+    pencil = with_internal_mass(arrays, rotation, stiffness.symmetric, platform_mass_matrix(robot, rotation))
+    matrix, mass = (free_block(part, arrays) for part in pencil)
     inverse_root = np.linalg.inv(np.linalg.cholesky(mass))
-    squared = np.linalg.eigvalsh(inverse_root @ stiffness @ np.swapaxes(inverse_root, -1, -2))[:, 0]
-    return np.sqrt(np.where(squared > 0.0, squared, np.nan)) / (2.0 * np.pi)
+    squared = np.linalg.eigvalsh(inverse_root @ matrix @ np.swapaxes(inverse_root, -1, -2))
+    beyond = np.minimum(held.neutral, squared.shape[1] - 1)[:, None]
+    first = np.take_along_axis(np.sort(squared, axis=1), beyond, axis=1)[:, 0]
+    good = ~held.unstable & (held.neutral < squared.shape[1]) & (first > 0.0)
+    return np.sqrt(np.where(good, first, np.nan)) / (2.0 * np.pi)
 
 
 def _held(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> InverseSolution:
@@ -180,6 +198,7 @@ def _where_held(solution: InverseSolution, value: np.ndarray) -> np.ndarray:
     return np.where(solution.held, value, np.nan)
 
 
+_STILL = 1e-9  # by so little [m per unit of motion] a neutral freedom may move the origin and leave it held
 _POSE_ERROR = "vertical miss of the platform at cable lengths that are computed without sag and stretch"
 QUANTITIES: dict[str, Quantity] = {
     "pose-error": Quantity("pose error along z", "mm", _POSE_ERROR, "global_z_mm", pose_errors),

@@ -10,7 +10,7 @@ from cdpr_struct.dynamics.many_poses import poses_of
 from cdpr_struct.dynamics.mode_shapes import ritz_shapes, shape_size
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
-from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_static_stiffness
+from cdpr_struct.dynamics.robot_dynamic_stiffness import stability_at
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.slack_cables import slack_count
@@ -66,11 +66,11 @@ def shaped_modes(
     if held.size:
         states = solution.cables if held.size == n else solution.cables.at(held)
         point = OperatingPoint(robot, positions[held], np.broadcast_to(rotation, (held.size, 3, 3)), states)
-        stable = np.linalg.eigvalsh(platform_static_stiffness(point))[:, 0] > 0.0
-        chosen = np.flatnonzero(stable)
+        how = stability_at(point)
+        chosen = np.flatnonzero(~how.unstable)
         for start in range(0, chosen.size, _CHUNK):
             own = chosen[start : start + _CHUNK]
-            squared, found = _at_rest(poses_of(point, own), count, parts)
+            squared, found = _at_rest(poses_of(point, own), how.neutral[own], count, parts)
             hertz[held[own]], shapes[held[own]] = np.sqrt(squared) / (2.0 * np.pi), unit_shapes(found)
     return ShapedModes(hertz, shapes), {
         "held": solution.held,
@@ -78,12 +78,12 @@ def shaped_modes(
     }
 
 
-def _at_rest(point: OperatingPoint, count: int, parts: int) -> tuple[np.ndarray, np.ndarray]:
+def _at_rest(point: OperatingPoint, neutral: np.ndarray, count: int, parts: int) -> tuple[np.ndarray, np.ndarray]:
     """Squared frequencies and shapes at stable poses: the fast path's, else the general solver's."""
     n = len(point.position)
     squared = np.full((n, count), np.nan)
     shapes = np.zeros((n, count, shape_size(len(point.entered.cables), parts)))
-    fast = np.flatnonzero(fits(point))
+    fast = np.flatnonzero(fits(point) & (neutral == 0))
     if fast.size:
         batch = Batch.of(poses_of(point, fast))
         for group in batch.groups:

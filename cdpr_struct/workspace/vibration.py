@@ -11,8 +11,13 @@ from cdpr_struct.dynamics.mode_shapes import ritz_shapes, shape_size
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.platform_modes import HARMONICS, platform_mode
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
-from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_mass_matrix, platform_static_stiffness
+from cdpr_struct.dynamics.robot_dynamic_stiffness import (
+    platform_mass_matrix,
+    platform_static_stiffness,
+    stability_at,
+)
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.guides import free_axes, free_block
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.workspace.grid import Grid
@@ -37,7 +42,8 @@ def first_frequencies(
     mode on massless cables. platform_share is the share of that motion which it holds: below one half, cable modes of
     nearly the same frequency hold more of it together, and the frequency may step to another mode at the next pose. A
     cable's frequency is that with both ends held. Minimum-norm tensions within the robot's force limits. nan where the
-    platform is not held, or balanced but not stable. slack_cables: number of cables that hang slack where it is held.
+    platform is not held, or balanced but not stable. neutral_freedoms: number of directions in which nothing pushes it
+    back; first_Hz is the first frequency above zero. slack_cables: number of cables that hang slack where it is held.
     """
     found = shaped_frequencies(robot, positions, rotation, given)
     return {name: values for name, values in found.items() if name != SHAPE}
@@ -68,16 +74,25 @@ def _of_chunk(
 ) -> Columns:
     solution = inverse(robot, positions, rotation, allow_unheld=True) if given is None else given
     columns = _empty(robot, len(positions))
+    neutral = np.zeros(len(positions), dtype=int)
     held = np.flatnonzero(solution.held)
     if held.size:
         point = _points(robot, positions, rotation, solution, held)
-        massless, momentum = _first_static_mode(point)
-        stable = np.flatnonzero(massless > 0.0)
-        found = _at_rest(poses_of(point, stable), massless[stable], momentum[stable])
+        how = stability_at(point)
+        neutral[held] = how.neutral
+        massless, momentum = _first_static_mode(point, how.neutral)
+        stable = np.flatnonzero((massless > 0.0) & ~how.unstable)
+        rest = poses_of(point, stable)
+        found = _at_rest(rest, massless[stable], momentum[stable], how.neutral[stable]) if stable.size else {}
         for name, values in found.items():
             columns[name][held[stable]] = values if name in (SHARE, SHAPE) else np.sqrt(values) / (2.0 * np.pi)
     columns[SHAPE] = as_records(unit_shapes(columns[SHAPE]))
-    return {**columns, "slack_cables": slack_count(solution.cables, solution.held), "held": solution.held}
+    return {
+        **columns,
+        "neutral_freedoms": neutral,
+        "slack_cables": slack_count(solution.cables, solution.held),
+        "held": solution.held,
+    }
 
 
 def _names(robot: Robot) -> list[str]:
@@ -98,25 +113,36 @@ def _points(
     return OperatingPoint(robot, positions[chosen], np.broadcast_to(rotation, (len(positions), 3, 3))[chosen], states)
 
 
-def _first_static_mode(point: OperatingPoint) -> tuple[np.ndarray, np.ndarray]:
-    """omega^2 (n,) of the platform's first mode on massless cables, negative where it is unstable, and its momentum
-    (n, 6), with an internal mass (n, 7)."""
-    stiffness, mass = with_internal_mass(
+def _first_static_mode(point: OperatingPoint, neutral: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """omega^2 (n,) of the platform's first mode above zero on massless cables, negative where it is unstable, and its
+    momentum (n, 6), with an internal mass (n, 7).
+
+    neutral : (n,) number of neutral freedoms
+    """
+    pencil = with_internal_mass(
         point.arrays, point.rotation, platform_static_stiffness(point),
         platform_mass_matrix(point.arrays, point.rotation),
     )  # fmt: skip
+    stiffness, mass = (free_block(matrix, point.arrays) for matrix in pencil)
     lower = np.linalg.cholesky(mass)
     inverse_root = np.linalg.inv(lower)
     squared, vectors = np.linalg.eigh(inverse_root @ stiffness @ np.swapaxes(inverse_root, -1, -2))
-    return squared[:, 0], np.einsum("nij,nj->ni", lower, vectors[..., 0])
+    row, neutral = np.arange(len(squared)), np.minimum(neutral, squared.shape[1] - 1)
+    momentum = np.zeros((len(squared), pencil[0].shape[-1]))
+    kept = np.concatenate([free_axes(point.arrays), np.arange(6, momentum.shape[1])])
+    momentum[:, kept] = np.einsum("nij,nj->ni", lower, vectors[row, :, neutral])
+    return squared[row, neutral], momentum
 
 
-def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> Columns:
-    """Squared frequencies by name, and the share, at stable poses: the fast path's, else the general solver's."""
+def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray, neutral: np.ndarray) -> Columns:
+    """Squared frequencies by name, and the share, at stable poses: the fast path's, else the general solver's.
+
+    neutral : (n,) number of neutral freedoms
+    """
     names = _names(point.entered)
     found = _empty(point.entered, len(massless))
     found["platform_massless_Hz"] = massless
-    fast = np.flatnonzero(fits(point))
+    fast = np.flatnonzero(fits(point) & (neutral == 0))
     if fast.size:
         for name, values in _fast(poses_of(point, fast), massless[fast], momentum[fast]).items():
             found[name][fast] = values
@@ -124,7 +150,7 @@ def _at_rest(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) 
     size = max(1, _GENERAL_CABLES // point.cables.length.shape[-1])
     for start in range(0, left.size, size):
         chosen = left[start : start + size]
-        for name, values in _general(poses_of(point, chosen), momentum[chosen]).items():
+        for name, values in _general(poses_of(point, chosen), momentum[chosen], neutral[chosen]).items():
             known = found[name][chosen]
             found[name][chosen] = np.where(np.isfinite(known), known, values)
     return found
@@ -144,7 +170,7 @@ def _fast(point: OperatingPoint, massless: np.ndarray, momentum: np.ndarray) -> 
     return found
 
 
-def _general(point: OperatingPoint, momentum: np.ndarray) -> Columns:
+def _general(point: OperatingPoint, momentum: np.ndarray, neutral: np.ndarray) -> Columns:
     """Expansions of high order and as many modes as the definition asks for."""
     full = expand_catenaries_at(point, _ORDER)
     clamped = full.omega_squared[..., 0]
@@ -155,7 +181,8 @@ def _general(point: OperatingPoint, momentum: np.ndarray) -> Columns:
     best = alike.argmax(axis=-1)[:, None]
     omega, share = (np.take_along_axis(values, best, axis=-1)[:, 0] for values in (modes.omega, alike))
     shape = np.take_along_axis(ritz_shapes(point, modes, HARMONICS), best[:, :, None], axis=1)[:, 0]
-    found = {"first_Hz": modes.omega[:, 0] ** 2, "platform_Hz": omega**2, SHARE: share, SHAPE: shape}
+    first = np.take_along_axis(modes.omega, neutral[:, None], axis=1)[:, 0]
+    found = {"first_Hz": first**2, "platform_Hz": omega**2, SHARE: share, SHAPE: shape}
     return found | _of_cables(clamped.T)
 
 

@@ -291,3 +291,13 @@ def test_public_models(name, count, tmp_path, capsys):
     np.testing.assert_array_equal(robot.force_max, high)
     assert run(["inverse", str(out), "--json"]) == 0
     assert min(json.loads(capsys.readouterr().out)["tensions_N"]) > 0.0
+
+
+@pytest.mark.parametrize(
+    ("joint", "held"),
+    [("PLANAR_XZ", ("y", "rx", "rz")), ("PLANAR_XY", ("z", "rx", "ry")), ("PLANAR_YZ", ("x", "ry", "rz"))],
+)
+def test_a_planar_joint_is_a_guide(joint, held, tmp_path, capsys):
+    result, robot = convert(tmp_path, capsys, BODIES.replace("SPATIAL_EULER_XYZ", joint))
+    assert robot.guided == held
+    assert any(f"a guide holds {', '.join(held)}" in warning for warning in result["warnings"])

@@ -372,3 +372,14 @@ def test_a_platform_that_turned_over_is_warned_of():
 def test_start_without_lengths_is_refused(capsys):
     assert run(["modes", "cogiro", "--start", "0,0,1"]) == 2
     assert "--start: got '0,0,1'; it belongs to --lengths" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["load-on-one-rope", "planar-four-cables"])
+def test_free_and_guided_platforms_are_told_on_screen_in_json_and_on_the_page(name, tmp_path, capsys):
+    path = str(Path(__file__).parents[2] / "examples" / "robots" / name / "robot.toml")
+    assert run(["modes", path, "--count", "3", "--out", str(tmp_path / "modes")]) == 0
+    said = "Nothing pushes the platform back in one direction (0 Hz)" if "rope" in name else "A guide holds y, rx, rz"
+    assert said in capsys.readouterr().out
+    told = json.loads((tmp_path / "modes" / "result.json").read_text("utf-8"))
+    assert ("guide" in told, len(told["neutral_freedoms"])) == ((False, 1) if "rope" in name else (True, 0))
+    assert said in (tmp_path / "modes" / "report.html").read_text("utf-8")

@@ -23,6 +23,7 @@ PAGES = (
     "tutorial_own_robot", "tutorial_model_right", "tutorial_diagnosis", "tutorial_trajectory", "pulleys", "ropes",
     "recordings", "notebooks", "templates", "formats",
 )  # fmt: skip
+ROBOTS = sorted((ROOT / "examples" / "robots").glob("*/README.md"))
 BLOCK = re.compile(
     r"((?:^<!-- [\w ]+ -->\n)*)^```sh\n(.*?)^```\n(?:\n^```text\n(.*?)^```\n)?", re.MULTILINE | re.DOTALL
 )
@@ -65,10 +66,15 @@ def answer(line: str) -> tuple[int, str]:
 
 
 def check(page: str, slow: bool, folder: Path) -> None:
-    """Type the page's blocks in a folder that has the examples, as the repository has."""
+    """Type the blocks of a page of docs/ in a folder that has the examples, as the repository has."""
+    typed_in(ROOT / "docs" / f"{page}.md", slow, folder)
+
+
+def typed_in(page: Path, slow: bool, folder: Path) -> None:
+    """Type a page's blocks there."""
     shutil.copytree(ROOT / "examples", folder / "examples")
     with contextlib.chdir(folder):
-        for block in blocks((ROOT / "docs" / f"{page}.md").read_text("utf-8")):
+        for block in blocks(page.read_text("utf-8")):
             if block.slow and not slow:
                 continue
             answers = [answer(line) for line in block.lines]
@@ -101,5 +107,21 @@ def test_the_notebook_reads_what_the_commands_wrote(tmp_path):
     assert {"x_m", "y_m", "z_m"} <= set(names["where"].columns)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("robot", ROBOTS, ids=lambda page: page.parent.name)
+def test_long_commands_of_example_robots_too(robot, tmp_path):
+    typed_in(robot, True, tmp_path)
+
+
+@pytest.mark.parametrize("robot", ROBOTS, ids=lambda page: page.parent.name)
+def test_example_robots_answer_as_their_pages_say_and_as_the_hand_checks(robot, tmp_path):
+    typed_in(robot, False, tmp_path)
+    (cell,) = re.findall(r"^```python\n(.*?)^```\n", robot.read_text("utf-8"), re.M | re.DOTALL)
+    assert "assert " in cell
+    with contextlib.chdir(tmp_path):
+        exec(cell, {})
+
+
 def test_every_page_has_commands():
     assert all(blocks((ROOT / "docs" / f"{page}.md").read_text("utf-8")) for page in PAGES)
+    assert len(ROBOTS) >= 4

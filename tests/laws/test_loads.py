@@ -114,6 +114,13 @@ def test_what_vibration_leaves_out_of_a_moment_is_said_where_it_matters():
     assert moment_sentence(soft(0.0)) is None
 
 
+def test_guides_leave_their_freedoms_out_of_what_is_said_of_a_moment():
+    """About one axis alone nothing is coupled."""
+    point = soft(60.0)
+    guided = replace(point, robot=replace(point.robot, guided=("x", "y", "z", "rx", "ry")))
+    assert frequency_change(guided) == pytest.approx(0.0, abs=1e-12)
+
+
 def test_a_moment_that_makes_a_vibration_grow_is_found():
     point = soft(300.0)
     assert np.abs(squares_by_differences(point)[0].imag).max() > 1e-2

@@ -18,13 +18,14 @@ _ACROSS = 3
 _WIDTH, _TITLE = 9.6, 0.3  # inch
 _ROOM = 0.15  # for the motion, beside the robot's height over its width
 _YAW, _PITCH = np.radians(28.0), np.radians(20.0)
+_SMALLEST = 1e-9  # m: a robot on one vertical line has no width, and turning about it moves nothing that is drawn
 _MOVED = 0.07  # of the robot's size moves the point that moves most
 
 
 def size(point: OperatingPoint, modes: int) -> tuple[float, float]:
     """Width and height [inch] of the figure of so many modes: panels as high as the robot is in them."""
     wide, high = np.ptp(_flat(robot_geometry(point).curves).reshape(-1, 2), axis=0)
-    row = _TITLE + min(float(high / wide) + _ROOM, 1.0) * _WIDTH / _ACROSS
+    row = _TITLE + min(float(high / max(wide, _SMALLEST)) + _ROOM, 1.0) * _WIDTH / _ACROSS
     return _WIDTH, row * _rows(modes)
 
 
@@ -37,7 +38,7 @@ def draw_shapes(figure: Figure, point: OperatingPoint, result: Mapping[str, Any]
     for axes in panels:
         axes.set_axis_off()
     for k, axes in enumerate(panels[:count]):
-        gain, every = reach / motion.reach[k], slice(None, None, int(motion.stride[k]))
+        gain, every = reach / max(motion.reach[k], _SMALLEST), slice(None, None, int(motion.stride[k]))
         cables = (rest + gain * motion.cables[k])[:, every]
         _robot(axes, geometry, rest[:, every], None)
         _robot(axes, geometry, cables, geometry.edges + gain * _carried(point, geometry, motion.platform[k]))

@@ -71,7 +71,7 @@ def cable_curves(point: OperatingPoint, fractions: np.ndarray) -> np.ndarray:
     pull, weight = np.where(straight, 1.0, cables.force_z), np.where(straight, 1.0, cables.weight)
     five = (cables.force_x, pull, cables.length, cables.axial_stiffness, weight)
     along, up = catenary.profile(s, *(value[:, None] for value in five))
-    hanging = along[..., None] * cables.heading[:, None, :] + up[..., None] * np.array([0.0, 0.0, 1.0])
+    hanging = along[..., None] * cables.heading[:, None, :] + up[..., None] * cables.up[:, None, :]
     taut = fractions[None, :, None] * cables.offset[:, None, :]
     start = (platform - cables.offset)[:, None, :]
     return np.asarray(start + np.where(straight[:, None, None], taut, hanging))

@@ -50,7 +50,7 @@
   }
 
   // How far the shape is out at this instant [m per unit], and the platform's rigid motion.
-  const gain = () => ((0.01 * state.amplitude * size) / modes[state.mode].reach) * Math.sin(state.phase);
+  const gain = () => ((0.01 * state.amplitude * size) / (modes[state.mode].reach || 1)) * Math.sin(state.phase);
   function carried([x, y, z], g) {
     const [u, v, w, a, b, c] = modes[state.mode].platform, [ox, oy, oz] = robot.origin;
     const [dx, dy, dz] = [x - ox, y - oy, z - oz];
