@@ -10,6 +10,8 @@ pytestmark = pytest.mark.browser
 
 LOOKS = Path(__file__).with_name("looks.js").read_text("utf-8")
 SCREENS = [(width, scheme) for width in (400, 1400) for scheme in ("light", "dark")]
+EVERYDAY = ("modes", "map-of-three-axes", "frf", "forward")  # the others have figures of the same kinds
+PAGES = [name if name in EVERYDAY else pytest.param(name, marks=pytest.mark.slow) for name in COMMANDS]
 READY = "!document.querySelector('.plot-data') || document.documentElement.dataset.drawn === 'all'"
 
 
@@ -43,7 +45,7 @@ class Sight:
         self.context.close()
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", PAGES)
 def test_page_can_be_read_everywhere(command, browser, folders):
     """No error, every figure there and named, nothing cropped, letters of 9 pixels or more."""
     with Sight(browser, folders[command] / "report.html", *SCREENS[0]) as sight:
@@ -52,6 +54,7 @@ def test_page_can_be_read_everywhere(command, browser, folders):
             assert [*sight.complaints, *sight.page.evaluate(LOOKS)] == [], (width, scheme)
 
 
+@pytest.mark.slow
 def test_static_figures_can_be_read_on_a_phone(browser, folders):
     """Without scripts the figures are those drawn for narrow screens."""
     for command in ("frf", "plan", "map", "diagnose"):
@@ -61,6 +64,7 @@ def test_static_figures_can_be_read_on_a_phone(browser, folders):
             assert sight.page.evaluate(LOOKS) == [], command
 
 
+@pytest.mark.slow
 def test_dark_pages_are_dark(browser, folders):
     """Paper, static and interactive figures take the colours of the scheme."""
     shade = "e => { const c = getComputedStyle(e); return (c.fill || c.backgroundColor).match(/\\d+/g).map(Number) }"
@@ -94,7 +98,7 @@ def test_hover_names_a_mode(browser, folders):
         assert "mode " in sight.page.locator(".hoverlayer .hovertext").first.text_content()
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", PAGES)
 def test_every_figure_is_a_file_twice(command, browser, folders, written):
     """Each figure of the page is there as SVG and as PDF, and result.json lists both."""
     with Sight(browser, folders[command] / "report.html", 1400, "light", scripts=False) as sight:

@@ -32,6 +32,8 @@ def test_words_are_completed(words, place, expected):
 
 
 def test_the_script_for_a_shell_is_shown():
+    """The name of the shell is given: tests may run without one above them that could be recognised."""
     line = [sys.executable, "-m", "cdpr_struct", "--show-completion", "bash"]
-    shown = subprocess.run(line, capture_output=True, text=True, cwd=ROOT, check=False)
+    env = os.environ | {"_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION": "1"}
+    shown = subprocess.run(line, capture_output=True, text=True, cwd=ROOT, env=env, check=False)
     assert "complete -o default -F _cdpr_struct_completion cdpr-struct" in shown.stdout, shown.stderr
