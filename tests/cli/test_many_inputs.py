@@ -64,6 +64,7 @@ def test_folders_have_short_and_different_names(inputs, names):
     assert short_names(inputs) == names
 
 
+@pytest.mark.slow
 def test_each_trajectory_is_answered_as_if_alone(paths, tmp_path):
     out, alone = tmp_path / "out", tmp_path / "alone"
     assert run(words(paths, out, "--workers", "2")) == 0
@@ -92,6 +93,7 @@ def test_an_input_that_cannot_be_used_does_not_stop_the_others(paths, tmp_path, 
     assert (row["exit_code"], row["folder"]) == (2, "bad")
 
 
+@pytest.mark.slow
 def test_interrupted_work_continues_and_a_changed_input_is_answered_anew(paths, tmp_path, monkeypatch, capsys):
     out, asked, real = tmp_path / "out", [], distribute.answer
 
@@ -137,6 +139,7 @@ def test_unusable_lists_are_refused(paths, tmp_path, capsys, arguments, told):
     assert told in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_many_campaigns_give_one_table(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(ROOT)
     broken = tmp_path / "broken.toml"
@@ -170,7 +173,7 @@ GRID = "--grid=-3:3:9,-3:3:9,0.5"
     [
         (["pose-error", "thesis-3-1", GRID], "pose_error.csv"),
         (["audit", "thesis-3-1", GRID], "audit.csv"),
-        (["audit", "--limits", "--small"], "cables.csv"),
+        pytest.param(["audit", "--limits", "--small"], "cables.csv", marks=pytest.mark.slow),
     ],
 )
 def test_a_cluster_gives_the_same_numbers(cluster, tmp_path, command, table):
@@ -181,6 +184,7 @@ def test_a_cluster_gives_the_same_numbers(cluster, tmp_path, command, table):
     assert (there / table).read_text() == (here / table).read_text()
 
 
+@pytest.mark.slow
 def test_trajectories_survive_a_killed_worker_of_a_cluster(cluster, tmp_path):
     folder = tmp_path / "paths"
     folder.mkdir()
@@ -197,6 +201,7 @@ def test_trajectories_survive_a_killed_worker_of_a_cluster(cluster, tmp_path):
     assert (there / "trajectories.csv").read_text() == (here / "trajectories.csv").read_text()
 
 
+@pytest.mark.slow
 def test_limits_whose_workers_are_killed_say_so(monkeypatch, capsys):
     def broken(*arguments):
         raise BrokenExecutor
@@ -206,6 +211,7 @@ def test_limits_whose_workers_are_killed_say_so(monkeypatch, capsys):
     assert "a worker process was ended from outside" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_blind_campaigns_are_diagnosed_by_a_cluster(cluster, tmp_path):
     """With a command that only says which campaign it was given: the harness is on trial here."""
     for name in ("c001", "c002"):

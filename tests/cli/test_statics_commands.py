@@ -271,6 +271,7 @@ def test_a_stopped_map_keeps_its_chunks_and_ends_its_workers(tmp_path, number):
     assert not any(Path(f"/proc/{worker}").exists() for worker in workers)
 
 
+@pytest.mark.slow
 def test_a_killed_worker_costs_nothing_but_time(tmp_path):
     clean, torn = tmp_path / "clean", tmp_path / "torn"
     assert run([*LONG, "--out", str(clean)]) == 0
@@ -305,6 +306,7 @@ def test_a_cluster_that_gives_up_is_told_in_one_line(monkeypatch, capsys):
     assert "finished parts are kept" in line
 
 
+@pytest.mark.slow
 def test_a_dask_cluster_of_processes_does_the_same_though_a_worker_is_killed(tmp_path):
     """Two worker processes on this machine; the scheduler gives the work of the one that is killed to the other."""
     distributed = pytest.importorskip("distributed")
