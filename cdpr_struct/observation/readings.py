@@ -49,7 +49,7 @@ def true_tension(arrays: RobotArrays, readings: Readings, known: Circumstances) 
 
 def paid_out(arrays: RobotArrays, readings: Readings, known: Circumstances) -> np.ndarray:
     """(..., S, m) unstrained length that the encoders' readings mean [m]."""
-    return arrays.paid_out(readings.length) + arrays.slip * known.hours[:, None]
+    return arrays.paid_out(readings.length) + arrays.slip * known.hours[:, None] * arrays.thermal_growth
 
 
 def cell_reading(arrays: RobotArrays, tension: np.ndarray, approach: np.ndarray, wrap: np.ndarray) -> np.ndarray:

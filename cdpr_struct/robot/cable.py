@@ -18,17 +18,17 @@ class Cable:
     axial_stiffness : EA [N]
     linear_density  : mu [kg/m], per unstrained length
     damping_ratio   : xi [-], viscous, referred to the cable's first natural frequency
-    thermal_expansion : alpha [1/K] of its unstrained length, negative for fibres that shrink; default: steel
     force_min, force_max : smallest and largest tension at the platform that the robot may ask for [N]; inf for no
                            upper limit
+    thermal_expansion : alpha [1/K] of its unstrained length, negative for fibres that shrink; default: steel
     """
 
     axial_stiffness: float
     linear_density: float
     damping_ratio: float = 0.0
-    thermal_expansion: float = STEEL
     force_min: float = 0.0
     force_max: float = math.inf
+    thermal_expansion: float = STEEL
 
     def __post_init__(self) -> None:
         require_positive(self, "axial_stiffness", "linear_density")

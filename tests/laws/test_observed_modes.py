@@ -113,7 +113,9 @@ STATES: dict[str, Callable[[], State]] = {
     "a tool on a mount": lambda: state_of("cogiro", **INTERNAL),
 }
 READINGS = ("position", "rotation", "tension")
-ACTING = tuple(n for n in PARAMETERS if n not in IDLE and n not in ("masts", "uprights", "mast_foot"))
+ACTING = tuple(  # what a diagnosis may change; a guide, masts and the direction of gravity are as entered
+    n for n in PARAMETERS if n not in IDLE and n not in ("masts", "uprights", "mast_foot", "down", "guided")
+)
 
 
 def derivative(state: State, name: str, log_omega: Callable[[OperatingPoint], np.ndarray]) -> tuple[np.ndarray, float]:

@@ -35,7 +35,7 @@ def test_a_peak_without_a_mode_is_marked_and_the_legend_is_off_the_curve():
     draw_spectrum(figure, item)
     figure.draw_without_rendering()
     axes = figure.axes[0]
-    legend = axes.get_legend()
+    (legend,) = figure.legends
     assert "no mode fitted" in [text.get_text() for text in legend.get_texts()]
     assert legend.get_window_extent().y0 >= axes.get_window_extent().y1 - 1.0
 

@@ -18,8 +18,6 @@ from cdpr_struct.reports.html import Plate, completed, page_files
 from cdpr_struct.reports.verification_page import verification_files, verification_page
 from cdpr_struct.reports.verification_text import verdict
 
-pytestmark = pytest.mark.every_form
-
 FIGURES = ["determinant", "convergence", "mode_errors", "limits", "robot"]
 
 

@@ -70,7 +70,8 @@ def test_an_unstable_pose_names_a_bound_that_works(lift, capsys):
 def test_slack_cables_name_a_bound_that_works(words, lift, capsys):
     command = [words[0], str(lift), *words[1:]]
     run([*command, "--json"])
-    (said,) = json.loads(capsys.readouterr().out)["warnings"]
+    said, deep = json.loads(capsys.readouterr().out)["warnings"]
     assert "cables 5, 6, 7 and 8 hang slack" in said
+    assert deep.startswith("deep sag: cable 5 by ")
     run([*command, "--lower-bound", re.search(r"--lower-bound (\S+)", said)[1], "--json"])
     assert json.loads(capsys.readouterr().out)["warnings"] == []
