@@ -7,6 +7,7 @@ import numpy as np
 import cdpr_struct.fem_reference as fem
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import attachment
+from cdpr_struct.errors import CdprError
 from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import FREEDOMS, Robot
 from cdpr_struct.statics.masts import carriers, of_each_mast
@@ -19,8 +20,17 @@ def to_fem(robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None
     """The referee's description of the robot with unstrained cable lengths paid out (m,) [m].
 
     axial_stiffness : (m,) EA [N] at the tension at hand, None for that of the robot
+
+    Raises
+    ------
+    CdprError : pulleys on masts that give way.
     """
     more = robot.extensions
+    if any(robot.pulleys) and (more.frame_compliance.any() or more.mast_bending.any()):
+        raise CdprError(
+            "the FEM has no pulleys on masts that give way: leave out the pulleys, or frame_compliance and "
+            "mast_bending, to check the rest; the model exact computes both"
+        )
     stiffness = robot.axial_stiffness if axial_stiffness is None else axial_stiffness
     cables = tuple(
         fem.CableData(float(length), float(ea), cable.linear_density, float(give))

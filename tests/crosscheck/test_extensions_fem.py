@@ -10,11 +10,13 @@ import numpy as np
 import pytest
 
 import cdpr_struct.fem_reference as fem
-from cdpr_struct.crosscheck.fem_robot import solve_in_fem
+from cdpr_struct.crosscheck.fem_robot import solve_in_fem, to_fem
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import platform_dynamic_stiffness, platform_mass_matrix
+from cdpr_struct.errors import CdprError
+from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
@@ -153,3 +155,11 @@ def test_the_referee_refuses_what_it_cannot_do():
         fem.SurroundingsData(((0, 1), (2, 3)), (1e-5, -1e-5))
     with pytest.raises(ValueError, match="no cable twice"):
         fem.SurroundingsData(((0, 1), (1, 2)), 1e-5)
+
+
+@pytest.mark.parametrize("name", ["frame_compliance", "mast_bending"])
+def test_pulleys_on_masts_are_refused_in_a_sentence(name):
+    robot = replace(load_robot("thesis-3-1"), pulleys=(Pulley(0.05),) * 8)
+    with pytest.raises(CdprError, match="no pulleys on masts that give way"):
+        to_fem(replace(robot, extensions=Extensions.of(8, {name: 2e-6})), np.ones(8))
+    assert to_fem(robot, np.ones(8)).pulleys
