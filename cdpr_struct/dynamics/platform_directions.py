@@ -8,8 +8,6 @@ import numpy as np
 
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 
-DIRECTIONS = ("along x", "along y", "along z", "about x", "about y", "about z")
-
 
 def direction_shares(point: OperatingPoint, platform: np.ndarray) -> np.ndarray:
     """Shares of the six directions in the platform's own kinetic energy.

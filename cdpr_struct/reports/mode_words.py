@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cdpr_struct.dynamics.platform_directions import DIRECTIONS
+from cdpr_struct.robot.robot import MOTIONS
 
 STILL = "nearly still"
 WORDS_NOTE = (
@@ -24,5 +24,5 @@ def motion_words(platform_energy: np.ndarray, shares: np.ndarray) -> list[str]:
 def _named(shares: np.ndarray) -> str:
     order = np.argsort(-shares, kind="stable")
     enough = int(np.searchsorted(np.cumsum(shares[order]), _NAMED)) + 1
-    *first, last = [DIRECTIONS[i] for i in order[: min(enough, _MOST)]]
+    *first, last = [MOTIONS[i] for i in order[: min(enough, _MOST)]]
     return f"{', '.join(first)} and {last}" if first else last

@@ -19,7 +19,8 @@ def transient_json(record: VibrationRecord, described: Mapping[str, Any]) -> dic
     """
     vibration, time = record.vibration, record.vibration.time
     angles = np.degrees(angles_from_rotation(record.point.rotation))
-    moving = not is_silent(record)[:3].all()
+    silent = is_silent(record)
+    moving = not silent[:3].all()
 
     def dominant(signal: np.ndarray) -> float:
         return dominant_frequency(time, signal[:, :3]) if moving else float("nan")
@@ -37,7 +38,7 @@ def transient_json(record: VibrationRecord, described: Mapping[str, Any]) -> dic
         "energy_share": vibration.energy_share,
         "energy_first_J": float(vibration.energy[0]),
         "energy_last_J": float(vibration.energy[-1]),
-        "ports": [_port(record, column) for column in range(len(record.ports))],
+        "ports": [_port(record, column, bool(silent[column])) for column in range(len(record.ports))],
         "natural_frequencies_hz": record.modes.hertz,
         "kinds": record.modes.kinds,
         "count_certified": record.modes.certified,
@@ -46,11 +47,10 @@ def transient_json(record: VibrationRecord, described: Mapping[str, Any]) -> dic
     }
 
 
-def _port(record: VibrationRecord, column: int) -> dict[str, Any]:
+def _port(record: VibrationRecord, column: int, silent: bool) -> dict[str, Any]:
     port, vibration = record.ports[column], record.vibration
     length = "rad" if port.turns else "m"
     moved, signal = vibration.displacement[:, [column]], vibration.acceleration[:, [column]]
-    silent = is_silent(record)[column]
     return {
         "name": port.name,
         "on": f"cable {port.cable + 1}" if isinstance(port, CablePort) else "platform",

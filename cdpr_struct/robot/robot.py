@@ -14,6 +14,8 @@ from cdpr_struct.robot.pose import Pose
 _ROUNDING = 1e-15  # a vector whose length is one but for this is left as it is: files are read as written
 FREEDOMS = ("x", "y", "z", "rx", "ry", "rz")
 """Of the platform: displacement of its origin along the world axes, rotation about them."""
+MOTIONS = ("along x", "along y", "along z", "about x", "about y", "about z")
+"""The same in words."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -15,12 +15,12 @@ from cdpr_struct.statics.distribution_problem import BALANCED, DistributionProbl
 from cdpr_struct.statics.guessed_programs import solve_guessed, unbounded_dual
 from cdpr_struct.statics.least_crossing import least_crossing
 from cdpr_struct.statics.minimum_norm import QuadraticPrograms
+from cdpr_struct.statics.unholdable_poses import DIRECTIONS
 
 MAX_ITERATIONS = 40
 FAR = 1e4  # tensions up to this many times the load are considered where there is no upper bound
 _BISECTIONS = 50
 _RIDGE = 1e-8  # price of a tension change over that of an unbalanced wrench
-_DIRECTIONS = ("force x", "force y", "force z", "moment x", "moment y", "moment z")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -136,7 +136,7 @@ def explain(
         axis, amount, rank = lack
         unit = "N" if axis < 3 else "N m"
         reason = f"the wrench matrix is singular (rank {rank} of 6) and no cable acts against {amount:.4g} {unit} of "
-        return UnholdablePoseError(f"{who}: {reason}{_DIRECTIONS[axis]}. Move the pose.", None, amount)
+        return UnholdablePoseError(f"{who}: {reason}{DIRECTIONS[axis]}. Move the pose.", None, amount)
     return _crossed_bound(one, tension, tangent, who, bool(ends.proven[worst]))
 
 

@@ -4,13 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.robot.robot import MOTIONS
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, tangent_stiffness
 from cdpr_struct.statics.guides import free_axes
 from cdpr_struct.statics.neutral_freedoms import stability
-
-_MOTIONS = ("along x", "along y", "along z", "about x", "about y", "about z")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,7 +29,7 @@ class HeldStability:
     def direction(self) -> str:
         """The motion of least stiffness in words, for a single pose."""
         large = np.flatnonzero(np.abs(self.motion) > 0.5)
-        return " and ".join(_MOTIONS[i] for i in large)
+        return " and ".join(MOTIONS[i] for i in large)
 
 
 def held_stability(
