@@ -158,6 +158,6 @@ def load_ladder_caption(found: SufficientLoad) -> str:
         else f"They differ by more than {1e3 * found.tolerance:g} mm up to {found.masses[-1]:g} kg."
     )
     return (
-        "Load pulls the sag out of the cables: the sagging model tends to the spring model, whose error grows in "
+        "A load straightens the cables: the sagging model tends to the spring model, whose error grows in "
         f"proportion to the load. {limit} Right: what sag adds, on logarithmic axes."
     )
