@@ -65,9 +65,7 @@ def sliding_in(batch: CableBatch, handed: np.ndarray, tensions: np.ndarray, wrap
     winch = np.array([isinstance(wrap, Winch) for wrap in wraps])
     wanted = np.array([wrap.bar_tension if isinstance(wrap, Winch) else 0.0 for wrap in wraps])
     give = np.where(winch, SOFTER * batch.unstrained_length / batch.axial_stiffness, give)
-    return dataclasses.replace(
-        batch, handed_on=handed, line_give=give, line_tension=np.where(winch, wanted, tensions)
-    )
+    return dataclasses.replace(batch, handed_on=handed, line_give=give, line_tension=np.where(winch, wanted, tensions))
 
 
 def drawn_from_winches(wraps: Wraps, batch: CableBatch, tensions: np.ndarray) -> np.ndarray:

@@ -13,6 +13,8 @@ from cdpr_struct.statics.cable_state import CableStates, span_and_rise
 
 _ITERATIONS = 60
 _SETTLED = 1e-14  # of the tension
+_SLACKEST = 3.0  # largest w chord / (2 tau) that is tried: past the least tension of any level cable
+_SAME = 1e-9  # of the tension: what counts as held
 _NEAREST = 0.05  # least slope of the tension at the frame over that along the chord on the taut side of its minimum
 
 Held = Callable[[np.ndarray], CableStates]
@@ -45,10 +47,11 @@ def held_at_frame(arrays: RobotArrays, points: np.ndarray, hold: Held) -> CableS
     wanted = np.broadcast_to(np.where(arrays.winch_tension > 0.0, arrays.winch_tension, 2.0 * weight), shape)
     rise = np.broadcast_to(span_and_rise(offset, np.broadcast_to(arrays.up, offset.shape))[1], shape)
     tension = wanted + 0.5 * np.abs(arrays.weight * rise) + 0.5 * weight
+    least = 0.5 * weight / _SLACKEST
     states, slope = hold(tension), np.ones(shape)
     miss = states.tension_at_frame - wanted
     for _ in range(_ITERATIONS):
-        step = np.maximum(-miss / slope, -0.5 * tension)
+        step = np.maximum(np.maximum(-miss / slope, -0.5 * tension), least - tension)
         if (np.abs(step) <= _SETTLED * tension).all():
             break
         states = hold(tension + step)
@@ -57,3 +60,9 @@ def held_at_frame(arrays: RobotArrays, points: np.ndarray, hold: Held) -> CableS
         slope = np.where(np.isfinite(safe), np.clip(changed / safe, _NEAREST, 1.0 / _NEAREST), slope)
         tension, miss = tension + step, miss + changed
     return states
+
+
+def pulls_as_held(arrays: RobotArrays, states: CableStates) -> np.ndarray:
+    """(...) bool: every winch that is to hold its tension does; else the weight of the cable alone pulls more."""
+    miss = np.abs(states.tension_at_frame - arrays.winch_tension)
+    return np.asarray(((arrays.winch_tension == 0.0) | (miss <= _SAME * arrays.winch_tension)).all(axis=-1))
