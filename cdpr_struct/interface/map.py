@@ -14,6 +14,7 @@ from cdpr_struct.interface.free_angles import FreeAngles, names_of, read_free
 from cdpr_struct.interface.given import GridLike, Numbers, Progress, RobotLike
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
+from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports import statics_map
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.robot.robot import Robot
@@ -177,6 +178,10 @@ def map_question(
         whole(chunk, "chunk", 1, 100_000)
     machine, poses = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature), read_grid(grid)
     name = "nothing" if quantity is None else quantity
+    if name.startswith("pose-error"):
+        require_locked_lengths(machine, "a pose error is that of locked lengths")
+    if free is not None:
+        require_locked_lengths(machine, "free angles are found for cables of locked lengths")
     try:
         what = quantity_of(name)
     except KeyError as error:

@@ -158,7 +158,7 @@ def test_the_page_of_modes_has_one_robot_to_turn_and_needs_no_plotly(made):
 
 def test_a_map_of_an_audit_can_be_zoomed_and_shows_the_frame():
     found = cs.audit("thesis-3-1", grid="-1:1:2,-1:1:2,0.5")
-    files = found.files
+    files = found.files()
     assert "broken limits, all cables" in files["report.html"]
     assert "worst cable: value over limit" in files["report.html"]
     assert "in the frame" in files["map.svg"]
