@@ -31,8 +31,8 @@ def robot_toml(robot: Robot, name: str, comments: Sequence[str] = ()) -> str:
     ]
     for i in range(len(robot.cables)):
         lines += ["", *_cable(robot, i)]
-    for body in robot.bodies:
-        lines += ["", *body_lines(body, _quotable)]
+    for obstacle in robot.bodies:
+        lines += ["", *body_lines(obstacle, _quotable)]
     return "\n".join(lines) + "\n"
 
 
