@@ -26,8 +26,8 @@ _NOTE = (
     "sagging cables are balanced anew; margins of force count at the worst wrench, distances, tilt and everything else "
     "under the robot's own load.",
     "A cell of the grid counts with the share of its corners that belong to the workspace. Each halving of the grid "
-    "computes poses in cells whose corners disagree. The error is the change by the last halving, at least the scatter "
-    "of a boundary that lies anywhere between poses. Holes and islands smaller than a cell of the first grid are not "
+    "computes poses in cells whose corners disagree. The error is what the last halving changed on the parts of the "
+    "boundary that face along each axis, added up, and the scatter of a boundary that lies anywhere between poses. Holes and islands smaller than a cell of the first grid are not "
     "seen.",
     "Distances leave out what lies within the anchor zone, along the cable, of an anchor that two cables share or that "
     "sits on the body. Cable on pulleys is left out. A cable that crosses a body has the distance 0.",

@@ -8,6 +8,7 @@ Two cables that share an anchor touch there, and a cable touches a body on which
 such an anchor, measured along the cable, is left out.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,6 +63,10 @@ class _Pieces:
         high[:, side], low[:, side] = middle, middle
         rest = self.pose, self.first, self.second
         return [_Pieces(*rest, self.low, high), _Pieces(*rest, low, self.high)]
+
+
+Enclosed = Callable[[_Pieces], tuple[np.ndarray, np.ndarray]]
+"""Distances of the chords of pieces (k,), and how far the pieces lie from them at most (k,) [m]."""
 
 
 def cable_distance(curves: CableCurves, cables: int, zone: float) -> Nearest:
@@ -158,7 +163,7 @@ def _chord(curve: CableCurves, now: _Pieces, side: int) -> tuple[np.ndarray, np.
     return curve.bulge(low, high, np.linalg.norm(stop - start, axis=1)), start, stop
 
 
-def _least_along(away, count: int) -> np.ndarray:  # type: ignore[no-untyped-def]
+def _least_along(away: Callable[[np.ndarray], np.ndarray], count: int) -> np.ndarray:
     """(k,) least value on [0, 1] of convex functions: distances from convex bodies along chords."""
     low, high = np.zeros(count), np.ones(count)
     left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
@@ -175,7 +180,7 @@ def _least_along(away, count: int) -> np.ndarray:  # type: ignore[no-untyped-def
     return least
 
 
-def _searched(pieces: _Pieces, count: int, sides: tuple[int, ...], enclosed) -> Nearest:  # type: ignore[no-untyped-def]
+def _searched(pieces: _Pieces, count: int, sides: tuple[int, ...], enclosed: Enclosed) -> Nearest:
     """Branch and bound over pieces, all poses (count) together."""
     best, pair = np.full(count, np.inf), np.full((2, count), -1)
     for _ in range(_HALVINGS):

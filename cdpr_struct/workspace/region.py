@@ -48,16 +48,27 @@ class Region:
 
     @property
     def error(self) -> float:
-        """Estimated error of the volume: the change by the last halving, at least the scatter of a boundary that lies
-        anywhere between poses; without a halving half of all cells that the boundary crosses."""
+        """Estimated error of the volume; without a halving half of all cells that the boundary crosses.
+
+        What the last halving changed, summed over the parts of the boundary that face along +x, -x, +y, ..: on a part
+        that lies along the grid a count is wrong by at most as much as that. The scatter of a boundary that lies
+        anywhere between poses is added.
+        """
         crossed = self._cells[self.mixed]
         if self.coarser is None:
             return 0.5 * float(crossed.sum())
-        scatter = _ROUNDS * float(np.sqrt((crossed**2).sum()))
-        changes = [abs(self.volume - self.coarser.volume)]
-        if self.coarser.coarser is not None:
-            changes.append(0.5 * abs(self.coarser.volume - self.coarser.coarser.volume))
-        return max(*changes, scatter)
+        return self._changed(self.coarser) + _ROUNDS * float(np.sqrt((crossed**2).sum()))
+
+    def _changed(self, before: "Region") -> float:
+        """What a halving changed: the sizes of the net changes on each part of the boundary, added."""
+        now, free = self._share * self._cells, self.grid.free
+        for i in free:
+            now = np.take(now, range(0, now.shape[i], 2), i) + np.take(now, range(1, now.shape[i], 2), i)
+        change = now - before._share * before._cells
+        slopes = np.stack([before._mean_over_corners(i) for i in free])
+        axis = np.abs(slopes).argmax(axis=0)
+        ahead = np.take_along_axis(slopes, axis[None], axis=0)[0] > 0.0
+        return float(np.abs(np.bincount((2 * axis + ahead).ravel(), weights=change.ravel())).sum())
 
     @property
     def levels(self) -> list["Region"]:
@@ -89,11 +100,15 @@ class Region:
     @property
     def _share(self) -> np.ndarray:
         """Over the cells: share of their corners that hold."""
-        share = self.holds.reshape(self.grid.shape).astype(float)
+        return self._mean_over_corners(None)
+
+    def _mean_over_corners(self, across: int | None) -> np.ndarray:
+        """Over the cells: mean of their corners; along the axis `across`, the difference of the two sides instead."""
+        value = self.holds.reshape(self.grid.shape).astype(float)
         for i in self.grid.free:
-            ahead, back = np.take(share, range(1, share.shape[i]), i), np.take(share, range(share.shape[i] - 1), i)
-            share = 0.5 * (ahead + back)
-        return share
+            ahead, back = np.take(value, range(1, value.shape[i]), i), np.take(value, range(value.shape[i] - 1), i)
+            value = ahead - back if i == across else 0.5 * (ahead + back)
+        return value
 
     @property
     def _cells(self) -> np.ndarray:
