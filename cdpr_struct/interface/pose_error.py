@@ -71,7 +71,7 @@ class PoseErrorResult(Result):
         """
         if self.errors is not None:
             require_drawable(self.errors.grid)
-        return statics_pose_error.main_figure(self.errors, self.load)
+        return statics_pose_error.main_figure(self.errors, self.load, self.robot)
 
     def files(self) -> Files:
         """Tables, figures and page."""
