@@ -31,7 +31,7 @@ Predictions and checks:
                             choice.
   forward                   Find the pose that the platform takes at locked cable lengths, and other stable ones.
   pose_error                Compute the static pose error over a grid, split into what sag adds and what stretch adds.
-  map                       Map a quantity over a grid of poses.
+  map                       Map a quantity over a grid of poses, or the workspace: where all requirements hold.
   modes                     Compute the eigenfrequencies of a robot at rest, none missing, with their kind.
   frf                       Compute frequency responses, with the certified eigenfrequencies beside their peaks.
   transient                 Predict the vibration after an emergency stop, or along a trajectory, by modal

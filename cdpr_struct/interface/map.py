@@ -1,32 +1,46 @@
 """Any quantity over the workspace."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
-from cdpr_struct.interface.arguments import read_grid, read_robot, whole
+from cdpr_struct.interface.arguments import SMALLEST, read_grid, read_robot, real, whole
 from cdpr_struct.interface.free_angles import FreeAngles, names_of, read_free
 from cdpr_struct.interface.given import GridLike, Numbers, Progress, RobotLike
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
 from cdpr_struct.interface.winches import require_locked_lengths
+from cdpr_struct.interface.workspace import (
+    WORKSPACE,
+    WorkspaceQuestion,
+    WorkspaceResult,
+    read_requirements,
+    single,
+)
+from cdpr_struct.interface.wrenches import WrenchesLike, read_wrenches
 from cdpr_struct.reports import statics_map
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.hanging_poses import HangingFreely
+from cdpr_struct.workspace.margins import ZONE, distances, margins
 from cdpr_struct.workspace.pose_batches import PoseBatches
-from cdpr_struct.workspace.quantities import quantity_of
+from cdpr_struct.workspace.quantities import evaluate, quantity_of
+from cdpr_struct.workspace.requirements import ManyQuantities
 from cdpr_struct.workspace.sweep import sweep
 from cdpr_struct.workspace.work_list import Columns
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
+
+More: TypeAlias = tuple[str | Iterable[str] | None, WrenchesLike | None, int, float]
+_NO_MORE = ((0.0,) * 6,)
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -89,14 +103,19 @@ def map(
     executor: Executor | None = None,
     progress: Progress = silent,
     free: FreeAngles | None = None,
-) -> MapResult:
-    """Map a quantity over a grid of poses.
+    require: str | Iterable[str] | None = None,
+    wrenches: WrenchesLike | None = None,
+    refine: int = 1,
+    anchor_zone: float = ZONE,
+) -> MapResult | WorkspaceResult:
+    """Map a quantity over a grid of poses, or the workspace: where all requirements hold.
 
     Parameters
     ----------
     robot : Robot, built-in name, or path of a robot file
     grid : Grid, or "X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ]" [m, deg], each of x, y, z a number or a range
-    quantity : like "first-frequency", "tension-max", "stiffness-min"; the complaint about an unknown one lists all
+    quantity : like "first-frequency", "tension-max", "stiffness-min"; the complaint about an unknown one lists all;
+        "workspace" answers with a `WorkspaceResult`
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
     temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
@@ -105,15 +124,20 @@ def map(
     executor : of `concurrent.futures` that shares the work, like a ProcessPoolExecutor; default: this process
     progress : called once a batch
     free : angles that hang freely at each pose, some of rx, ry, rz; they are found from those of the grid
+    require : of a workspace, like ["slack-margin>=50", "cable-distance>=0.02"]: any quantity with >= or <=
+    wrenches : to be held beside the load: a CSV file, "fx=-100:100,mz=-5:5" (all corners), or rows of six numbers
+    refine : how often the grid of a workspace is halved where the workspace ends
+    anchor_zone : of cable, next to an anchor that is shared or sits on a body, left out of distances [m]
 
     Raises
     ------
     InputError : an unusable argument.
     """
     asked = map_question(
-        robot, grid, quantity, payload, mass, wrench, temperature, lower_bound, upper_bound, chunk, free
-    )
-    return asked.answered(swept(asked.batches, executor, progress))
+        robot, grid, quantity, payload, mass, wrench, temperature, lower_bound, upper_bound, chunk, free,
+        (require, wrenches, refine, anchor_zone),
+    )  # fmt: skip
+    return asked.answered_by(lambda batches: swept(batches, executor, progress))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -121,6 +145,7 @@ class MapQuestion:
     """Which quantity is asked for, over which grid.
 
     chunk : poses a batch, None for what suits the quantity;  free : (3,) bool, which of rx, ry, rz hang freely, or None
+    compute : the quantity under a set of wrenches or with an anchor zone of its own, or None
     """
 
     robot: Robot
@@ -128,16 +153,29 @@ class MapQuestion:
     quantity: str
     chunk: int | None
     free: np.ndarray | None = None
+    compute: ManyQuantities | None = None
 
     @property
     def batches(self) -> PoseBatches:
         """What is to be computed."""
         batches = sweep(self.quantity, self.robot, self.grid, self.chunk)
+        if self.compute is not None:
+            batches = single(self.compute, batches)
         if self.free is None:
             return batches
         rx, ry, rz = self.free.tolist()
         name = f"{batches.name} free {','.join(names_of(self.free))}"
-        return replace(batches, name=name, evaluate=HangingFreely(self.quantity, (rx, ry, rz)))
+        compute = partial(evaluate, self.quantity) if self.compute is None else self.compute
+        return replace(batches, name=name, evaluate=HangingFreely(compute, (rx, ry, rz)))
+
+    @property
+    def ran(self) -> list[PoseBatches]:
+        """What was computed."""
+        return [self.batches]
+
+    def answered_by(self, run: Callable[[PoseBatches], Columns]) -> MapResult:
+        """The result; `run` gives the columns of batches of poses."""
+        return self.answered(run(self.batches))
 
     def answered(self, columns: Columns, resumed: int = 0) -> MapResult:
         """The result of columns that were computed; `resumed` chunks came from an earlier, interrupted run."""
@@ -146,7 +184,8 @@ class MapQuestion:
         if self.free is not None:
             told["free"] = {"angles": names_of(self.free)}
             angles = "rx_deg, ry_deg and rz_deg of map.csv are the angles found."
-            said = f"{', '.join(names_of(self.free))} were left free: {angles}"
+            judged = "Stability is judged there, at locked lengths."
+            said = f"{', '.join(names_of(self.free))} were left free: {angles} {judged}"
             told["warnings"] = [said, *told["warnings"]]
         answer = with_extensions(told, self.robot, _kin(self.quantity))
         return MapResult(answer, self.robot, self.quantity, self.grid, values)
@@ -165,8 +204,9 @@ def map_question(
     upper_bound: float | None,
     chunk: int | None,
     free: FreeAngles | None = None,
-) -> MapQuestion:
-    """What the arguments of `map` ask for.
+    more: More = (None, None, 1, ZONE),
+) -> MapQuestion | WorkspaceQuestion:
+    """What the arguments of `map` ask for; more : require, wrenches, refine and anchor_zone.
 
     Raises
     ------
@@ -182,18 +222,56 @@ def map_question(
         require_locked_lengths(machine, "a pose error is that of locked lengths")
     if free is not None:
         require_locked_lengths(machine, "free angles are found for cables of locked lengths")
+    if name == WORKSPACE or more[0] is not None:
+        return _workspace_question(machine, poses, name, chunk, free, more)
     try:
         what = quantity_of(name)
     except KeyError as error:
-        raise InputError("quantity", "", name, error.args[0]) from None
+        raise InputError("quantity", "", name, f"{WORKSPACE}, or {error.args[0]}") from None
     if what.most_poses is not None and poses.size > (most := what.most_poses(machine)):
         right = f"at most {most} poses for {name}, which keeps the mode shapes of all poses in memory"
         raise InputError("grid", "", f"{poses.size} poses", right)
+    compute = _own(name, what.evaluate, more)
     if free is None:
-        return MapQuestion(machine, poses, name, chunk)
+        return MapQuestion(machine, poses, name, chunk, None, compute)
     if name.startswith(("mode-", "pose-error")):
         raise InputError("free", "", free, f"{name} is computed at the orientation of the grid; leave it out")
-    return MapQuestion(machine, poses, name, chunk, read_free(free, len(machine.cables))[0])
+    return MapQuestion(machine, poses, name, chunk, read_free(free, len(machine.cables))[0], compute)
+
+
+def _own(name: str, evaluates: Callable[..., Columns], more: More) -> ManyQuantities | None:
+    """What computes a quantity with a set of wrenches or an anchor zone, where they are given."""
+    _, wrenches, _, zone = more
+    if wrenches is not None and evaluates is not margins:
+        raise InputError("wrenches", "", name, "a quantity that asks for wrenches: slack-margin, force-margin, ...")
+    if zone != ZONE and evaluates is not distances:
+        raise InputError("anchor_zone", "", name, "only for cable-distance, body-distance and workspace")
+    if wrenches is None and zone == ZONE:
+        return None
+    return ManyQuantities((name,), _NO_MORE if wrenches is None else read_wrenches(wrenches), _zone(zone))
+
+
+def _workspace_question(
+    robot: Robot, grid: Grid, name: str, chunk: int | None, free: FreeAngles | None, more: More
+) -> WorkspaceQuestion:
+    require, wrenches, refine, zone = more
+    if name != WORKSPACE:
+        raise InputError("require", "", name, f"requirements belong to `quantity` {WORKSPACE}")
+    if not grid.free:
+        raise InputError("grid", "", "a single pose", "give a range for x, y or z: a workspace has an extent")
+    asked = None if wrenches is None else read_wrenches(wrenches)
+    required = read_requirements(require, asked)
+    names = tuple(dict.fromkeys(one.quantity for one in required))
+    if free is not None and any(one.startswith("pose-error") for one in names):
+        raise InputError("free", "", free, "pose errors are computed at the orientation of the grid; leave it out")
+    compute = ManyQuantities(names, _NO_MORE if asked is None else asked, _zone(zone))
+    rx, ry, rz = (False,) * 3 if free is None else read_free(free, len(robot.cables))[0].tolist()
+    hanging = None if free is None else (rx, ry, rz)
+    return WorkspaceQuestion(robot, grid, required, compute, whole(refine, "refine", 0, 6), chunk, hanging)
+
+
+def _zone(given: float) -> float:
+    return real(given, "anchor_zone", "give a length in m, zero or more", -SMALLEST)
 
 
 def require_drawable(grid: Grid) -> None:

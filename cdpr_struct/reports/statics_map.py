@@ -10,6 +10,7 @@ from cdpr_struct.reports.csv_table import LongTable
 from cdpr_struct.reports.html import Page, Plate, page_files
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import shared_cure
+from cdpr_struct.statics.slack_cables import DEEP
 from cdpr_struct.statics.sufficient_bound import shared_bound_of_pose_errors, shared_lower_bound
 from cdpr_struct.workspace.grid import AXES, Grid
 from cdpr_struct.workspace.quantities import quantity_of
@@ -69,9 +70,13 @@ def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str,
         "mean": float(np.nanmean(value)) if some else None,
         **ends,
         "slack_poses": len(slack_poses(columns)),
+        **deep_sag(columns),
         **({"shared_poses": int(shared(name, columns).sum())} if quantity.shared else {}),
         **followed(grid, columns),
-        "warnings": slack_warnings(robot, grid, columns, released=name.startswith("pose-error")),
+        "warnings": [
+            *slack_warnings(robot, grid, columns, released=name.startswith("pose-error")),
+            *sag_warnings(grid, columns),
+        ],
     }
 
 
@@ -114,6 +119,24 @@ def slack_warnings(robot: Robot, grid: Grid, columns: Columns, released: bool = 
     when = " once the platform is let go" if released else ""
     where = f"{len(slack)} of {grid.size} poses" if grid.size > 1 else "the pose"
     return [f"Cables hang slack at {where}{when} (they pull with less than their own weight); {cure}."]
+
+
+def deep_sag(columns: Columns) -> dict[str, Any]:
+    """At how many poses a cable sags by a tenth of its chord, and the largest sag; nothing where it is not known."""
+    sag = columns.get("sag_over_chord_max")
+    if sag is None or not np.isfinite(sag).any():
+        return {}
+    return {"deep_sag_poses": int((sag >= DEEP).sum()), "sag_over_chord_max": float(np.nanmax(sag))}
+
+
+def sag_warnings(grid: Grid, columns: Columns) -> list[str]:
+    """A sentence on cables that sag deeply; none if none does."""
+    told = deep_sag(columns)
+    if not told.get("deep_sag_poses"):
+        return []
+    where = f"{told['deep_sag_poses']} of {grid.size} poses" if grid.size > 1 else "the pose"
+    most = f"{told['sag_over_chord_max']:.2g}"
+    return [f"Deep sag: at {where} a cable sags by a tenth of its chord or more, at most by {most} of it."]
 
 
 def map_values(name: str, columns: Columns) -> np.ndarray:

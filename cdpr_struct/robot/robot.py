@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from cdpr_struct.robot.arrays import frozen_array
+from cdpr_struct.robot.body import Body
 from cdpr_struct.robot.cable import Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.platform import Platform
@@ -30,6 +31,7 @@ class Robot:
     guided           : of FREEDOMS, those that a guide holds at the pose at hand: world axes at the platform origin
     down             : (3,) unit vector along which gravity acts, world frame
     extensions       : compliance in line, masts, loads, encoders and sensors; neutral if not given
+    bodies           : what cables must keep away from; statics and dynamics know nothing of them
     """
 
     name: str
@@ -44,6 +46,7 @@ class Robot:
     extensions: Extensions = None  # type: ignore[assignment]
     guided: tuple[str, ...] = ()
     down: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
+    bodies: tuple[Body, ...] = ()
 
     def __post_init__(self) -> None:
         self._settle_gravity()

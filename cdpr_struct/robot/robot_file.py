@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError
+from cdpr_struct.robot.body_table import BodyTable, body_of
 from cdpr_struct.robot.cable import LARGEST_EXPANSION, Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions, divided_mast
 from cdpr_struct.robot.file_complaints import input_error
@@ -68,6 +69,7 @@ class RobotTable(_Table):
     cable: CableTable = CableTable()
     cables: Annotated[list[CablesEntry], Field(min_length=1)]
     extensions: dict[str, Any] = {}
+    bodies: list[BodyTable] = []
 
 
 def builtin_names() -> list[str]:
@@ -132,6 +134,7 @@ def _build(table: RobotTable, source: str) -> Robot:
             frame_anchors=np.array([e.frame_anchor for e in table.cables]),
             pulleys=pulleys,
             extensions=more,
+            bodies=tuple(body_of(entry, source, i) for i, entry in enumerate(table.bodies, start=1)),
         )
     except InputError:
         raise

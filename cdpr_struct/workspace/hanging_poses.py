@@ -1,5 +1,6 @@
 """A quantity over the workspace where angles of the platform are left free: each pose at its own orientation."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,23 +9,29 @@ from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.free_orientation import ANGLES, free_orientation
 from cdpr_struct.statics.inverse_kinematics import hung_solution
-from cdpr_struct.workspace.quantities import evaluate
+from cdpr_struct.workspace.margins import stable_where_held
 from cdpr_struct.workspace.work_list import Columns
 
 
 @dataclass(frozen=True, slots=True)
 class HangingFreely:
-    """What computes a batch of a quantity at the orientations at which the platform hangs freely; free : of rx, ry, rz.
+    """What computes a batch of a quantity at the orientations at which the platform hangs freely.
 
-    Columns `rx_deg`, `ry_deg`, `rz_deg` say the orientations, nan where none is found; there nothing is held.
+    compute : (robot, positions, rotations, their solutions) -> columns;  free : of rx, ry, rz
+
+    Columns `rx_deg`, `ry_deg`, `rz_deg` say the orientations, nan where none is found; there nothing is held. `stable`
+    says whether the platform stays there at locked lengths.
     """
 
-    quantity: str
+    compute: Callable[..., Columns]
     free: tuple[bool, bool, bool]
 
     def __call__(self, robot: Robot, position: np.ndarray, rotation: np.ndarray) -> Columns:
         began = angles_from_rotation(np.asarray(rotation))
         hung = free_orientation(robot, position, began, self.free)
-        columns = evaluate(self.quantity, robot, position, hung.rotation, hung_solution(robot, hung))
+        solution = hung_solution(robot, hung)
+        columns = self.compute(robot, position, hung.rotation, solution)
+        stable = stable_where_held(robot, position, hung.rotation, solution)
         degrees = np.where(hung.found[:, None], np.degrees(hung.angles), np.nan)
-        return {**columns, **{f"{name}_deg": degrees[:, i] for i, name in enumerate(ANGLES)}}
+        angles = {f"{name}_deg": degrees[:, i] for i, name in enumerate(ANGLES)}
+        return {**columns, "stable": stable, **angles}

@@ -22,6 +22,7 @@ from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.statics.static_stiffness import RobotStiffness, static_stiffness
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.lowest import LOWEST, lowest
+from cdpr_struct.workspace.margins import distances, margins, sagging, tilts
 from cdpr_struct.workspace.mode_map import MOST_MODES, ModeMap
 from cdpr_struct.workspace.vibration import SHARE, first_frequencies, marked_frequencies, shaped_frequencies
 from cdpr_struct.workspace.work_list import Columns
@@ -136,7 +137,7 @@ def tensions(
         "tension_max_N": _where_held(solution, solution.tensions.max(axis=-1)),
         "tension_min_N": _where_held(solution, solution.tensions.min(axis=-1)),
         "sag_max_mm": _where_held(solution, 1e3 * solution.cables.sag.max(axis=-1)),
-        "slack_cables": slack_count(solution.cables, solution.held),
+        **sagging(solution),
         "held": solution.held,
     }
 
@@ -172,7 +173,7 @@ def stiffnesses(
     return {
         **values,
         "neutral_freedoms": neutral,
-        "slack_cables": slack_count(solution.cables, solution.held),
+        **sagging(solution),
         "held": solution.held,
     }
 
@@ -259,4 +260,20 @@ QUANTITIES: dict[str, Quantity] = {
         "smallest tension", "N", "smallest cable tension at the platform", "tension_min_N", tensions
     ),
     "sag-max": Quantity("largest sag", "mm", "largest distance of a cable from its chord", "sag_max_mm", tensions),
+    "slack-margin": Quantity(
+        "margin to slack", "N", "smallest cable force less its lower limit", "slack_margin_N", margins
+    ),
+    "force-margin": Quantity(
+        "margin to the largest force", "N", "upper limit less the cable force, the least", "force_margin_N", margins
+    ),
+    "wrench-feasible": Quantity(
+        "wrenches held", "-", "share of the set of wrenches that the cables hold", "wrenches_held", margins
+    ),
+    "cable-distance": Quantity(
+        "distance of cables", "m", "smallest distance of two cables", "cable_distance_m", distances
+    ),
+    "body-distance": Quantity(
+        "distance to bodies", "m", "smallest distance of a cable and a body", "body_distance_m", distances
+    ),
+    "tilt": Quantity("tilt", "deg", "angle between the platform's z axis and the vertical", "tilt_deg", tilts),
 }

@@ -70,7 +70,7 @@ def test_locked_lengths_with_the_same_tensions_vibrate_otherwise():
 def test_the_fem_by_its_name_agrees_over_the_interface():
     exact, bars = (cs.modes(thesis(), PLACE.tolist(), model=m, count=10, elements=40) for m in ("exact", "fem"))
     ratio = np.asarray(bars.answer["frequencies_hz"]) / np.asarray(exact.answer["frequencies_hz"])
-    assert 1e-6 < np.abs(ratio - 1.0).max() < 4e-4  # of 40 bars, measured 2.6e-4
+    assert 1e-6 < np.abs(ratio - 1.0).max() < 4e-4  # of 40 bars
 
 
 def test_the_referee_says_that_it_has_no_pulley_for_such_a_winch():
