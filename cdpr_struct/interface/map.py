@@ -222,7 +222,7 @@ def map_question(
     try:
         what = quantity_of(name)
     except KeyError as error:
-        raise InputError("quantity", "", name, f"{WORKSPACE}, or {error.args[0]}") from None
+        raise InputError("quantity", "", name, f"{error.args[0]}; or {WORKSPACE}") from None
     if what.most_poses is not None and poses.size > (most := what.most_poses(machine)):
         right = f"at most {most} poses for {name}, which keeps the mode shapes of all poses in memory"
         raise InputError("grid", "", f"{poses.size} poses", right)
