@@ -9,6 +9,7 @@ import numpy as np
 from cdpr_struct.fem_reference.bar_element import MassModel, bar_mass, bar_stiffness
 from cdpr_struct.fem_reference.pulley import Wrap
 from cdpr_struct.fem_reference.sliding_bar import Eyelet
+from cdpr_struct.fem_reference.winch import Winch
 
 
 @dataclass(frozen=True)
@@ -19,12 +20,14 @@ class CableData:
     axial_stiffness   : EA [N]
     linear_density    : mu [kg/m], per unstrained length
     line_give         : compliance [m/N] of what is elastic in line behind the start: joint, load cell, dead cable
+    winch_tension     : [N] that a winch holds at the start, the length then being a guess; 0 where it holds the length
     """
 
     unstrained_length: float
     axial_stiffness: float
     linear_density: float
     line_give: float = 0.0
+    winch_tension: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("unstrained_length", "axial_stiffness", "linear_density"):
@@ -32,6 +35,8 @@ class CableData:
                 raise ValueError(f"CableData.{name} must be positive and finite, got {getattr(self, name)!r}")
         if not 0.0 <= self.line_give < np.inf:
             raise ValueError(f"CableData.line_give must be zero or more, got {self.line_give!r}")
+        if not 0.0 <= self.winch_tension < np.inf:
+            raise ValueError(f"CableData.winch_tension must be zero or more, got {self.winch_tension!r}")
 
     @property
     def path_behind(self) -> float:
@@ -55,7 +60,7 @@ class CableEquilibrium:
     end_force        : (3,) [N], applied to the cable at its end to hold it
     residual_norm    : largest force [N] left over at an interior node, evaluated from `nodes` alone
     iterations       : Newton steps spent
-    wrap             : where it lies on its pulley, or the eyelet through which it slides, None if it is held
+    wrap             : where it lies on its pulley, or the eyelet or winch from which it slides, None if it is held
     """
 
     cable: CableData
@@ -66,7 +71,7 @@ class CableEquilibrium:
     end_force: np.ndarray
     residual_norm: float
     iterations: int
-    wrap: Wrap | Eyelet | None = None
+    wrap: Wrap | Eyelet | Winch | None = None
 
     @property
     def elements(self) -> int:

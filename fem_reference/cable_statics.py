@@ -245,10 +245,11 @@ def solve_cable(
     ------
     FoldedCableError : an exactly vertical slack cable that folds inside a bar.
     CableNotConvergedError : the iteration stopped.
-    ValueError : wrong shapes or numbers, or something in line behind the start, which `solve_robot` knows.
+    ValueError : wrong shapes or numbers, or something in line or a winch at the start, which `solve_robot` knows.
     """
-    if cable.line_give:
-        raise ValueError(f"solve_cable knows no CableData.line_give, got {cable.line_give!r}; use solve_robot")
+    for name in ("line_give", "winch_tension"):
+        if getattr(cable, name):
+            raise ValueError(f"solve_cable knows no CableData.{name}, got {getattr(cable, name)!r}; use solve_robot")
     batch = CableBatch.of((cable,), elements, gravity)
     starts = fixed_array("start", start, (3,))[None]
     ends = fixed_array("end", end, (3,))[None]

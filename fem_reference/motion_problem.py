@@ -103,6 +103,8 @@ def motion_problem(
             )
     if equilibrium.robot.guided:
         raise ValueError("the motion of a guided platform in time is not among what this program integrates")
+    if any(cable.winch_tension for cable in equilibrium.robot.cables):
+        raise ValueError("winches that hold a tension are not among what this program integrates in time")
     twist = fixed_array("initial_velocity", np.zeros(6) if initial_velocity is None else initial_velocity, (6,))
     rates = damping_rates(equilibrium, damping_ratio, mass)
     return MotionProblem(equilibrium, time, twist, rates, wrenches, recorded, mass)

@@ -54,6 +54,8 @@ class RobotData:
         object.__setattr__(self, "pulleys", pulleys)
         if any(pulleys) and self.surroundings.bending:
             raise ValueError("RobotData: pulleys do not go with masts that bend")
+        if any(p is not None and c.winch_tension for p, c in zip(pulleys, cables, strict=False)):
+            raise ValueError("RobotData: pulleys do not go with winches that hold the tension of their cables")
         if any(number not in range(6) for number in self.guided) or len(set(self.guided)) >= 6:
             raise ValueError(f"RobotData.guided must be numbers from 0 to 5, not all six, got {self.guided!r}")
 

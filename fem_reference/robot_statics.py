@@ -18,6 +18,7 @@ from cdpr_struct.fem_reference.cable import CableEquilibrium
 from cdpr_struct.fem_reference.cable_statics import EPS, CableBatch, ChainState, equilibria
 from cdpr_struct.fem_reference.errors import FoldedCableError, PulleysNotSettledError, RobotNotConvergedError
 from cdpr_struct.fem_reference.pulley_statics import (
+    drawn_from_winches,
     guessed_wraps,
     handed_on,
     movement,
@@ -161,7 +162,7 @@ def solve_robot(
     hold_pose: bool = False,
     external_force: PointForce | None = None,
 ) -> RobotEquilibrium:
-    """Static equilibrium of the robot with all unstrained lengths fixed; guided unknowns stay as guessed.
+    """Static equilibrium of the robot with unstrained lengths, or tensions of winches, fixed; guided unknowns stay.
 
     Parameters
     ----------
@@ -202,7 +203,7 @@ def _settled(
     handed, tensions = np.zeros_like(robot.frame_anchors), np.zeros(len(robot.cables))
     for _ in range(MAX_ITERATIONS):
         bare = unwound(robot, wraps)
-        batch = sliding_in(CableBatch.of(bare.cables, elements, bare.gravity), handed, tensions)
+        batch = sliding_in(CableBatch.of(bare.cables, elements, bare.gravity), handed, tensions, wraps)
         state = platform_state(bare, batch, loads, place, turn, first)
         if not hold_pose:
             state, steps = _balanced(bare, batch, loads, state)
@@ -210,7 +211,8 @@ def _settled(
         place, turn, first = state.position, state.rotation, state.chains.mid_force
         before, pulls = wraps, state.chains.tension_vectors[:, 0]
         tensions = np.linalg.norm(pulls, axis=-1)
-        wraps = wraps_towards(robot, pulls, tensions, 0.5 * batch.element_weight)
+        drawn = drawn_from_winches(wraps, batch, tensions)
+        wraps = wraps_towards(robot, pulls, tensions, 0.5 * batch.element_weight, drawn)
         handed = handed_on(wraps, batch.element_length * (1.0 + tensions / batch.axial_stiffness))
         moved, floor = movement(before, wraps)
         if moved <= floor:

@@ -52,7 +52,7 @@ def run(
     scheduler: Scheduler = None,
     chunk: Annotated[
         int | None,
-        typer.Option("--chunk", parser=whole_number, help="Poses a batch; what suits the quantity if not given."),
+        typer.Option("--chunk", parser=whole_number, help="Poses per batch; default: chosen for the quantity."),
     ] = None,
     require: Annotated[
         list[str] | None,

@@ -66,7 +66,7 @@ def run(
     path = out or Path("".join(c if c.isalnum() or c in "-_." else "-" for c in name) + ".toml")
     write_new(path, made.text, overwrite)
     result = {"file": str(path), "robot": made.robot.name, **given, "force_min_N": float(made.robot.force_min.max())}
-    output.deliver(result, lambda: _text(path, given), dict)
+    output.deliver(result, lambda: _text(path, given, made.robot), dict)
     return 0
 
 
@@ -79,11 +79,28 @@ def _asked(given: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _text(path: Path, given: dict[str, Any]) -> str:
+def _text(path: Path, given: dict[str, Any], robot: "cs.Robot") -> str:
+    size = str(given["size"])
     pulleys = f"pulleys of {given['pulleys']:g} m" if given["pulleys"] else "no pulleys"
     return (
-        f"{path}: {given['cables']} cables of {given['rope']}, {given['diameter']:g} mm, frame {given['size']} m, "
+        f"{path}: {given['cables']} cables of {given['rope']}, {given['diameter']:g} mm, frame {size} m, "
         f"platform {given['mass']:g} kg, {pulleys}.\n"
         "Estimated, for you to replace: platform size and inertia, EA and mass of the rope, damping, force limits.\n"
-        f"Next: cdpr-struct modes {path} --count 12"
+        f"Next: cdpr-struct modes {path} --count 12\n"
+        f"      cdpr-struct map {path} {_grid(robot, size)} --quantity first-frequency{_hanging(robot)}"
     )
+
+
+def _grid(robot: "cs.Robot", size: str) -> str:
+    """A grid over the middle of the frame at the height of the home pose."""
+    x, y = (0.15 * float(side) for side in size.split(",")[:2])
+    z = 0.0 if robot.home is None else float(robot.home.position[2])
+    return f"--grid=-{x:.3g}:{x:.3g}:7,-{y:.3g}:{y:.3g}:5,{z:.3g}"
+
+
+def _hanging(robot: "cs.Robot") -> str:
+    """Option without which a robot on six or seven hanging cables can be held at few poses, and why."""
+    count = len(robot.cables)
+    if count not in (6, 7):
+        return ""
+    return f" --free rx,ry,rz\n{count} hanging cables hold the platform level at few poses; --free lets it hang tilted."

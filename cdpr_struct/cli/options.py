@@ -74,7 +74,7 @@ Start = Annotated[
     typer.Option(
         "--start",
         metavar="X,Y,Z[,RX,RY,RZ]",
-        help="With --lengths: where to look [m, deg]; default: the way continues from the home pose.",
+        help="With --lengths: pose where the search begins [m, deg]; default: followed from the home pose.",
     ),
 ]
 Free = Annotated[
@@ -82,7 +82,7 @@ Free = Annotated[
     typer.Option(
         "--free",
         metavar="rx,ry,rz",
-        help="Angles that hang freely, some of rx,ry,rz; found from those given.",
+        help="Angles that the platform takes by hanging, some of rx,ry,rz; the search begins at those given.",
     ),
 ]
 LowerBound = Annotated[

@@ -32,7 +32,7 @@ def run(
         float,
         typer.Option(
             "--tolerance", parser=number, metavar="SHARE",
-            help="Largest difference of numbers that are the same, over the largest number under their key.",
+            help="Two numbers are equal if they differ by at most this share of the largest number under their key.",
         ),
     ] = 1e-9,
     overwrite: Annotated[
@@ -107,7 +107,9 @@ def _run_again(words: Sequence[str], now: Path, overwrite: bool) -> None:
     kept = [word for word in words[1:] if word != "--out=DIR"]
     code = program([*kept, f"--out={now}", "--quiet", *(["--overwrite"] if overwrite else [])])
     if not (now / RESULT).exists() or code not in (0, 1):
-        raise InputError("RESULT", "", " ".join(words), f"a command that still runs; it ended with exit code {code}")
+        raise InputError(
+            "RESULT", "", " ".join(words), f"the recorded command must run; it ended with exit code {code}"
+        )
 
 
 def _text(told: Mapping[str, Any], differences: Sequence[Difference]) -> str:

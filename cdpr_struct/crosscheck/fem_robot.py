@@ -23,9 +23,15 @@ def to_fem(robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None
 
     Raises
     ------
-    CdprError : pulleys on masts that give way.
+    CdprError : pulleys on masts that give way, or behind winches that hold their tension.
     """
     more = robot.extensions
+    for number, (cable, pulley) in enumerate(zip(robot.cables, robot.pulleys, strict=True), start=1):
+        if cable.winch_tension and pulley is not None:
+            raise CdprError(
+                f"the FEM has no pulley for a winch that holds its tension: leave out pulley or winch_tension of cable "
+                f"{number} to check the rest; the model exact computes both"
+            )
     if any(robot.pulleys) and (more.frame_compliance.any() or more.mast_bending.any()):
         raise CdprError(
             "the FEM has no pulleys on masts that give way: leave out the pulleys, or frame_compliance and "
@@ -33,7 +39,7 @@ def to_fem(robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None
         )
     stiffness = robot.axial_stiffness if axial_stiffness is None else axial_stiffness
     cables = tuple(
-        fem.CableData(float(length), float(ea), cable.linear_density, float(give))
+        fem.CableData(float(length), float(ea), cable.linear_density, float(give), cable.winch_tension)
         for length, ea, cable, give in zip(lengths, stiffness, robot.cables, more.series_compliance, strict=True)
     )
     body = robot.platform

@@ -52,6 +52,7 @@ def reasons_against(point: OperatingPoint) -> list[str]:
         "bending stiffness": bool(robot.bending_stiffness.any()),
         "masses at mid-cable": bool(robot.added_mass.any()),
         "an internal mass": robot.has_internal_mass,
+        "winches that hold tensions": robot.has_tension_winches,
         "a guided platform": robot.has_guides,
         "tilted gravity": robot.is_tilted,
         "parameters of their own at each pose": bool(robot.batch_shape),

@@ -23,7 +23,8 @@ class FrameGive:
 
 
 def frame_give(point: OperatingPoint) -> FrameGive | None:
-    """Along the cable, by what is elastic in line and the stretch of cable on a pulley; across it where pulleys swivel.
+    """Along the cable, by what is elastic in line and the stretch of cable on a pulley, without limit where a winch
+    holds the tension; across it where pulleys swivel.
 
     None where all frame ends are fixed points.
     """
@@ -34,7 +35,8 @@ def frame_give(point: OperatingPoint) -> FrameGive | None:
     tangent = cables.force_at_frame / tension[..., None]
     short = _SHORT * cables.length
     directions, least = [tangent], [short / stiff]
-    gives = [cables.wrapped_length / stiff + arrays.series_compliance / (1.0 + tension / stiff)]
+    along = cables.wrapped_length / stiff + arrays.series_compliance / (1.0 + tension / stiff)
+    gives = [np.where(arrays.winch_tension > 0.0, np.inf, along)]
     if arrays.has_pulleys:
         across, per_arm, arm = _swivel(arrays, tension, tangent)
         directions.append(across)

@@ -49,9 +49,16 @@ def taut_cables(point: OperatingPoint) -> TautCables:
 
     Raises
     ------
-    CdprError : a cable carries no tension along its chord, so it has no small-sag stiffness.
+    CdprError : a cable carries no tension along its chord, so it has no small-sag stiffness; or its winch holds the
+        tension, so that it slides along its chord, where this model has no inertia.
     """
     cables, robot = point.cables, point.arrays
+    if robot.has_tension_winches:
+        number = int(np.argwhere(np.broadcast_to(robot.winch_tension > 0.0, cables.chord.shape))[0][-1]) + 1
+        raise CdprError(
+            f"cable {number} has a winch_tension: the closed-form DSM has no inertia along the cable, where such a "
+            "cable slides; use the model exact"
+        )
     slack = ~(np.asarray(cables.tension) > 0.0)
     if slack.any():
         number = int(np.argwhere(slack)[0][-1]) + 1

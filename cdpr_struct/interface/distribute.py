@@ -21,6 +21,7 @@ from cdpr_struct.interface.given import Numbers, Progress, RobotLike, Trajectory
 from cdpr_struct.interface.inverse import MODELS
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.trajectory import read_trajectory
+from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.distribution_result import distribution_json, force_columns
 from cdpr_struct.reports.distribution_text import distribution_text, sentences
 from cdpr_struct.reports.extension_notes import with_extensions
@@ -192,6 +193,7 @@ def distribute_question(
             real(value, name, "give a number above zero", 0.0, math.inf)
     chosen = one_of(model, "model", MODELS)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
+    require_locked_lengths(machine, "distribute chooses the tensions of all cables itself")
     price = _cost(cost, weights, power, machine)
     return DistributeQuestion(machine, tuple(rules), b, price, longest, chosen, max_speed, max_acceleration, instants)
 

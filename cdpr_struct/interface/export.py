@@ -11,6 +11,7 @@ from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_robot
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import pose_in_degrees, rest
+from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.gltf_file import gltf_bytes
 from cdpr_struct.reports.moordyn_file import moordyn_text
 from cdpr_struct.robot.robot import Robot
@@ -81,6 +82,8 @@ def export(
     form = one_of(to, "to", FORMATS)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
     _require_free_body(machine, form)
+    if form != "gltf":
+        require_locked_lengths(machine, "the files of MoorPy and MoorDyn hold locked lengths only")
     state = rest(machine, pose, lengths, start)
     point, told = state.point, list(state.told()["warnings"])
     if form == "gltf":

@@ -16,6 +16,7 @@ from cdpr_struct.reports.locked_rest import equilibria_text, locked_json, locked
 from cdpr_struct.reports.platform_freedoms import freedoms_json
 from cdpr_struct.reports.text import paragraphs
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.bound_advice import outside_limits
 from cdpr_struct.statics.locked_rest import LockedRest, locked_rest
 
@@ -112,8 +113,16 @@ def forward(
     length = read_lengths(lengths, machine)
     begin = None if start is None else read_pose(start, machine, "start")
     found = locked_rest(machine, length, begin, chosen)
+    length = _paid_out(machine, length, found)
     told = statics_rest.forward_json(machine, chosen, length, found.solution) | {"locked": locked_json(found)}
     told |= {"warnings": [*locked_warnings(found), *outside_limits(machine, found.solution.tensions)]}
     rest = found.solution
     told |= freedoms_json(OperatingPoint(machine, rest.position, rest.rotation, rest.cables))
     return ForwardResult(with_extensions(told, machine, "forward", chosen), machine, found, equilibria)
+
+
+def _paid_out(robot: Robot, lengths: list[float], found: LockedRest) -> list[float]:
+    """The locked lengths, and where a winch holds the tension the length that it has paid out [m]."""
+    reached = RobotArrays.of(robot).reading(found.solution.cables.total_length).tolist()
+    each = zip(robot.cables, lengths, reached, strict=True)
+    return [paid_out if cable.winch_tension else given for cable, given, paid_out in each]

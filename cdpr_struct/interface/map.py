@@ -15,6 +15,7 @@ from cdpr_struct.interface.free_angles import FreeAngles, names_of, read_free
 from cdpr_struct.interface.given import GridLike, Numbers, Progress, RobotLike
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
+from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.interface.workspace import (
     WORKSPACE,
     WorkspaceQuestion,
@@ -217,6 +218,10 @@ def map_question(
         whole(chunk, "chunk", 1, 100_000)
     machine, poses = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature), read_grid(grid)
     name = "nothing" if quantity is None else quantity
+    if name.startswith("pose-error"):
+        require_locked_lengths(machine, "a pose error is that of locked lengths")
+    if free is not None:
+        require_locked_lengths(machine, "free angles are found for cables of locked lengths")
     if name == WORKSPACE or more[0] is not None:
         return _workspace_question(machine, poses, name, chunk, free, more)
     try:
@@ -257,7 +262,10 @@ def _workspace_question(
     asked = None if wrenches is None else read_wrenches(wrenches)
     required = read_requirements(require, asked)
     names = tuple(dict.fromkeys(one.quantity for one in required))
-    if free is not None and any(one.startswith("pose-error") for one in names):
+    errors = any(one.startswith("pose-error") for one in names)
+    if errors:
+        require_locked_lengths(robot, "a pose error is that of locked lengths")
+    if free is not None and errors:
         raise InputError("free", "", free, "pose errors are computed at the orientation of the grid; leave it out")
     compute = ManyQuantities(names, _NO_MORE if asked is None else asked, _zone(zone))
     rx, ry, rz = (False,) * 3 if free is None else read_free(free, len(robot.cables))[0].tolist()

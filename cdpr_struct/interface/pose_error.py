@@ -12,6 +12,7 @@ from cdpr_struct.interface.given import GridLike, Numbers, PoseLike, Progress, R
 from cdpr_struct.interface.map import require_drawable
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
+from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports import statics_pose_error
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.statics_map import map_table
@@ -70,7 +71,7 @@ class PoseErrorResult(Result):
         """
         if self.errors is not None:
             require_drawable(self.errors.grid)
-        return statics_pose_error.main_figure(self.errors, self.load)
+        return statics_pose_error.main_figure(self.errors, self.load, self.robot)
 
     def files(self) -> Files:
         """Tables, figures and page."""
@@ -176,6 +177,7 @@ def pose_error_question(
     if pose is not None and tolerance is None:
         raise InputError("pose", "", pose, "a pose is for `sufficient_load`; errors over poses take `grid`")
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
+    require_locked_lengths(machine, "a pose error is that of locked lengths")
     poses = None if grid is None else read_grid(grid)
     if tolerance is None:
         return PoseErrorQuestion(machine, poses, None)

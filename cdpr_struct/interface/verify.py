@@ -16,6 +16,7 @@ from cdpr_struct.interface.given import Numbers, PoseLike, Progress, RobotLike
 from cdpr_struct.interface.modes import ASSEMBLIES
 from cdpr_struct.interface.operating_point import pose_in_degrees, rest
 from cdpr_struct.interface.result import Files, Result
+from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.verification_result import eigenfrequency_columns, verification_json
 from cdpr_struct.reports.verification_text import verdict, verification_text
@@ -114,6 +115,7 @@ def verify(
     real(tolerance, "tolerance", "give a ratio between 0 and 1, like 0.01", 0.0, 1.0)
     way = one_of(assembly, "assembly", ASSEMBLIES)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
+    require_locked_lengths(machine, "the DSM on trial knows no such winch; compare modes --model exact and --model fem")
     state = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths, start, free)
     with state.advised():
         trial = tried(state.point, counts, modes, way, Criteria(relative_error=tolerance), progress)

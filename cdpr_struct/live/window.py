@@ -18,7 +18,7 @@ from cdpr_struct.live.view_state import Refusal, ViewState, view_state
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.robot.robot import Robot
 
-INSTALL = 'install the extra: pip install "cdpr-struct[view]"'
+INSTALL = "install the extra: pip install 'cdpr-struct[view]'"
 _POSE = ("x [m]", "y [m]", "z [m]", "rx [deg]", "ry [deg]", "rz [deg]")
 _BY_POSE, _BY_LENGTHS, _NO_STATE = "pose", "lengths", "none"
 _CYCLE, _PAUSE = 1.5, 0.03  # s of one swing as shown, and between two pictures

@@ -74,6 +74,8 @@ class Gathering:
             found.temperature, found.time = float(rows.get("temperature_K")[i]), float(rows.get("time_s")[i])
         elif _differ(found.pose, pose) or found.payload != payload:
             expected = f"the pose and payload given before for this case, {[*found.pose.tolist(), found.payload]}"
+            if _thousandfold(found.pose, pose):
+                expected += " (is one of the two positions in mm?)"
             if note := angle_note("this file", list(rows.numbers)):
                 expected += f" ({note.removesuffix('.')})"
             raise InputError(rows.file, f"{rows.place(i)}, case {name}", [*pose.tolist(), payload], expected)
@@ -204,6 +206,12 @@ def _twice(rows: Rows, i: int, case: str) -> InputError:
         return InputError(rows.file, f"{rows.place(i)}, case {case}", "a second row of this case", expected)
     cable = int(rows.numbers["cable"][i])
     return InputError(rows.file, f"{rows.place(i)}, column cable", cable, f"one row a cable in {case}")
+
+
+def _thousandfold(one: np.ndarray, other: np.ndarray) -> bool:
+    """Whether two poses (6,) look alike but for a factor of 1000 in the position."""
+    near, far = sorted(float(np.linalg.norm(pose[:3])) for pose in (one, other))
+    return near > 0.0 and abs(far / near - 1e3) < 1.0
 
 
 def _differ(before: np.ndarray, after: np.ndarray) -> bool:

@@ -33,6 +33,8 @@ Kind = Literal[
     "static_state", "loaded_pose", "cable_frequency", "robot_frequency", "frf", "free_decay", "platform_motion"
 ]
 
+_CASES_NAMED = 6  # of those with a pose, where one is asked for
+
 
 class _Table(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
@@ -212,7 +214,7 @@ def _loss(table: LossTable, source: Path) -> Loss:
 def _rows(entry: MeasurementTable, source: Path, number: int, cables: int, planned: bool) -> Rows:
     path = source.parent / entry.file
     if not path.is_file():
-        expected = "a data file, its path as seen from the campaign file"
+        expected = "there is no such file; give its path as seen from the campaign file"
         raise InputError(str(source), f"measurement[{number}].file", entry.file, expected)
     return read_rows(entry.kind, path, cables, planned)
 
@@ -223,14 +225,18 @@ def _sigmas(entry: MeasurementTable) -> Sigmas:
 
 
 def _check_poses(gathering: Gathering) -> None:
-    """Signals alone need poses: said before minutes go into their modes."""
-    series = [series for series, _ in gathering.series]
-    if gathering.known or not series or any("x_m" in s.columns for s in series):
-        return
-    case = series[0].case[0]
-    expected = f"this file carries no pose, so give that of case {case} in another file (static_state or loaded_pose)"
-    expected += ", or as columns x_m, y_m, z_m[, rx_deg, ry_deg, rz_deg] of a CSV file"
-    raise InputError(series[0].file, f"case {case}", "no pose", expected)
+    """Every signal needs a pose: said before minutes go into its modes."""
+    for series, _ in gathering.series:
+        missing = [case for case in series.case if case not in gathering.known]
+        if "x_m" in series.columns or not missing:
+            continue
+        case, known = missing[0], "; ".join(list(gathering.known)[:_CASES_NAMED])
+        expected = (
+            f"this file carries no pose, so give that of case {case} in another file (static_state or loaded_pose), or "
+            "as columns x_m, y_m, z_m[, rx_deg, ry_deg, rz_deg] of a CSV file"
+        )
+        expected += f". Cases with a pose: {known}" if known else ""
+        raise InputError(series.file, f"case {case}", "no pose", expected)
 
 
 def _sheet(entry: MeasurementTable, rows: Rows, sigmas: Sigmas) -> Sheet:
@@ -253,6 +259,11 @@ def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:
         expected = "a free platform under gravity along -z: guides and other gravity are not among what is diagnosed"
         raise InputError(str(source), "robot", f"{robot.name} with {what}", expected)
     body, cables = robot.platform, robot.cables
+    if any(cable.winch_tension for cable in cables):
+        held = next(i for i, cable in enumerate(cables, start=1) if cable.winch_tension)
+        expected = "winches that hold lengths: those that hold a tension are not among what is diagnosed"
+        what = f"{robot.name} with cables[{held}].winch_tension = {cables[held - 1].winch_tension:g}"
+        raise InputError(str(source), "robot", what, expected)
     changes: dict[str, Any] = {
         "mass": table.platform_mass,
         "center_of_mass": None if table.center_of_mass is None else np.array(table.center_of_mass),

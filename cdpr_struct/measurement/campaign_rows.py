@@ -200,6 +200,16 @@ def _unknown(kind: str, name: str, known: Sequence[str], cables: int) -> str:
     return f"unknown for {kind}; {known_names(name, sorted(known), shown)}; remarks go into a column {COMMENTS[0]}"
 
 
+def _number_wanted(text: str) -> str:
+    """What a cell should hold in place of this text."""
+    point = text.replace(",", ".")
+    try:
+        float(point)
+    except ValueError:
+        return "a number"
+    return f"a number with a decimal point: {point}"
+
+
 def _numbers(source: str, name: str, cells: Sequence[str], blank: bool) -> np.ndarray:
     """Numbers of a column; nan for an empty cell where `blank` ones are allowed."""
     values = np.empty(len(cells))
@@ -214,7 +224,7 @@ def _numbers(source: str, name: str, cells: Sequence[str], blank: bool) -> np.nd
         try:
             values[i] = float(text)
         except ValueError as error:
-            raise InputError(source, place, text, "a number") from error
+            raise InputError(source, place, text, _number_wanted(text)) from error
         if not np.isfinite(values[i]):
             raise InputError(source, place, text, "a finite number")
         if abs(values[i]) > LARGEST:

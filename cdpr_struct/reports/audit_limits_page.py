@@ -81,7 +81,7 @@ def _tables(trial: LimitsTrial) -> list[HtmlTable]:
             "that excludes these errors at least cost in rightly admitted volume (inclination, log ε, log λ²).",
         ),
         HtmlTable(
-            "What each printed limit refuses although the others hold",
+            "Cables that only one printed limit refuses",
             text.STRICT_COLUMNS,
             text.strict_rows(trial),
             "Nothing: not one refused cable had to be refused. The crossovers all lie above λ² = 24, and d/l > 1/20 is "

@@ -17,6 +17,8 @@ from cdpr_struct.reports.audit_result import (
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import audit_map, limits
 from cdpr_struct.reports.figures.drawing import Drawing
+from cdpr_struct.reports.figures.frame_plan import FramePlan
+from cdpr_struct.reports.figures.interactive_map import map_plot
 from cdpr_struct.reports.figures.style import Draw
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.text import place
@@ -29,9 +31,8 @@ _NOTES = (
     "4n²π²; ε ≤ 0.24 up to 30° of inclination and ε ≤ 0.1 up to 60° (2.41, whose print 0.01 contradicts its own d/l "
     "≤ 1/80); "
     "sag over chord at most 1/20 (2.2.1).",
-    "Tensions are those of minimum norm that hold the pose on sagging cables. What the limits themselves are worth "
-    "is told "
-    "by `cdpr-struct audit --limits`.",
+    "Tensions are those of minimum norm that hold the pose on sagging cables. To test the limits themselves, "
+    "run `cdpr-struct audit --limits`.",
 )
 
 
@@ -74,7 +75,8 @@ def _plates(audit: PoseAudit, grid: Grid | None, time: np.ndarray | None) -> lis
         return [Plate("limits", "Cables against the printed limits", Drawing("limits", size, draw), caption)]
     if grid is not None and len(grid.free) == 2:
         caption = audit_map.audit_map_caption(audit)
-        return [Plate("map", "Broken limits over the workspace", Drawing("map", size, draw), caption)]
+        plot = map_plot(grid, audit_map.audit_layers(audit), FramePlan.of(audit.robot, grid))
+        return [Plate("map", "Broken limits over the workspace", Drawing("map", size, draw), caption, plot)]
     return [
         Plate("course", "Limits along the way", Drawing("course", size, draw), audit_map.audit_course_caption(audit))
     ]

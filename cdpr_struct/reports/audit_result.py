@@ -13,6 +13,7 @@ from cdpr_struct.crosscheck.validity_limits import (
 )
 from cdpr_struct.reports.text import paragraphs, place, plain_table
 from cdpr_struct.robot.pose import angles_from_rotation
+from cdpr_struct.robot.robot import anchors_in_world
 
 
 def audit_json(audit: PoseAudit, time: np.ndarray | None = None) -> dict[str, Any]:
@@ -76,7 +77,7 @@ def sentences(audit: PoseAudit) -> list[str]:
     total, held, bad = len(audit.held), int(audit.held.sum()), int((audit.count > 0).sum())
     where = "the pose" if total == 1 else f"{held} poses"
     unheld = [f"{total - held} of {total} poses cannot be held by the cables and were not checked."]
-    found = unheld if held < total else []
+    found = [*(unheld if held < total else []), *_slack(audit)]
     if not held:
         return [f"NOT CHECKED: {unheld[0]}"]
     if not bad:
@@ -84,6 +85,18 @@ def sentences(audit: PoseAudit) -> list[str]:
     share = "" if total == 1 else f" {bad} of {held} poses are affected."
     parts = [f"{name} {_whose(b)} ({_worst(audit, name)})" for name, b in audit.broken.items() if b.any()]
     return [f"OUTSIDE THE PRINTED LIMITS: {', '.join(parts)}.{share}", *found]
+
+
+def _slack(audit: PoseAudit) -> list[str]:
+    """That cables pull with less than their own weight, and what tightens them; nothing if none does."""
+    robot = audit.robot
+    chord = anchors_in_world(robot, audit.position, audit.rotation) - robot.frame_anchors
+    weight = robot.weight_per_length * np.linalg.norm(chord, axis=-1)
+    poses = int((audit.held & (audit.tension < weight).any(axis=-1)).sum())
+    if not poses:
+        return []
+    where = "the pose" if len(audit.held) == 1 else f"{poses} poses"
+    return [f"At {where} cables hang slack (less tension than weight): --lower-bound N or force_min tightens them."]
 
 
 def _whose(broken: np.ndarray) -> str:

@@ -17,9 +17,8 @@ def distribution_notes(found: TrajectoryDistribution) -> list[tuple[str, list[st
         (
             "How to read this",
             [
-                "A robot with more cables than degrees of freedom can hold the same pose with many sets of cable "
-                "forces. A lower bound keeps every cable tight enough; among the forces above it the cheapest are "
-                "taken.",
+                "A robot with more cables than degrees of freedom can hold a pose with many sets of cable forces. A "
+                "lower bound keeps every cable tight; of the sets above it, the one of least cost is chosen.",
                 "Fixed and pose-dependent bound are the thesis's (5.16) and (5.15) as printed. Their formula (5.10) "
                 "lacks a unit: it gives the frequency b only to cables of 9.81 m and less to longer ones. The "
                 "frequency bound is the force at which the exact lowest frequency of the cable is b.",

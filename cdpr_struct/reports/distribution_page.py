@@ -43,15 +43,15 @@ def distribution_plates(found: Found) -> list[Plate]:
             "Does each cable vibrate as fast as wanted?",
             Drawing("cable_frequencies", size, lambda f: figures.draw_frequencies(f, found)),
             "Lowest natural frequency of each cable held at both ends, exact model with sag, over the wanted "
-            f"{found[0].b / (2.0 * np.pi):.4g} Hz (black line), on a logarithmic scale. Below the line the bound does "
-            "not keep its promise.",
+            f"{found[0].b / (2.0 * np.pi):.4g} Hz (black line), on a logarithmic scale. "
+            "Below the line the bound does not ensure the wanted frequency.",
         ),
         Plate(
             "lower_bounds",
             "Lower bound of each cable",
             Drawing("lower_bounds", size, lambda f: figures.draw_bounds(f, found)),
-            "What each cable must carry at least. Longer cables need more; the fixed bound takes the largest demand of "
-            "all cables and instants for everyone (thesis fig. 5.4).",
+            "What each cable must carry at least. Longer cables need more; the fixed bound applies the largest demand "
+            "of all cables and instants to every cable (thesis fig. 5.4).",
         ),
         Plate(
             "energy",

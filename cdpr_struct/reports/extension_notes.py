@@ -53,9 +53,9 @@ def _why_idle(name: str, command: str, model: str) -> str:
     if command == "audit":
         return "the printed limits know nothing of it"
     if command == "verify":
-        return "the bars of the referee have none, so it is left out on both sides"
+        return "the bars of the FEM have none, so this is left out on both sides"
     if model == "fem":
-        return "the bars of the referee have none; --model exact does"
+        return "the bars of the FEM have none; use --model exact"
     return _NO_BENDING if model in ("static", "dsm") else ""
 
 
@@ -66,7 +66,7 @@ def _why_rigid(command: str, model: str) -> str:
     if command == "audit":
         return "the printed limits know nothing of it"
     if command == "verify":
-        return "the referee's platform is rigid, so it is left out on both sides"
+        return "the platform of the FEM is rigid, so this is left out on both sides"
     return "the referee's platform is rigid; --model exact does" if model == "fem" else ""
 
 
@@ -84,7 +84,7 @@ def _particulars(command: str, model: str) -> dict[str, str]:
     if command in ("frf", "transient"):
         said[_INTERNAL] = "The mount of internal_mass has no damping of its own."
     if command == "frf":
-        still = "Points of cables are shaken and watched as if their masts stood still."
+        still = "For excitation and response at points of cables, masts are taken as rigid."
         said |= {"frame_compliance": still, "mast_bending": still}
     if command == "pose-error":
         wrong = "enters the axial part: spring and sagging cables get the same wrong length."

@@ -36,19 +36,19 @@ def locked_warnings(found: LockedRest) -> list[str]:
         times = "once" if found.jumps == 1 else f"{found.jumps} times"
         said.append(
             f"on the way from home the equilibrium ended {times} and the platform fell into another one; "
-            "give --start near the pose that is meant."
+            "if another pose is meant, give --start near it."
         )
     lower = int((found.others.energy < 0.0).sum())
     if found.turned > _UPSET and found.others.count:
         said.append(
             f"the platform is turned by {np.degrees(found.turned):.0f} deg against its start, and has other stable "
-            "poses at these lengths; give --start near the pose that is meant."
+            "poses at these lengths; if another pose is meant, give --start near it."
         )
     elif lower:
         low = found.others.energy[0]
         said.append(
             f"another stable pose at these lengths has {-low:.3g} J less energy, {_where(found.others, 0)}; "
-            "give --start near the pose that is meant."
+            "if another pose is meant, give --start near it."
         )
     return said
 
@@ -95,7 +95,7 @@ def _way(found: LockedRest) -> str:
     begin = _words(found.start.position, found.start.rotation)
     if found.way == "continued":
         steps = f"{found.steps} step" + ("s" if found.steps > 1 else "")
-        return f"Locked lengths: led from the home pose {begin} in {steps}, the platform rests at {rest}."
+        return f"Locked lengths: followed from the home pose {begin} in {steps}, the platform rests at {rest}."
     return f"Locked lengths: sought from {begin}, the platform rests at {rest}."
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from cdpr_struct.crosscheck.mode_motion import ModeMotion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.figures import interactive, mode_ladder, mode_shapes, robot_drawing
+from cdpr_struct.reports.figures import mode_ladder, mode_shapes, robot_drawing
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.mode_viewer import viewer_markup
@@ -54,7 +54,6 @@ def _plates(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMotion
             "The robot at rest",
             Drawing("robot", robot_drawing.SIZE, lambda f: robot_drawing.draw_robot(f, point)),
             robot_drawing.robot_caption(point),
-            interactive.robot_plot(point),
         ),
     ]
 

@@ -14,7 +14,7 @@ _HOW = (
     "Every number is computed anew by the models of this program, with the parameters that the thesis states or, where "
     "it states none, with those named in the notes; no parameter is fitted silently. A cell agrees if ours rounds to "
     "the printed number, or deviates by less than the tolerance where one is stated.",
-    "`converged`: where the thesis's number is an average over a coarse grid, what it tends to on ever finer ones.",
+    "`converged`: where the thesis's number is an average over a coarse grid, the limit for finer grids.",
 )
 
 

@@ -171,7 +171,7 @@ def map_sentence(result: Mapping[str, Any]) -> str:
     label = quantity_of(result["quantity"]).label
     if result["mean"] is None:
         count = "The pose is not" if result["poses"] == 1 else f"None of the {result['poses']} poses is"
-        return f"{count} held by the cables and stable.{_few_cables(result)}"
+        return f"{count} held by the cables and stable.{_few_cables(result)}{_let_it_hang(result)}"
     low, high = result["smallest"], result["largest"]
     at = ["(" + ", ".join(f"{v:g}" for v in end["position_m"]) + ") m" for end in (low, high)]
     if result["poses"] == 1:
@@ -183,7 +183,7 @@ def map_sentence(result: Mapping[str, Any]) -> str:
     held += _veering(result)
     return (
         f"{label[0].upper()}{label[1:]}: {low['value']:.4g} {result['unit']} at {at[0]} to {high['value']:.4g} "
-        f"{result['unit']} at {at[1]}, {result['mean']:.4g} {result['unit']} on average.{held}"
+        f"{result['unit']} at {at[1]}, {result['mean']:.4g} {result['unit']} on average.{held}{_let_it_hang(result)}"
     )
 
 
@@ -205,6 +205,14 @@ def _few_cables(result: Mapping[str, Any]) -> str:
         return ""
     count = "1 cable" if result["cables"] == 1 else f"{result['cables']} cables"
     return f" With {count} hardly any given pose is in balance; lock --lengths instead (forward, modes)."
+
+
+def _let_it_hang(result: Mapping[str, Any]) -> str:
+    """What to do if six or seven cables do not hold the orientation of the grid at every pose."""
+    unheld = result["poses"] - result["held"]
+    if not unheld or result["cables"] not in (6, 7) or "free" in result or result["quantity"].startswith("pose-error"):
+        return ""
+    return f" {result['cables']} cables hold a given orientation at few poses: --free rx,ry,rz lets the platform hang."
 
 
 def _map_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:

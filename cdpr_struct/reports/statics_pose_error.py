@@ -113,7 +113,7 @@ def _load_sentence(found: SufficientLoad, pose: Pose) -> str:
 def _pose_error_plates(robot: Robot, errors: PoseErrorMap) -> list[Plate]:
     if not workspace_map.drawable(errors.grid):
         return []
-    draw, size = main_figure(errors, None)
+    draw, size = main_figure(errors, None, robot)
     picture = Drawing("pose_error", size, draw)
     layers = list(pose_error_figure.error_layers(errors).values())
     plot = map_plot(errors.grid, layers, FramePlan.of(robot, errors.grid))
@@ -121,18 +121,19 @@ def _pose_error_plates(robot: Robot, errors: PoseErrorMap) -> list[Plate]:
 
 
 def main_figure(
-    errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None
+    errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None, robot: Robot | None
 ) -> tuple[Draw, tuple[float, float]]:
     """What draws the errors over the grid (without one, over the load) into an empty figure, and its size [inch]."""
     if errors is not None:
-        return lambda f: pose_error_figure.draw_pose_error(f, errors), pose_error_figure.pose_error_size(errors)
+        plan = None if robot is None else FramePlan.of(robot, errors.grid)
+        return lambda f: pose_error_figure.draw_pose_error(f, errors, plan), pose_error_figure.pose_error_size(errors)
     if load is None:
         raise ValueError("main_figure needs errors or a load")
     return lambda f: pose_error_figure.draw_load_ladder(f, load[0]), pose_error_figure.LOAD_SIZE
 
 
 def _ladder_plate(found: SufficientLoad, pose: Pose) -> Plate:
-    draw, size = main_figure(None, (found, pose))
+    draw, size = main_figure(None, (found, pose), None)
     picture = Drawing("sufficient_load", size, draw)
     return Plate(
         "sufficient_load",

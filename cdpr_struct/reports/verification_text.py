@@ -32,7 +32,19 @@ def verdict(v: Verification) -> str:
         if not objections
         else "DOES NOT HOLD: " + "; ".join(objections) + "."
     )
-    return "\n".join([holds, doubled, geometric_text(v), limits])
+    whose = [exact_text(v)] if objections else []
+    return "\n".join([holds, *whose, doubled, geometric_text(v), limits])
+
+
+def exact_text(v: Verification) -> str:
+    """Whether the exact model holds where the closed form does not."""
+    worst = float(np.abs(v.exact_hertz / v.fem_limit_hertz - 1.0).max())
+    if not worst <= v.criteria.relative_error:
+        return f"The exact model deviates from the FEM, too, by up to {100.0 * worst:.2g} %: check the robot file."
+    return (
+        f"The exact model, which the other commands use, agrees with the FEM within {100.0 * worst:.1g} %: the closed "
+        "form is in error here, not the robot file."
+    )
 
 
 def geometric_text(v: Verification) -> str:

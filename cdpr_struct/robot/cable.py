@@ -21,6 +21,8 @@ class Cable:
     force_min, force_max : smallest and largest tension at the platform that the robot may ask for [N]; inf for no
                            upper limit
     thermal_expansion : alpha [1/K] of its unstrained length, negative for fibres that shrink; default: steel
+    winch_tension : tension at the frame anchor [N] that the winch holds, whatever length that takes; 0 where it holds
+                    the length
     """
 
     axial_stiffness: float
@@ -29,6 +31,7 @@ class Cable:
     force_min: float = 0.0
     force_max: float = math.inf
     thermal_expansion: float = STEEL
+    winch_tension: float = 0.0
 
     def __post_init__(self) -> None:
         require_positive(self, "axial_stiffness", "linear_density")
@@ -37,6 +40,8 @@ class Cable:
         if not abs(self.thermal_expansion) <= LARGEST_EXPANSION:
             expected = f"from -{LARGEST_EXPANSION:g} to {LARGEST_EXPANSION:g} 1/K"
             raise ValueError(f"Cable.thermal_expansion must be {expected}, got {self.thermal_expansion!r}")
+        if not 0.0 <= self.winch_tension < math.inf:
+            raise ValueError(f"Cable.winch_tension must be finite and >= 0 N, got {self.winch_tension!r}")
         if not 0.0 <= self.force_min < math.inf:
             raise ValueError(f"Cable.force_min must be finite and >= 0 N, got {self.force_min!r}")
         if not self.force_max > self.force_min:

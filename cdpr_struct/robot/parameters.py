@@ -99,6 +99,9 @@ _RULES: dict[str, Parameter] = {
     ),
     "force_min": _of_cables("N", "least tension at the platform to ask for", "cable.force_min", 0.0, least=0.0),
     "force_max": _of_cables("N", "largest tension at the platform", "cable.force_max", np.inf, above=0.0),
+    "winch_tension": _of_cables(
+        "N", "at the frame that the winch holds, 0: it holds the length", "cable.winch_tension", 0.0, least=0.0
+    ),
     "masts": Parameter((CABLES, CABLES), "1", "1 where cables share a mast, by the frame anchors", "", 1.0),
     "uprights": Parameter((CABLES, CABLES), "1", "U, exits moved by a unit compliance of uprights: U U^T F", "", 0.0),
 }

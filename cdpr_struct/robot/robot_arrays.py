@@ -32,6 +32,7 @@ class RobotArrays:
     guided          : (..., 6) 1 where a guide holds the platform: x, y, z, rx, ry, rz, world axes at its origin
     damping_ratio   : (..., m) xi [-];  thermal_expansion : (..., m) [1/K]
     force_min, force_max : (..., m) [N], limits of the tension at the platform
+    winch_tension   : (..., m) [N] at the frame that the winch holds, 0 where it holds the length
 
     Extensions, without effect unless given:
     series_compliance, length_offset, length_scale, bending_stiffness, added_mass : (..., m)
@@ -63,6 +64,7 @@ class RobotArrays:
     thermal_expansion: np.ndarray = field(default_factory=PARAMETERS["thermal_expansion"].without_effect)
     force_min: np.ndarray = field(default_factory=PARAMETERS["force_min"].without_effect)
     force_max: np.ndarray = field(default_factory=PARAMETERS["force_max"].without_effect)
+    winch_tension: np.ndarray = field(default_factory=PARAMETERS["winch_tension"].without_effect)
     series_compliance: np.ndarray = field(default_factory=PARAMETERS["series_compliance"].without_effect)
     length_offset: np.ndarray = field(default_factory=PARAMETERS["length_offset"].without_effect)
     length_scale: np.ndarray = field(default_factory=PARAMETERS["length_scale"].without_effect)
@@ -126,8 +128,13 @@ class RobotArrays:
 
     @property
     def has_yielding_frame_ends(self) -> bool:
-        """Whether the length of a free cable depends on its tension, by a pulley or something elastic in line."""
-        return self.has_pulleys or bool(self.series_compliance.any())
+        """Whether the length of a free cable depends on its tension: a pulley, something elastic in line, a winch."""
+        return self.has_pulleys or bool(self.series_compliance.any()) or self.has_tension_winches
+
+    @property
+    def has_tension_winches(self) -> bool:
+        """Whether any winch holds the tension of its cable instead of its length."""
+        return bool(self.winch_tension.any())
 
     @property
     def up(self) -> np.ndarray:
@@ -257,6 +264,7 @@ def _entered(robot: Robot) -> RobotArrays:
         thermal_expansion=np.array([cable.thermal_expansion for cable in robot.cables]),
         force_min=robot.force_min,
         force_max=robot.force_max,
+        winch_tension=np.array([cable.winch_tension for cable in robot.cables]),
         masts=masts_of(robot.frame_anchors),
         uprights=uprights_of(robot.frame_anchors, more.mast_foot),
         **{name: np.asarray(getattr(more, name), dtype=float) for name in EXTENSIONS},

@@ -46,6 +46,7 @@ class CableTable(_Table):
     thermal_expansion: Annotated[float, Field(strict=True, ge=-LARGEST_EXPANSION, le=LARGEST_EXPANSION)] | None = None
     force_min: NotNegative | None = None
     force_max: Limit | None = None
+    winch_tension: NotNegative | None = None
 
 
 class PulleyTable(_Table):

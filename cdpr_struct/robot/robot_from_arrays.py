@@ -15,9 +15,9 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 def robot_from_arrays(entered: Robot, arrays: RobotArrays, causes: tuple[str, ...] = ()) -> Robot:
     """The entered robot with the values of arrays, which have no batch axes, or axes of length one.
 
-    Name, home, damping, thermal expansion and force limits stay as entered. Values that no robot can have become the
-    nearest that one can: nothing below the bounds of `parameters`, and no inertia of which a principal moment exceeds
-    the sum of the others.
+    Name, home, damping, thermal expansion, force limits and winches stay as entered. Values that no robot can have
+    become the nearest that one can: nothing below the bounds of `parameters`, and no inertia of which a principal
+    moment exceeds the sum of the others.
 
     causes : names of the diagnosed causes that the changes stand for
     """

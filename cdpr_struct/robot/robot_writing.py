@@ -51,6 +51,7 @@ def _cable(robot: Robot, i: int) -> list[str]:
         f"damping_ratio = {float(cable.damping_ratio)!r}",
         *_expansion(cable),
         *_force_limits(cable),
+        *([f"winch_tension = {float(cable.winch_tension)!r}"] if cable.winch_tension else []),
         f"platform_anchor = {robot.platform_anchors[i].tolist()}",
         f"frame_anchor = {robot.frame_anchors[i].tolist()}",
     ]

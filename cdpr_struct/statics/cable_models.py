@@ -17,6 +17,7 @@ from cdpr_struct.statics.catenary_length import SLACKEST, force_z_curvature
 from cdpr_struct.statics.hanging_cables import hanging, held_hanging
 from cdpr_struct.statics.masts import with_settled_masts
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
+from cdpr_struct.statics.tension_winches import with_winches
 
 IDEAL_STIFFENING = 1e6  # an ideal cable at given length: spring with EA this many times larger
 SLACKEST_HELD = 3.0  # largest w chord / (2 tau) of a level cable chosen by `inverse`: sag over span 1.5, far past the
@@ -73,7 +74,7 @@ class SpringModel:
         return arrays
 
     def states(self, arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
-        return with_settled_masts(arrays, lambda moved: _spring(moved, points, length))[0]
+        return with_settled_masts(arrays, lambda moved: _spring_on_winches(moved, points, length))[0]
 
     def hold(self, arrays: RobotArrays, points: np.ndarray, chord_tension: np.ndarray) -> HeldCables:
         states, _ = with_settled_masts(arrays, lambda moved: _held_spring(moved, points, chord_tension), locked=False)
@@ -143,7 +144,8 @@ class SaggingModel:
 
         _, arrays = with_settled_masts(arrays, states_of, locked=False)
         states, length_rate = held_hanging(arrays, points, chord_tension)
-        response = cable_response(replace(arrays, series_compliance=np.zeros(1)), states)
+        locked = replace(arrays, series_compliance=np.zeros(1), winch_tension=np.zeros(1))
+        response = cable_response(locked, states)
         bend = -force_z_curvature(states.span, states.rise, chord_tension, states.weight)
         return HeldCables(states, -response.length_rate * length_rate[..., None], bend)
 
@@ -153,6 +155,13 @@ class SaggingModel:
         level = np.hypot(offset[..., 0], offset[..., 1]) / np.maximum(chord, 1e-300)
         most = np.interp(-np.log(np.maximum(level, 1e-9)), _LEVEL_LOGARITHM, _LARGEST)
         return np.asarray(0.5 * arrays.weight * chord / most)
+
+
+def _spring_on_winches(arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:
+    states = _spring(arrays, points, length)
+    if not arrays.has_tension_winches:
+        return states
+    return with_winches(arrays, states, _held_spring(arrays, points, arrays.winch_tension))
 
 
 def _spring(arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:

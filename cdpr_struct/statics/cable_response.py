@@ -43,20 +43,20 @@ def cable_response(arrays: RobotArrays, states: CableStates) -> CableResponse:
     Adding cable at the frame end adds it along the tension t there, so the free cable's length rate is
     -K t (1 + T/EA). On a pulley, moving the platform end also turns t, which moves the exit point E and takes cable
     on or off the wheel: the tension vector at E then solves a 3 x 3 linear system a cable. An element in line lets out
-    cable as the tension grows, which enters that system alike.
+    cable as the tension grows, which enters that system alike. A winch that holds the tension lets out what keeps it.
     """
     free = cable_stiffness(states)
     if not arrays.has_yielding_frame_ends:
         return CableResponse(free, _free_rate(states, free))
     top_rate = _free_rate(states, free) - states.weight[..., None] * states.up
-    length_from_tension, matrix = _exit_equation(arrays, states, free, top_rate)
+    from_tension, matrix = _exit_equation(arrays, states, free, top_rate)
     inverse = np.linalg.inv(matrix)
-    weight_row = states.weight[..., None, None] * states.up[..., :, None] * length_from_tension[..., None, :]
-    back = np.eye(3) + weight_row
-    stiffness = back @ inverse @ free
-    at_exit = np.einsum("...ij,...j->...i", inverse, top_rate)
-    length_rate = np.einsum("...ij,...j->...i", back, at_exit) + states.weight[..., None] * states.up
-    return CableResponse(stiffness, length_rate)
+    lets_out = np.einsum("...i,...ij->...j", from_tension, inverse)
+    if arrays.has_tension_winches:
+        lets_out, inverse = _at_held_tension(arrays, states, top_rate, lets_out, inverse)
+    weight = states.weight[..., None] * states.up
+    back = inverse + weight[..., :, None] * lets_out[..., None, :]
+    return CableResponse(back @ free, np.einsum("...ij,...j->...i", back, top_rate) + weight)
 
 
 def exit_jacobian(arrays: RobotArrays, states: CableStates) -> np.ndarray:
@@ -92,3 +92,21 @@ def _exit_equation(
     from_tension = winding + np.where(states.slack[..., None], 0.0, relaxing)
     matrix = np.eye(3) + free @ moves @ turn - top_rate[..., :, None] * from_tension[..., None, :]
     return from_tension, matrix
+
+
+def _at_held_tension(
+    arrays: RobotArrays, states: CableStates, top_rate: np.ndarray, lets_out: np.ndarray, inverse: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """d(free length)/d(pull of the free cable) and the inverse of the exit equation where winches hold the tension,
+    else as they are.
+
+    The limit of an element in line that grows ever softer: what is let out keeps the tension, t . dF = 0.
+    """
+    held = np.broadcast_to(arrays.winch_tension > 0.0, states.length.shape)[..., None]
+    along = np.einsum("...i,...ij->...j", _pull_at_frame(states)[1], inverse)
+    rate = np.einsum("...i,...i->...", along, top_rate)[..., None]
+    kept = -along / np.where(held, rate, 1.0)
+    pulled = np.einsum("...ij,...j->...i", inverse, top_rate)
+    relaxed = inverse + pulled[..., :, None] * kept[..., None, :]
+    passed = lets_out + (1.0 + np.einsum("...i,...i->...", lets_out, top_rate)[..., None]) * kept
+    return np.where(held, passed, lets_out), np.where(held[..., None], relaxed, inverse)

@@ -20,6 +20,7 @@ from cdpr_struct.statics.energy_descent import EnergyDescent, arm_scale, longest
 from cdpr_struct.statics.equilibrium import PlatformArms, tangent_stiffness
 from cdpr_struct.statics.locked_balance import LockedBalance
 from cdpr_struct.statics.neutral_freedoms import stability
+from cdpr_struct.statics.tension_winches import pulls_as_held
 
 MAX_ITERATIONS = 200
 _SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
@@ -73,7 +74,7 @@ class ForwardSolution:
         if not self.converged.all():
             left = np.linalg.norm(self.residual_wrench[~self.converged], axis=-1)
             what = f"forward kinematics at {left.size} of {self.status.size} poses"
-            hint = "Start nearer to the expected pose, or check that the lengths fit the robot."
+            hint = "Start nearer to the expected pose, or check that the lengths (and winch_tension) fit the robot."
             raise ConvergenceError(what, float(left.max()), int(self.iterations.max()), hint)
         return self
 
@@ -87,13 +88,14 @@ def forward(
     external_wrench: npt.ArrayLike | None = None,
     mass: npt.ArrayLike | None = None,
 ) -> ForwardSolution:
-    """Stable pose of the platform at locked unstrained cable lengths.
+    """Stable pose of the platform at locked unstrained cable lengths, or held tensions where winches hold these.
 
     All batch axes (...) broadcast: lengths, starting poses, loads, masses, and the fields of a `RobotArrays`.
 
     Parameters
     ----------
-    lengths : (..., m) unstrained, from the frame anchors on, as the encoders say them [m]
+    lengths : (..., m) unstrained, from the frame anchors on, as the encoders say them [m]; any positive number where
+        the winch holds the tension
     position, rotation : (..., 3) [m], (..., 3, 3), where to start; default below the frame anchors, not rotated
     model : "sagging", "spring" or "ideal"
     external_wrench : (..., 6) on the platform about its origin, world axes, beside its weight [N, N m]
@@ -174,7 +176,7 @@ def _solution(
     held = stability(balance.arrays, descent.rotation, tangent_stiffness(balance.arrays, states, arms))
     status = np.where(held.neutral > 0, ForwardStatus.NEUTRAL, ForwardStatus.CONVERGED)
     status[held.unstable] = ForwardStatus.NOT_STABLE
-    status[~descent.converged] = ForwardStatus.NOT_CONVERGED
+    status[~descent.converged | ~pulls_as_held(balance.arrays, states)] = ForwardStatus.NOT_CONVERGED
     return ForwardSolution(
         position=descent.position.reshape((*shape, 3)),
         rotation=descent.rotation.reshape((*shape, 3, 3)),

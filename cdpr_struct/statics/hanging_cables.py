@@ -8,6 +8,7 @@ from cdpr_struct.statics.cable_state import CableStates, heading_and_span, span_
 from cdpr_struct.statics.catenary import CatenaryForces, solve_end_forces
 from cdpr_struct.statics.catenary_length import length_at_chord_tension
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
+from cdpr_struct.statics.tension_winches import held_at_frame, with_winches
 
 _EXIT_ITERATIONS = 30
 _EXIT_TOLERANCE = 1e-14  # of the tension, or of the unit direction
@@ -20,8 +21,19 @@ def hanging(
 
     near : those of cables nearly like these, to begin from
     """
+    if arrays.has_tension_winches:
+        held = held_at_frame(arrays, points, lambda tension: held_hanging(arrays, points, tension)[0])
+        length = np.where(arrays.winch_tension > 0.0, held.total_length, length)
+        locked, near = _at_length(arrays, points, length, near)
+        return with_winches(arrays, locked, held), near
+    return _at_length(arrays, points, length, near)
+
+
+def _at_length(
+    arrays: RobotArrays, points: np.ndarray, length: np.ndarray, near: CatenaryForces | None
+) -> tuple[CableStates, CatenaryForces]:
     offset = points - arrays.frame_anchors
-    if not arrays.has_yielding_frame_ends:
+    if not (arrays.has_pulleys or arrays.series_compliance.any()):
         zero = np.zeros_like(length)
         return _catenary(arrays, offset, length, zero, zero, near)
     return _catenary_over_pulley(arrays, offset, length, near)

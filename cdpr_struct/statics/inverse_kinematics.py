@@ -30,6 +30,7 @@ from cdpr_struct.statics.unholdable_poses import no_length_error, unholdable, wi
 BALANCED = 1e-8  # residual over load and tensions that counts as balanced
 _SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
 _MOST_STIFFENINGS = 50
+_MOST_WINCH_STEPS = 12
 
 
 class InverseStatus(IntEnum):
@@ -126,6 +127,8 @@ def inverse(
             raise no_length_error(nothing)
         problem = _moved_off(problem, degenerate)
     solution = _solve(problem)
+    if arrays.has_tension_winches:
+        problem, solution = _with_winches(problem, solution)
     if arrays.nonlinearity.any():
         problem, solution = _stiffening(problem, solution)
     solution.status[degenerate] = InverseStatus.UNHOLDABLE
@@ -137,6 +140,25 @@ def inverse(
         rest = solution.residual_wrench, solution.tensions
         raise unholdable(problem, solution.held, *rest, separation(problem).proven)
     return _reshaped(solution, shape)
+
+
+def _with_winches(problem: HoldingProblem, solution: InverseSolution) -> tuple[HoldingProblem, InverseSolution]:
+    """Solutions in which the cables of winches that hold their tension have it at the frame.
+
+    Their bounds at the platform close on the tension that is left of it there; it hardly changes from one to the next.
+    """
+    wanted = np.broadcast_to(problem.arrays.winch_tension, solution.tensions.shape)
+    winch = wanted > 0.0
+    at_platform = np.where(winch, wanted, solution.tensions)
+    for _ in range(_MOST_WINCH_STEPS):
+        low, high = (np.where(winch, at_platform, bound) for bound in (problem.low, problem.high))
+        problem = replace(problem, low=low, high=high)
+        solution = _solve(problem)
+        miss = np.where(winch, wanted - solution.cables.tension_at_frame, 0.0)
+        if (np.abs(miss) <= BALANCED * 1e-3 * wanted.max()).all():
+            break
+        at_platform = np.maximum(solution.tensions + miss, 0.0)
+    return problem, solution
 
 
 def hung_solution(robot: Robot | RobotArrays, hung: FreeOrientation) -> InverseSolution:

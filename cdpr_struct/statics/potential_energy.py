@@ -23,7 +23,8 @@ from cdpr_struct.statics.masts import MastShapes
 def potential_energy(
     arrays: RobotArrays, position: np.ndarray, rotation: np.ndarray, states: CableStates, wrench: np.ndarray
 ) -> np.ndarray:
-    """Energy of platforms (...) at rest at locked lengths [J]; only differences at the same lengths mean something.
+    """Energy of platforms (...) at rest at locked lengths, or tensions of winches [J]; only differences at the same
+    lengths and tensions mean something.
 
     Weight, cables, constant forces, a hose, elements in line and masts are counted. Cable on a pulley counts by its
     stretch. Cables whose EA depends on their tension are taken with EA as in `states`.
@@ -40,7 +41,16 @@ def potential_energy(
     height = ((arms.points - states.offset) * states.up).sum(axis=-1)
     cables = (_of_cables(states, height) + _behind_frame(arrays, states, height)).sum(axis=-1)
     masts = MastShapes.soft(arrays).energy(states.force_at_frame) if arrays.has_masts else 0.0
-    return np.asarray(platform + loads + hose + cables + masts)
+    winches = _of_winches(arrays, states, height).sum(axis=-1) if arrays.has_tension_winches else 0.0
+    return np.asarray(platform + loads + hose + cables + masts + winches)
+
+
+def _of_winches(arrays: RobotArrays, states: CableStates, height: np.ndarray) -> np.ndarray:
+    """(..., m) energy of winches that hold a tension T: they give cable away for T + T^2/(2 EA) a metre, and weight at
+    the height of the frame end [J]."""
+    tension = arrays.winch_tension
+    given = (tension + 0.5 * tension**2 / states.axial_stiffness) * states.total_length
+    return np.where(tension > 0.0, given - states.weight * height * states.length, 0.0)
 
 
 def _behind_frame(arrays: RobotArrays, states: CableStates, height: np.ndarray) -> np.ndarray:

@@ -67,7 +67,7 @@ def suits(problem: HoldingProblem) -> bool:
     """Whether this batch may be tried."""
     arrays = problem.arrays
     enough = arrays.cable_count >= EQUATIONS and len(problem.load) > 0
-    other = arrays.is_tilted or arrays.is_weightless
+    other = arrays.is_tilted or arrays.is_weightless or arrays.has_tension_winches
     return not (arrays.has_masts or arrays.has_guides or other) and enough and isinstance(problem.model, SaggingModel)
 
 

@@ -331,14 +331,14 @@ def test_forward_says_how_it_got_there_and_which_other_poses_exist(tmp_path, cap
     words = ["forward", "cogiro", "--lengths", COGIRO_LENGTHS, "--equilibria", "--out", str(tmp_path)]
     assert run(words) == 0
     said = capsys.readouterr().out
-    assert "led from the home pose (0.012, 0.0697, 1.219) m" in said
+    assert "followed from the home pose (0.012, 0.0697, 1.219) m" in said
     assert "4 other stable poses exist" in said
     found = json.loads((tmp_path / "result.json").read_text())
     assert found["pose"] == pytest.approx([-3.8688, 2.9127, 0.7823, 5.326, -2.136, -8.608], abs=1e-3)
     assert found["locked"]["way"] == "continued"
     assert len(found["locked"]["other_equilibria"]) == 4
     assert len(list(tmp_path.glob("equilibrium_*.svg"))) == 4
-    assert "led from the home pose" in (tmp_path / "report.html").read_text()
+    assert "followed from the home pose" in (tmp_path / "report.html").read_text()
     assert found["warnings"] == []
 
 

@@ -23,9 +23,9 @@ from cdpr_struct.statics.inverse_kinematics import inverse
 IDLE = {
     "force_min", "force_max", "damping_ratio", "length_offset", "length_scale", "hose_center", "force", "nonlinearity",
     "reference_tension", "cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain",
-    "sensor_mass",
+    "sensor_mass", "winch_tension",
 }  # fmt: skip
-"""Parameters that act on readings or on the state, not on the vibration about it."""
+"""Parameters that act on readings or on the state, not on the vibration about it; and what a winch holds, a switch."""
 STEPS = {
     "axial_stiffness": 30.0, "mass": 1e-3, "series_compliance": 2e-10, "frame_compliance": 2e-11, "hose": 1e-2,
     "linear_density": 2e-7, "bending_stiffness": 1e-4, "added_mass": 3e-6, "gravity": 1e-4, "inertia": 1e-5,

@@ -79,7 +79,7 @@ def test_without_the_extra_one_sentence_says_what_to_install(monkeypatch, capsys
     monkeypatch.setitem(sys.modules, "viser", None)
     assert run(["view", "thesis-3-1", "--no-browser"]) == 2
     (line,) = capsys.readouterr().err.splitlines()
-    assert 'pip install "cdpr-struct[view]"' in line
+    assert "pip install 'cdpr-struct[view]'" in line
 
 
 @pytest.mark.parametrize(

@@ -150,6 +150,20 @@ def test_every_cell_is_a_plain_number_or_words(command, made):
         assert [c for c in cells if re.search(r"np\.|array\(|[\[\]{}]|^(None|nan|inf|True|False)$", c)] == [], name
 
 
+def test_the_page_of_modes_has_one_robot_to_turn_and_needs_no_plotly(made):
+    page = made["modes"]["report.html"]
+    assert "plotly" not in page.lower()
+    assert page.count("<canvas") == 1
+
+
+def test_a_map_of_an_audit_can_be_zoomed_and_shows_the_frame():
+    found = cs.audit("thesis-3-1", grid="-1:1:2,-1:1:2,0.5")
+    files = found.files
+    assert "broken limits, all cables" in files["report.html"]
+    assert "worst cable: value over limit" in files["report.html"]
+    assert "in the frame" in files["map.svg"]
+
+
 def test_modes_csv_holds_the_result(made, modes_of):
     written = as_json(modes_of)
     table = pd.read_csv(io.StringIO(made["modes"]["modes.csv"]))

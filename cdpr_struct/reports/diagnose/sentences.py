@@ -19,7 +19,7 @@ def sentence(found: Diagnosis) -> str:
     """What was found, for a person."""
     status = found.decision.status
     if found.by_damping:
-        parts = [_damping(found), "Nothing else is significant."]
+        parts = [_damping(found), "No other error is significant."]
     elif status == "adequate":
         parts = [agreement(found)]
     elif status == UNKNOWN:
@@ -56,9 +56,9 @@ def agreement(found: Diagnosis) -> str:
     uncertain, count = found.peaks.uncertain, found.peaks.count
     if not uncertain:
         rest = "the other measurements" if found.set_aside else "measurements"
-        return f"Nothing significant: simulation and {rest} agree within their uncertainty {p}"
+        return f"No significant error: simulation and {rest} agree within their uncertainty {p}"
     some = ", ".join(f"{peak.hertz:g}" for peak in uncertain[:6]) + (", ..." if len(uncertain) > 6 else "")
-    text = f"Nothing significant {p} However, {len(uncertain)} of {count} robot frequencies ({some} Hz) cannot be"
+    text = f"No significant error {p} However, {len(uncertain)} of {count} robot frequencies ({some} Hz) cannot be"
     text += " assigned to a mode with certainty, which is no evidence for or against the simulation."
     return text + (" The other readings agree within their uncertainty." if len(uncertain) < count else "")
 

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from cdpr_struct.crosscheck.limits_poses import PARAMETERS, PoseAudit
+from cdpr_struct.reports.figures.frame_plan import FramePlan, draw_plan
 from cdpr_struct.reports.figures.style import (
     BAD,
     BLACK,
@@ -21,6 +22,7 @@ from cdpr_struct.reports.figures.style import (
     plain_ticks,
     quiet,
 )
+from cdpr_struct.reports.figures.workspace_map import Layer
 from cdpr_struct.workspace.grid import AXES, Grid
 
 MAP_SIZE = (9.6, 4.2)
@@ -31,7 +33,7 @@ _LABELS = dict(zip(PARAMETERS, ("λ²", "crossover distance", "|α|", "ε", "sag
 
 def draw_audit_map(figure: Figure, audit: PoseAudit, grid: Grid) -> None:
     """Number of broken limits, and the cable that is worst off, over the two free axes of the grid."""
-    left, right = figure.subplots(1, 2, sharex=True, sharey=True)
+    left, right, beside = figure.subplots(1, 3, width_ratios=[1.0, 1.0, 0.72])
     count = np.where(audit.held, audit.count, -1)
     highest = max(int(count.max()), 1)
     colours = np.vstack([[0.86, 0.93, 0.97, 1.0], colormaps["YlOrRd"](np.linspace(0.15, 0.9, highest))])
@@ -43,10 +45,25 @@ def draw_audit_map(figure: Figure, audit: PoseAudit, grid: Grid) -> None:
     palette = ListedColormap([colormaps["tab20"](i % 20) for i in range(cables)])
     worst = np.where(audit.held, audit.worst_cable, -1)
     image = _heat(right, grid, worst, palette, np.arange(0.5, cables + 1.0))
-    right.set_title("cable nearest to or farthest beyond a limit")
+    right.set_title("worst cable")
     ticks = np.unique(np.linspace(1, cables, min(cables, 12)).round())
     bar = figure.colorbar(image, ax=right, shrink=0.9, ticks=ticks)
     bar.outline.set_visible(False)
+    draw_plan(beside, FramePlan.of(audit.robot, grid), grid, *grid.free)
+
+
+def audit_layers(audit: PoseAudit) -> list[Layer]:
+    """What the map that can be zoomed shows: the number of broken limits, and how near the worst cable is to one."""
+    nothing = np.zeros(len(audit.held), dtype=bool)
+    return [
+        Layer("broken limits, all cables", "count", np.where(audit.held, audit.count, np.nan), nothing),
+        Layer("worst cable: value over limit", "-", audit_use(audit).max(axis=0), nothing),
+    ]
+
+
+def audit_use(audit: PoseAudit) -> np.ndarray:
+    """(5, k) each parameter of the worst cable over its limit (inverse for the crossover distance); nan if not held."""
+    return np.where(audit.held[None, :], audit.largest_use.max(axis=-1), np.nan)
 
 
 def _heat(axes: Axes, grid: Grid, value: np.ndarray, colours: ListedColormap, edges: np.ndarray):  # type: ignore[no-untyped-def]
@@ -71,7 +88,7 @@ def draw_audit_course(figure: Figure, audit: PoseAudit, course: np.ndarray, labe
     course : (k,) ascending;  label : its name with unit
     """
     axes = figure.subplots()
-    use = np.where(audit.held[None, :], audit.largest_use.max(axis=-1), np.nan)
+    use = audit_use(audit)
     top = float(np.nanmax(use)) if audit.held.any() else 1.0
     axes.set_yscale("log")
     for name, value in zip(PARAMETERS, use, strict=True):
@@ -94,8 +111,10 @@ def audit_map_caption(audit: PoseAudit) -> str:
     unheld = " Hatched: poses that the cables cannot hold." if not audit.held.all() else ""
     return (
         "Left: how many printed limits the cables break at each pose, each cable and limit counted once; pale blue is "
-        f"none ({clean} of {int(audit.held.sum())} poses), the most are {most}. Right: the number of the cable that is "
-        f"nearest to a limit or farthest beyond one.{unheld}"
+        f"none ({clean} of {int(audit.held.sum())} poses), the most are {most}. Middle: the number of the cable "
+        "that is nearest to a limit or farthest beyond one. Right: the mapped rectangle in blue, in the frame with its "
+        f"numbered anchors.{unheld} On the screen, the slider chooses between the number of broken limits and the "
+        "largest value over its limit: above 1 the limit is broken."
     )
 
 

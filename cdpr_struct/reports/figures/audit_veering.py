@@ -52,7 +52,7 @@ def veering_caption(trial: LimitsTrial) -> str:
     flat, steep = trial.curves[0], trial.curves[-1]
     return (
         "In-plane frequencies over λ. Level lines are antisymmetric modes, which do not stretch the cable; rising ones "
-        "symmetric modes, which do. In the closed form the two kinds do not know of each other and cross at λ = "
+        "symmetric modes, which do. In the closed form the two kinds are uncoupled and cross at λ = "
         "2nπ. In "
         f"the horizontal cable that is so (gap {100.0 * flat.gap:.1g} %, the resolution of the curve). In the "
         f"inclined one "

@@ -75,7 +75,7 @@ def determinant_caption(trial: Verification) -> str:
     seen = int(np.isfinite(trial.determinant_hertz[inside]).sum())
     return (
         "Above, the determinant whose zeros are natural frequencies, with the cables' dynamic stiffness (line) and "
-        "with their static stiffness only (dashed), which knows nothing of cable modes. Below, every FEM "
+        "with their static stiffness only (dashed), which shows no cable modes. Below, every FEM "
         "eigenfrequency; marks on top of each other are frequencies too close to draw side by side. A scan at "
         f"{step:g} Hz finds {len(trial.scan.minima_hertz)} minima for {k} eigenfrequencies and misses "
         f"{trial.missed_by_scan}: where modes crowd, damping merges their dips. From {low:.2f} to {high:.2f} Hz "

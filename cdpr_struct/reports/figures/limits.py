@@ -128,6 +128,6 @@ def limits_caption(limits: ValidityLimits) -> str:
         "The closed form assumes a shallow, taut cable. Left: Irvine's λ², which must stay below the first "
         "crossover of symmetric and antisymmetric modes. Right: ε, eight times sag over chord, which may be "
         f"{INCLINATION_EPSILON_PAIRS[0][1]:g} up to {INCLINATION_EPSILON_PAIRS[0][0]:g}° inclination and "
-        f"{INCLINATION_EPSILON_PAIRS[1][1]:g} up to {INCLINATION_EPSILON_PAIRS[1][0]:g}°; nothing is claimed for "
-        f"steeper cables. Numbers are cables. {outcome}"
+        f"{INCLINATION_EPSILON_PAIRS[1][1]:g} up to {INCLINATION_EPSILON_PAIRS[1][0]:g}°; "
+        f"no limit is printed for steeper cables. Numbers are cables. {outcome}"
     )

@@ -99,7 +99,7 @@ def mode_errors_caption(trial: Verification) -> str:
         "Each stem is one mode, paired with the FEM by shape, above zero where the DSM is too stiff: "
         f"{'; '.join(parts)}. Largest: mode {worst + 1} ({trial.kinds[worst]}) at "
         f"{trial.fem_limit_hertz[worst]:.3f} Hz with {error[worst]:+.3f} %. Black dashes are the exact catenary's "
-        f"frequencies, at most {exact:.2g} % off: what a stem has beyond them is the price of the closed form. Bars "
+        f"frequencies, at most {exact:.2g} % off: the rest of a stem is the error of the closed form. Bars "
         "are the uncertainty of the extrapolated FEM. The scale is linear near zero, where the grid is even, and "
         "logarithmic farther out."
     )

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.figure import Figure
 
+from cdpr_struct.reports.figures.frame_plan import FramePlan, draw_plan
 from cdpr_struct.reports.figures.style import BLACK, BLUE, GREEN, VERMILLION, plain_ticks
 from cdpr_struct.reports.figures.workspace_map import (
     Layer,
@@ -21,7 +22,7 @@ from cdpr_struct.workspace.pose_error_map import PoseErrorMap
 
 LOAD_SIZE = (9.6, 4.2)
 _MOST_SLICES = 6  # rows of three panels that still fit on a page
-_TITLES = {"global": "a) global (sagging model)", "sag": "b) from sag", "axial": "c) from stretch (spring model)"}
+_TITLES = {"global": "a) global", "sag": "b) from sag", "axial": "c) from stretch"}
 _COLOURS = {"global": VERMILLION, "sag": BLUE, "axial": BLACK}
 
 
@@ -37,11 +38,14 @@ def pose_error_size(errors: PoseErrorMap) -> tuple[float, float]:
     return (9.6, float(np.clip(1.3 + 2.4 * up / across, 2.2, 9.0)))
 
 
-def draw_pose_error(figure: Figure, errors: PoseErrorMap) -> None:
-    """Error along z: global, from sag, from stretch."""
+def draw_pose_error(figure: Figure, errors: PoseErrorMap, plan: FramePlan | None = None) -> None:
+    """Error along z: global, from sag, from stretch; beside maps over two axes, where they lie in the frame."""
     layers = error_layers(errors)
-    draw = {1: _draw_curves, 2: _draw_maps, 3: _draw_slices}[len(errors.grid.free)]
-    draw(figure, errors, layers)
+    if len(errors.grid.free) == 2:
+        _draw_maps(figure, errors, layers, plan)
+    else:
+        draw = _draw_curves if len(errors.grid.free) == 1 else _draw_slices
+        draw(figure, errors, layers)
     add_legend(figure, list(layers.values()))
 
 
@@ -62,10 +66,15 @@ def _draw_curves(figure: Figure, errors: PoseErrorMap, layers: Mapping[str, Laye
     axes.legend()
 
 
-def _draw_maps(figure: Figure, errors: PoseErrorMap, layers: Mapping[str, Layer]) -> None:
-    for axes, layer in zip(figure.subplots(1, 3, sharey=True), layers.values(), strict=True):
+def _draw_maps(figure: Figure, errors: PoseErrorMap, layers: Mapping[str, Layer], plan: FramePlan | None) -> None:
+    panels = figure.subplots(1, 3 if plan is None else 4, width_ratios=[1.0] * 3 + [0.8] * (plan is not None))
+    for axes, layer in zip(panels[:3], layers.values(), strict=True):
         draw_heat(figure, axes, errors.grid, layer, 5)
+        if axes is not panels[0]:
+            axes.sharey(panels[0])
         axes.label_outer()
+    if plan is not None:
+        draw_plan(panels[3], plan, errors.grid, *errors.grid.free)
 
 
 def _draw_slices(figure: Figure, errors: PoseErrorMap, layers: Mapping[str, Layer]) -> None:
@@ -109,7 +118,7 @@ def pose_error_caption(errors: PoseErrorMap) -> str:
 
 def _layout_text(errors: PoseErrorMap) -> str:
     if len(errors.grid.free) < 3:
-        return "Each panel has its own scale." if len(errors.grid.free) == 2 else "All curves have one scale."
+        return "Each map has its own scale." if len(errors.grid.free) == 2 else "All curves have one scale."
     return f"{Slices.of(errors.grid, _MOST_SLICES).said()[:-1]} in each column."
 
 
@@ -149,6 +158,6 @@ def load_ladder_caption(found: SufficientLoad) -> str:
         else f"They differ by more than {1e3 * found.tolerance:g} mm up to {found.masses[-1]:g} kg."
     )
     return (
-        "Load pulls the sag out of the cables: the sagging model tends to the spring model, whose error grows in "
+        "A load straightens the cables: the sagging model tends to the spring model, whose error grows in "
         f"proportion to the load. {limit} Right: what sag adds, on logarithmic axes."
     )
