@@ -29,9 +29,7 @@ if TYPE_CHECKING:
 NAME = "map"
 EXAMPLES = (
     "cdpr-struct map thesis-3-1 --grid -3:3:9,-3:3:9,0.5 --quantity first-frequency --out results/map",
-    "cdpr-struct map thesis-5 --grid -2:2:5,0,1.5:3.5:5 --quantity tension-max --lower-bound 100",
-    "cdpr-struct map cogiro --grid -6:6:9,-4:4:7,1:4:4 --quantity workspace --require slack-margin>=20 "
-    "--require cable-distance>=0.05 --wrenches fx=-100:100,fy=-100:100 --refine 0 --out results/workspace",
+    'cdpr-struct map thesis-3-1 --grid -3:3:7,-3:3:7,1.5 --quantity workspace --require "cable-distance>=0.3"',
 )
 
 

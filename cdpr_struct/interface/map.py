@@ -21,6 +21,7 @@ from cdpr_struct.interface.workspace import (
     WorkspaceQuestion,
     WorkspaceResult,
     read_requirements,
+    require_entered,
     single,
 )
 from cdpr_struct.interface.wrenches import WrenchesLike, read_wrenches
@@ -231,6 +232,7 @@ def map_question(
     if what.most_poses is not None and poses.size > (most := what.most_poses(machine)):
         right = f"at most {most} poses for {name}, which keeps the mode shapes of all poses in memory"
         raise InputError("grid", "", f"{poses.size} poses", right)
+    require_entered(machine, (name,))
     compute = _own(name, what.evaluate, more)
     if free is None:
         return MapQuestion(machine, poses, name, chunk, None, compute)
@@ -262,6 +264,7 @@ def _workspace_question(
     asked = None if wrenches is None else read_wrenches(wrenches)
     required = read_requirements(require, asked)
     names = tuple(dict.fromkeys(one.quantity for one in required))
+    require_entered(robot, names)
     errors = any(one.startswith("pose-error") for one in names)
     if errors:
         require_locked_lengths(robot, "a pose error is that of locked lengths")

@@ -142,3 +142,17 @@ def read_requirements(given: str | Iterable[str] | None, wrenches: Wrenches | No
 def single(compute: ManyQuantities, batches: PoseBatches) -> PoseBatches:
     """Batches of one quantity with a set of wrenches or a zone of its own."""
     return replace(batches, name=f"{batches.name} {compute}", evaluate=compute)
+
+
+def require_entered(robot: Robot, quantities: tuple[str, ...]) -> None:
+    """Refuse a distance to bodies or a margin to force limits of a robot that has none.
+
+    Raises
+    ------
+    InputError : a quantity asks for what the robot file does not have.
+    """
+    if "body-distance" in quantities and not robot.bodies:
+        raise InputError(robot.name, "bodies", "none", "enter `[[bodies]]` in the robot file to ask for body-distance")
+    if "force-margin" in quantities and not (robot.force_max < np.inf).all():
+        hint = "force-margin needs a finite upper bound, here or as force_max in the robot file"
+        raise InputError("upper_bound", "", "nothing", hint)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import linprog
 
+_LATER = 1e-6  # how much dearer each next cable is: of cables alike by symmetry the first one is named
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LeastCrossing:
@@ -51,7 +52,8 @@ def least_crossing(matrix: np.ndarray, target: np.ndarray, low: np.ndarray, high
     left, values, right = np.linalg.svd(matrix, full_matrices=False)
     spanned = values > 1e-9 * values[0]  # equations that rounding alone would make contradict each other are left out
     balance, wanted = values[spanned, None] * right[spanned], left.T[spanned] @ target
-    prices = np.concatenate([np.zeros(m), np.ones(2 * m)])
+    ones = 1.0 + _LATER * np.arange(m)
+    prices = np.concatenate([np.zeros(m), ones, ones])
     limits = [*zip(low, high, strict=True), *[(0.0, None)] * (2 * m)]
     found = linprog(prices, A_eq=np.concatenate([balance, balance, -balance], axis=1), b_eq=wanted, bounds=limits)
     return None if found.x is None else LeastCrossing(found.x[m : 2 * m], found.x[2 * m :])

@@ -47,6 +47,8 @@ def distances(
 ) -> Columns:
     """Smallest distance of two cables, and of a cable and a body [m], under the robot's load; and which they are.
 
+    The columns about bodies are there for robots that have bodies.
+
     zone : [m] of cable next to an anchor that is shared or sits on a body, left out
     """
     solution = inverse(robot, positions, rotation, allow_unheld=True) if found is None else found
@@ -55,15 +57,15 @@ def distances(
     anchors = anchors_in_world(robot, positions[good], turned)[0]
     curves = CableCurves.of(solution.cables.at(good), anchors)
     near = cable_distance(curves, m, zone)
-    body = body_distance(curves, m, robot.bodies, (positions[good], turned), zone)
-    return {
+    columns = {
         "cable_distance_m": _at(good, near.distance, len(positions)),
         **_pair(near, good, len(positions), "nearest_cable", "to_cable"),
-        "body_distance_m": _at(good, body.distance, len(positions)),
-        **_pair(body, good, len(positions), "cable_at_body", "body"),
-        **sagging(solution),
-        "held": solution.held,
     }
+    if robot.bodies:
+        body = body_distance(curves, m, robot.bodies, (positions[good], turned), zone)
+        columns["body_distance_m"] = _at(good, body.distance, len(positions))
+        columns |= _pair(body, good, len(positions), "cable_at_body", "body")
+    return {**columns, **sagging(solution), "held": solution.held}
 
 
 def tilts(robot: Robot, positions: np.ndarray, rotation: np.ndarray, found: InverseSolution | None = None) -> Columns:

@@ -18,6 +18,7 @@ from cdpr_struct.cli.main import run
 from cdpr_struct.reports.locked_rest import locked_warnings
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.robot_writing import robot_toml
 from cdpr_struct.statics.locked_rest import locked_rest
 from cdpr_struct.workspace import quantities, sweep, work_list
 
@@ -136,13 +137,29 @@ def test_pose_error_writes_every_file(tmp_path):
     assert names == tables | figures | {"report.html"}
 
 
+BODY = '[[bodies]]\nfixed_to = "frame"\nshape = "sphere"\nradius = 0.2\ncenter = [3.0, 0.0, 1.0]\n'
+MOST = ["--upper-bound", "20000"]
+
+
 @pytest.mark.parametrize("name", [*quantities.QUANTITIES, "mode-1"])
 def test_every_quantity_can_be_mapped(name, tmp_path):
-    out = tmp_path / name
-    assert run(["map", "thesis-3-1", "--grid=-2:2:3,-2:2:3,0.5", "--quantity", name, "--out", str(out)]) == 0
+    out, file = tmp_path / name, tmp_path / "robot.toml"
+    file.write_text(robot_toml(load_robot("thesis-3-1"), "thesis-3-1") + BODY)
+    assert run(["map", str(file), "--grid=-2:2:3,-2:2:3,0.5", "--quantity", name, "--out", str(out), *MOST]) == 0
     result = json.loads((out / "result.json").read_text())
     assert result["smallest"]["value"] <= result["mean"] <= result["largest"]["value"]
     assert {p.name for p in out.iterdir()} == {"result.json", "map.csv", "map.svg", "map.pdf", "report.html"}
+
+
+@pytest.mark.parametrize("asked", [["body-distance"], ["workspace", "--require", "body-distance>=0.1"]])
+def test_a_robot_without_bodies_has_no_distance_to_them(asked, capsys):
+    assert run(["map", "thesis-3-1", "--grid=-2:2:3,-2:2:3,0.5", "--quantity", *asked]) == 2
+    assert "bodies: got 'none'; enter `[[bodies]]` in the robot file" in capsys.readouterr().err
+
+
+def test_cables_without_a_largest_force_have_no_margin_to_it(capsys):
+    assert run(["map", "thesis-3-1", "--grid=-2:2:3,-2:2:3,0.5", "--quantity", "force-margin"]) == 2
+    assert "--upper-bound: got 'nothing'; force-margin needs a finite upper bound" in capsys.readouterr().err
 
 
 def test_smallest_stiffness_is_the_softest_direction(capsys):
