@@ -102,6 +102,7 @@ class WorkspaceQuestion:
         told = workspace_region.result(self.robot, self.grid, self.requirements, (values, fails), region)
         told["wrenches"] = [list(wrench) for wrench in self.compute.wrenches]
         told["anchor_zone_m"] = self.compute.zone
+        told["resumed_chunks"] = 0
         if self.free is not None:
             names = [name for name, free in zip(("rx", "ry", "rz"), self.free, strict=True) if free]
             told["free"] = {"angles": names}

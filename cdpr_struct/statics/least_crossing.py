@@ -12,6 +12,7 @@ from scipy.optimize import linprog
 
 _LATER = 1e-6  # how much dearer each next cable is: of cables alike by symmetry the first one is named
 
+
 @dataclass(frozen=True, slots=True, eq=False)
 class LeastCrossing:
     """above, below : (m,) how far tensions must lie beyond their bounds [N]."""

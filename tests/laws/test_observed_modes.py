@@ -23,7 +23,7 @@ from cdpr_struct.statics.inverse_kinematics import inverse
 IDLE = {
     "force_min", "force_max", "damping_ratio", "length_offset", "length_scale", "hose_center", "force", "nonlinearity",
     "reference_tension", "cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain",
-    "sensor_mass", "winch_tension",
+    "sensor_mass",
 }  # fmt: skip
 """Parameters that act on readings or on the state, not on the vibration about it; and what a winch holds, a switch."""
 STEPS = {
@@ -113,9 +113,8 @@ STATES: dict[str, Callable[[], State]] = {
     "a tool on a mount": lambda: state_of("cogiro", **INTERNAL),
 }
 READINGS = ("position", "rotation", "tension")
-ACTING = tuple(  # what a diagnosis may change; a guide, masts and the direction of gravity are as entered
-    n for n in PARAMETERS if n not in IDLE and n not in ("masts", "uprights", "mast_foot", "down", "guided")
-)
+AS_ENTERED = ("masts", "uprights", "mast_foot", "down", "guided", "winch_tension")
+ACTING = tuple(n for n in PARAMETERS if n not in IDLE and n not in AS_ENTERED)  # what a diagnosis may change
 
 
 def derivative(state: State, name: str, log_omega: Callable[[OperatingPoint], np.ndarray]) -> tuple[np.ndarray, float]:
