@@ -227,7 +227,7 @@ def map_question(
     try:
         what = quantity_of(name)
     except KeyError as error:
-        raise InputError("quantity", "", name, f"{WORKSPACE}, or {error.args[0]}") from None
+        raise InputError("quantity", "", name, f"{error.args[0]}; or {WORKSPACE}") from None
     if what.most_poses is not None and poses.size > (most := what.most_poses(machine)):
         right = f"at most {most} poses for {name}, which keeps the mode shapes of all poses in memory"
         raise InputError("grid", "", f"{poses.size} poses", right)
@@ -262,7 +262,10 @@ def _workspace_question(
     asked = None if wrenches is None else read_wrenches(wrenches)
     required = read_requirements(require, asked)
     names = tuple(dict.fromkeys(one.quantity for one in required))
-    if free is not None and any(one.startswith("pose-error") for one in names):
+    errors = any(one.startswith("pose-error") for one in names)
+    if errors:
+        require_locked_lengths(robot, "a pose error is that of locked lengths")
+    if free is not None and errors:
         raise InputError("free", "", free, "pose errors are computed at the orientation of the grid; leave it out")
     compute = ManyQuantities(names, _NO_MORE if asked is None else asked, _zone(zone))
     rx, ry, rz = (False,) * 3 if free is None else read_free(free, len(robot.cables))[0].tolist()

@@ -28,8 +28,7 @@ _NOTE = (
     "A cell of the grid counts with the share of its corners that belong to the workspace. Each halving of the grid "
     "computes poses in cells whose corners disagree. The error is what the last halving changed on the parts of the "
     "boundary that face along each axis, added up, and the scatter of a boundary that lies anywhere between poses. "
-    "Holes and islands smaller than a cell of the first grid are not "
-    "seen.",
+    "Holes and islands smaller than a cell of the first grid are not seen.",
     "Distances leave out what lies within the anchor zone, along the cable, of an anchor that two cables share or that "
     "sits on the body. Cable on pulleys is left out. A cable that crosses a body has the distance 0.",
 )

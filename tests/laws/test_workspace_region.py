@@ -128,7 +128,7 @@ def test_requirements_name_what_rejects():
 def test_wrenches_shrink_the_workspace():
     grid = "-4:4:7,-3:3:5,1.5"
     free = cs.map("thesis-3-1", grid, "workspace", upper_bound=420.0, refine=0)
-    held = cs.map("thesis-3-1", grid, "workspace", upper_bound=420.0, wrenches="fx=-150:150,fy=-150:150", refine=0)
+    held = cs.map("thesis-3-1", grid, "workspace", upper_bound=420.0, wrenches="fx=-400:400,fy=-400:400", refine=0)
     assert held.answer["requirements"] == ["wrench-feasible"]
     assert len(held.answer["wrenches"]) == 4
     assert held.answer["workspace"]["area"] < free.answer["workspace"]["area"]
