@@ -105,7 +105,7 @@ INNER = {"internal_mass": 3.0, "internal_frequency": 6.0, "internal_direction": 
 RIGID = {
     "inverse": "this concerns vibration only",
     "audit": "the printed limits know nothing of it",
-    "verify": "the referee's platform is rigid, so it is left out on both sides",
+    "verify": "the platform of the FEM is rigid, so this is left out on both sides",
 }
 
 
