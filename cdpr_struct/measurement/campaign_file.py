@@ -214,7 +214,7 @@ def _loss(table: LossTable, source: Path) -> Loss:
 def _rows(entry: MeasurementTable, source: Path, number: int, cables: int, planned: bool) -> Rows:
     path = source.parent / entry.file
     if not path.is_file():
-        expected = "there is no such data file; give its path as seen from the campaign file"
+        expected = "no such data file; give its path as seen from the campaign file"
         raise InputError(str(source), f"measurement[{number}].file", entry.file, expected)
     return read_rows(entry.kind, path, cables, planned)
 

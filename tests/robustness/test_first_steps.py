@@ -68,7 +68,7 @@ def test_a_decimal_comma_is_named(tmp_path):
 
 def test_a_data_file_that_is_not_there_is_said_to_be_absent(tmp_path):
     more = '[[measurement]]\nkind = "robot_frequency"\nfile = "robot.csv"\n'
-    assert "got 'robot.csv'; there is no such file" in refused(tmp_path, more=more)
+    assert "got 'robot.csv'; no such data file" in refused(tmp_path, more=more)
 
 
 def test_a_folder_in_place_of_a_campaign_names_the_file_in_it(tmp_path):
