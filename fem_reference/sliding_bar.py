@@ -111,6 +111,14 @@ class Eyelet:
     ) -> np.ndarray:
         """Mass (6, 6) [kg] of the first bar from that of a bar with held ends: its start slides through the eyelet."""
         bar = free_length * (1.0 + tension / axial_stiffness)
-        slid = self.behind / (self.behind + bar) * np.outer(self.direction, self.direction)
-        motion = np.block([[np.eye(3) - slid, slid], [np.zeros((3, 3)), np.eye(3)]])
-        return np.asarray(motion.T @ mass @ motion)
+        return sliding_mass(mass, self.direction, self.behind / (self.behind + bar))
+
+
+def sliding_mass(mass: np.ndarray, direction: np.ndarray, share: float) -> np.ndarray:
+    """Mass (6, 6) [kg] of a bar from that with held ends, if its start slides by a share of its end's motion along it.
+
+    direction : (3,) unit vector along the bar
+    """
+    slid = share * np.outer(direction, direction)
+    motion = np.block([[np.eye(3) - slid, slid], [np.zeros((3, 3)), np.eye(3)]])
+    return np.asarray(motion.T @ mass @ motion)

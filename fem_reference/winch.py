@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.fem_reference.arrays import fixed_array
+from cdpr_struct.fem_reference.sliding_bar import sliding_mass
 
 SOFTER = 100.0  # compliance of the rounds over that of the cable
 
@@ -78,6 +79,4 @@ class Winch:
     ) -> np.ndarray:
         """Mass (6, 6) [kg] of the first bar from that of a bar with held ends: along itself it moves as a whole."""
         del tension, free_length, axial_stiffness
-        along = np.outer(self.direction, self.direction)
-        motion = np.block([[np.eye(3) - along, along], [np.zeros((3, 3)), np.eye(3)]])
-        return np.asarray(motion.T @ mass @ motion)
+        return sliding_mass(mass, self.direction, 1.0)

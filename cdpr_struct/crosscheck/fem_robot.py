@@ -26,8 +26,8 @@ def to_fem(robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None
     CdprError : pulleys on masts that give way, or behind winches that hold their tension.
     """
     more = robot.extensions
-    for number, (cable, pulley) in enumerate(zip(robot.cables, robot.pulleys, strict=True), start=1):
-        if cable.winch_tension and pulley is not None:
+    for number in robot.tension_winches:
+        if robot.pulleys[number - 1] is not None:
             raise CdprError(
                 f"the FEM has no pulley for a winch that holds its tension: leave out pulley or winch_tension of cable "
                 f"{number} to check the rest; the model exact computes both"

@@ -1,12 +1,13 @@
 """Which angles of the platform are left free, and where does it hang?"""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from cdpr_struct.errors import InputError, UnholdablePoseError
+from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.free_orientation import ANGLES, free_orientation, left_free
@@ -43,24 +44,31 @@ class HangingPose:
         return f"{', '.join(names_of(self.free))} were left free{many}: {hangs}"
 
 
-def names_of(free: np.ndarray) -> list[str]:
+def names_of(free: Sequence[bool] | np.ndarray) -> list[str]:
     """Names of the free angles, (3,) bool."""
     return [name for name, chosen in zip(ANGLES, free, strict=True) if chosen]
 
 
-def read_free(given: FreeAngles, cables: int) -> tuple[np.ndarray, tuple[str, ...]]:
-    """(3,) bool: which of rx, ry, rz are free on so many cables, and the names of those not asked for.
+def told_in_map(told: Mapping[str, Any], free: Sequence[bool], more: str = "") -> dict[str, Any]:
+    """The result of a map with its free angles, (3,) bool, and a warning that says where those found stand."""
+    said = f"{', '.join(names_of(free))} were left free: rx_deg, ry_deg and rz_deg of map.csv are the angles found."
+    return {**told, "free": {"angles": names_of(free)}, "warnings": [said + more, *told["warnings"]]}
+
+
+def read_free(given: FreeAngles, robot: Robot) -> tuple[np.ndarray, tuple[str, ...]]:
+    """(3,) bool: which of rx, ry, rz are free on the cables of a robot, and the names of those not asked for.
 
     Raises
     ------
-    InputError : other names, or too few cables.
+    InputError : other names, too few cables, or a winch that holds the tension of its cable.
     """
+    require_locked_lengths(robot, "free angles are found for cables of locked lengths")
     names = [part.strip() for part in given.split(",")] if isinstance(given, str) else list(given)
     if not names or any(name not in ANGLES for name in names):
         raise InputError("free", "", given if isinstance(given, str) else names, _EXPECTED)
     asked = np.array([name in names for name in ANGLES])
     try:
-        free = left_free(asked, cables)
+        free = left_free(asked, len(robot.cables))
     except ValueError as error:
         raise InputError("free", "", given, str(error)) from error
     return free, tuple(names_of(free & ~asked))
@@ -71,10 +79,10 @@ def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sag
 
     Raises
     ------
-    InputError : unusable names.
+    InputError : unusable names, or a winch that holds the tension of its cable.
     UnholdablePoseError : no such orientation is found from that of the pose.
     """
-    free, added = read_free(given, len(robot.cables))
+    free, added = read_free(given, robot)
     found = free_orientation(robot, where.position[None], where.angles, free, model=model)
     if not found.found[0]:
         kept = names_of(~free)

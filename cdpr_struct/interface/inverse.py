@@ -11,7 +11,6 @@ from cdpr_struct.interface.free_angles import FreeAngles, hanging_pose
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import held
 from cdpr_struct.interface.result import Files, Result
-from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports import statics_rest
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.platform_freedoms import freedoms_json
@@ -110,8 +109,6 @@ def inverse(
     chosen = one_of(model, "model", MODELS)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     where = read_pose(pose, machine)
-    if free is not None:
-        require_locked_lengths(machine, "free angles are found for cables of locked lengths")
     hanging = None if free is None else hanging_pose(machine, where, free, chosen)
     where = where if hanging is None else hanging.pose
     solution = held(machine, where, chosen) if hanging is None else hanging.solution

@@ -11,7 +11,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import SMALLEST, read_grid, read_robot, real, whole
-from cdpr_struct.interface.free_angles import FreeAngles, names_of, read_free
+from cdpr_struct.interface.free_angles import FreeAngles, names_of, read_free, told_in_map
 from cdpr_struct.interface.given import GridLike, Numbers, Progress, RobotLike
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
@@ -30,7 +30,7 @@ from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.hanging_poses import HangingFreely
-from cdpr_struct.workspace.margins import ZONE, distances, margins
+from cdpr_struct.workspace.margins import NO_WRENCH, ZONE, distances, margins
 from cdpr_struct.workspace.pose_batches import PoseBatches
 from cdpr_struct.workspace.quantities import evaluate, quantity_of
 from cdpr_struct.workspace.requirements import ManyQuantities
@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
 
 More: TypeAlias = tuple[str | Iterable[str] | None, WrenchesLike | None, int, float]
-_NO_MORE = ((0.0,) * 6,)
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -176,18 +175,10 @@ class MapQuestion:
 
     def answered_by(self, run: Callable[[PoseBatches], Columns]) -> MapResult:
         """The result; `run` gives the columns of batches of poses."""
-        return self.answered(run(self.batches))
-
-    def answered(self, columns: Columns, resumed: int = 0) -> MapResult:
-        """The result of columns that were computed; `resumed` chunks came from an earlier, interrupted run."""
-        values = quantity_of(self.quantity).finished(self.robot, self.grid, columns)
-        told = statics_map.map_json(self.robot, self.quantity, self.grid, values) | {"resumed_chunks": resumed}
+        values = quantity_of(self.quantity).finished(self.robot, self.grid, run(self.batches))
+        told = statics_map.map_json(self.robot, self.quantity, self.grid, values) | {"resumed_chunks": 0}
         if self.free is not None:
-            told["free"] = {"angles": names_of(self.free)}
-            angles = "rx_deg, ry_deg and rz_deg of map.csv are the angles found."
-            judged = "Stability is judged there, at locked lengths."
-            said = f"{', '.join(names_of(self.free))} were left free: {angles} {judged}"
-            told["warnings"] = [said, *told["warnings"]]
+            told = told_in_map(told, self.free.tolist(), " Stability is judged there, at locked lengths.")
         answer = with_extensions(told, self.robot, _kin(self.quantity))
         return MapResult(answer, self.robot, self.quantity, self.grid, values)
 
@@ -221,8 +212,6 @@ def map_question(
     name = "nothing" if quantity is None else quantity
     if name.startswith("pose-error"):
         require_locked_lengths(machine, "a pose error is that of locked lengths")
-    if free is not None:
-        require_locked_lengths(machine, "free angles are found for cables of locked lengths")
     if name == WORKSPACE or more[0] is not None:
         return _workspace_question(machine, poses, name, chunk, free, more)
     try:
@@ -238,7 +227,7 @@ def map_question(
         return MapQuestion(machine, poses, name, chunk, None, compute)
     if name.startswith(("mode-", "pose-error")):
         raise InputError("free", "", free, f"{name} is computed at the orientation of the grid; leave it out")
-    return MapQuestion(machine, poses, name, chunk, read_free(free, len(machine.cables))[0], compute)
+    return MapQuestion(machine, poses, name, chunk, read_free(free, machine)[0], compute)
 
 
 def _own(name: str, evaluates: Callable[..., Columns], more: More) -> ManyQuantities | None:
@@ -250,7 +239,7 @@ def _own(name: str, evaluates: Callable[..., Columns], more: More) -> ManyQuanti
         raise InputError("anchor_zone", "", name, "only for cable-distance, body-distance and workspace")
     if wrenches is None and zone == ZONE:
         return None
-    return ManyQuantities((name,), _NO_MORE if wrenches is None else read_wrenches(wrenches), _zone(zone))
+    return ManyQuantities((name,), NO_WRENCH if wrenches is None else read_wrenches(wrenches), _zone(zone))
 
 
 def _workspace_question(
@@ -270,8 +259,8 @@ def _workspace_question(
         require_locked_lengths(robot, "a pose error is that of locked lengths")
     if free is not None and errors:
         raise InputError("free", "", free, "pose errors are computed at the orientation of the grid; leave it out")
-    compute = ManyQuantities(names, _NO_MORE if asked is None else asked, _zone(zone))
-    rx, ry, rz = (False,) * 3 if free is None else read_free(free, len(robot.cables))[0].tolist()
+    compute = ManyQuantities(names, NO_WRENCH if asked is None else asked, _zone(zone))
+    rx, ry, rz = (False,) * 3 if free is None else read_free(free, robot)[0].tolist()
     hanging = None if free is None else (rx, ry, rz)
     return WorkspaceQuestion(robot, grid, required, compute, whole(refine, "refine", 0, 6), chunk, hanging)
 

@@ -13,7 +13,6 @@ from cdpr_struct.errors import CdprError, ConvergenceError, InputError, Unholdab
 from cdpr_struct.interface.arguments import read_lengths, read_pose
 from cdpr_struct.interface.free_angles import FreeAngles, HangingPose, hanging_pose
 from cdpr_struct.interface.given import Numbers, PoseLike
-from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.locked_rest import locked_json, locked_warnings
 from cdpr_struct.reports.platform_freedoms import freedoms_json
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
@@ -101,8 +100,6 @@ def rest(
         if start is not None:
             raise InputError("start", "", start, "it belongs to `lengths`; leave it out")
         where = read_pose(pose, robot)
-        if free is not None:
-            require_locked_lengths(robot, "free angles are found for cables of locked lengths")
         hanging = None if free is None else hanging_pose(robot, where, free)
         where = where if hanging is None else hanging.pose
         cables = held(robot, where).cables if hanging is None else hanging.solution.cables

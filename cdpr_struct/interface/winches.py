@@ -1,7 +1,5 @@
 """Commands that know only winches that hold lengths say so of other robots."""
 
-import numpy as np
-
 from cdpr_struct.errors import InputError
 from cdpr_struct.robot.robot import Robot
 
@@ -15,8 +13,7 @@ def require_locked_lengths(robot: Robot, why: str) -> None:
     ------
     InputError : there is one; the complaint names the field.
     """
-    held = np.flatnonzero([cable.winch_tension > 0.0 for cable in robot.cables])
-    if held.size:
-        first = int(held[0])
-        value = robot.cables[first].winch_tension
-        raise InputError(robot.name, f"cables[{first + 1}].winch_tension", value, f"leave it out: {why}")
+    if robot.tension_winches:
+        first = robot.tension_winches[0]
+        value = robot.cables[first - 1].winch_tension
+        raise InputError(robot.name, f"cables[{first}].winch_tension", value, f"leave it out: {why}")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cdpr_struct.errors import InputError
+from cdpr_struct.interface.free_angles import told_in_map
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.wrenches import Wrenches
 from cdpr_struct.reports import statics_map, workspace_region
@@ -104,10 +105,7 @@ class WorkspaceQuestion:
         told["anchor_zone_m"] = self.compute.zone
         told["resumed_chunks"] = 0
         if self.free is not None:
-            names = [name for name, free in zip(("rx", "ry", "rz"), self.free, strict=True) if free]
-            told["free"] = {"angles": names}
-            said = f"{', '.join(names)} were left free: rx_deg, ry_deg and rz_deg of map.csv are the angles found."
-            told["warnings"] = [said, *told["warnings"]]
+            told = told_in_map(told, self.free)
         answer = with_extensions(told, self.robot, "inverse")
         return WorkspaceResult(answer, self.robot, self.grid, values, self.requirements, fails, region)
 

@@ -259,8 +259,8 @@ def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:
         expected = "a free platform under gravity along -z: guides and other gravity are not among what is diagnosed"
         raise InputError(str(source), "robot", f"{robot.name} with {what}", expected)
     body, cables = robot.platform, robot.cables
-    if any(cable.winch_tension for cable in cables):
-        held = next(i for i, cable in enumerate(cables, start=1) if cable.winch_tension)
+    if robot.tension_winches:
+        held = robot.tension_winches[0]
         expected = "winches that hold lengths: those that hold a tension are not among what is diagnosed"
         what = f"{robot.name} with cables[{held}].winch_tension = {cables[held - 1].winch_tension:g}"
         raise InputError(str(source), "robot", what, expected)

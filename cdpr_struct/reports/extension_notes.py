@@ -67,7 +67,7 @@ def _why_rigid(command: str, model: str) -> str:
         return "the printed limits know nothing of it"
     if command == "verify":
         return "the platform of the FEM is rigid, so this is left out on both sides"
-    return "the referee's platform is rigid; --model exact does" if model == "fem" else ""
+    return "the platform of the FEM is rigid; use --model exact" if model == "fem" else ""
 
 
 def _particulars(command: str, model: str) -> dict[str, str]:

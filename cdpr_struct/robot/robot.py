@@ -113,6 +113,11 @@ class Robot:
         return np.array([cable.force_max for cable in self.cables])
 
     @property
+    def tension_winches(self) -> list[int]:
+        """Numbers from 1 of the cables whose winches hold the tension."""
+        return [number for number, cable in enumerate(self.cables, start=1) if cable.winch_tension]
+
+    @property
     def weight_per_length(self) -> np.ndarray:
         """(m,) mu g [N/m]."""
         return self.linear_density * self.gravity

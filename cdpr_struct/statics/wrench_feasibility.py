@@ -28,11 +28,6 @@ class WrenchFeasibility:
     slack_margin: np.ndarray
     force_margin: np.ndarray
 
-    @property
-    def all_feasible(self) -> np.ndarray:
-        """(n,) bool: every wrench is held."""
-        return np.asarray(self.feasible.all(axis=1))
-
 
 def force_margins(robot: Robot, tension: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(...) least distances of tensions (..., m) from the lower and from the upper limits [N]."""

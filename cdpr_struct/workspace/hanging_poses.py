@@ -31,7 +31,7 @@ class HangingFreely:
         hung = free_orientation(robot, position, began, self.free)
         solution = hung_solution(robot, hung)
         columns = self.compute(robot, position, hung.rotation, solution)
-        stable = stable_where_held(robot, position, hung.rotation, solution)
+        if "stable" not in columns:
+            columns = {**columns, "stable": stable_where_held(robot, position, hung.rotation, solution)}
         degrees = np.where(hung.found[:, None], np.degrees(hung.angles), np.nan)
-        angles = {f"{name}_deg": degrees[:, i] for i, name in enumerate(ANGLES)}
-        return {**columns, "stable": stable, **angles}
+        return {**columns, **{f"{name}_deg": degrees[:, i] for i, name in enumerate(ANGLES)}}

@@ -13,7 +13,7 @@ from cdpr_struct.statics.wrench_feasibility import wrench_feasibility
 from cdpr_struct.workspace.work_list import Columns
 
 ZONE = 0.1  # [m] of cable next to an anchor that is shared or sits on a body: not counted in distances
-_NO_WRENCH = np.zeros((1, 6))
+NO_WRENCH = ((0.0,) * 6,)  # the set of wrenches that adds nothing to the load
 
 
 def margins(
@@ -21,14 +21,14 @@ def margins(
     positions: np.ndarray,
     rotation: np.ndarray,
     found: InverseSolution | None = None,
-    wrenches: np.ndarray = _NO_WRENCH,
+    wrenches: tuple[tuple[float, ...], ...] = NO_WRENCH,
 ) -> Columns:
     """Least distances of the cable forces from their limits [N], at the worst wrench of a set, and wrenches held.
 
-    Least-norm tensions within the robot's limits, computed anew at each wrench (w, 6) that acts beside the load.
+    Least-norm tensions within the limits, computed anew at each of the wrenches, six numbers that act beside the load.
     """
     solution = inverse(robot, positions, rotation, allow_unheld=True) if found is None else found
-    told = wrench_feasibility(robot, positions, rotation, wrenches, solution)
+    told = wrench_feasibility(robot, positions, rotation, np.array(wrenches), solution)
     return {
         "slack_margin_N": told.slack_margin,
         "force_margin_N": told.force_margin,

@@ -8,8 +8,8 @@ import numpy as np
 
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
-from cdpr_struct.workspace.margins import ZONE, distances, margins, sagging, stable_where_held
-from cdpr_struct.workspace.quantities import quantity_of
+from cdpr_struct.workspace.margins import NO_WRENCH, ZONE, distances, margins, sagging, stable_where_held
+from cdpr_struct.workspace.quantities import pose_errors, quantity_of
 from cdpr_struct.workspace.work_list import Columns
 
 FEASIBLE = "wrench-feasible"
@@ -75,7 +75,7 @@ class ManyQuantities:
     """
 
     names: tuple[str, ...]
-    wrenches: tuple[tuple[float, ...], ...] = ((0.0,) * 6,)
+    wrenches: tuple[tuple[float, ...], ...] = NO_WRENCH
     zone: float = ZONE
 
     def __call__(
@@ -84,12 +84,12 @@ class ManyQuantities:
         """Their columns; `held` under the robot's load, `stable` at locked lengths."""
         solution = inverse(robot, positions, rotation, allow_unheld=True) if found is None else found
         more: dict[object, dict[str, Any]] = {
-            margins: {"wrenches": np.array(self.wrenches)},
+            margins: {"wrenches": self.wrenches},
             distances: {"zone": self.zone},
         }
         columns: Columns = {}
         for compute in dict.fromkeys(quantity_of(name).evaluate for name in self.names):
-            takes = compute.__name__ != "pose_errors"
+            takes = compute is not pose_errors
             given = (solution,) if takes else ()
             made = compute(robot, positions, rotation, *given, **more.get(compute, {}))
             good = made.pop("held") & made.pop("stable", True)
