@@ -115,6 +115,7 @@ def written(folder, seed, mass=0.0, hertz=0.0, inertia=1.0, missed=()):
     return load_campaign(folder / "campaign.toml"), np.array(inner)
 
 
+@pytest.mark.slow
 def test_a_light_part_is_told_from_no_line_of_the_mains(tmp_path):
     """6 kg of 118.5 on a spring move no other mode enough: the peaks are spoken of, and nothing is named."""
     campaign, _ = written(tmp_path, seed=3, mass=6.0, hertz=7.8)
@@ -123,6 +124,7 @@ def test_a_light_part_is_told_from_no_line_of_the_mains(tmp_path):
     assert "or a light part of the platform on an elastic mount" in sentence(said)
 
 
+@pytest.mark.slow
 def test_a_heavy_part_is_named_and_its_mode_is_in_the_extended_robot(tmp_path):
     """A quarter of the platform, off its origin and along no axis, which no robot file can say: so it is found too
     light, but its mode changes with the pose as the FEM's does."""
