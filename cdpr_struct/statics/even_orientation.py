@@ -1,9 +1,9 @@
 """At which orientation are the tensions of a platform most even?
 
 Sought is the least spread of the tensions at the platform over the angles that may be chosen: the sum of
-(T_i / mean - 1)^2, with the tensions of least norm that hold the pose. Damped least squares of all poses at once, begun where the platform
-hangs freely; derivatives are differences. Unlike a platform that hangs freely, one at the most even tensions is turned
-there by its cables, so it takes six of them or more.
+(T_i / mean - 1)^2, with the tensions of least norm that hold the pose. Damped least squares of all poses at once, begun
+where the platform hangs freely; derivatives are differences. Unlike a platform that hangs freely, one at the most even
+tensions is turned there by its cables, so it takes six of them or more.
 """
 
 from dataclasses import dataclass
