@@ -16,6 +16,7 @@ from cdpr_struct.fem_reference.arrays import fixed_array
 from cdpr_struct.fem_reference.bent_masts import bend, softened
 from cdpr_struct.fem_reference.cable import CableEquilibrium
 from cdpr_struct.fem_reference.cable_statics import EPS, CableBatch, ChainState, equilibria
+from cdpr_struct.fem_reference.cable_wind import pressure, settled
 from cdpr_struct.fem_reference.errors import (
     FoldedCableError,
     PulleysNotSettledError,
@@ -33,7 +34,6 @@ from cdpr_struct.fem_reference.pulley_statics import (
     wraps_towards,
 )
 from cdpr_struct.fem_reference.rigid_platform import point_motion, rotating_arm_stiffness, turned
-from cdpr_struct.fem_reference.cable_wind import pressure, settled
 from cdpr_struct.fem_reference.robot import DeadLoads, PointForce, RobotData, RobotEquilibrium
 
 MAX_ITERATIONS = 100

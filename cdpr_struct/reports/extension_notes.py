@@ -42,8 +42,8 @@ def _why_idle(name: str, command: str, model: str) -> str:
         return ""
     if name in SENSORS:
         return _READINGS
-    if name == _INTERNAL:
-        return _why_rigid(command, model)
+    if name in _OTHERWISE:
+        return _OTHERWISE[name](command, model)
     if command == "distribute":
         return "forces are distributed with EA as entered" if name == "nonlinearity" else ""
     if name not in _CABLES_ONLY:
@@ -70,10 +70,26 @@ def _why_rigid(command: str, model: str) -> str:
     return "the platform of the FEM is rigid; use --model exact" if model == "fem" else ""
 
 
+def _why_straight(command: str, model: str) -> str:
+    """Why wind does not push cables although they have a drag width."""
+    del command
+    return "straight cables without weight have no drag, either" if model in ("spring", "ideal") else ""
+
+
+_OTHERWISE = {_INTERNAL: _why_rigid, "drag_width": _why_straight}
+
+
 def _particulars(command: str, model: str) -> dict[str, str]:
     """What is to be known about extensions that act."""
     said = {"tilt": "tilt turns the weight of the platform; that of the cables stays vertical."}
-    said["drag_area"] = "Wind acts on the platform only, as a constant force at its origin; cables have no drag."
+    said["drag_area"] = "Wind acts on the platform as a constant force at its origin."
+    said["drag_width"] = "Drag on a cable is that of the wind across its chord, alike on every metre."
+    if command == "forward":
+        said["drag_width"] += " It has no potential, so energies of other equilibria are not compared."
+    if command in ("frf", "transient", "modes", "map", "verify", "audit", "distribute", "spectrogram"):
+        said["drag_width"] += " Stiffness and vibration take it as constant; it damps nothing."
+    if command == "pose-error":
+        said["drag_width"] += " It enters the part of sag: straight cables have none."
     said["moment"] = "moment keeps its axes in the world when the platform turns, so it has no potential."
     if command == "forward":
         said["moment"] += " Energies of other equilibria leave it out."

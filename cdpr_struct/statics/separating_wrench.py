@@ -1,9 +1,9 @@
 """Is it certain that no tensions within the bounds hold a pose? A wrench that separates them from the load proves it.
 
 At a fixed pose the force of cable i on the platform is tau u - V e: the chord tension along the chord, and the share
-V of its load (weight and drag of wind, of size w per length, e against it). Let y be a wrench. If the largest powers of all cables along y, each at its own best chord tension, and
-the load's together stay below zero, nothing balances (Farkas). V is enclosed on intervals of tau, where the unstrained
-length L and g = coth q - 1/q both fall:
+V of its load, which is weight and drag of wind, w per length, against e. Let y be a wrench. If the largest powers of
+all cables along y, each at its own best chord tension, and the load's together stay below zero, nothing balances
+(Farkas). V is enclosed on intervals of tau, where the unstrained length L and g = coth q - 1/q both fall:
 
     V = w (z g(q) + L) / 2,   L^2 = z^2 + (x sinh(q) / q)^2,   q = w chord / (2 tau),   L of an elastic cable up to
     1 + tau / EA shorter.
