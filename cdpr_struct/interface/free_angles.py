@@ -8,7 +8,7 @@ import numpy as np
 
 from cdpr_struct.errors import InputError, UnholdablePoseError
 from cdpr_struct.interface.winches import require_locked_lengths
-from cdpr_struct.robot.pose import Pose
+from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.free_orientation import ANGLES, free_orientation, left_free
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, hung_solution
@@ -49,10 +49,37 @@ def names_of(free: Sequence[bool] | np.ndarray) -> list[str]:
     return [name for name, chosen in zip(ANGLES, free, strict=True) if chosen]
 
 
-def told_in_map(told: Mapping[str, Any], free: Sequence[bool], more: str = "") -> dict[str, Any]:
-    """The result of a map with its free angles, (3,) bool, and a warning that says where those found stand."""
-    said = f"{', '.join(names_of(free))} were left free: rx_deg, ry_deg and rz_deg of map.csv are the angles found."
+def where_judged(quantity: str) -> str:
+    """What a map of a quantity says of its free angles."""
+    if quantity.startswith("pose-error"):
+        return " The references hang on straight, inextensible cables, from which the lengths are computed."
+    return " Stability is judged there, at locked lengths."
+
+
+def told_in_map(
+    told: Mapping[str, Any], free: Sequence[bool], more: str = "", table: str = "map.csv"
+) -> dict[str, Any]:
+    """The result of a map with its free angles, (3,) bool, and a warning that says in which table those found stand."""
+    said = f"{', '.join(names_of(free))} were left free: rx_deg, ry_deg and rz_deg of {table} are the angles found."
     return {**told, "free": {"angles": names_of(free)}, "warnings": [said + more, *told["warnings"]]}
+
+
+def told_on_way(told: Mapping[str, Any], free: Sequence[bool], rotation: np.ndarray, left_out: float) -> dict[str, Any]:
+    """The result along a trajectory with its free angles, (3,) bool, and a warning that says how far they reach.
+
+    rotation : (k, 3, 3) found along it;  left_out : largest moment of the inertia of turning [N m]
+    """
+    names = names_of(free)
+    degrees = np.degrees(np.unwrap(angles_from_rotation(rotation), axis=0)) + 0.0
+    reach = {name: [float(a.min()), float(a.max())] for name, a in zip(ANGLES, degrees.T, strict=True) if name in names}
+    ranges = ", ".join(f"{name} from {low:.3g} to {high:.3g}°" for name, (low, high) in reach.items())
+    said = f"{', '.join(names)} were left free: the platform hangs along the apparent gravity, {ranges}."
+    said += f" The inertia of its turning, at most {left_out:.2g} N m, is left out."
+    return {
+        **told,
+        "free": {"angles": names, "range_deg": reach, "left_out_Nm": left_out},
+        "warnings": [said, *told["warnings"]],
+    }
 
 
 def read_free(given: FreeAngles, robot: Robot) -> tuple[np.ndarray, tuple[str, ...]]:
