@@ -143,6 +143,14 @@ def test_tensions_in_time_balance_what_acts():
     np.testing.assert_allclose(middle, held, rtol=1e-5)
 
 
+def test_maps_of_frequencies_are_those_of_modes():
+    """The fast path of maps knows no cables that lean, and leaves them to the exact model."""
+    robot = blown("thesis-3-1")
+    row = cs.map(robot, "0,0:1:2,0.5", quantity="frequencies").frame().iloc[1]
+    hertz = cs.modes(robot, [0.0, 1.0, 0.5], count=12).answer["frequencies_hz"]
+    np.testing.assert_allclose([row[f"f{i}_Hz"] for i in range(1, 13)], hertz, rtol=1e-7)
+
+
 def test_the_live_view_shows_cables_in_wind():
     robot = blown("thesis-3-1")
     state = view_state(robot, Controls((), 0.0).at(Pose(off_home(robot), np.zeros(3))))
