@@ -63,7 +63,7 @@ def equilibria_text(result: dict[str, Any]) -> str:
             str(i),
             *(f"{v:.4f}" for v in rounded(each["pose"][:3], 4)),
             *(f"{v:.2f}" for v in rounded(each["pose"][3:], 2)),
-            f"{each['energy_J']:.4g}",
+            f"{each['energy_J']:.4g}" if np.isfinite(each["energy_J"]) else "-",
             f"{each['least_stiffness_N_m']:.4g}",
             str(each["slack_cables"]),
         ]
@@ -104,6 +104,8 @@ def _others(found: LockedRest) -> str:
     if not count:
         return f"No other stable pose was found at these lengths by {found.others.starts} descents."
     poses = "1 other stable pose exists" if count == 1 else f"{count} other stable poses exist"
+    if not np.isfinite(found.others.energy).all():
+        return f"{poses} at these lengths. Energies are not compared: drag on cables has no potential."
     return f"{poses} at these lengths; the lowest has {found.others.energy[0]:+.3g} J, {_where(found.others, 0)}."
 
 
