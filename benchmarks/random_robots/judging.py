@@ -12,7 +12,7 @@ from benchmarks.random_robots.refusals import holdable
 
 BALANCED = 1e-9  # of load and tensions
 _FITS = 1e-9  # of the chord: by how much the cables' own shape may miss their ends
-_SAME_FORCE = 1e-6  # of the largest
+_SAME_FORCE = 1e-7  # of load and tensions
 _SAME_POSE = 1e-5  # of the size of the platform
 _SAME_FREQUENCY = 1e-6
 _SHARP = 1e-8  # of the largest stiffness: what counts as zero
@@ -29,11 +29,10 @@ def not_numbers(answer: Mapping[str, Any], name: str = "") -> Iterator[str]:
 
 def rest_faults(own: OwnRest, forces: np.ndarray, answer: Mapping[str, Any]) -> Iterator[str]:
     """What is wrong with a rest that is answered: forces (m, 3) that the program prints [N]."""
-    size = float(np.linalg.norm(own.forces, axis=1).max())
     if own.misfit > _FITS:
         yield f"lengths: the cables' ends are missed by {own.misfit:.1e} of the chord"
-    elif np.abs(forces - own.forces).max() > _SAME_FORCE * size:
-        yield f"forces: off by {np.abs(forces - own.forces).max() / size:.1e}"
+    elif np.abs(forces - own.forces).max() > _SAME_FORCE * own.scale:
+        yield f"forces: off by {np.abs(forces - own.forces).max() / own.scale:.1e}"
     if own.unbalanced > BALANCED:
         yield f"balance: {own.unbalanced:.1e} is left"
     verdict, neutral = own.verdict(_SHARP), len(answer["neutral_freedoms"])

@@ -17,6 +17,7 @@ from cdpr_struct import Pose, Robot
 
 _STEP = 1e-30  # of the largest force, into the complex plane
 _ITERATIONS = 30
+_ROUNDED = 1e-5  # of EA: a share of the scale of forces, for lengths are rounded
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,7 +26,7 @@ class OwnRest:
 
     forces    : (m, 3) of the cables on the platform [N]
     stiffness : (m, 3, 3) of each cable's platform end [N/m]
-    misfit    : of the cables' ends, over their chords;  unbalanced : over load and tensions
+    misfit    : of the cables' ends, over their chords;  unbalanced : over `scale`, the load, the tensions and a little of EA [N]
     tangent, mass : (f, f) stiffness and mass of the free motions, rotations as arcs [N/m, kg]
     turning   : (3, 3) stiffness of turns by the weight alone where all cables meet in a point, else None [N m]
     """
@@ -33,6 +34,7 @@ class OwnRest:
     forces: np.ndarray
     misfit: float
     unbalanced: float
+    scale: float
     tangent: np.ndarray
     mass: np.ndarray
     turning: np.ndarray | None
@@ -75,14 +77,15 @@ def own_rest(robot: Robot, pose: Pose | tuple[np.ndarray, np.ndarray], lengths: 
     radius = max(float(np.sqrt((arms**2).sum(axis=1).mean())), _gyration(robot))
     wrench = np.concatenate([weight - pull.sum(axis=0), np.cross(center, weight) - np.cross(arms, pull).sum(axis=0)])
     motions = _free_motions(robot, turn @ middle, radius)
-    scale = float(np.linalg.norm(weight) + np.linalg.norm(pull, axis=1).sum())
+    scale = float(np.linalg.norm(weight) + np.linalg.norm(pull, axis=1).sum() + _ROUNDED * robot.axial_stiffness.sum())
     left = motions.T @ wrench
     tangent, turning = _tangent(arms, -pull, stiffness, center, weight)
     together = float(np.abs(arms).max()) <= 1e-12 * radius
     return OwnRest(
         -pull,
         misfit,
-        float(np.linalg.norm(left)) / max(scale, 1e-300),
+        float(np.linalg.norm(left)) / scale,
+        scale,
         motions.T @ tangent @ motions,
         motions.T @ _mass(robot, turn, center) @ motions,
         turning if together else None,

@@ -6,7 +6,6 @@ from typing import Protocol, Self
 import numpy as np
 
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.statics.equilibrium import rotation_from_vector
 
 _SHORTEST_LIMIT, _LIMIT = 0.6, 0.06  # a step is at most 0.6 m or .06 of the reach, rotations as arcs
 LARGEST_TURN = 0.5  # [rad]
@@ -29,6 +28,10 @@ class Balance(Protocol):
     def take(self, index: np.ndarray) -> Self: ...
 
     def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation: ...
+
+    def moved(
+        self, position: np.ndarray, rotation: np.ndarray, motion: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]: ...
 
 
 def longest_step(reach: float) -> float:
@@ -116,8 +119,7 @@ class EnergyDescent:
         return tangent / self.unit / self.unit[:, None]
 
     def _moved(self, items: np.ndarray, step: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        turn = rotation_from_vector(step[:, 3:] / self.unit[-1])
-        return self.position[items] + step[:, :3], turn @ self.rotation[items]
+        return self.balance.take(items).moved(self.position[items], self.rotation[items], step / self.unit)
 
 
 def newton_step(tangent: np.ndarray, wrench: np.ndarray, scale: float, longest: float) -> np.ndarray:

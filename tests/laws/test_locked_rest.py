@@ -141,6 +141,40 @@ def test_wrench_is_the_slope_of_the_energy(case, model):
     assert (energy[1] - energy[0]) / (2.0 * step) == pytest.approx(wrench, rel=1e-6, abs=1e-6 * np.abs(wrench).max())
 
 
+def test_tangent_is_the_curvature_of_the_energy_along_the_ways_of_the_descent():
+    robot = replace(load_robot("cogiro"), platform_anchors=load_robot("cogiro").platform_anchors + [0.3, -0.2, 0.4])
+    arrays, chosen = RobotArrays.of(robot), cable_model("sagging")
+    length = inverse(load_robot("cogiro"), robot.home.position, robot.home.rotation).lengths
+    place, turn, step = robot.home.position + np.array([0.03, -0.02, 0.01]), rotation_from_vector(np.full(3, 0.1)), 1e-3
+
+    def energy(motion):
+        balance = LockedBalance(arrays, length[None], np.zeros((1, 6)), chosen)
+        there = balance.moved(place[None], turn[None], motion[None])
+        return potential_energy(arrays, *there, balance.states(*there), np.zeros(6))[0]
+
+    found = LockedBalance(arrays, length[None], np.zeros((1, 6)), chosen).evaluate(place[None], turn[None])
+    assert np.linalg.norm(found.wrench[0, :3]) > 1e3  # far from balance: the ways' own curvature counts
+    for motion in np.random.default_rng(1).normal(size=(8, 6)):
+        change = energy(step * motion) - 2.0 * energy(np.zeros(6)) + energy(-step * motion)
+        # differences of fourth order; without the curvature of the ways 6e-2 of it is missing
+        assert change / step**2 == pytest.approx(motion @ found.tangent[0] @ motion, rel=1e-3)
+
+
+def test_a_platform_whose_cables_meet_in_a_point_turns_about_it_all_the_way():
+    robot = load_robot("cogiro")
+    point, hangs = np.array([0.1, 0.05, 0.3]), robot.home.position + [0.0, 0.0, 1.0]
+    cables = tuple(replace(cable, axial_stiffness=1e8) for cable in robot.cables)
+    robot = replace(robot, platform_anchors=np.tile(point, (8, 1)), cables=cables)
+    length = np.linalg.norm(robot.frame_anchors - hangs, axis=1)
+    upset = rotation_from_vector(np.array([[0.0, 3.0, 0.0], [2.0, 0.0, 0.0], [0.5, -1.0, 1.0]]))
+    found = forward(robot, length, hangs - upset @ point, upset)
+    assert found.converged.all()
+    down = found.rotation @ (robot.platform.center_of_mass - point)
+    np.testing.assert_allclose(down[:, :2], 0.0, atol=1e-6)  # the centre of mass hangs below the point
+    assert (down[:, 2] < 0.0).all()
+    assert found.iterations.max() < 60  # about the origin, 200 are not enough
+
+
 def test_equilibria_are_balanced_distinct_and_stable():
     robot = load_robot("cogiro")
     found = locked_rest(robot, inverse(robot, robot.home.position, robot.home.rotation).lengths)
