@@ -54,10 +54,11 @@ def drawn(seed: int) -> Case:
 
 def _pose(rng: np.random.Generator, kind: str, anchors: _Anchors) -> Pose:
     share = rng.uniform(-1.0, 1.0, 3)
+    level = _LEVEL
     if kind == "symmetric":  # on the axis, in a plane of symmetry, or anywhere
-        share[: int(rng.integers(3))] = 0.0
-        share[:2] = share[0] if rng.random() < 0.2 else share[:2]
-    angles = np.zeros(3) if rng.random() < _LEVEL else np.radians(rng.uniform(-15.0, 15.0, 3))
+        share[: int(rng.choice([2, 1, 0], p=[0.5, 0.3, 0.2]))] = 0.0
+        level = 0.8
+    angles = np.zeros(3) if rng.random() < level else np.radians(rng.uniform(-15.0, 15.0, 3))
     if anchors.guided:
         angles *= [0.0, 1.0, 0.0]
     return Pose(anchors.middle + share * anchors.half, angles)

@@ -13,6 +13,7 @@ from cdpr_struct.statics.equilibrium import (
     PlatformArms,
     cable_wrench,
     load_wrench,
+    moment_skew,
     rotation_from_vector,
     tangent_stiffness,
 )
@@ -41,8 +42,10 @@ class LockedBalance:
     def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation:
         """Wrench, tangent and tolerated residual at positions (n, 3) and rotations (n, 3, 3).
 
-        The tangent is the second derivative of the energy along the ways of `moved`. Of a guided platform wrench and
-        tangent are those of its free directions, and a stiffness that is coupled with nothing in the others.
+        The tangent is the second derivative of the energy along the ways of `moved`, and of an applied moment, which
+        has no energy, the part that is not symmetric: at rest it is the whole derivative of the wrench. Of a guided
+        platform wrench and tangent are those of its free directions, and a stiffness that is coupled with nothing in
+        the others.
         """
         arms = PlatformArms.at(self.arrays, position, rotation)
         states = self.model.states(self.arrays, arms.points, self.length)
@@ -50,6 +53,7 @@ class LockedBalance:
         rounding = 8.0 * np.finfo(float).eps * states.axial_stiffness.sum(axis=-1)
         size = self.arrays.mass * self.arrays.gravity + states.tension_at_platform.sum(axis=-1)
         tangent = tangent_stiffness(self.arrays, states, arms)
+        tangent[..., 3:, 3:] += moment_skew(-self.arrays.moment - self.wrench[..., 3:])
         if self.arrays.has_guides:
             wrench, tangent = free_part(wrench, self.arrays), behind_guides(tangent, self.arrays, _held(states))
         else:

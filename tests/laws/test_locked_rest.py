@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from cdpr_struct.errors import ConvergenceError
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
@@ -158,6 +159,31 @@ def test_tangent_is_the_curvature_of_the_energy_along_the_ways_of_the_descent():
         change = energy(step * motion) - 2.0 * energy(np.zeros(6)) + energy(-step * motion)
         # differences of fourth order; without the curvature of the ways 6e-2 of it is missing
         assert change / step**2 == pytest.approx(motion @ found.tangent[0] @ motion, rel=1e-3)
+
+
+def test_under_a_moment_the_tangent_at_rest_is_the_derivative_of_the_wrench():
+    robot = load_robot("six-cable-4mm")
+    load = np.array([0.0, 0.0, 0.0, 9.0, 6.0, -8.0])
+    length = inverse(robot, robot.home.position, robot.home.rotation).lengths
+    rest = locked_rest(robot, length, external_wrench=load).solution
+    balance = LockedBalance(RobotArrays.of(robot), np.tile(length, (12, 1)), np.tile(load, (12, 1)), SAGGING)
+    step, own = 1e-6, (np.tile(rest.position, (12, 1)), np.tile(rest.rotation, (12, 1, 1)))
+    found = balance.evaluate(*balance.moved(*own, step * np.concatenate([np.eye(6), -np.eye(6)])))
+    rates = -(found.wrench[:6] - found.wrench[6:]).T / (2.0 * step)
+    tangent = balance.evaluate(*own).tangent[0]
+    np.testing.assert_allclose(tangent, rates, atol=1e-6 * np.abs(rates).max())
+    assert np.abs(tangent - tangent.T).max() > 8.9  # the moment itself, half on both sides: it has no energy
+
+
+def test_the_largest_moment_that_is_held_is_told():
+    robot = load_robot("six-cable-4mm")
+    length = inverse(robot, robot.home.position, robot.home.rotation).lengths
+    found = locked_rest(robot, length, external_wrench=[0.0, 0.0, 0.0, 18.0, 0.0, 0.0])
+    assert bool(found.solution.stable)
+    assert found.jumps == 0  # rates of motion without the moment's own part find 512
+    # a branch that was followed by its arc length turns back at 18.66 N m
+    with pytest.raises(ConvergenceError, match=r"under a moment of 30 N m.* beyond 18\.6\d* N m"):
+        locked_rest(robot, length, external_wrench=[0.0, 0.0, 0.0, 30.0, 0.0, 0.0])
 
 
 def test_a_platform_whose_cables_meet_in_a_point_turns_about_it_all_the_way():
