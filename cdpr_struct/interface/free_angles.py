@@ -76,7 +76,8 @@ def read_free(given: FreeAngles, robot: Robot, angles: np.ndarray) -> tuple[np.n
         raise InputError("free", "", given if isinstance(given, str) else names, _EXPECTED)
     asked = np.array([name in names for name in ANGLES])
     if held := [name for name in names if name in robot.guided]:
-        raise InputError("free", "", given, f"leave out {', '.join(held)}: a guide of {robot.name} holds it")
+        what = "it" if len(held) == 1 else "them"
+        raise InputError("free", "", given, f"leave out {', '.join(held)}: a guide of {robot.name} holds {what}")
     guided = np.array([name in robot.guided for name in FREEDOMS])
     try:
         free = left_free(asked, len(robot.cables), guided)
