@@ -36,7 +36,7 @@ def rest_faults(own: OwnRest, forces: np.ndarray, answer: Mapping[str, Any]) -> 
     if own.unbalanced > BALANCED:
         yield f"balance: {own.unbalanced:.1e} is left"
     verdict, neutral = own.verdict(_SHARP), len(answer["neutral_freedoms"])
-    if answer["stable"] and verdict == "unstable" or not answer["stable"] and verdict == "stable":
+    if (answer["stable"] and verdict == "unstable") or (not answer["stable"] and verdict == "stable"):
         yield f"stability: {verdict} (least eigenvalue {own.eigenvalues[0]:.1e}), told stable = {answer['stable']}"
     if answer["stable"] and neutral and verdict == "stable":
         yield f"neutral: {neutral} told, the least eigenvalue is {own.eigenvalues[0]:.1e}"
@@ -89,23 +89,21 @@ def static_faults(hertz: np.ndarray, own: OwnRest) -> Iterator[str]:
 
 def refusal_faults(case: Case, step: str, error: Exception, own: OwnRest | None) -> Iterator[str]:
     """What is wrong with a refusal; `own` rest, where the pose is held."""
-    said = str(error)
+    said = f"{error!s:.160}"
     if not isinstance(error, cs.CdprError):
-        yield f"exception: {type(error).__name__}: {said:.120}"
-    elif isinstance(error, cs.InputError):
-        yield f"input refused: {said:.120}"
-    elif "cannot be computed" in said:
-        yield f"computation: {said:.120}"
-    elif isinstance(error, cs.ConvergenceError):
-        yield f"not converged: {said:.120}"
-    elif isinstance(error, cs.UnholdablePoseError):
-        if case.free is None and holdable(case.robot, case.pose) == "yes":
-            yield f"refused though taut cables hold it: {said:.120}"
-    elif own is not None and isinstance(error, cs.UnstableEquilibriumError):
-        if own.verdict(_SHARP) == "stable":
-            yield f"refused as unstable, least eigenvalue {own.eigenvalues[0]:.1e}"
-    elif own is not None and "slack cable has no shape" in said:
-        if np.linalg.norm(own.forces, axis=1).min() > 0.0:
-            yield f"refused though no cable is slack: {said:.120}"
-    else:
-        yield f"{step} refused: {said:.160}"
+        yield f"exception: {type(error).__name__}: {said}"
+    elif isinstance(error, cs.InputError | cs.ConvergenceError) or "cannot be computed" in said:
+        yield f"{type(error).__name__}: {said}"
+    elif own is None:
+        if not isinstance(error, cs.UnholdablePoseError):
+            yield f"{step} refused: {said}"
+        elif case.free is None and holdable(case.robot, case.pose) == "yes":
+            yield f"refused though taut cables hold it: {said}"
+    elif not _true_of_rest(error, said, own):
+        yield f"{step} refused (least eigenvalue {own.eigenvalues[0]:.1e}): {said}"
+
+
+def _true_of_rest(error: Exception, said: str, own: OwnRest) -> bool:
+    if isinstance(error, cs.UnstableEquilibriumError):
+        return own.verdict(_SHARP) != "stable"
+    return "slack cable has no shape" in said and bool(np.linalg.norm(own.forces, axis=1).min() == 0.0)

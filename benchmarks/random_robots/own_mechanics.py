@@ -5,8 +5,8 @@ An elastic catenary of unstrained length L, pulled at its platform end by F = (h
     horizontal: F_h (L / EA + ln[(V + T) / (V_0 + T_0)] / w),   up: (V + V_0) L (1 / (2 EA) + 1 / (T + T_0)),
 
 V_0 = V - w L and T_0 at the frame end. Its compliance is the derivative by F, by steps into the complex plane. Without
-weight a cable is a spring that cannot push. Moments and turns are about the middle of the cables' platform ends, so that
-cables that meet in a point have no arms.
+weight a cable is a spring that cannot push. Moments and turns are about the middle of the cables' platform ends, so
+that cables that meet in a point have no arms.
 """
 
 from dataclasses import dataclass
@@ -26,7 +26,8 @@ class OwnRest:
 
     forces    : (m, 3) of the cables on the platform [N]
     stiffness : (m, 3, 3) of each cable's platform end [N/m]
-    misfit    : of the cables' ends, over their chords;  unbalanced : over `scale`, the load, the tensions and a little of EA [N]
+    misfit    : of the cables' ends, over their chords
+    unbalanced : over `scale`, the load, the tensions and a little of EA [N]
     tangent, mass : (f, f) stiffness and mass of the free motions, rotations as arcs [N/m, kg]
     turning   : (3, 3) stiffness of turns by the weight alone where all cables meet in a point, else None [N m]
     """
@@ -63,7 +64,9 @@ class OwnRest:
         return np.asarray(np.sign(squared) * np.sqrt(np.abs(squared)) / (2.0 * np.pi))
 
 
-def own_rest(robot: Robot, pose: Pose | tuple[np.ndarray, np.ndarray], lengths: np.ndarray, guess: np.ndarray) -> OwnRest:
+def own_rest(
+    robot: Robot, pose: Pose | tuple[np.ndarray, np.ndarray], lengths: np.ndarray, guess: np.ndarray
+) -> OwnRest:
     """The rest at a pose, or at position and rotation, on cables of unstrained `lengths` (m,) [m].
 
     guess : (m, 3) forces of the cables on the platform from which their own are sought [N]
@@ -186,7 +189,7 @@ def _gyration(robot: Robot) -> float:
 
 
 def _free_motions(robot: Robot, middle: np.ndarray, radius: float) -> np.ndarray:
-    """(6, f) motions of the point `middle` (3,) from the origin and turns of one metre at `radius` that no guide holds."""
+    """(6, f) motions of the point `middle` (3,) and turns of one metre at `radius` that no guide holds."""
     names = ("x", "y", "z", "rx", "ry", "rz")
     motions = np.diag(np.repeat([1.0, 1.0 / radius], 3))
     if robot.guided:

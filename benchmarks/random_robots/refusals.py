@@ -1,4 +1,4 @@
-"""Is a refusal true? Cables cannot hold a pose if a linear program shows it; they can if taut ones do with room to spare.
+"""Is a refusal true? Cables cannot hold a pose if a linear program shows it; they can if taut ones do with room left.
 
 The force of a cable on the platform is a u - q e_z, u along the chord to the frame, q from 0 to the cable's own weight.
 What no a and q balance is proven to be out of reach, for cables up to 3.3 chords long and strains up to 5 %, within

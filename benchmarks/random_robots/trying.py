@@ -55,12 +55,12 @@ def _judge(case: Case, told: dict[str, Any], faults: list[str]) -> None:
     told |= {"stable": held.answer["stable"], "balance": own.unbalanced}
     faults += [f"inverse: {fault}" for fault in rest_faults(own, forces, held.answer)]
     _judge_way_back(case, held, own, told, faults)
-    found = _asked("modes", case, told, faults, own, case.robot, case.pose, free=case.free, count=_COUNT)
+    found = _asked("modes", case, told, faults, own, case.robot, held.pose, free=case.free, count=_COUNT)
     if found is not None:
         faults += [f"modes: {fault}" for fault in mode_faults(found.modes.hertz, found.answer, own)]
         count = 6 - len(case.robot.guided)
         rigid = _asked(
-            "static", case, told, faults, own, case.robot, case.pose, free=case.free, model="static", count=count
+            "static", case, told, faults, own, case.robot, held.pose, free=case.free, model="static", count=count
         )
         if rigid is not None:
             faults += [f"static: {fault}" for fault in static_faults(rigid.modes.hertz, own)]

@@ -11,7 +11,6 @@ from cdpr_struct.statics.locked_rest import UPSET, LockedRest
 from cdpr_struct.statics.slack_cables import hangs_slack
 
 
-
 def locked_json(found: LockedRest) -> dict[str, Any]:
     """The result's `locked`: start, way, other stable poses, and sentences for screen and page."""
     return {

@@ -1,12 +1,12 @@
 """Following the platform from lengths and loads at which its pose is known to others.
 
-Lengths and wrench change in a straight line from the known ones to the asked ones, in steps that adapt, and each equilibrium
-is the next one's start. A step counts if the platform moved as its rates of motion at both ends say; else it is tried
-in halves. Where even the smallest step fails, the equilibrium has ended (the platform rolls over, say), and the jump is
-counted; where no other one is found there, the way ends.
+Lengths and wrench change in a straight line from the known ones to the asked ones, in steps that adapt, and each
+equilibrium is the next one's start. A step counts if the platform moved as its rates of motion at both ends say; else
+it is tried in halves. Where even the smallest step fails, the equilibrium has ended (the platform rolls over, say), and
+the jump is counted; where no other one is found there, the way ends.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial.transform import Rotation

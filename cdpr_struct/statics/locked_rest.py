@@ -139,7 +139,7 @@ def _with_moment_raised(
             float(np.linalg.norm(solution.residual_wrench)),
             int(solution.iterations),
             "Raised from nothing at these lengths, the moment turns the platform out of its stable equilibrium beyond "
-            f"{float(led.followed[0] * np.linalg.norm(moment)):.4g} N m. Lower the moment, or give --start near a rest.",
+            f"{led.followed[0] * np.linalg.norm(moment):.4g} N m. Lower the moment, or give --start near a rest.",
         )
     if before is not None:
         led = replace(led, steps=led.steps + before.steps, jumps=led.jumps + before.jumps)

@@ -1,4 +1,4 @@
-"""The study of random robots: its judges see what is wrong, it continues where it was stopped, and few seeds stand up."""
+"""The study of random robots: its judges see what is wrong, a stopped run continues, and answers stand up."""
 
 import json
 from dataclasses import replace
@@ -55,7 +55,7 @@ def test_compliance_is_the_derivative_of_the_shape():
     for axis in range(3):
         change = step * np.eye(3)[axis]
         more, less = (end_offset(force + sign * change, length, stiff, weight) for sign in (1.0, -1.0))
-        # differences of second order, steps of 1e-4 N where forces are ten or more; the vertical cable has none to its side
+        # differences of second order, steps of 1e-4 N where forces are ten or more
         np.testing.assert_allclose(found[:3, :, axis], ((more - less) / (2.0 * step))[:3], atol=1e-7)
 
 

@@ -143,7 +143,9 @@ def test_wrench_is_the_slope_of_the_energy(case, model):
 
 
 def test_tangent_is_the_curvature_of_the_energy_along_the_ways_of_the_descent():
-    robot = replace(load_robot("cogiro"), platform_anchors=load_robot("cogiro").platform_anchors + [0.3, -0.2, 0.4])
+    robot = replace(
+        load_robot("cogiro"), platform_anchors=load_robot("cogiro").platform_anchors + np.array([0.3, -0.2, 0.4])
+    )
     arrays, chosen = RobotArrays.of(robot), cable_model("sagging")
     length = inverse(load_robot("cogiro"), robot.home.position, robot.home.rotation).lengths
     place, turn, step = robot.home.position + np.array([0.03, -0.02, 0.01]), rotation_from_vector(np.full(3, 0.1)), 1e-3
@@ -188,7 +190,7 @@ def test_the_largest_moment_that_is_held_is_told():
 
 def test_a_platform_whose_cables_meet_in_a_point_turns_about_it_all_the_way():
     robot = load_robot("cogiro")
-    point, hangs = np.array([0.1, 0.05, 0.3]), robot.home.position + [0.0, 0.0, 1.0]
+    point, hangs = np.array([0.1, 0.05, 0.3]), robot.home.position + np.array([0.0, 0.0, 1.0])
     cables = tuple(replace(cable, axial_stiffness=1e8) for cable in robot.cables)
     robot = replace(robot, platform_anchors=np.tile(point, (8, 1)), cables=cables)
     length = np.linalg.norm(robot.frame_anchors - hangs, axis=1)
