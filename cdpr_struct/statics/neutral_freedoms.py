@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.equilibrium import platform_radius
 from cdpr_struct.statics.guides import free_axes
 
 NEUTRAL = 1e-9  # of the largest eigenvalue, or of the weight's own stiffness, below which an eigenvalue counts as zero
@@ -56,7 +57,7 @@ def stability(arrays: RobotArrays, rotation: np.ndarray, stiffness: np.ndarray, 
     stiffness : (..., 6, 6) symmetric, at locked lengths, world axes, rotations about the platform origin
     weightless : of an assembly that leaves out the work of the weight
     """
-    lead, scale = stiffness.shape[:-2], _scales(arrays)
+    lead, scale = stiffness.shape[:-2], platform_radius(arrays)
     unit = np.where(np.arange(6) < 3, 1.0, scale)
     scaled = (0.5 * (stiffness + np.swapaxes(stiffness, -1, -2)) / unit / unit[:, None]).reshape(-1, 6, 6)
     free = free_axes(arrays)
@@ -69,14 +70,6 @@ def stability(arrays: RobotArrays, rotation: np.ndarray, stiffness: np.ndarray, 
     for i in np.flatnonzero(values[:, 0] <= NEUTRAL * largest).tolist():
         unstable[i], *found[i] = _examined(scaled[i], free, arms[i] / scale, float(largest[i]), float(own[i]))
     return _gathered(found, unstable, largest, unit, lead)
-
-
-def _scales(arrays: RobotArrays) -> float:
-    """r [m], one number for all of a batch."""
-    anchors = np.sqrt((arrays.platform_anchors**2).sum(axis=-1).mean())
-    gyration = np.sqrt((np.trace(arrays.inertia, axis1=-2, axis2=-1) / arrays.mass).max() / 2.0)
-    center = np.linalg.norm(arrays.center_of_mass, axis=-1).max()
-    return float(max(anchors, gyration, center, 1e-3))
 
 
 def _own_scale(arrays: RobotArrays, radius: float) -> np.ndarray:
