@@ -71,7 +71,7 @@ def free_orientation(
     ----------
     position, angles : (k, 3) [m]; (3,) or (k, 3) rx, ry, rz [rad], where the search begins and the angles that are kept
     free : (3,) bool, which of rx, ry, rz are free
-    external_wrench : (6,) on the platform about its origin beside its weight, world axes [N, N m]
+    external_wrench : (6,) or (k, 6) on the platform about its origin beside its weight, world axes [N, N m]
     """
     place = np.asarray(position, dtype=float)
     arrays, k = RobotArrays.of(robot).flattened((len(place),)), len(place)
@@ -102,13 +102,13 @@ def left_free(free: npt.ArrayLike, cables: int, guided: npt.ArrayLike = (0,) * 6
 
 
 def turn_with_guide(free: np.ndarray, angles: np.ndarray, guided: npt.ArrayLike) -> bool:
-    """Whether a guide, (6,) bool, allows changes of the free angles, (3,) bool, at rx, ry, rz (3,) [rad]: any if it
+    """Whether a guide, (6,) bool, allows changes of the free angles, (3,) bool, at rx, ry, rz (..., 3) [rad]: any if it
     leaves the rotations alone, else one about the only world axis that is left."""
     held = np.asarray(guided, dtype=bool)[3:]
     if not held.any():
         return True
     allowed = held.sum() == 2 and not (held & free).any()
-    return bool(allowed and np.abs(turning_axes(angles)[free] @ np.eye(3)[:, held]).max() <= _ALIGNED)
+    return bool(allowed and np.abs(turning_axes(angles)[..., free, :] @ np.eye(3)[:, held]).max() <= _ALIGNED)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
