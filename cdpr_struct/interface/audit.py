@@ -213,6 +213,6 @@ def _of_many(
     given = "helix" if trajectory is None else trajectory
     own = isinstance(given, str) and (given == "helix" or given.startswith("line:"))
     path, notes = read_trajectory(given, _INSTANTS if own else None)
-    hung = None if free is None else read_free(free, machine, angles_from_rotation(path.rotation[0]))[0]
+    hung = None if free is None else read_free(free, machine, angles_from_rotation(path.rotation))[0]
     batches = audit_batches(machine, path.position, path.rotation, None if hung is None else hung.tolist())
     return AuditQuestion(machine, batches, None, path.time, notes, hung)

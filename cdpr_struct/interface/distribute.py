@@ -16,7 +16,7 @@ from cdpr_struct.dynamics.trajectory_distribution import (
 )
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
-from cdpr_struct.interface.arguments import one_of, read_numbers, read_pose, read_robot, real
+from cdpr_struct.interface.arguments import one_of, read_numbers, read_robot, real
 from cdpr_struct.interface.free_angles import FreeAngles, read_free, told_on_way
 from cdpr_struct.interface.given import Numbers, Progress, RobotLike, TrajectoryLike
 from cdpr_struct.interface.inverse import MODELS
@@ -209,7 +209,9 @@ def distribute_question(
     if free is not None:
         if len(machine.cables) < 6:
             raise InputError("free", "", free, "forces are distributed among six cables or more; leave it out")
-        hung = read_free(free, machine, read_pose(None, machine).angles)[0]
+        if {"rx", "ry", "rz"} & set(machine.guided):
+            raise InputError("free", "", free, "leave it out: a guide holds rotations along the trajectory")
+        hung = read_free(free, machine, np.zeros(3))[0]
     return DistributeQuestion(
         machine, tuple(rules), b, price, longest, chosen, max_speed, max_acceleration, instants, hung
     )

@@ -102,7 +102,7 @@ def told_on_way(told: Mapping[str, Any], free: Sequence[bool], rotation: np.ndar
 def read_free(given: FreeAngles, robot: Robot, angles: np.ndarray) -> tuple[np.ndarray, tuple[str, ...]]:
     """(3,) bool: which of rx, ry, rz are free on the cables of a robot, and the names of those not asked for.
 
-    angles : (3,) rx, ry, rz where the search begins [rad]
+    angles : (..., 3) rx, ry, rz where the search begins [rad]
 
     Raises
     ------

@@ -19,7 +19,7 @@ def what_helps(result: Mapping[str, Any], quantities: Sequence[str]) -> str:
     if result["held"] == result["poses"] or "free" in result:
         return ""
     lock = "lock --lengths instead (forward, modes)." if cables + len(guided) < 6 and not result["held"] else ""
-    oriented = any(name.startswith(("pose-error", "mode-")) for name in quantities)
+    oriented = any(name.startswith("mode-") for name in quantities)
     if guided or oriented or not _PLACED <= cables < _ENOUGH:
         many = f"{cables} cable" + ("s" if cables > 1 else "")
         return f" With {many} hardly any given pose is in balance; {lock}" if lock else ""

@@ -102,13 +102,13 @@ def left_free(free: npt.ArrayLike, cables: int, guided: npt.ArrayLike = (0,) * 6
 
 
 def turn_with_guide(free: np.ndarray, angles: np.ndarray, guided: npt.ArrayLike) -> bool:
-    """Whether a guide, (6,) bool, allows changes of the free angles, (3,) bool, at rx, ry, rz (3,) [rad]: any if it
+    """Whether a guide, (6,) bool, allows changes of the free angles, (3,) bool, at rx, ry, rz (..., 3) [rad]: any if it
     leaves the rotations alone, else one about the only world axis that is left."""
     held = np.asarray(guided, dtype=bool)[3:]
     if not held.any():
         return True
     allowed = held.sum() == 2 and not (held & free).any()
-    return bool(allowed and np.abs(turning_axes(angles)[free] @ np.eye(3)[:, held]).max() <= _ALIGNED)
+    return bool(allowed and np.abs(turning_axes(angles)[..., free, :] @ np.eye(3)[:, held]).max() <= _ALIGNED)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

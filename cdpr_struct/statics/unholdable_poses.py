@@ -10,7 +10,7 @@ from cdpr_struct.statics.least_crossing import LeastCrossing, least_crossing
 DIRECTIONS = ("force x", "force y", "force z", "moment x", "moment y", "moment z")
 _NO_LENGTH = 1e-9  # of the robot's size: ends of a cable this near to each other leave it no direction
 _GIVE_LENGTHS = "Give cable lengths to find where the platform hangs."
-_LET_HANG = "Leave its angles free (--free rx,ry,rz of inverse, modes, map, verify, audit), or give cable lengths."
+_LET_HANG = "Leave its angles free (--free rx,ry,rz where the command has it), or give cable lengths."
 
 
 def without_length(problem: HoldingProblem) -> np.ndarray:
