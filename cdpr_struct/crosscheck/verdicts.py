@@ -95,11 +95,12 @@ class Agreement:
     def _against(self) -> list[tuple[bool, str]]:
         worst, lost = int(np.argmax(np.abs(self.error))), int(np.argmin(self.assurance))
         name, tolerance = SHORT[self.model], self.criteria.tolerance(self.model)
+        alike = f" (as are {others} more)" if (others := int(self.failing.sum()) - 1) > 0 else ""
         return [
             (
                 bool(self.failing[worst]),
                 f"mode {worst + 1}: {name} {self.hertz[worst]:.4f} Hz is off by {signed_percent(self.error[worst])} "
-                f"from the FEM's {self.limit[worst]:.4f} Hz, over {100 * tolerance:g} %",
+                f"from the FEM's {self.limit[worst]:.4f} Hz, over {100 * tolerance:g} %{alike}",
             ),
             (
                 bool(self.assurance[lost] < self.criteria.assurance),

@@ -130,7 +130,9 @@ def verify(
         criteria = Criteria(relative_error=tolerance, exact_error=tolerance)
     way = one_of(assembly, "assembly", ASSEMBLIES)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
-    require_locked_lengths(machine, "the closed-form DSM knows no such winch; compare modes --model exact and --model fem")
+    require_locked_lengths(
+        machine, "the closed-form DSM knows no such winch; compare modes --model exact and --model fem"
+    )
     state = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths, start, free)
     with state.advised():
         trial = tried(state.point, counts, modes, way, criteria, progress, most_elements, judged)

@@ -111,12 +111,13 @@ def convergence_caption(trial: Verification) -> str:
     model = 100.0 * float(np.median(np.abs(trial.relative_error)))
     return (
         f"Thin lines: one mode each, {_colours()}. Two-node elements should gain a factor of four per halving, the "
-        f"slope of the triangle; {observed}. The mesh can judge the model where its error lies below the model's "
+        f"slope of the triangle; {observed}. A mesh can judge the DSM where its error lies below the DSM's "
         f"own (blue band, points on the right): at {trial.elements[-1]} elements the median mesh error is "
         f"{finest:.2g} %, the median DSM deviation {model:.2g} %. The DSM is compared with the extrapolated limit, "
-        "not with any one mesh. Green: the platform's dynamic stiffness K(ω) itself, against the exact catenary's, at "
-        f"{len(trial.stiffness.omega_hertz)} frequencies between the modes; the DSM's K(ω) is off by "
-        f"{100.0 * trial.stiffness.dsm_error.max():.2g} % there, as it gives no mass to motion along the chord."
+        "not with any one mesh. Green: how far the FEM's dynamic stiffness K(ω) of the platform is from the exact "
+        f"model's, entry by entry, at {len(trial.stiffness.omega_hertz)} frequencies between the modes, in shares of "
+        "the static stiffness. Close to an eigenfrequency K(ω) changes steeply, so that it may be far off where the "
+        f"frequencies agree; the DSM's is off by {100.0 * trial.stiffness.dsm_error.max():.2g} % there."
     )
 
 
