@@ -1,7 +1,7 @@
 """Modes of the FEM on meshes that are refined until their limit is certain."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -98,9 +98,22 @@ def _followed(point: OperatingPoint, meshes: list[_Mesh], modes: int, mass: np.n
     elements = tuple(mesh.elements for mesh in meshes)
     lumped = np.array([*(partners(mesh.lumped) for mesh in meshes[:-1]), hertz])
     consistent = np.array([partners(mesh.consistent) for mesh in meshes])
-    limit = fem.extrapolate(elements, lumped, _rounding(point, elements[-1]))
+    limit = _limit(point, elements, lumped)
     rests = [mesh.rest for mesh in meshes]
     return RefinedFem(elements, rests, lumped, consistent, limit, shapes, finest.lumped.platform_shapes[:modes])
+
+
+def _limit(point: OperatingPoint, elements: tuple[int, ...], hertz: np.ndarray) -> fem.Extrapolation:
+    """The limit of each mode, from the finest meshes whose differences are above their rounding errors."""
+    found = fem.extrapolate(elements, hertz, _rounding(point, elements[-1]))
+    for count in range(len(elements) - 1, 2, -1):
+        blurred = found.reason == "noise floor"
+        if not blurred.any():
+            break
+        coarser = fem.extrapolate(elements[:count], hertz[:count], _rounding(point, elements[count - 1]))
+        names = [part.name for part in fields(found)]
+        found = fem.Extrapolation(*(np.where(blurred, getattr(coarser, n), getattr(found, n)) for n in names))
+    return found
 
 
 def _rounding(point: OperatingPoint, elements: int) -> float:
