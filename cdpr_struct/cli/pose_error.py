@@ -6,6 +6,7 @@ import typer
 
 from cdpr_struct.cli.executors import Scheduler, Workers, check_workers
 from cdpr_struct.cli.options import (
+    Free,
     GridText,
     LowerBound,
     Mass,
@@ -44,6 +45,7 @@ def run(
         ),
     ] = None,
     pose: PoseText = None,
+    free: Free = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
     *,
@@ -54,7 +56,7 @@ def run(
     from cdpr_struct.interface.pose_error import pose_error_question
 
     asked = pose_error_question(
-        robot, grid, payload, mass, wrench, temperature, lower_bound, upper_bound, sufficient_load, pose
+        robot, grid, payload, mass, wrench, temperature, lower_bound, upper_bound, sufficient_load, pose, free
     )
     batches = asked.batches
     columns = None if batches is None else run_batches(batches, (workers, scheduler), output)[0]

@@ -1,6 +1,8 @@
 """The printed limits over many poses of a robot: grids and trajectories, all at once."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -14,8 +16,10 @@ from cdpr_struct.crosscheck.validity_limits import (
 )
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.taut_cables import taut_cables
+from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.inverse_kinematics import InverseSolution, InverseStatus, inverse
+from cdpr_struct.statics.free_orientation import ANGLES, free_orientation
+from cdpr_struct.statics.inverse_kinematics import InverseSolution, InverseStatus, hung_solution, inverse
 from cdpr_struct.workspace.pose_batches import PoseBatches
 from cdpr_struct.workspace.work_list import Columns
 
@@ -70,14 +74,19 @@ class PoseAudit:
         return np.where(self.held, self.largest_use.max(axis=0).argmax(axis=-1) + 1, 0)
 
 
-def audit_batches(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> PoseBatches:
-    """Columns of an audit at poses (k, 3), (k, 3, 3) or (3, 3), for `audit_of`."""
-    return PoseBatches("audit", _batch, robot, position, rotation, CHUNK)
+def audit_batches(
+    robot: Robot, position: np.ndarray, rotation: np.ndarray, free: Sequence[bool] | None = None
+) -> PoseBatches:
+    """Columns of an audit at poses (k, 3), (k, 3, 3) or (3, 3), for `audit_of`; free : of rx, ry, rz."""
+    if free is None:
+        return PoseBatches("audit", _batch, robot, position, rotation, CHUNK)
+    name = f"audit free {','.join(name for name, chosen in zip(ANGLES, free, strict=True) if chosen)}"
+    return PoseBatches(name, partial(_hanging_batch, tuple(free)), robot, position, rotation, CHUNK)
 
 
 def audit_of(batches: PoseBatches, columns: Columns) -> PoseAudit:
     """The audit that the columns of all batches make."""
-    rotation = np.broadcast_to(batches.rotation, (len(batches.position), 3, 3))
+    rotation = columns.get("rotation", np.broadcast_to(batches.rotation, (len(batches.position), 3, 3)))
     values = {name: columns[name] for name in PARAMETERS}
     told = columns["held"], tuple(columns["reason"].tolist()), columns["tension"]
     return PoseAudit(batches.robot, batches.position, rotation, *told, values, *_against_limits(values))
@@ -92,7 +101,16 @@ def audit_poses(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> Pos
 def _batch(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> Columns:
     """Held or not, tensions, reasons and parameters of one batch of poses."""
     rotation = np.broadcast_to(rotation, (len(position), 3, 3))
-    solution = inverse(robot, position, rotation, allow_unheld=True)
+    return _audited(robot, position, rotation, inverse(robot, position, rotation, allow_unheld=True))
+
+
+def _hanging_batch(free: tuple[bool, ...], robot: Robot, position: np.ndarray, rotation: np.ndarray) -> Columns:
+    """The same where the platform hangs freely about some of its angles; `rotation` (k, 3, 3) is where."""
+    hung = free_orientation(robot, position, angles_from_rotation(np.asarray(rotation)), free)
+    return _audited(robot, position, hung.rotation, hung_solution(robot, hung)) | {"rotation": hung.rotation}
+
+
+def _audited(robot: Robot, position: np.ndarray, rotation: np.ndarray, solution: InverseSolution) -> Columns:
     held = solution.held & (solution.tensions > 0.0).all(axis=-1)
     numbers = np.flatnonzero(held)
     values = {name: np.full(solution.tensions.shape, np.nan) for name in PARAMETERS}

@@ -11,7 +11,7 @@ from cdpr_struct.crosscheck.limits_poses import PoseAudit, audit_batches, audit_
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import read_grid, read_robot, require_one
-from cdpr_struct.interface.free_angles import FreeAngles
+from cdpr_struct.interface.free_angles import FreeAngles, read_free, told_in_map
 from cdpr_struct.interface.given import GridLike, Numbers, PoseLike, Progress, RobotLike, TrajectoryLike
 from cdpr_struct.interface.operating_point import rest
 from cdpr_struct.interface.result import Files, Result
@@ -116,7 +116,7 @@ def audit(
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     executor : of `concurrent.futures` that shares the work over many poses; default: this process
     progress : called once a batch of poses
-    free : with pose, angles that hang freely, some of rx, ry, rz; they are found from those given
+    free : angles that hang freely, some of rx, ry, rz; they are found from those given
 
     Raises
     ------
@@ -145,18 +145,24 @@ def audit(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AuditQuestion:
-    """Poses of an audit, over a grid or along a trajectory with its times; notes: what was assumed of it."""
+    """Poses of an audit, over a grid or along a trajectory with its times; notes: what was assumed of it.
+
+    free : (3,) bool, which of rx, ry, rz hang freely, or None
+    """
 
     robot: Robot
     batches: PoseBatches
     grid: Grid | None
     time: np.ndarray | None
     notes: list[str]
+    free: np.ndarray | None = None
 
     def answered(self, columns: Columns) -> AuditResult:
         """The result, with the columns of all poses."""
         found = audit_of(self.batches, columns)
-        told = audit_json(found, self.time) | {"warnings": self.notes}
+        told: dict[str, Any] = audit_json(found, self.time) | {"warnings": self.notes}
+        if self.free is not None:
+            told = told_in_map(told, self.free.tolist(), table="audit.csv")
         return AuditResult(with_extensions(told, self.robot, "audit"), found, self.grid, self.time)
 
 
@@ -189,19 +195,23 @@ def audit_question(
     if grid is not None or trajectory is not None:
         if start is not None:
             raise InputError("start", "", start, "it belongs to `lengths`; leave it out")
-        if free is not None:
-            raise InputError("free", "", free, "it belongs to `pose`; leave it out")
-        return _of_many(machine, grid, trajectory)
+        return _of_many(machine, grid, trajectory, None if free is None else read_free(free, machine)[0])
     state = rest(machine, pose, lengths, start, free)
     found = audit_rest(state.point)
     return AuditResult(with_extensions(audit_json(found) | state.told(), machine, "audit"), found)
 
 
-def _of_many(machine: Robot, grid: GridLike | None, trajectory: TrajectoryLike | None) -> AuditQuestion:
+def _of_many(
+    machine: Robot, grid: GridLike | None, trajectory: TrajectoryLike | None, free: np.ndarray | None
+) -> AuditQuestion:
+    hung = None if free is None else free.tolist()
     if grid is not None:
         poses = read_grid(grid)
-        return AuditQuestion(machine, audit_batches(machine, poses.positions, poses.rotation), poses, None, [])
+        batches = audit_batches(machine, poses.positions, poses.rotation, hung)
+        return AuditQuestion(machine, batches, poses, None, [], free)
     given = "helix" if trajectory is None else trajectory
     own = isinstance(given, str) and (given == "helix" or given.startswith("line:"))
     path, notes = read_trajectory(given, _INSTANTS if own else None)
-    return AuditQuestion(machine, audit_batches(machine, path.position, path.rotation), None, path.time, notes)
+    return AuditQuestion(
+        machine, audit_batches(machine, path.position, path.rotation, hung), None, path.time, notes, free
+    )

@@ -17,6 +17,7 @@ from cdpr_struct.dynamics.trajectory_distribution import (
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_numbers, read_robot, real
+from cdpr_struct.interface.free_angles import FreeAngles, read_free, told_on_way
 from cdpr_struct.interface.given import Numbers, Progress, RobotLike, TrajectoryLike
 from cdpr_struct.interface.inverse import MODELS
 from cdpr_struct.interface.result import Files, Result
@@ -26,6 +27,7 @@ from cdpr_struct.reports.distribution_result import distribution_json, force_col
 from cdpr_struct.reports.distribution_text import distribution_text, sentences
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.hanging_trajectory import hanging_along
 from cdpr_struct.statics.tension_cost import Centre, EuclideanNorm, Middle, PowerNorm, TensionCost
 
 if TYPE_CHECKING:
@@ -95,6 +97,7 @@ def distribute(
     mass: float | None = None,
     wrench: Numbers | None = None,
     temperature: float | None = None,
+    free: FreeAngles | None = None,
     progress: Progress = silent,
 ) -> DistributeResult:
     """Distribute cable forces of least cost along a trajectory, above a lower bound.
@@ -113,6 +116,7 @@ def distribute(
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
     temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
+    free : angles that the platform takes by hanging along the apparent gravity, some of rx, ry, rz
     progress : called once a lower bound
 
     Raises
@@ -125,14 +129,14 @@ def distribute(
         robot, bound=bound, b=b, cost=cost, weights=weights, power=power, lower_bound=lower_bound,
         upper_bound=upper_bound, longest=longest, model=model, max_speed=max_speed,
         max_acceleration=max_acceleration, instants=instants, compare=compare, payload=payload, mass=mass,
-        wrench=wrench, temperature=temperature,
+        wrench=wrench, temperature=temperature, free=free,
     )  # fmt: skip
     return asked.along(trajectory, progress)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DistributeQuestion:
-    """What is asked of any trajectory; names and units are those of `distribute`."""
+    """What is asked of any trajectory; names and units are those of `distribute`, free : (3,) bool or None."""
 
     robot: Robot
     rules: tuple[BoundRule, ...]
@@ -143,18 +147,23 @@ class DistributeQuestion:
     max_speed: float
     max_acceleration: float
     instants: int | None
+    free: np.ndarray | None = None
 
     def along(self, trajectory: TrajectoryLike, progress: Progress = silent) -> DistributeResult:
         """The result of one trajectory."""
         path, assumed = read_trajectory(trajectory, self.instants)
         path.require_within(self.max_speed, self.max_acceleration)
+        hung = None if self.free is None else hanging_along(self.robot, path, self.free, self.model)
+        path = path if hung is None else hung.trajectory
         found = []
         for rule in self.rules:
             progress(f"{rule} bound")
             found.append(
                 distribute_along(self.robot, path, rule, self.b, longest=self.longest, cost=self.cost, model=self.model)
             )
-        told = distribution_json(found[0], found[1:]) | {"warnings": assumed}
+        told: dict[str, Any] = distribution_json(found[0], found[1:]) | {"warnings": assumed}
+        if hung is not None and self.free is not None:
+            told = told_on_way(told, self.free.tolist(), path.rotation, float(hung.left_out.max()))
         return DistributeResult(with_extensions(told, self.robot, "distribute", self.model), tuple(found))
 
 
@@ -179,6 +188,7 @@ def distribute_question(
     mass: float | None,
     wrench: Numbers | None,
     temperature: float | None,
+    free: FreeAngles | None = None,
 ) -> DistributeQuestion:
     """What the arguments of `distribute` ask of any trajectory.
 
@@ -195,7 +205,14 @@ def distribute_question(
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     require_locked_lengths(machine, "distribute chooses the tensions of all cables itself")
     price = _cost(cost, weights, power, machine)
-    return DistributeQuestion(machine, tuple(rules), b, price, longest, chosen, max_speed, max_acceleration, instants)
+    hung = None
+    if free is not None:
+        if len(machine.cables) < 6:
+            raise InputError("free", "", free, "forces are distributed among six cables or more; leave it out")
+        hung = read_free(free, machine)[0]
+    return DistributeQuestion(
+        machine, tuple(rules), b, price, longest, chosen, max_speed, max_acceleration, instants, hung
+    )
 
 
 def _rules(bound: str, compare: str | Iterable[str]) -> list[BoundRule]:

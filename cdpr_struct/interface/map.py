@@ -11,7 +11,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import SMALLEST, read_grid, read_robot, real, whole
-from cdpr_struct.interface.free_angles import FreeAngles, names_of, read_free, told_in_map
+from cdpr_struct.interface.free_angles import FreeAngles, names_of, read_free, told_in_map, where_judged
 from cdpr_struct.interface.given import GridLike, Numbers, Progress, RobotLike
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
@@ -29,7 +29,7 @@ from cdpr_struct.reports import statics_map
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import Grid
-from cdpr_struct.workspace.hanging_poses import HangingFreely
+from cdpr_struct.workspace.hanging_poses import hanging
 from cdpr_struct.workspace.margins import NO_WRENCH, ZONE, distances, margins
 from cdpr_struct.workspace.pose_batches import PoseBatches
 from cdpr_struct.workspace.quantities import evaluate, quantity_of
@@ -163,10 +163,9 @@ class MapQuestion:
             batches = single(self.compute, batches)
         if self.free is None:
             return batches
-        rx, ry, rz = self.free.tolist()
         name = f"{batches.name} free {','.join(names_of(self.free))}"
         compute = partial(evaluate, self.quantity) if self.compute is None else self.compute
-        return replace(batches, name=name, evaluate=HangingFreely(compute, (rx, ry, rz)))
+        return replace(batches, name=name, evaluate=hanging(compute, self.quantity, self.free.tolist()))
 
     @property
     def ran(self) -> list[PoseBatches]:
@@ -178,7 +177,7 @@ class MapQuestion:
         values = quantity_of(self.quantity).finished(self.robot, self.grid, run(self.batches))
         told = statics_map.map_json(self.robot, self.quantity, self.grid, values) | {"resumed_chunks": 0}
         if self.free is not None:
-            told = told_in_map(told, self.free.tolist(), " Stability is judged there, at locked lengths.")
+            told = told_in_map(told, self.free.tolist(), where_judged(self.quantity))
         answer = with_extensions(told, self.robot, _kin(self.quantity))
         return MapResult(answer, self.robot, self.quantity, self.grid, values)
 
@@ -225,7 +224,7 @@ def map_question(
     compute = _own(name, what.evaluate, more)
     if free is None:
         return MapQuestion(machine, poses, name, chunk, None, compute)
-    if name.startswith(("mode-", "pose-error")):
+    if name.startswith("mode-"):
         raise InputError("free", "", free, f"{name} is computed at the orientation of the grid; leave it out")
     return MapQuestion(machine, poses, name, chunk, read_free(free, machine)[0], compute)
 

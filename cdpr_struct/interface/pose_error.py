@@ -2,12 +2,15 @@
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import read_grid, read_pose, read_robot, real
+from cdpr_struct.interface.free_angles import FreeAngles, names_of, read_free, told_in_map, where_judged
 from cdpr_struct.interface.given import GridLike, Numbers, PoseLike, Progress, RobotLike
 from cdpr_struct.interface.map import require_drawable
 from cdpr_struct.interface.result import Files, Result
@@ -20,6 +23,7 @@ from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.sufficient_load import SufficientLoad, sufficient_load
 from cdpr_struct.workspace.grid import Grid
+from cdpr_struct.workspace.hanging_poses import hanging
 from cdpr_struct.workspace.pose_batches import PoseBatches
 from cdpr_struct.workspace.pose_error_map import PoseErrorMap
 from cdpr_struct.workspace.sweep import sweep
@@ -80,16 +84,26 @@ class PoseErrorResult(Result):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PoseErrorQuestion:
-    """What is asked: over which grid, and from which load on the spring model is good; one of both may be None."""
+    """What is asked: over which grid, and from which load on the spring model is good; one of both may be None.
+
+    free : (3,) bool, which of rx, ry, rz hang freely at the references of the grid, or None
+    """
 
     robot: Robot
     grid: Grid | None
     load: tuple[SufficientLoad, Pose] | None
+    free: np.ndarray | None = None
 
     @property
     def batches(self) -> PoseBatches | None:
         """What is to be computed over the grid, if there is one."""
-        return None if self.grid is None else sweep(QUANTITY, self.robot, self.grid)
+        if self.grid is None:
+            return None
+        batches = sweep(QUANTITY, self.robot, self.grid)
+        if self.free is None:
+            return batches
+        name = f"{QUANTITY} free {','.join(names_of(self.free))}"
+        return replace(batches, name=name, evaluate=hanging(batches.evaluate, QUANTITY, self.free.tolist()))
 
     def answered(self, values: Columns | None) -> PoseErrorResult:
         """The result, with columns over the grid if there is one.
@@ -103,6 +117,8 @@ class PoseErrorQuestion:
         if self.grid is not None and values is not None:
             errors = PoseErrorMap(machine.name, machine.platform.mass, self.grid, values).require_some()
             told |= statics_pose_error.pose_error_json(errors, machine)
+            if self.free is not None:
+                told = told_in_map(told, self.free.tolist(), where_judged(QUANTITY), "pose_error.csv")
         if self.load is not None:
             told["sufficient_load"] = statics_pose_error.sufficient_load_json(*self.load)
         return PoseErrorResult(with_extensions(told, machine, "pose-error"), machine, errors, self.load)
@@ -121,6 +137,7 @@ def pose_error(
     upper_bound: float | None = None,
     sufficient_load: float | None = None,
     pose: PoseLike | None = None,
+    free: FreeAngles | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> PoseErrorResult:
@@ -136,6 +153,7 @@ def pose_error(
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     sufficient_load : tolerance [mm]: find the mass from which on the spring model is good to it, at `pose`
     pose : with sufficient_load: Pose, or x, y, z[, rx, ry, rz] [m, deg]; default: the home pose
+    free : angles of the references over the grid that the platform takes by hanging on ideal cables, some of rx, ry, rz
     executor : of `concurrent.futures` that shares the work; default: this process
     progress : called once a batch
 
@@ -145,7 +163,7 @@ def pose_error(
     UnholdablePoseError : no pose of the grid has a pose error.
     """
     asked = pose_error_question(
-        robot, grid, payload, mass, wrench, temperature, lower_bound, upper_bound, sufficient_load, pose
+        robot, grid, payload, mass, wrench, temperature, lower_bound, upper_bound, sufficient_load, pose, free
     )
     batches = asked.batches
     return asked.answered(None if batches is None else swept(batches, executor, progress))
@@ -163,6 +181,7 @@ def pose_error_question(
     upper_bound: float | None,
     tolerance: float | None,
     pose: PoseLike | None,
+    free: FreeAngles | None = None,
 ) -> PoseErrorQuestion:
     """What the arguments of `pose_error` ask for; the load is searched, `tolerance` [mm] is its `sufficient_load`.
 
@@ -179,8 +198,13 @@ def pose_error_question(
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     require_locked_lengths(machine, "a pose error is that of locked lengths")
     poses = None if grid is None else read_grid(grid)
+    hung = None
+    if free is not None:
+        if poses is None:
+            raise InputError("free", "", free, "free angles are for errors over a `grid`; leave it out")
+        hung = read_free(free, machine)[0]
     if tolerance is None:
-        return PoseErrorQuestion(machine, poses, None)
+        return PoseErrorQuestion(machine, poses, None, hung)
     where = read_pose(pose, machine)
     found = sufficient_load(machine, where.position, where.rotation, 1e-3 * tolerance)
-    return PoseErrorQuestion(machine, poses, (found, where))
+    return PoseErrorQuestion(machine, poses, (found, where), hung)

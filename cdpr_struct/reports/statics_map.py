@@ -113,12 +113,15 @@ def slack_warnings(robot: Robot, grid: Grid, columns: Columns, released: bool = 
     if not slack.size:
         return []
     most = _MOST_RELEASED if released else _MOST_HELD
+    when = " once the platform is let go" if released else ""
+    where = f"{len(slack)} of {grid.size} poses" if grid.size > 1 else "the pose"
+    said = f"Cables hang slack at {where}{when} (they pull with less than their own weight)"
+    if "rx_deg" in columns:  # a bound would turn the platform, too
+        return [f"{said}."]
     tried = slack[np.unique(np.linspace(0, len(slack) - 1, min(most, len(slack))).astype(int))]
     search = shared_bound_of_pose_errors if released else shared_lower_bound
     cure = shared_cure(search(robot, grid.positions[tried], grid.rotation), len(slack))
-    when = " once the platform is let go" if released else ""
-    where = f"{len(slack)} of {grid.size} poses" if grid.size > 1 else "the pose"
-    return [f"Cables hang slack at {where}{when} (they pull with less than their own weight); {cure}."]
+    return [f"{said}; {cure}."]
 
 
 def deep_sag(columns: Columns) -> dict[str, Any]:

@@ -60,7 +60,7 @@ def free_orientation(
     ----------
     position, angles : (k, 3) [m]; (3,) or (k, 3) rx, ry, rz [rad], where the search begins and the angles that are kept
     free : (3,) bool, which of rx, ry, rz are free
-    external_wrench : (6,) on the platform about its origin beside its weight, world axes [N, N m]
+    external_wrench : (6,) or (k, 6) on the platform about its origin beside its weight, world axes [N, N m]
     """
     place = np.asarray(position, dtype=float)
     arrays, k = RobotArrays.of(robot).flattened((len(place),)), len(place)

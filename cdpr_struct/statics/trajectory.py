@@ -153,6 +153,12 @@ def through_samples(time: npt.ArrayLike, position: npt.ArrayLike, angles: npt.Ar
     return _moving(t, _with_rates(t, place), _with_rates(t, turn))
 
 
+def turning_by(path: Trajectory, angles: np.ndarray) -> Trajectory:
+    """The same way at other orientations: rx, ry, rz (k, 3) [rad] at its instants, with rates by the same spline."""
+    whole = np.unwrap(angles, axis=0)
+    return _moving(path.time, (path.position, path.velocity, path.acceleration), _with_rates(path.time, whole))
+
+
 Motion = tuple[np.ndarray, np.ndarray, np.ndarray]
 """Values, first and second time derivatives."""
 

@@ -1,26 +1,36 @@
 """Free angles: no moment is left about them, the referee rests at the same pose, and maps have them at every pose."""
 
+from dataclasses import replace
+
 import numpy as np
+import numpy.typing as npt
 import pytest
+from scipy.optimize import minimize
 
 import cdpr_struct as cs
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.errors import InputError, UnholdablePoseError
-from cdpr_struct.robot.pose import Pose
+from cdpr_struct.robot.cable import Cable
+from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.statics.free_orientation import left_free
 from tests.fast_like import fast_like, few_cables
 
 PLACE = [60.0, -50.0, 145.0]
 
 
-def moment_about(robot: cs.Robot, pose: Pose, tensions: np.ndarray, forces: np.ndarray) -> np.ndarray:
-    """(3,) moments of cables (m, 3) [N] and weight about rx, ry, rz over arms times tensions, written down here."""
+def moment_about(
+    robot: cs.Robot, pose: Pose, tensions: np.ndarray, forces: np.ndarray, acceleration: npt.ArrayLike = (0.0, 0.0, 0.0)
+) -> np.ndarray:
+    """(3,) moments of cables (m, 3) [N] and of weight less mass times acceleration [m/s^2] about rx, ry, rz.
+
+    Over arms times tensions; written down here.
+    """
     _, ry, rz = pose.angles
     about_z = np.array([[np.cos(rz), -np.sin(rz), 0.0], [np.sin(rz), np.cos(rz), 0.0], [0.0, 0.0, 1.0]])
     about_y = np.array([[np.cos(ry), 0.0, np.sin(ry)], [0.0, 1.0, 0.0], [-np.sin(ry), 0.0, np.cos(ry)]])
     axes = np.array([about_z @ about_y[:, 0], about_z[:, 1], [0.0, 0.0, 1.0]])
     arms = robot.platform_anchors @ pose.rotation.T
-    weight = np.array([0.0, 0.0, -robot.platform.mass * robot.gravity])
+    weight = -robot.platform.mass * (np.array([0.0, 0.0, robot.gravity]) + acceleration)
     moment = np.cross(arms, forces).sum(axis=0) + np.cross(pose.rotation @ robot.platform.center_of_mass, weight)
     return axes @ moment / (np.linalg.norm(arms, axis=1).mean() * tensions.sum())
 
@@ -90,3 +100,76 @@ def test_unusable_names_are_refused():
             cs.inverse("cogiro", free=free)
     with pytest.raises(InputError, match="is computed at the orientation of the grid"):
         cs.map("cogiro", "-1:1:2,0,1", "mode-3", free="rx")
+
+
+@pytest.mark.parametrize("count", [3, 5])
+def test_a_reference_that_hangs_on_ideal_cables_is_met_by_stiff_weightless_ones(count):
+    """Held at another orientation, the platform would turn once it is let go: the reference is where it does not."""
+    robot = few_cables(count)
+    stiff = replace(robot, cables=(Cable(2e12, 1e-9),) * count)
+    found = cs.pose_error(stiff, "0.2:0.5:2,0.3,0.4", free="rx,ry,rz")
+    columns = found.columns()
+    assert columns["held"].all()
+    assert columns["stable"].all()
+    missed = np.array([columns[f"global_{axis}_mm"] for axis in "xyz"])
+    turned = np.array([columns[f"global_r{axis}_deg"] for axis in "xyz"])
+    # stretch of 200 N on 2e12 N over 5 m: 5e-7 mm; the search for the reference ends at 1e-11 of its moments
+    assert np.abs(missed).max() <= 1e-5
+    assert np.abs(turned).max() <= 1e-5
+    assert "hang on straight, inextensible cables" in found.warnings[0]
+    mapped = cs.map(stiff, "0.2:0.5:2,0.3,0.4", "pose-error", free="rx,ry,rz")
+    assert mapped.values["rx_deg"] == pytest.approx(columns["rx_deg"], abs=1e-9)
+
+
+def test_free_angles_of_pose_errors_need_a_grid():
+    with pytest.raises(InputError, match="errors over a `grid`"):
+        cs.pose_error("cogiro", sufficient_load=1.0, free="rx")
+
+
+def test_an_audit_over_a_grid_finds_every_pose_as_an_audit_of_that_pose():
+    robot = fast_like()
+    found = cs.audit(robot, grid="-80:80:2,60,145", free="rx,ry,rz")
+    alone = cs.audit(robot, [80.0, 60.0, 145.0], free="rx,ry,rz")
+    assert found.answer["poses_held"] == 2
+    assert found.audit.rotation[1] == pytest.approx(alone.audit.rotation[0], abs=1e-9)
+    assert found.audit.tension[1] == pytest.approx(alone.audit.tension[0], rel=1e-8)
+
+
+def test_along_a_trajectory_the_platform_hangs_along_the_apparent_gravity():
+    robot, way = fast_like(), "line:10,0,145:60,-50,150:40"
+    found = cs.distribute(robot, way, instants=11, b=0.3, free="rx,ry,rz")
+    forces, path = found.found[0], found.found[0].trajectory
+    assert path.acceleration_size.max() > 0.2  # a fiftieth of gravity
+    for i in (1, 4, 8):
+        pose = Pose(path.position[i], angles_from_rotation(path.rotation[i]))
+        cables = forces.distribution.cables.at(i)
+        pull = cables.force_on_platform, path.acceleration[i]
+        left = moment_about(robot, pose, forces.distribution.tensions[i], *pull)
+        assert np.abs(left).max() <= 1e-8  # orientations settle to 1e-10 rad
+    told = found.answer["free"]
+    assert told["angles"] == ["rx", "ry", "rz"]
+    righting = robot.platform.mass * robot.gravity * 3.5  # by the lever of the centre of mass [N m]
+    assert 0.0 < told["left_out_Nm"] < 1e-3 * righting  # what is left out would tilt it by less than a milliradian
+    with pytest.raises(InputError, match="six cables or more"):
+        cs.distribute(few_cables(4), "line:0,0,0:0.1,0,0:5", free="rx")
+
+
+def test_the_most_even_tensions_are_met_by_a_search_without_derivatives():
+    robot, place = cs.load_robot("six-cable-4mm"), [0.5, 0.3, 0.5]
+    found = cs.inverse(robot, place, orient="even")
+
+    def spread(angles: np.ndarray) -> float:
+        tensions = cs.inverse(robot, Pose(np.array(place), angles)).solution.tensions
+        return float(tensions.std() / tensions.mean())
+
+    told = found.answer["free"]["tension_spread"]
+    assert told == pytest.approx(spread(found.pose.angles), rel=1e-9)
+    best = minimize(spread, found.pose.angles + 0.02, method="Nelder-Mead", options={"xatol": 1e-7, "fatol": 1e-12})
+    assert told == pytest.approx(best.fun, abs=1e-9)
+    assert found.pose.angles == pytest.approx(best.x, abs=1e-5)
+    hanging = cs.inverse(robot, place, free="rx,ry,rz").solution.tensions
+    assert told < hanging.std() / hanging.mean()
+    with pytest.raises(InputError, match="six cables or more"):
+        cs.inverse(few_cables(4), place, orient="even")
+    with pytest.raises(InputError, match="give `free`, too"):
+        cs.inverse(robot, place, orient="hanging")
