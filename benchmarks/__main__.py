@@ -21,6 +21,7 @@ from benchmarks import (
     robot_modes,
     single_cable,
     statics_forward_kinematics,
+    verified_robots,
     vibration_floor,
 )
 from benchmarks.markdown_page import put
@@ -39,6 +40,7 @@ QUESTIONS: tuple[Question, ...] = tuple(
         distribution,
         geometric_term,
         growth,
+        verified_robots,
     )
 )
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"

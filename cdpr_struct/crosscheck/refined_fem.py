@@ -1,7 +1,7 @@
 """Modes of the FEM on meshes that are refined until their limit is certain."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from cdpr_struct.crosscheck.fem_robot import fem_shapes, solve_in_fem, vibrating
 from cdpr_struct.crosscheck.mode_pairing import modal_assurance, pair_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 
+_ORDER = 2.0  # of the frequencies of two-node elements
 _ROUNDING = 0.1 * float(np.finfo(float).eps)  # of an eigenvalue per n^2 EA / T, measured (`fem_reference/README.md`)
 
 
@@ -105,15 +106,28 @@ def _followed(point: OperatingPoint, meshes: list[_Mesh], modes: int, mass: np.n
 
 def _limit(point: OperatingPoint, elements: tuple[int, ...], hertz: np.ndarray) -> fem.Extrapolation:
     """The limit of each mode, from the finest meshes whose differences are above their rounding errors."""
-    found = fem.extrapolate(elements, hertz, _rounding(point, elements[-1]))
+    found = _extrapolated(point, elements, hertz)
     for count in range(len(elements) - 1, 2, -1):
         blurred = found.reason == "noise floor"
         if not blurred.any():
             break
-        coarser = fem.extrapolate(elements[:count], hertz[:count], _rounding(point, elements[count - 1]))
+        coarser = _extrapolated(point, elements[:count], hertz[:count])
         names = [part.name for part in fields(found)]
         found = fem.Extrapolation(*(np.where(blurred, getattr(coarser, n), getattr(found, n)) for n in names))
     return found
+
+
+def _extrapolated(point: OperatingPoint, elements: tuple[int, ...], hertz: np.ndarray) -> fem.Extrapolation:
+    """Limit with the observed order, at least as uncertain as it is far from that with the order of the elements.
+
+    Where modes exchange their shapes as the mesh is refined, two wrong limits may agree by chance; the order then is
+    not yet two.
+    """
+    found = fem.extrapolate(elements, hertz, _rounding(point, elements[-1]))
+    gain = (elements[-1] / elements[-2]) ** _ORDER - 1.0
+    nominal = hertz[-1] + (hertz[-1] - hertz[-2]) / gain
+    apart = np.where(found.reason == "", np.abs(nominal - found.limit), 0.0)
+    return replace(found, error_estimate=np.maximum(found.error_estimate, apart))
 
 
 def _rounding(point: OperatingPoint, elements: int) -> float:
