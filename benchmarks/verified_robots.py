@@ -51,6 +51,7 @@ class Case:
 def cases() -> Iterator[Case]:
     """All robots."""
     yield from (Case(name, name) for name in BUILT_IN)
+    yield Case("thesis-5, minimum norm: lower cables hang", "thesis-5", 0.0)
     yield Case("box-robot, with pulleys", load_robot(_ROOT / "examples" / "box-robot" / "robot.toml"))
     yield from random_cases()
     yield Case("facade, taut", facade(), 2000.0)

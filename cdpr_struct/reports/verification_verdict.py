@@ -122,5 +122,8 @@ def worst(found: Agreement) -> float:
 
 
 def percent(ratio: float) -> str:
-    """A ratio as percent, two significant digits."""
-    return f"{100.0 * ratio:.2g} %"
+    """A ratio as percent with the digits that matter: three above 0.1 %, two below."""
+    size = 100.0 * ratio
+    if size >= 100.0:
+        return f"{size:.0f} %"
+    return f"{size:.3g} %" if size >= 0.1 else f"{size:.2g} %"
