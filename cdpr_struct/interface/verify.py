@@ -96,7 +96,7 @@ def verify(
     model: str | None = None,
     most_elements: int = MOST_ELEMENTS,
 ) -> VerifyResult:
-    """Compare eigenfrequencies of the exact model and the DSM with the finite-element referee's; `holds`: they agree.
+    """Compare eigenfrequencies of the exact model and the DSM with those of the FEM; `holds` if they agree.
 
     Parameters
     ----------

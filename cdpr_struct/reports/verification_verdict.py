@@ -2,7 +2,7 @@
 
 import math
 
-from cdpr_struct.crosscheck.verdict_causes import SAG, Cause
+from cdpr_struct.crosscheck.verdict_causes import SAG
 from cdpr_struct.crosscheck.verdicts import Agreement, Judged
 from cdpr_struct.crosscheck.verification import Verification
 
@@ -53,18 +53,20 @@ def cause_sentence(v: Verification, model: Judged) -> str:
     causes = v.causes.get(model, ())
     if not causes:
         return "No effect that it leaves out accounts for this."
-    words, before = [], worst(found)
-    for cause in causes:
-        words.append(_step(cause, before))
-        before = cause.error
-    return f"Cause: {', then '.join(words)}; measured by leaving effects out of the exact model, too."
-
-
-def _step(cause: Cause, before: float) -> str:
-    name = EFFECT_WORDS[cause.effect]
-    if cause.effect == SAG:
-        return f"{name} ({percent(cause.error)} remain when every other effect is left out)"
-    return f"{name} (the largest deviation falls from {percent(before)} to {percent(cause.error)} when left out)"
+    named = [cause for cause in causes if cause.effect != SAG]
+    sag = EFFECT_WORDS[SAG]
+    if not named:
+        return (
+            f"Cause: {sag}: with all other effects left out of the exact model, too, {percent(causes[-1].error)} "
+            f"remain of {percent(worst(found))}."
+        )
+    names = ", then ".join(EFFECT_WORDS[cause.effect] for cause in named)
+    steps = ", ".join(percent(cause.error) for cause in named)
+    rest = f" The rest is {sag}." if len(named) < len(causes) else ""
+    return (
+        f"Cause: {names}. Left out of the exact model, too, the largest deviation falls from {percent(worst(found))} "
+        f"to {steps}.{rest}"
+    )
 
 
 def what_to_do(v: Verification) -> str:
