@@ -19,7 +19,7 @@ from benchmarks.question import Answer, Question, paragraphs
 from cdpr_struct.errors import CdprError
 from cdpr_struct.interface.verify import VerifyResult
 from cdpr_struct.reports.verification_verdict import EFFECT_WORDS, percent, worst
-from cdpr_struct.robot.cable import Cable
+from cdpr_struct.robot.cable import Cable, Pulley
 from cdpr_struct.robot.caspr_import import Choices, import_caspr
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
@@ -53,10 +53,18 @@ def cases() -> Iterator[Case]:
     yield from (Case(name, name) for name in BUILT_IN)
     yield Case("thesis-5, minimum norm: lower cables hang", "thesis-5", 0.0)
     yield Case("box-robot, with pulleys", load_robot(_ROOT / "examples" / "box-robot" / "robot.toml"))
+    cogiro, drawn = load_robot("cogiro"), random_robot(np.random.default_rng(3))
+    yield Case("cogiro, pulleys of 60 mm with level axes", with_pulleys(cogiro, 0.06, [1.0, 0.0, 0.0]))
+    yield Case("random robot 3, pulleys of 50 mm with leaning axes", with_pulleys(drawn, 0.05, [0.6, 0.0, 0.8]))
     yield from random_cases()
     yield Case("facade, taut", facade(), 2000.0)
     yield Case("facade, minimum norm: lower cables hang", facade())
     yield from caspr_cases()
+
+
+def with_pulleys(robot: Robot, radius: float, axis: list[float]) -> Robot:
+    """The robot with a swivelling pulley at every frame anchor."""
+    return replace(robot, pulleys=tuple(Pulley(radius, np.array(axis)) for _ in robot.cables))
 
 
 def random_cases() -> Iterator[Case]:

@@ -95,7 +95,8 @@ class Agreement:
     def _against(self) -> list[tuple[bool, str]]:
         worst, lost = int(np.argmax(np.abs(self.error))), int(np.argmin(self.assurance))
         name, tolerance = SHORT[self.model], self.criteria.tolerance(self.model)
-        alike = f" (as are {others} more)" if (others := int(self.failing.sum()) - 1) > 0 else ""
+        others = int(self.failing.sum()) - 1
+        alike = f" (as {'is' if others == 1 else 'are'} {others} more)" if others > 0 else ""
         return [
             (
                 bool(self.failing[worst]),
