@@ -59,8 +59,11 @@ def _searched(campaign: Campaign, correction: Correction | None, budget: Budget)
 
 
 def _corrected(campaign: Campaign, first: Explained, budget: Budget) -> list[Explained]:
-    """Corrections whose data alone, nothing else wrong, come near the best explanation of those recorded."""
-    best = first.answers[0].score
+    """Corrections whose data, nothing else wrong, come near the best single cause of those recorded.
+
+    A second cause is looked for beside a correction as it was beside that cause: the best of two causes is no measure.
+    """
+    best = next(answer.score for answer in first.answers if len(answer.names) < 2)
     found = []
     for correction in [*promising(first.search.data, corrections(campaign)), *shortcuts(campaign)]:
         data = recorded(correction.campaign)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
+from cdpr_struct.dynamics.cable_dynamics import expand_catenaries_at, polynomial_order
 from cdpr_struct.dynamics.certified_modes import certified_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import CdprError, UnholdablePoseError
@@ -37,7 +37,7 @@ _FILES = {
 }
 _HINTS = {
     "static_state": "one row a pose: cable forces at the platform, unstrained lengths that the encoders say",
-    "cable_frequency": "one row a pose: first in-plane frequency of each cable, plucked, both ends held",
+    "cable_frequency": "one row a pose: first frequency of each cable, both ends held, plucked up and down (plane in)",
     "robot_frequency": "one row a peak of the spectrum, in any order; delete rows that you do not need, add others",
     "loaded_pose": "two rows a pose at the same locked lengths: without and with the payload; measure both poses",
 }
@@ -119,8 +119,11 @@ def _static(plan: PlannedPoses, quantities: Sequence[CableQuantity]) -> Columns:
 
 
 def _cable_frequencies(plan: PlannedPoses) -> Columns:
-    first = np.array([cable_dynamics(_one(plan, i), "exact", 0.0).first_frequency for i in range(len(plan.names))])
-    return _poses(plan) | {"mode": ["1"] * len(plan.names)} | _open(FREQUENCY, first / (2.0 * np.pi))
+    """The first mode in the plane of each cable: over a swivelling pulley the lowest of all is one out of it."""
+    expansion = expand_catenaries_at(plan.point, polynomial_order(plan.point, 0.0))
+    first = np.sqrt(np.where(expansion.sideways, np.inf, expansion.omega_squared).min(axis=-1))
+    named = {"mode": ["1"] * len(plan.names), "plane": ["in"] * len(plan.names)}
+    return _poses(plan) | named | _open(FREQUENCY, first / (2.0 * np.pi))
 
 
 def _robot_frequencies(plan: PlannedPoses) -> Columns:
