@@ -14,6 +14,7 @@ from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.loss import Loss
+from cdpr_struct.measurement.misspelt_cases import misspelt_notes
 from cdpr_struct.measurement.missing_readings import missing_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
@@ -116,14 +117,15 @@ def load_campaign(
     lowest = table.lower_bound_N if lower_bound is None else lower_bound
     commanding = _commanding(robot, lowest, source)
     gathering = Gathering(len(robot.cables))
-    sheets = []
+    sheets, cases = [], {}
     for number, entry in enumerate(table.measurement, start=1):
         rows, sigmas = _rows(entry, source, number, len(robot.cables), planned), _sigmas(entry)
         gathering.add(rows, sigmas)
+        cases[entry.file] = rows.words.get("case", [])
         sheets.append(_sheet(entry, rows, sigmas))
     _check_poses(gathering)
     check_scale(str(path), robot, gathering.states())
-    check_robot_scale(str(path), robot, gathering.states())
+    check_robot_scale(str(path), robot, gathering.states(), gathering.tension_files())
     identified = join_signals(gathering, commanding, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(
@@ -146,6 +148,7 @@ def load_campaign(
         sheets=tuple(sheets),
         notes=(
             *(note for sheet in sheets if (note := angle_note(sheet.file, sheet.columns))),
+            *misspelt_notes(cases),
             *missing_notes(gathering.states()),
         ),
     )

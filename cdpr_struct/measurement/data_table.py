@@ -54,8 +54,12 @@ class DataTable:
             raise InputError(self.file, "", "no rows", "at least one row of data below the header")
         for number, (row, line) in enumerate(zip(self.rows, self.line, strict=True), start=1):
             if len(row) > len(self.names):
-                expected = f"{len(self.names)} values as in the header, decimals with a point"
-                raise InputError(self.file, f"row {number}, line {line}", ", ".join(row), expected)
+                expected = f"{len(self.names)}, as in the header"
+                if len(row) > len(self.names) + 1:
+                    expected += " (are the decimals commas? Write them with a point)"
+                else:
+                    expected += "; decimals with a point, a text with a comma in quotes"
+                raise InputError(self.file, f"row {number}, line {line}", f"{len(row)} values", expected)
 
 
 def read_table(path: Path) -> DataTable:
