@@ -101,6 +101,12 @@ def read_free(given: FreeAngles, robot: Robot) -> tuple[np.ndarray, tuple[str, .
     return free, tuple(names_of(free & ~asked))
 
 
+def _range(robot: Robot) -> str:
+    """The forces that the cables may have, in words."""
+    low, high = float(robot.force_min.min()), float(robot.force_max.max())
+    return f"from {low:g} to {high:g} N" if np.isfinite(high) else f"above {low:g} N"
+
+
 def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sagging") -> HangingPose:
     """The pose at the same position at which the platform hangs freely.
 
@@ -117,7 +123,7 @@ def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sag
         names, most = ", ".join(names_of(free)), float(np.abs(found.moment).max())
         left = f"{most:.2g} of arms times tensions is left as moment about them"
         if most < 1e-9:
-            left = "the cables balance nothing else there within their limits"
+            left = f"no tensions {_range(robot)} carry the platform at any angle tried"
         raise UnholdablePoseError(
             f"no orientation is found at which the platform hangs freely about {names}: {left}. {hint}"
         )
