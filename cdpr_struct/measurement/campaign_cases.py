@@ -81,7 +81,8 @@ class Gathering:
             found.temperature, found.time = float(rows.get("temperature_K")[i]), float(rows.get("time_s")[i])
         elif _differ(found.pose, pose) or found.payload != payload:
             before = [*found.pose.tolist(), found.payload]
-            expected = f"in {Path(found.file).name} this case has the pose and payload {before}; {_ONE_STATE}"
+            expected = f"the pose and payload given before for this case in {Path(found.file).name}, {before}"
+            expected += f": {_ONE_STATE}"
             if _thousandfold(found.pose, pose):
                 expected += " (is one of the two positions in mm?)"
             if note := angle_note("this file", list(rows.numbers)):

@@ -49,8 +49,8 @@ _HINTS = {
 }
 _COMMENTS = (
     f"# Replace each {UNFILLED} by what was measured; leave a cell empty where nothing was measured.",
-    "# Pose columns hold the planned pose: replace it by the measured one. Copy the pose of a case from one file to the",
-    "# others, digit by digit; give repeated readings a case of their own.",
+    "# Pose columns hold the planned pose: replace it by the measured one, and copy it to the rows of the same case in",
+    "# the other files, digit by digit. Give repeated readings a case of their own.",
     f"# Columns {PREDICTED}... are the simulation's, to compare with; they are not read.",
 )
 _STATIC = {"tensions": TENSION, "lengths": LENGTH}
@@ -114,7 +114,7 @@ def campaign_files(plan: PlannedPoses, robot: str, readings: Sequence[str], payl
 
 
 _MORE = {
-    "cable_frequency": "# Plucked sideways, write out as the plane: over a swivelling pulley that is a few per cent lower.",
+    "cable_frequency": "# Plucked sideways, the plane is out: over a swivelling pulley that is a few per cent lower.",
     "loaded_pose": "# Cells of lengths are empty where the case has its lengths in states.csv.",
 }
 Columns = Mapping[str, Sequence[str]]

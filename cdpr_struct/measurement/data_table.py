@@ -14,6 +14,7 @@ from cdpr_struct.measurement.foreign_file import refuse_foreign
 
 _HEADER = "a CSV file with a header line"
 _SEPARATORS = {";": "';'", "\t": "tabs", "|": "'|'", " ": "spaces"}
+_SHOWN = 8  # values of a row that does not fit: of more, their number is said
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 
 
@@ -54,12 +55,10 @@ class DataTable:
             raise InputError(self.file, "", "no rows", "at least one row of data below the header")
         for number, (row, line) in enumerate(zip(self.rows, self.line, strict=True), start=1):
             if len(row) > len(self.names):
-                expected = f"{len(self.names)}, as in the header"
-                if len(row) > len(self.names) + 1:
-                    expected += " (are the decimals commas? Write them with a point)"
-                else:
-                    expected += "; decimals with a point, a text with a comma in quotes"
-                raise InputError(self.file, f"row {number}, line {line}", f"{len(row)} values", expected)
+                expected = f"{len(self.names)} values as in the header, decimals with a point"
+                expected += " (are they commas?)" if len(row) > len(self.names) + 1 else ""
+                given = ", ".join(row) if len(row) <= _SHOWN else f"{len(row)} values"
+                raise InputError(self.file, f"row {number}, line {line}", given, expected)
 
 
 def read_table(path: Path) -> DataTable:

@@ -68,8 +68,8 @@ def _check_readings(robot: Robot, states: States, files: Mapping[str, str]) -> N
     i, cable = np.unravel_index(int(strain.argmax()), strain.shape)
     if strain[i, cable] > _STRAIN:
         name, stiffness = states.names[i], robot.axial_stiffness[cable]
-        expected = f"a tension in N: with EA = {stiffness:g} N it would stretch the cable to {1.0 + strain[i, cable]:.2g} "
-        expected += "times its length (is a decimal point missing?)"
+        expected = f"a tension in N: with EA = {stiffness:g} N it would stretch the cable to "
+        expected += f"{1.0 + strain[i, cable]:.2g} times its length (is a decimal point missing?)"
         place = f"case {name}, cable {cable + 1}: tension_N"
         raise InputError(files[name], place, float(states.tension[i, cable]), expected)
 

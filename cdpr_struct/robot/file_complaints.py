@@ -22,7 +22,7 @@ def input_error(source: str, error: ValidationError, model: type[BaseModel] | No
     words = _EXPECTED.get(first["type"])
     expected = first["msg"].lower() if words is None else words.format(**first.get("ctx", {}))
     if first["type"] in ("list_type", "too_short", "too_long") and _INERTIAS & set(first["loc"]):
-        expected = "give three rows: [[Ixx, 0, 0], [0, Iyy, 0], [0, 0, Izz]]"
+        expected += "; an inertia has three rows: [[Ixx, 0, 0], [0, Iyy, 0], [0, 0, Izz]]"
     if first["type"] == "extra_forbidden" and model is not None:
         known = known_keys(model, first["loc"][:-1])
         expected += "; " + known_names(str(first["loc"][-1]), known)
@@ -36,7 +36,7 @@ def not_toml(source: str, text: str, error: TOMLDecodeError) -> InputError:
     lines = text.splitlines()
     number = len(lines) if where is None else min(int(where[1]), len(lines))
     line = lines[number - 1].strip() if lines else ""
-    expected = f"TOML, with decimals with a point, text in quotes, each key and table once ({reason})"
+    expected = f"a TOML file: decimals with a point, text in quotes, each key and table given once ({reason})"
     return InputError(source, f"line {number}", line, expected)
 
 
