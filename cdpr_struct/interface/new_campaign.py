@@ -16,6 +16,7 @@ from cdpr_struct.measurement.assumed_angles import ANGLES
 from cdpr_struct.measurement.campaign_template import KINDS, READINGS, campaign_files, planned
 from cdpr_struct.measurement.data_table import read_table
 from cdpr_struct.measurement.time_series import columns_of
+from cdpr_struct.robot.plausibility import implausible
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import builtin_names
@@ -31,10 +32,12 @@ class NewCampaign:
     """Files of a campaign to begin with.
 
     files : contents by name: campaign.toml and the data files;  cases : names of the poses, in order
+    warnings : numbers of the robot that can hardly be meant
     """
 
     files: Mapping[str, str]
     cases: tuple[str, ...]
+    warnings: tuple[str, ...] = ()
 
     def write(self, directory: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
         """Write the files into a directory and return the path of campaign.toml.
@@ -91,7 +94,8 @@ def new_campaign(
     real(payload, "payload", "give a mass in kg above zero", 0.0)
     cases, places = _poses(poses, machine)
     plan = planned(machine, cases, places)
-    return NewCampaign(campaign_files(plan, _named(robot, Path(directory)), chosen, float(payload)), tuple(cases))
+    files = campaign_files(plan, _named(robot, Path(directory)), chosen, float(payload))
+    return NewCampaign(files, tuple(cases), implausible(machine))
 
 
 def _own(name: str) -> list[str]:
