@@ -14,7 +14,7 @@ BALANCED = 1e-9  # of load and tensions
 _FITS = 1e-9  # of the chord: by how much the cables' own shape may miss their ends
 _SAME_FORCE = 1e-7  # of load and tensions
 _SAME_POSE = 1e-5  # of the size of the platform
-_SAME_FREQUENCY = 1e-6
+_SAME_FREQUENCY = 1e-5  # spans of cables that lean by nanometres are rounded
 _SHARP = 1e-8  # of the largest stiffness: what counts as zero
 
 

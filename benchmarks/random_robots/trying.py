@@ -57,13 +57,22 @@ def _judge(case: Case, told: dict[str, Any], faults: list[str]) -> None:
     _judge_way_back(case, held, own, told, faults)
     found = _asked("modes", case, told, faults, own, case.robot, held.pose, free=case.free, count=_COUNT)
     if found is not None:
-        faults += [f"modes: {fault}" for fault in mode_faults(found.modes.hertz, found.answer, own)]
+        there = _rest_of(case, found)
+        faults += [f"modes: {fault}" for fault in mode_faults(found.modes.hertz, found.answer, there)]
         count = 6 - len(case.robot.guided)
         rigid = _asked(
             "static", case, told, faults, own, case.robot, held.pose, free=case.free, model="static", count=count
         )
         if rigid is not None:
-            faults += [f"static: {fault}" for fault in static_faults(rigid.modes.hertz, own)]
+            faults += [f"static: {fault}" for fault in static_faults(rigid.modes.hertz, _rest_of(case, rigid))]
+
+
+def _rest_of(case: Case, found: Any) -> OwnRest:
+    """The rest about which frequencies were asked: a search from the orientation found may end at another one."""
+    point = found.point
+    return own_rest(
+        case.robot, (point.position, point.rotation), found.answer["lengths_m"], point.cables.force_on_platform
+    )
 
 
 def _judge_way_back(case: Case, held: Any, own: OwnRest, told: dict[str, Any], faults: list[str]) -> None:

@@ -17,7 +17,7 @@ from cdpr_struct.generated.special_functions import tanhc
 from cdpr_struct.statics.catenary import CableStatus
 
 MAX_ITERATIONS = 60
-STEEPEST = 1e-9  # cos(inclination) below this is treated as this: error in the force of the same relative size
+STEEPEST = 1e-100  # cos(inclination) of a vertical cable: forces and their rates by the span stay finite
 SLACKEST = 6.0  # largest q = w chord / (2 tau); sinh(q)/q is then 34 times the span
 _TOLERANCE = 1e-13
 _NEAR = 0.1  # of tau: a cable nearer than this is a better start than the inextensible catenary

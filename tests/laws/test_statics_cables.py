@@ -157,6 +157,18 @@ def test_vertical_cables_are_alike_in_all_horizontal_directions():
     assert np.abs(cable_stiffness(folded)[:, :2]).max() < 1.0
 
 
+@pytest.mark.parametrize("lean", [1e-6, 1e-9, 1e-12, 1e-15])
+def test_a_cable_that_hardly_leans_is_as_stiff_as_a_vertical_one(lean):
+    """Held at a tension; a span that was raised to 1e-9 of the chord gave wrong stiffness below."""
+    arrays, model = RobotArrays.of(ROBOT), cable_model("sagging")
+    points, tension = np.array(ROBOT.frame_anchors) - 3.0 * UP, np.full(8, 300.0)
+    upright = cable_stiffness(model.hold(arrays, points, tension).states)
+    leaning = cable_stiffness(model.hold(arrays, points + 3.0 * lean * np.array([0.6, 0.8, 0.0]), tension).states)
+    # a span of 1e-15 m is a few roundings of the anchors: its direction is lost, its pull over its span is not
+    for axis in range(3):
+        assert leaning[:, axis, axis] == pytest.approx(upright[:, axis, axis], rel=1e-5)
+
+
 def test_states_name_what_others_read():
     arrays = RobotArrays.of(ROBOT)
     points, length = points_and_lengths(8, 5, arrays, 0.0)
