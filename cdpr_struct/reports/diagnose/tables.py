@@ -7,6 +7,7 @@ from typing import Any
 
 from cdpr_struct.diagnosis.sensor_sigmas import tolerance_unit
 from cdpr_struct.reports.html import HtmlTable
+from cdpr_struct.reports.text import with_sigma
 
 Row = Mapping[str, Any]
 
@@ -120,16 +121,6 @@ def _sigmas(size: Row) -> float:
     """How many sigmas a size is off what was entered; zero without a sigma."""
     off = abs(size["value"] - (1.0 if size["unit"] == "ratio" else 0.0))
     return off / size["sigma"] if size["sigma"] and math.isfinite(size["sigma"]) and size["sigma"] > 0.0 else 0.0
-
-
-def with_sigma(value: float, sigma: float) -> str:
-    """A size with the digits that its sigma allows."""
-    if not (sigma > 0.0 and math.isfinite(sigma)):
-        return f"{value:.4g}"
-    decimals = 1 - math.floor(math.log10(sigma))
-    if not -3 <= decimals <= 6:
-        return f"{value:.4g} ± {sigma:.2g}"
-    return f"{round(value, decimals) + 0.0:.{max(decimals, 0)}f} ± {round(sigma, decimals):.{max(decimals, 0)}f}"
 
 
 def left_out(gain: Row) -> HtmlTable | None:

@@ -60,7 +60,7 @@ def map_plot(grid: Grid, layers: Sequence[Layer], plan: FramePlan) -> Plot:
         for i, scene in enumerate(steps)
         for trace in (_heat(scene, across, up), _levels(scene, across, up))
     ]
-    frame = _frame(plan, across, up)
+    frame = _frame(plan, grid, across, up)
     x, y = grid.axes[across], grid.axes[up]
     layout = {
         **plot_layout(_HEIGHT),
@@ -98,7 +98,7 @@ def _heat(scene: Scene, across: int, up: int) -> Plot:
 def _levels(scene: Scene, across: int, up: int) -> Plot:
     """Lines of equal value with their values, the same in all slices."""
     grid, levels = scene.grid, shared_levels(scene.of)
-    value = scene.layer.values.reshape(grid.shape[across], grid.shape[up]).T
+    value = _in_cells(scene.layer.values.reshape(grid.shape[across], grid.shape[up]).T)
     step = float(levels[1] - levels[0]) if len(levels) > 1 else 1.0
     ends = (float(levels[0]), float(levels[-1])) if len(levels) > 1 else (0.0, 0.0)
     return {
@@ -112,8 +112,19 @@ def _levels(scene: Scene, across: int, up: int) -> Plot:
     }  # fmt: skip
 
 
-def _frame(plan: FramePlan, across: int, up: int) -> list[Plot]:
-    """Frame anchors with their numbers, the outline around them, and the platform."""
+def _in_cells(value: np.ndarray) -> np.ndarray:
+    """The values at corners of cells that have all four; in rows of single poses a level line would be a stub."""
+    known = np.isfinite(value)
+    whole = known[1:, 1:] & known[1:, :-1] & known[:-1, 1:] & known[:-1, :-1]
+    corner = np.zeros_like(known)
+    for rows in (slice(1, None), slice(None, -1)):
+        for columns in (slice(1, None), slice(None, -1)):
+            corner[rows, columns] |= whole
+    return np.where(corner, value, np.nan)
+
+
+def _frame(plan: FramePlan, grid: Grid, across: int, up: int) -> list[Plot]:
+    """The mapped rectangle, frame anchors with their numbers, the outline around them, and the platform."""
     outline, platform = plan.frame_outline(across, up), plan.platform_outline(across, up)
     anchors = plan.anchors[:, (across, up)]
     frame = plot_line(outline[:, 0], outline[:, 1], "frame", {"color": GREY, "width": 1.5}, "frame")
@@ -124,7 +135,9 @@ def _frame(plan: FramePlan, across: int, up: int) -> list[Plot]:
         "marker": {"color": BLACK, "size": 7},
         "hovertemplate": "frame anchor of cable %{text}<br>(%{x:.3f}, %{y:.3f}) m<extra></extra>",
     }  # fmt: skip
-    return [frame, body, marks]
+    x, y = (grid.axes[i][[0, -1]] for i in (across, up))
+    mapped = plot_line(x[[0, 1, 1, 0, 0]], y[[0, 0, 1, 1, 0]], "mapped", {"color": BLUE, "width": 1.5}, "mapped")
+    return [mapped, frame, body, marks]
 
 
 def _reach(values: np.ndarray) -> list[float]:

@@ -8,7 +8,8 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from cdpr_struct.reports.figures.plot_parts import Plot, plot_layout, short
+from cdpr_struct.reports.figures.plot_parts import Plot, short
+from cdpr_struct.reports.figures.solid_scene import anchor_labels, solid_scene
 from cdpr_struct.reports.figures.style import BLACK, BLUE, GREY, LIGHT
 from cdpr_struct.reports.figures.workspace_map import LINE_SIZE, map_size
 from cdpr_struct.reports.figures.workspace_slices import Slices
@@ -20,6 +21,7 @@ _HOLDS = "#8fd0a5"
 _WHY = (LIGHT, GREY, "#f2c14e", "#e07a5f", "#7aa6d6", "#b48ead", "#9c6b4f", "#d98cb3", "#c9c25a", "#6fa8a0")
 _WIDTH, _COLUMNS, _MOST = 9.6, 3, 9
 _POINTS = 60_000  # of the surface on a page
+_MARGIN = 0.04  # around it, of the largest edge
 
 
 def region_size(grid: Grid) -> tuple[float, float]:
@@ -95,16 +97,22 @@ def surface(robot: Robot, region: Region) -> Plot:
         "surface": {"count": 1}, "showscale": False, "colorscale": [[0, BLUE], [1, BLUE]], "opacity": 0.55,
         "caps": {axis: {"show": True} for axis in AXES}, "hoverinfo": "skip", "name": "workspace",
     }  # fmt: skip
+    box = _box(np.concatenate([place, anchors]))
     marks = {
         "type": "scatter3d", "mode": "markers+text", **_xyz(anchors), "name": "frame anchors", "hoverinfo": "text",
-        "text": [str(i + 1) for i in range(len(anchors))], "marker": {"color": BLACK, "size": 3},
+        "text": anchor_labels(anchors, box), "marker": {"color": BLACK, "size": 3},
+        "hovertext": [f"frame anchor of cable {i + 1}" for i in range(len(anchors))],
     }  # fmt: skip
-    axes = {f"{axis}axis": {"title": {"text": f"{axis} [m]"}} for axis in AXES}
-    layout = {
-        **plot_layout(580), "margin": {"l": 0, "r": 0, "t": 10, "b": 0}, "showlegend": False,
-        "scene": {"aspectmode": "data", **axes},
-    }  # fmt: skip
-    return {"data": [solid, marks], "layout": layout}
+    scene = solid_scene(box)
+    scene["layout"]["showlegend"] = False
+    return {"data": [solid, marks], **scene}
+
+
+def _box(points: np.ndarray) -> np.ndarray:
+    """(2, 3) corners of what is shown, with a margin [m]."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin = _MARGIN * float((high - low).max())
+    return np.array([low - margin, high + margin])
 
 
 def _xyz(points: np.ndarray) -> dict[str, list[Any]]:

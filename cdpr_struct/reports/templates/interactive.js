@@ -47,8 +47,6 @@
       small.margin.b = 150;
       small.height = 590;
     }
-    const eye = small.scene?.camera?.eye;
-    for (const each of Object.keys(eye ?? {})) eye[each] *= 1.4;
     for (const [key, axis] of Object.entries(small)) if (/^[xy]axis/.test(key) && axis.title) axis.title.font = { size: 11 };
     const parts = data.map((trace) => ({ ...below(trace), ...(trace.marker && { marker: below(trace.marker) }) }));
     return { data: parts, layout: merged(small, narrow ?? {}) };
