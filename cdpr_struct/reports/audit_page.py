@@ -138,5 +138,7 @@ def _tables(audit: PoseAudit) -> list[HtmlTable]:
         poses = poses_in_degrees(audit)
         rows = [[", ".join(f"{v:g}" for v in poses[i]), audit.reason[i]] for i in unheld[:_UNHELD_SHOWN]]
         more = f"{len(unheld) - _UNHELD_SHOWN} more in audit.csv." if len(unheld) > _UNHELD_SHOWN else ""
-        tables.append(HtmlTable("Poses that cannot be held", ["pose [m, deg]", "why"], rows, more))
+        tables.append(
+            HtmlTable("Poses that cannot be held", ["pose [m, deg]", "why"], rows, more, prose=frozenset({1}))
+        )
     return tables

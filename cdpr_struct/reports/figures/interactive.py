@@ -37,10 +37,22 @@ def determinant_plot(trial: Verification) -> Plot:
         **plot_layout(560),
         "xaxis": {**plot_axis(FREQUENCY_LABEL), "anchor": "y2", "range": [0.0, float(scan.hertz[-1])]},
         "yaxis": {**plot_axis(DETERMINANT_LABEL), "domain": [0.34, 1.0]},
-        "yaxis2": {**plot_axis("FEM modes [count]"), "domain": [0.0, 0.26], "rangemode": "tozero", "fixedrange": True},
+        "yaxis2": {
+            **plot_axis("FEM modes [count]"), "domain": [0.0, 0.26], "rangemode": "tozero", "fixedrange": True,
+            "dtick": _whole_step(trial),
+        },
         "shapes": [_shade(*zoom_window(trial))],
-    }
+    }  # fmt: skip
     return {"data": curves + _mode_marks(trial), "layout": layout}
+
+
+def _levels(trial: Verification) -> np.ndarray:
+    return stack_levels(trial.fem_limit_hertz, float(trial.scan.hertz[-1]) / _STACKS_ACROSS)
+
+
+def _whole_step(trial: Verification) -> int:
+    """Step of the ticks of a count, some three of them."""
+    return max(1, round(float(_levels(trial).max(initial=1)) / 3.0))
 
 
 def _shade(low: float, high: float) -> Plot:
@@ -52,7 +64,7 @@ def _shade(low: float, high: float) -> Plot:
 
 def _mode_marks(trial: Verification) -> list[Plot]:
     hertz = trial.fem_limit_hertz
-    level = stack_levels(hertz, float(trial.scan.hertz[-1]) / _STACKS_ACROSS)
+    level = _levels(trial)
     missed = np.isnan(trial.determinant_hertz)
     marks = []
     for chosen, name, colour, symbol in (

@@ -131,8 +131,9 @@ def limits_caption(limits: ValidityLimits) -> str:
         f"Cable{'s' * (len(bad) > 1)} {number_ranges(bad)} (red crosses) outside." if bad else "All cables lie inside."
     )
     return (
-        "The closed form assumes a shallow, taut cable. Left: Irvine's λ², which must stay below the first "
-        "crossover of symmetric and antisymmetric modes. Right: ε, eight times sag over chord, which may be "
+        "The closed form assumes a shallow, taut cable. Stems: Irvine's λ², which must stay below the first "
+        "crossover of symmetric and antisymmetric modes. Points over the inclination: ε, eight times "
+        "sag over chord, which may be "
         f"{INCLINATION_EPSILON_PAIRS[0][1]:g} up to {INCLINATION_EPSILON_PAIRS[0][0]:g}° inclination and "
         f"{INCLINATION_EPSILON_PAIRS[1][1]:g} up to {INCLINATION_EPSILON_PAIRS[1][0]:g}°; "
         f"no limit is printed for steeper cables. Numbers are cables. {outcome}"

@@ -159,5 +159,5 @@ def load_ladder_caption(found: SufficientLoad) -> str:
     )
     return (
         "A load straightens the cables: the sagging model tends to the spring model, whose error grows in "
-        f"proportion to the load. {limit} Right: what sag adds, on logarithmic axes."
+        f"proportion to the load. {limit} On logarithmic axes: what sag adds."
     )

@@ -10,18 +10,20 @@ from cdpr_struct.reports.figures.style import BLACK
 
 _FROM = np.array([0.36, -0.87, 0.33])  # where the camera stands, seen from the middle of the box
 _SLOPE = np.tan(np.pi / 8.0)  # half the height of what plotly's camera sees, over its distance
-_LETTERS = (46.0, 42.0)  # room for ticks and names of the axes, across and up [px]
+_LETTERS = (74.0, 46.0)  # room for ticks and names of the axes, across and up [px]
 _NEAREST, _FARTHEST, _STEPS = 0.7, 6.0, 200
 _TURNS = 20  # of centring: each leaves a small part of what is off
-_WIDE, _NARROW = (960.0, 560.0), (376.0, 400.0)
+_WIDE, _NARROW = 960.0, 376.0  # widths [px]
+_LOWEST, _HIGHEST = 240.0, 580.0  # heights [px]
+_GLANCE = 2.0  # distance from which the shape of the box is judged
 _BAR = (100.0, 70.0)  # taken by a colour bar beside a wide figure, below a narrow one [px]
 _APART = (26.0, 13.0)  # anchors nearer than that on a phone share a label [px]
 
 
 def solid_scene(box: np.ndarray, bar: bool = False) -> dict[str, Plot]:
     """`layout` and, for phones, `narrow` of a figure that shows a box (2, 3) [m]; bar : beside a colour bar."""
-    high = int(_WIDE[1])
     size = box[1] - box[0]
+    wide, narrow = _pixels(size, _WIDE - _BAR[0] * bar), _pixels(size, _NARROW)
     axes = {
         f"{name}axis": {
             **plot_axis(f"{name} [m]"), "backgroundcolor": "white", "color": BLACK, "range": ends,
@@ -32,36 +34,49 @@ def solid_scene(box: np.ndarray, bar: bool = False) -> dict[str, Plot]:
     scene = {
         "aspectmode": "manual",
         "aspectratio": dict(zip("xyz", (size / size.max()).tolist(), strict=True)),
-        "camera": _camera(size, (_WIDE[0] - _BAR[0] * bar, _WIDE[1])),
+        "camera": _camera(size, wide),
         **axes,
     }
-    small = (_NARROW[0], _NARROW[1] - _BAR[1] * bar)
-    below = {"margin": {"l": 0, "r": 0, "t": 0, "b": int(_BAR[1]) * bar}, "height": int(_NARROW[1])}
+    below = {"l": 0, "r": 0, "t": 0, "b": int(_BAR[1]) * bar}
     return {
-        "layout": {**plot_layout(high), "margin": {"l": 0, "r": 0, "t": 0, "b": 0}, "scene": scene},
-        "narrow": {**below, "scene": {"camera": _camera(size, small)}},
+        "layout": {**plot_layout(round(wide[1])), "margin": {"l": 0, "r": 0, "t": 0, "b": 0}, "scene": scene},
+        "narrow": {
+            "margin": below,
+            "height": round(narrow[1] + below["b"]),
+            "scene": {"camera": _camera(size, narrow)},
+        },
     }
 
 
 def anchor_labels(anchors: np.ndarray, box: np.ndarray) -> list[str]:
     """Numbers of anchors (m, 3); those that would overprint each other on a phone stand together at the first."""
     size = box[1] - box[0]
-    camera = _camera(size, _NARROW)
+    pixels = _pixels(size, _NARROW)
+    eye, center = (np.array([place[axis] for axis in "xyz"]) for place in _camera(size, pixels).values())
     points = (anchors - 0.5 * (box[0] + box[1])) / size.max()
-    pixels = 0.5 * np.array(_NARROW) * _seen(points, *_vectors(camera), _NARROW[0] / _NARROW[1])
+    places = 0.5 * np.array(pixels) * _seen(points, eye, center, pixels[0] / pixels[1])
     labels = [""] * len(anchors)
-    for group in near_groups(pixels, _APART):
+    for group in near_groups(places, _APART):
         labels[group[0]] = number_ranges([i + 1 for i in group])
     return labels
 
 
-def _vectors(camera: Plot) -> tuple[np.ndarray, np.ndarray]:
-    return np.array([camera["eye"][a] for a in "xyz"]), np.array([camera["center"][a] for a in "xyz"])
+def _pixels(size: np.ndarray, width: float) -> tuple[float, float]:
+    """Width and height of a figure that a box with its letters fills [px]."""
+    corners = _corners(size)
+    across, up = np.ptp(_seen(corners, _GLANCE * _FROM / np.linalg.norm(_FROM), np.zeros(3), 1.0), axis=0)
+    high = (width - 2.0 * _LETTERS[0]) * up / across + 2.0 * _LETTERS[1]
+    return width, float(np.clip(high, _LOWEST, _HIGHEST))
+
+
+def _corners(size: np.ndarray) -> np.ndarray:
+    """(8, 3) of a box about the origin whose largest edge is 1, as plotly places it."""
+    return np.array(list(product((-0.5, 0.5), repeat=3))) * size / size.max()
 
 
 def _camera(size: np.ndarray, pixels: tuple[float, float]) -> Plot:
     """The nearest camera from which the box and the letters around it fit into a figure of so many pixels."""
-    corners = np.array(list(product((-0.5, 0.5), repeat=3))) * size / size.max()
+    corners = _corners(size)
     free = 1.0 - 2.0 * np.array(_LETTERS) / np.array(pixels)
     shape = pixels[0] / pixels[1]
     for distance in np.linspace(_NEAREST, _FARTHEST, _STEPS):

@@ -23,6 +23,7 @@ ORANGE, VERMILLION, PURPLE = "#E69F00", "#D55E00", "#CC79A7"
 
 GOOD, BAD = GREEN, VERMILLION
 KIND_COLOURS = {"platform": BLUE, "mixed": PURPLE, "cable": ORANGE}
+KIND_WORDS = {"platform": "blue", "mixed": "pink", "cable": "orange"}
 KIND_MARKERS = {"platform": "s", "mixed": "D", "cable": "o"}
 
 FONT_STACK = "'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"

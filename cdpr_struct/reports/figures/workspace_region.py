@@ -8,11 +8,13 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from cdpr_struct.reports.figures.panels import label_ends
 from cdpr_struct.reports.figures.plot_parts import Plot, short
 from cdpr_struct.reports.figures.solid_scene import anchor_labels, solid_scene
 from cdpr_struct.reports.figures.style import BLACK, BLUE, GREY, LIGHT
 from cdpr_struct.reports.figures.workspace_map import LINE_SIZE, map_size
 from cdpr_struct.reports.figures.workspace_slices import Slices
+from cdpr_struct.reports.typeset import typeset
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import AXES, Grid
 from cdpr_struct.workspace.region import Region
@@ -45,6 +47,8 @@ def draw_region(figure: Figure, grid: Grid, why: np.ndarray, names: list[str], r
         for axes, index in zip(panels, slices.index.tolist(), strict=False):
             _draw_slice(axes, grid, why, region, slices.axis, index)
             axes.set_title(f"{AXES[slices.axis]} = {grid.axes[slices.axis][index]:g} m")
+        across, up = (i for i in range(3) if i != slices.axis)
+        label_ends(panels[: len(slices.index)], f"{AXES[up]} [m]", f"{AXES[across]} [m]")
     else:
         axis = next(i for i in (2, 1, 0) if i not in grid.free)
         _draw_slice(figure.subplots(), grid, why, region, axis, 0)
@@ -54,7 +58,7 @@ def draw_region(figure: Figure, grid: Grid, why: np.ndarray, names: list[str], r
 
 
 def _label(name: str) -> str:
-    return {"held": "not held", "stable": "not stable"}.get(name, name)
+    return {"held": "not held", "stable": "not stable"}.get(name, typeset(name))
 
 
 def _colour(number: int) -> str:
