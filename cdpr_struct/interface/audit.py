@@ -20,6 +20,7 @@ from cdpr_struct.interface.trajectory import read_trajectory
 from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.audit_result import audit_columns, audit_json, audit_text, sentences
 from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.pose_batches import PoseBatches
@@ -162,7 +163,8 @@ class AuditQuestion:
         found = audit_of(self.batches, columns)
         told: dict[str, Any] = audit_json(found, self.time) | {"warnings": self.notes}
         if self.free is not None:
-            told = told_in_map(told, self.free.tolist(), table="audit.csv")
+            angles = np.degrees(angles_from_rotation(found.rotation[found.held]))
+            told = told_in_map(told, self.robot, self.free.tolist(), angles, table="audit.csv")
         return AuditResult(with_extensions(told, self.robot, "audit"), found, self.grid, self.time)
 
 

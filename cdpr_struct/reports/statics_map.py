@@ -22,10 +22,7 @@ if TYPE_CHECKING:
 
 _SAME = 1e-9  # relative: values of poses that count as equal
 _MOST_HELD, _MOST_RELEASED = 64, 16  # poses with slack cables at which a cure is searched; a release takes longer
-_FRAME = (
-    "the mapped rectangle in blue, the numbered frame anchors with the line around them, and the platform in the "
-    "middle of the map."
-)
+_FRAME = "the numbered frame anchors with the line around them, and the platform in the middle of the map."
 _NOTE = (
     "Each value is computed at the reference pose, or for pose errors from it, as the quantity's line in the "
     "documentation says. Tensions are those of minimum norm that balance the platform on sagging cables within the "
@@ -285,8 +282,8 @@ def _captions(robot: Robot, name: str, grid: Grid, columns: Columns) -> tuple[st
     if "veering" in columns and columns["veering"].any():
         picture.append("Triangles: modes veer, the frequency may step there.")
     if len(grid.free) > 1:
-        picture.append(f"In the frame: {_FRAME}")
-        live.append(f"The button “whole frame” shows {_FRAME}")
+        picture.append(f"In the frame: the mapped rectangle in blue, {_FRAME}")
+        live.append(f"Blue line: the mapped rectangle. The button “whole frame” shows {_FRAME}")
     return " ".join(picture), " ".join(live)
 
 

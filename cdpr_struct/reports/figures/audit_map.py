@@ -122,8 +122,8 @@ def audit_map_caption(audit: PoseAudit, wide: bool = True) -> str:
         )
     return (
         f"How many printed limits the cables break at each pose, {counted}: {spread}. The slider changes to the "
-        f"largest value over its limit: above 1 the limit is broken.{gaps.format('Blank')} The button shows the mapped "
-        "rectangle in blue, in the frame with its numbered anchors."
+        f"largest value over its limit: above 1 the limit is broken.{gaps.format('Blank')} Blue line: the mapped "
+        "rectangle. The button “whole frame” shows it in the frame with its numbered anchors."
     )
 
 

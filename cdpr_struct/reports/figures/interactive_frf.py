@@ -7,7 +7,7 @@ from cdpr_struct.measurement.universal_file import response_unit
 from cdpr_struct.reports.figures.frf import COLOURS, thinned
 from cdpr_struct.reports.figures.plot_parts import Plot, plot_axis, plot_layout, plot_line, short
 from cdpr_struct.reports.figures.style import KIND_COLOURS, kind_group, plain_number
-from cdpr_struct.reports.typeset import typeset
+from cdpr_struct.reports.typeset import raised, typeset
 
 
 def frf_plot(sweep: ResponseSweep) -> Plot:
@@ -49,7 +49,12 @@ def _decades(sweep: ResponseSweep) -> Plot:
         return {}
     low, high = np.floor(np.log10(size.min())), np.ceil(np.log10(size.max()))
     powers = np.arange(low, high + 1.0, max(1.0, np.ceil((high - low) / 8.0)))
-    return {"tickvals": (10.0**powers).tolist(), "ticktext": [plain_number(10.0**p) for p in powers.tolist()]}
+    return {"tickvals": (10.0**powers).tolist(), "ticktext": [_power(int(p)) for p in powers]}
+
+
+def _power(exponent: int) -> str:
+    """A power of ten, short enough for the margin of a phone."""
+    return plain_number(10.0**exponent) if abs(exponent) < 3 else f"10{raised(str(exponent))}"
 
 
 def _curves(sweep: ResponseSweep, column: int, unit: str) -> list[Plot]:

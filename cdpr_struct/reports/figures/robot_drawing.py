@@ -98,6 +98,8 @@ def _number_cables(axes: Axes3D, geometry: RobotGeometry) -> None:
     x, y, _ = proj3d.proj_transform(*geometry.frame.T, axes.get_proj())
     points = np.column_stack([x, y])
     extent = np.ptp(points, axis=0).max()
+    figure = axes.get_figure()
+    extent *= SIZE[0] / figure.get_figwidth() if isinstance(figure, Figure) else 1.0
     for place, label in label_groups(points, (0.03 * extent, 0.022 * extent)):
         axes.annotate(label, tuple(place), (4, 4), textcoords="offset points", fontsize=8, annotation_clip=False)
 

@@ -38,13 +38,10 @@ def solid_scene(box: np.ndarray, bar: bool = False) -> dict[str, Plot]:
         **axes,
     }
     below = {"l": 0, "r": 0, "t": 0, "b": int(_BAR[1]) * bar}
+    near = {"camera": _camera(size, narrow)}
     return {
         "layout": {**plot_layout(round(wide[1])), "margin": {"l": 0, "r": 0, "t": 0, "b": 0}, "scene": scene},
-        "narrow": {
-            "margin": below,
-            "height": round(narrow[1] + below["b"]),
-            "scene": {"camera": _camera(size, narrow)},
-        },
+        "narrow": {"margin": below, "height": round(narrow[1] + below["b"]), "scene": near},
     }
 
 

@@ -31,9 +31,14 @@ def region_size(grid: Grid) -> tuple[float, float]:
     if len(grid.free) < 3:
         return LINE_SIZE if len(grid.free) < 2 else map_size(grid)
     slices = Slices.of(grid, _MOST)
-    across, up = (float(np.ptp(grid.axes[i])) for i in range(3) if i != slices.axis)
-    rows = -(-len(slices.index) // _COLUMNS)
-    return _WIDTH, 1.0 + rows * (0.45 + 0.9 * _WIDTH / _COLUMNS * float(np.clip(up / across, 0.2, 2.0)))
+    return _WIDTH, _height(slices, _WIDTH, _COLUMNS)
+
+
+def _height(slices: Slices, width: float, columns: int) -> float:
+    """Of a figure so wide with so many slices beside each other [inch]."""
+    across, up = (float(np.ptp(slices.grid.axes[i])) for i in range(3) if i != slices.axis)
+    rows = -(-len(slices.index) // columns)
+    return 1.0 + rows * (0.45 + 0.9 * width / columns * float(np.clip(up / across, 0.2, 2.0)))
 
 
 def draw_region(figure: Figure, grid: Grid, why: np.ndarray, names: list[str], region: Region) -> None:
@@ -42,6 +47,7 @@ def draw_region(figure: Figure, grid: Grid, why: np.ndarray, names: list[str], r
         slices = Slices.of(grid, _MOST)
         rows = -(-len(slices.index) // _COLUMNS)
         panels = figure.subplots(rows, _COLUMNS, sharex=True, sharey=True, squeeze=False).ravel().tolist()
+        figure.set_figheight(_height(slices, figure.get_figwidth(), panels[0].get_subplotspec().get_gridspec().ncols))
         for axes in panels[len(slices.index) :]:
             axes.remove()
         for axes, index in zip(panels, slices.index.tolist(), strict=False):
