@@ -43,7 +43,8 @@ _HINTS = {
 }
 _COMMENTS = (
     f"# Replace each {UNFILLED} by what was measured; leave a cell empty where nothing was measured.",
-    "# Pose columns hold the planned pose: replace it by the measured one, the same digits in all files.",
+    "# Pose columns hold the planned pose: replace it by the measured one. Copy the pose of a case from one file to the",
+    "# others; give repeated readings a case of their own.",
     f"# Columns {PREDICTED}... are the simulation's, to compare with; they are not read.",
 )
 _STATIC = {"tensions": TENSION, "lengths": LENGTH}
