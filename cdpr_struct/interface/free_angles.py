@@ -7,15 +7,18 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from cdpr_struct.errors import InputError, UnholdablePoseError
+from cdpr_struct.interface.arguments import one_of
 from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.even_orientation import even_orientation
 from cdpr_struct.statics.free_orientation import ANGLES, free_orientation, left_free
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, hung_solution
 from cdpr_struct.workspace.margins import largest_tilt
 
 FreeAngles: TypeAlias = str | Iterable[str]
 """Names of angles, or their text with commas between them: rx, ry, rz."""
+HANGING, EVEN = ORIENTS = ("hanging", "even")
 _EXPECTED = "give some of rx,ry,rz"
 
 
@@ -24,22 +27,30 @@ class HangingPose:
     """A pose at which the platform hangs freely.
 
     free : (3,) bool, of rx, ry, rz;  added : names of angles that were not asked for, but are free, too
-    solution : the tensions there
+    solution : the tensions there;  spread : of the tensions [-] if the angles are those of the most even ones, or None
     """
 
     pose: Pose
     solution: InverseSolution
     free: np.ndarray
     added: tuple[str, ...]
+    spread: float | None = None
 
     def json(self) -> dict[str, Any]:
         """The key `free` of results."""
         angles = np.degrees(self.pose.angles).tolist()
-        return {"free": {"angles": names_of(self.free), "added": list(self.added), "orientation_deg": angles}}
+        told = {"angles": names_of(self.free), "added": list(self.added), "orientation_deg": angles}
+        return {"free": told if self.spread is None else {**told, "orient": EVEN, "tension_spread": self.spread}}
 
     def sentence(self) -> str:
         """What is said of it."""
         rx, ry, rz = np.degrees(self.pose.angles) + 0.0
+        if self.spread is not None:
+            where = f"({rx:.4g}, {ry:.4g}, {rz:.4g})°"
+            most = f"most even at {where}: their standard deviation is {self.spread:.3g} of their mean"
+            return (
+                f"{', '.join(names_of(self.free))} were chosen: the tensions are {most} (the nearest such orientation)."
+            )
         many = f"; {', '.join(self.added)} because so few cables cannot hold it" if self.added else ""
         hangs = f"the platform hangs at ({rx:.4g}, {ry:.4g}, {rz:.4g})° about x, y, z."
         return f"{', '.join(names_of(self.free))} were left free{many}: {hangs}"
@@ -116,6 +127,46 @@ def read_free(given: FreeAngles, robot: Robot) -> tuple[np.ndarray, tuple[str, .
     except ValueError as error:
         raise InputError("free", "", given, str(error)) from error
     return free, tuple(names_of(free & ~asked))
+
+
+def chosen_pose(
+    robot: Robot, where: Pose, given: FreeAngles | None, orient: str | None, model: str = "sagging"
+) -> HangingPose | None:
+    """The pose with its angles chosen as asked: as the platform hangs, or of the most even tensions; None: as given.
+
+    Raises
+    ------
+    InputError : unusable names.
+    UnholdablePoseError : no such orientation is found.
+    """
+    if orient is not None and one_of(orient, "orient", ORIENTS) == EVEN:
+        return even_pose(robot, where, ANGLES if given is None else given, model)
+    if given is None:
+        if orient is not None:
+            raise InputError("orient", "", orient, "it says how the angles of `free` are chosen; give `free`, too")
+        return None
+    return hanging_pose(robot, where, given, model)
+
+
+def even_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sagging") -> HangingPose:
+    """The pose at the same position at which the tensions are most even.
+
+    Raises
+    ------
+    InputError : unusable names, or fewer than six cables, which turn the platform nowhere.
+    UnholdablePoseError : no such orientation is found from that of the pose.
+    """
+    if len(robot.cables) < 6:
+        raise InputError("orient", "", EVEN, "it needs six cables or more; with fewer the platform hangs: leave it out")
+    free, _ = read_free(given, robot)
+    found = even_orientation(robot, where.position[None], where.angles, free, model)
+    if not found.found[0]:
+        raise UnholdablePoseError(
+            f"no orientation of most even tensions is found by turning {', '.join(names_of(free))}: the cables hold "
+            f"the platform nowhere near, or the search has not settled. Move the pose, or begin at another orientation."
+        )
+    pose, spread = Pose(where.position, found.angles[0]), float(found.spread[0])
+    return HangingPose(pose, found.solution.at(0), free, (), spread)
 
 
 def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sagging") -> HangingPose:

@@ -10,8 +10,9 @@ _READINGS = "this describes readings, which only diagnose and plan compare"
 _VIBRATION = "this concerns vibration only"
 _NO_BENDING = "this cable model has none; --model exact does"
 _AT_REST = ("inverse", "forward", "pose-error")
+_NOT_VIBRATING = (*_AT_REST, "distribute", "audit")
 _CABLES_ONLY = ("bending_stiffness", "added_mass")
-_INTERNAL = "internal_mass"
+_INTERNAL, _HEADS = "internal_mass", "mast_mass"
 _ELASTIC = ("series_compliance", "frame_compliance", "mast_bending", "nonlinearity")
 
 
@@ -42,8 +43,8 @@ def _why_idle(name: str, command: str, model: str) -> str:
         return ""
     if name in SENSORS:
         return _READINGS
-    if name == _INTERNAL:
-        return _why_rigid(command, model)
+    if name in (_INTERNAL, _HEADS):
+        return _why_rigid(command, model) if name == _INTERNAL else _VIBRATION if command in _NOT_VIBRATING else ""
     if command == "distribute":
         return "forces are distributed with EA as entered" if name == "nonlinearity" else ""
     if name not in _CABLES_ONLY:
@@ -83,6 +84,8 @@ def _particulars(command: str, model: str) -> dict[str, str]:
         said["added_mass"] = "added_mass takes part in vibration; its weight does not bend the cable."
     if command in ("frf", "transient"):
         said[_INTERNAL] = "The mount of internal_mass has no damping of its own."
+    if command in ("frf", "transient"):
+        said[_HEADS] = "Masses on masts have the damping of the cable whose exit they move with."
     if command == "frf":
         still = "For excitation and response at points of cables, masts are taken as rigid."
         said |= {"frame_compliance": still, "mast_bending": still}

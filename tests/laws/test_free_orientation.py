@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 import pytest
+from scipy.optimize import minimize
 
 import cdpr_struct as cs
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
@@ -151,3 +152,24 @@ def test_along_a_trajectory_the_platform_hangs_along_the_apparent_gravity():
     assert 0.0 < told["left_out_Nm"] < 1e-3 * righting  # what is left out would tilt it by less than a milliradian
     with pytest.raises(InputError, match="six cables or more"):
         cs.distribute(few_cables(4), "line:0,0,0:0.1,0,0:5", free="rx")
+
+
+def test_the_most_even_tensions_are_met_by_a_search_without_derivatives():
+    robot, place = cs.load_robot("six-cable-4mm"), [0.5, 0.3, 0.5]
+    found = cs.inverse(robot, place, orient="even")
+
+    def spread(angles: np.ndarray) -> float:
+        tensions = cs.inverse(robot, Pose(np.array(place), angles)).solution.tensions
+        return float(tensions.std() / tensions.mean())
+
+    told = found.answer["free"]["tension_spread"]
+    assert told == pytest.approx(spread(found.pose.angles), rel=1e-9)
+    best = minimize(spread, found.pose.angles + 0.02, method="Nelder-Mead", options={"xatol": 1e-7, "fatol": 1e-12})
+    assert told == pytest.approx(best.fun, abs=1e-9)
+    assert found.pose.angles == pytest.approx(best.x, abs=1e-5)
+    hanging = cs.inverse(robot, place, free="rx,ry,rz").solution.tensions
+    assert told < hanging.std() / hanging.mean()
+    with pytest.raises(InputError, match="six cables or more"):
+        cs.inverse(few_cables(4), place, orient="even")
+    with pytest.raises(InputError, match="give `free`, too"):
+        cs.inverse(robot, place, orient="hanging")
