@@ -43,8 +43,8 @@ _HINTS = {
 }
 _COMMENTS = (
     f"# Replace each {UNFILLED} by what was measured; leave a cell empty where nothing was measured.",
-    "# Pose columns hold the planned pose: replace it by the measured one. Copy the pose of a case from one file to the",
-    "# others; give repeated readings a case of their own.",
+    "# Pose columns hold the planned pose: replace it by the measured one; copy it to the same case in other files.",
+    "# Repeated readings get a new case name.",
     f"# Columns {PREDICTED}... are the simulation's, to compare with; they are not read.",
 )
 _STATIC = {"tensions": TENSION, "lengths": LENGTH}

@@ -101,25 +101,26 @@ def pose_error_caption(errors: PoseErrorMap, live: bool = False) -> str:
     left_out = errors.grid.size - int(errors.counts.sum())
     other = int(errors.more_stable.sum())
     where = errors.grid.fixed_text()
-    several = len(errors.grid.free) > 1
-    layout = f"The slider changes the part{' and the slice' * (len(errors.grid.free) == 3)}. Blue line: the mapped rectangle."
-    gaps = ("Blank" if several else "Gaps") if live else "Hatched"
+    gaps = ("Blank" if len(errors.grid.free) > 1 else "Gaps") if live else "Hatched"
     said = (
         f"Pose error of {errors.robot} along z{', ' + where if where else ''}, {errors.mass:g} kg: cables are given "
         "the lengths of straight, inextensible ones, and the platform hangs where sag and stretch let it. Above zero "
         f"it hangs too high. Mean over {int(errors.counts.sum())} poses: {means}. Largest: {worst:+.2f} mm at "
-        f"({x:g}, {y:g}, {z:g}) m. {layout if live and several else _layout_text(errors)}"
+        f"({x:g}, {y:g}, {z:g}) m. {_layout_text(errors, live)}"
         + (f" {gaps}: {left_out} poses that ideal cables cannot hold or that are not stable." if left_out else "")
     )
     if not other or live:
         return said
     return (
-        f"{said} Triangles: {other} poses at which the spring model has another equilibrium of lower energy; shown is the "
-        "one that is continuous with the reference pose."
+        f"{said} Triangles: {other} poses at which the spring model has another equilibrium of lower energy; shown is "
+        "the one that is continuous with the reference pose."
     )
 
 
-def _layout_text(errors: PoseErrorMap) -> str:
+def _layout_text(errors: PoseErrorMap, live: bool) -> str:
+    if live and len(errors.grid.free) > 1:
+        what = "the part and the slice" if len(errors.grid.free) == 3 else "the part"
+        return f"The slider changes {what}. Blue line: the mapped rectangle."
     if len(errors.grid.free) < 3:
         return "Each map has its own scale." if len(errors.grid.free) == 2 else "All curves have one scale."
     return f"{Slices.of(errors.grid, _MOST_SLICES).said()[:-1]} in each column."
