@@ -10,6 +10,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_numbers, read_robot, real
+from cdpr_struct.interface.cable_wind import require_cables_without_drag
 from cdpr_struct.interface.given import PoseLike
 from cdpr_struct.interface.written import write_text
 from cdpr_struct.measurement.assumed_angles import ANGLES
@@ -85,6 +86,7 @@ def new_campaign(
     if isinstance(robot, Robot):
         raise InputError("robot", "", robot.name, "a built-in name or the path of a robot file: a campaign names it")
     machine = read_robot(robot)
+    require_cables_without_drag(machine, "wind on cables is not among what is diagnosed")
     names = [part.strip() for part in (kinds.split(",") if isinstance(kinds, str) else kinds)]
     chosen = [one_of(name, "kinds", READINGS) for name in dict.fromkeys(names)]
     real(payload, "payload", "give a mass in kg above zero", 0.0)

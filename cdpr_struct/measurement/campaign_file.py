@@ -251,19 +251,8 @@ def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:
     ------
     InputError : a robot that a diagnosis does not know.
     """
-    level = robot.down.tolist() == [0.0, 0.0, -1.0] and robot.gravity > 0.0
-    if robot.guided or not level:
-        what = (
-            f"platform.guided = {list(robot.guided)}" if robot.guided else f"gravity = {robot.gravity_vector.tolist()}"
-        )
-        expected = "a free platform under gravity along -z: guides and other gravity are not among what is diagnosed"
-        raise InputError(str(source), "robot", f"{robot.name} with {what}", expected)
+    _require_known(robot, source)
     body, cables = robot.platform, robot.cables
-    if robot.tension_winches:
-        held = robot.tension_winches[0]
-        expected = "winches that hold lengths: those that hold a tension are not among what is diagnosed"
-        what = f"{robot.name} with cables[{held}].winch_tension = {cables[held - 1].winch_tension:g}"
-        raise InputError(str(source), "robot", what, expected)
     changes: dict[str, Any] = {
         "mass": table.platform_mass,
         "center_of_mass": None if table.center_of_mass is None else np.array(table.center_of_mass),
@@ -282,3 +271,27 @@ def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:
         for c in cables
     )
     return replace(robot, platform=body, cables=cables, gravity=table.gravity or robot.gravity)
+
+
+def _require_known(robot: Robot, source: Path) -> None:
+    """Refuse a robot that a diagnosis does not know.
+
+    Raises
+    ------
+    InputError : guides, other gravity than along -z, winches that hold tensions, or wind on cables.
+    """
+    level = robot.down.tolist() == [0.0, 0.0, -1.0] and robot.gravity > 0.0
+    if robot.guided or not level:
+        what = (
+            f"platform.guided = {list(robot.guided)}" if robot.guided else f"gravity = {robot.gravity_vector.tolist()}"
+        )
+        expected = "a free platform under gravity along -z: guides and other gravity are not among what is diagnosed"
+        raise InputError(str(source), "robot", f"{robot.name} with {what}", expected)
+    if robot.tension_winches:
+        held = robot.tension_winches[0]
+        expected = "winches that hold lengths: those that hold a tension are not among what is diagnosed"
+        what = f"{robot.name} with cables[{held}].winch_tension = {robot.cables[held - 1].winch_tension:g}"
+        raise InputError(str(source), "robot", what, expected)
+    if robot.extensions.drag_width.any():
+        what = f"{robot.name} with extensions.drag_width = {robot.extensions.drag_width.tolist()}"
+        raise InputError(str(source), "robot", what, "no drag_width: wind on cables is not among what is diagnosed")
