@@ -58,7 +58,7 @@ def test_frf_writes_csv_universal_file_and_report(tmp_path, capsys):
         np.testing.assert_allclose(height, response["peak_magnitudes"], rtol=1e-6)
     page = (tmp_path / "report.html").read_text()
     assert "frf thesis-3-1" in page
-    assert "peaks in the band" in page
+    assert "show as peaks" in page
     assert (tmp_path / "frf.svg").read_text().startswith("<?xml")
 
 
