@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from cdpr_struct.errors import InputError
+from cdpr_struct.interface.answering import doubt
 
 if TYPE_CHECKING:
     from cdpr_struct.interface.given import GridLike, Numbers, PoseLike, RobotLike
@@ -114,10 +115,13 @@ def read_robot(
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
     temperature : of the cables, above that at which lengths are entered [K]; None keeps the robot's own
 
+    What can hardly be meant in it is said behind an error; every result says it by `with_extensions`.
+
     Raises
     ------
     InputError : no such robot, or a number out of range.
     """
+    from cdpr_struct.robot.plausibility import implausible
     from cdpr_struct.robot.robot import Robot
     from cdpr_struct.robot.robot_file import load_robot
 
@@ -129,6 +133,7 @@ def read_robot(
     if not isinstance(robot, Robot | str | os.PathLike):
         raise InputError("robot", "", robot, "a Robot, a built-in name, or the path of a robot file")
     entered = robot if isinstance(robot, Robot) else load_robot(os.fspath(robot))
+    doubt(implausible(entered))
     try:
         loaded = entered.with_load(payload, mass)
     except ValueError as error:
