@@ -9,8 +9,8 @@ import pytest
 
 import cdpr_struct as cs
 from cdpr_struct.cli.main import run
-from cdpr_struct.interface.campaigns import read_campaign
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.interface.campaigns import read_campaign
 from cdpr_struct.measurement.campaign_template import READINGS
 from cdpr_struct.statics.inverse_kinematics import inverse
 from tests.laws.written_campaigns import clamped_hertz
