@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cdpr_struct.robot.extensions import drag, drag_across, masts_of, uprights_of
+from cdpr_struct.robot.lump import lump_arrays
 from cdpr_struct.robot.parameters import EXTENSIONS, PARAMETERS
 from cdpr_struct.robot.platform import joined_masses
 from cdpr_struct.robot.robot import FREEDOMS, Robot
@@ -33,6 +34,7 @@ class RobotArrays:
     damping_ratio   : (..., m) xi [-];  thermal_expansion : (..., m) [1/K]
     force_min, force_max : (..., m) [N], limits of the tension at the platform
     winch_tension   : (..., m) [N] at the frame that the winch holds, 0 where it holds the length
+    lump_place      : (..., m, k) [m] of point masses lump_mass (..., m, k) [kg], ascending, from the platform on
 
     Extensions, without effect unless given:
     series_compliance, length_offset, length_scale, bending_stiffness, added_mass : (..., m)
@@ -65,6 +67,8 @@ class RobotArrays:
     force_min: np.ndarray = field(default_factory=PARAMETERS["force_min"].without_effect)
     force_max: np.ndarray = field(default_factory=PARAMETERS["force_max"].without_effect)
     winch_tension: np.ndarray = field(default_factory=PARAMETERS["winch_tension"].without_effect)
+    lump_place: np.ndarray = field(default_factory=PARAMETERS["lump_place"].without_effect)
+    lump_mass: np.ndarray = field(default_factory=PARAMETERS["lump_mass"].without_effect)
     series_compliance: np.ndarray = field(default_factory=PARAMETERS["series_compliance"].without_effect)
     length_offset: np.ndarray = field(default_factory=PARAMETERS["length_offset"].without_effect)
     length_scale: np.ndarray = field(default_factory=PARAMETERS["length_scale"].without_effect)
@@ -126,6 +130,16 @@ class RobotArrays:
         if not self.drag_area.any():
             return self.force
         return self.force + drag(self.wind, self.drag_area, self.air_density)
+
+    @property
+    def has_lumps(self) -> bool:
+        """Whether point masses hang on cables."""
+        return bool(self.lump_mass.any())
+
+    @property
+    def lump_weight(self) -> np.ndarray:
+        """(..., m, k) of the point masses on cables [N]."""
+        return self.lump_mass * self.gravity[..., None, None]
 
     @property
     def cable_count(self) -> int:
@@ -280,6 +294,7 @@ def _entered(robot: Robot) -> RobotArrays:
         force_min=robot.force_min,
         force_max=robot.force_max,
         winch_tension=np.array([cable.winch_tension for cable in robot.cables]),
+        **lump_arrays(robot.lumps, len(robot.cables)),
         masts=masts_of(robot.frame_anchors),
         uprights=uprights_of(robot.frame_anchors, more.mast_foot),
         **{name: np.asarray(getattr(more, name), dtype=float) for name in EXTENSIONS},
@@ -289,13 +304,3 @@ def _entered(robot: Robot) -> RobotArrays:
 def _batch(arrays: RobotArrays, name: str) -> tuple[int, ...]:
     shape: tuple[int, ...] = getattr(arrays, name).shape
     return shape[: len(shape) - PARAMETERS[name].axes]
-
-
-def plus(arrays: RobotArrays, **changes: np.ndarray) -> RobotArrays:
-    """The robot with changes added to the named fields; batch axes broadcast."""
-    return replace(arrays, **{name: getattr(arrays, name) + change for name, change in changes.items()})
-
-
-def times(arrays: RobotArrays, **factors: np.ndarray) -> RobotArrays:
-    """The robot with the named fields multiplied; batch axes broadcast."""
-    return replace(arrays, **{name: getattr(arrays, name) * factor for name, factor in factors.items()})
