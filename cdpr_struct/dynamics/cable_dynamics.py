@@ -66,7 +66,7 @@ def polynomial_order(point: OperatingPoint, highest_omega: float, rough: bool = 
     """Order of the polynomials with which "exact" is as accurate as `cable_dynamics` says."""
     half_waves = highest_omega / _first_frequency(point).min()
     kinks = point.arrays.bending_stiffness.any() or point.arrays.added_mass.any()  # at clamped ends, at the mass
-    taut = not kinks and (point.cables.weight * point.cables.length < _TAUT * point.cables.tension).all()
+    taut = not kinks and (point.cables.whole_weight < _TAUT * point.cables.tension).all()
     fine = _KINKED if kinks else _FEW if taut else _MANY
     spare, least = (_FEWEST if taut else _FEW) if rough else fine
     return int(np.clip(2.0 * half_waves + spare, least, 400.0))
@@ -79,7 +79,8 @@ def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
     stiffness = point.end_stiffness.reshape(-1, 3, 3)
     density = np.broadcast_to(robot.linear_density, shape).reshape(-1)
     extras = CableExtras(
-        *(np.broadcast_to(value, shape).reshape(-1) for value in (robot.bending_stiffness, robot.added_mass))
+        *(np.broadcast_to(value, shape).reshape(-1) for value in (robot.bending_stiffness, robot.added_mass)),
+        np.broadcast_to(robot.lump_mass, shape + robot.lump_mass.shape[-1:]).reshape((-1, robot.lump_mass.shape[-1])),
     )
     flat = flattened(cables)
     return expand_catenaries(flat, density, order, stiffness, frame_ends(point), extras).reshaped(shape)
@@ -89,10 +90,11 @@ def flattened(cables: CableStates) -> CableStates:
     """The same cables with the batch of poses and m in one axis."""
     shape = cables.length.shape
 
-    def flat(value: np.ndarray, core: tuple[int, ...]) -> np.ndarray:
+    def flat(value: np.ndarray, own: int) -> np.ndarray:
+        core = value.shape[value.ndim - own :]
         return np.broadcast_to(value, shape + core).reshape((-1, *core))
 
-    return CableStates(**{f.name: flat(getattr(cables, f.name), (3,) * (f.name in VECTORS)) for f in fields(cables)})
+    return CableStates(**{f.name: flat(getattr(cables, f.name), int(f.name in VECTORS)) for f in fields(cables)})
 
 
 def damped(cables: CableDynamics, damping_ratio: np.ndarray, omega: np.ndarray) -> np.ndarray:

@@ -15,6 +15,7 @@ import numpy as np
 
 from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
+from cdpr_struct.dynamics.piecewise_basis import PiecewiseBasis, PiecewiseCoordinate
 from cdpr_struct.dynamics.polynomial_basis import curvatures, on_gauss_nodes, polynomial_basis
 from cdpr_struct.dynamics.stiff_cable import slenderness
 from cdpr_struct.statics.cable_state import CableStates, cable_frame
@@ -34,10 +35,12 @@ class FrameEnds:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CableExtras:
-    """Bending stiffness EI (m,) [N m^2] of taut cables clamped at both ends, and masses (m,) at mid-cable [kg]."""
+    """Bending stiffness EI (m,) [N m^2] of taut cables clamped at both ends, masses (m,) at mid-cable, and those of
+    the point masses (m, k) that hang where `CableStates.lump_place` says [kg]."""
 
     bending_stiffness: np.ndarray
     added_mass: np.ndarray
+    lump_mass: np.ndarray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,8 +84,10 @@ def expand_catenaries(
     """
     frame = cable_frame(cables)
     to_local = np.swapaxes(frame, -1, -2)
-    nodes, weights, values, slopes = on_gauss_nodes(order)
-    coordinate = CatenaryCoordinate.of(cables)
+    lumped = cables.has_lumps
+    basis = PiecewiseBasis(order, 1 + lumped * cables.lump_place.shape[-1])
+    nodes, weights, values, slopes = basis.on_gauss_nodes() if lumped else on_gauss_nodes(order)
+    coordinate = PiecewiseCoordinate.of(cables) if lumped else CatenaryCoordinate.of(cables)
     arc, rate = coordinate.arc(nodes)
     density = stiffness_density(cables, arc)
     scale = weights / rate
@@ -91,6 +96,9 @@ def expand_catenaries(
     if extras is not None and extras.added_mass.any():
         middle, _ = polynomial_basis(coordinate.xi(np.array([0.5]))[:, 0], order)
         mass = mass + extras.added_mass[:, None, None] * middle.T[:, :, None] * middle.T[:, None, :]
+    if extras is not None and lumped:
+        there, _ = basis.values(coordinate.xi(1.0 - cables.lump_place / cables.length[:, None]))
+        mass = mass + np.einsum("imk,jmk,mk->mij", there, there, extras.lump_mass, optimize=True)
     if extras is not None and extras.bending_stiffness.any():
         ends = 2.0 * slenderness(extras.bending_stiffness, cables.tension, cables.chord)
         density = stiffness_density(cables, arc, (1.0 + ends + ends**2) ** 2)
@@ -105,7 +113,7 @@ def expand_catenaries(
         if bending is not None:
             plane = across[..., components, :][..., components] * bending[1][..., None, None]
             stiffness = stiffness + np.moveaxis(_products(bending[0], np.moveaxis(plane, 1, -1)), (1, 2), (2, 4))
-        freedoms = _Freedoms.of(order, len(components), directions)
+        freedoms = _Freedoms.of(basis.count - 1, len(components), directions)
         planes.append(_condense(components, stiffness, mass, freedoms, springs))
     found = ModalExpansion(
         frame=frame,
@@ -116,7 +124,7 @@ def expand_catenaries(
         rigid_mass=_end_mass([(plane.components, plane.rigid_mass) for plane in planes]),
         rigid_end=_end_mass([(plane.components, plane.rigid_end) for plane in planes]),
         rigid_modes=_coupling([(plane.components, plane.rigid_modes) for plane in planes]),
-        shapes=lambda stations, derivative=0: _shapes(planes, coordinate, order, stations, derivative),
+        shapes=lambda stations, derivative=0: _shapes(planes, coordinate, basis, stations, derivative),
     )
     return found.ascending()
 
@@ -135,6 +143,9 @@ def _across(cables: CableStates, arc: np.ndarray) -> np.ndarray:
 def _tangent(cables: CableStates, arc: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Tangent (m, q, 3) and tension (m, q) [N] at unstrained arc lengths from the frame."""
     hanging = cables.weight[:, None] * (cables.length[:, None] - arc)
+    if cables.has_lumps:
+        above = (cables.length[:, None] - cables.lump_place)[:, None, :] > arc[..., None]
+        hanging = hanging + (cables.lump_weight[:, None, :] * above).sum(axis=-1)
     vertical = cables.force_z[:, None] - hanging
     horizontal = np.broadcast_to(cables.force_x[:, None], vertical.shape)
     tension = np.hypot(horizontal, vertical)
@@ -261,14 +272,18 @@ def _coupling(parts: list[tuple[tuple[int, ...], np.ndarray]]) -> np.ndarray:
 
 
 def _shapes(
-    planes: list[_Plane], coordinate: CatenaryCoordinate, order: int, stations: np.ndarray, derivative: int
+    planes: list[_Plane],
+    coordinate: CatenaryCoordinate | PiecewiseCoordinate,
+    basis: PiecewiseBasis,
+    stations: np.ndarray,
+    derivative: int,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Static shapes (m, s, 3, 3) and modes (m, p, s, 3) as `Shapes` says; the second derivative for taut cables."""
     xi = coordinate.xi(stations)
-    values, slopes = polynomial_basis(xi, order)
+    values, slopes = basis.values(xi)
     if derivative:
         stretch = coordinate.length[:, None] / coordinate.arc(xi)[1]
-        values = slopes * stretch if derivative == 1 else curvatures(xi, order) * stretch**2
+        values = slopes * stretch if derivative == 1 else curvatures(xi, basis.order) * stretch**2
     inner, ramp = values[:-1], values[-1]
     static = np.zeros((*xi.shape, 3, 3))
     blocks = []

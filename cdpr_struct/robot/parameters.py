@@ -104,7 +104,12 @@ _RULES: dict[str, Parameter] = {
         "N", "at the frame that the winch holds, 0: it holds the length", "cable.winch_tension", 0.0, least=0.0
     ),
     "lump_place": Parameter(
-        (CABLES, LUMPS), "m", "of point masses on the cable, unstrained, from the platform on", "lumps[]", 0.0, least=0.0
+        (CABLES, LUMPS),
+        "m",
+        "of point masses on the cable, unstrained, from the platform on",
+        "lumps[]",
+        0.0,
+        least=0.0,
     ),
     "lump_mass": Parameter((CABLES, LUMPS), "kg", "of them", "lumps[]", 0.0, least=0.0),
     "masts": Parameter((CABLES, CABLES), "1", "1 where cables share a mast, by the frame anchors", "", 1.0),

@@ -115,8 +115,8 @@ class RobotArrays:
         return self.linear_density * self.gravity[..., None]
 
     def cable_load(self, chord: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Weight and drag per unstrained length of cables along chords (..., m, 3): size (..., m) [N/m] of their sum,
-        and unit vector (..., m, 3) against it, world."""
+        """Weight and drag per unstrained length of cables along chords (..., m, 3): size (..., m) [N/m] of the sum, unit
+        vector (..., m, 3) against it."""
         if not self.has_cable_drag:
             return self.weight, np.broadcast_to(self.up, chord.shape)
         pushed = drag_across(self.wind[..., None, :], chord, self.drag_width, self.air_density[..., None])
@@ -133,7 +133,7 @@ class RobotArrays:
 
     @property
     def has_lumps(self) -> bool:
-        """Whether point masses hang on cables."""
+        """Whether point masses sit on cables."""
         return bool(self.lump_mass.any())
 
     @property

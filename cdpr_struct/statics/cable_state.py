@@ -6,9 +6,11 @@ import numpy as np
 
 from cdpr_struct.generated import catenary
 from cdpr_struct.generated.cable_compliance import compliance, stiffness
+from cdpr_struct.statics.cable_segments import Loading
+from cdpr_struct.statics.catenary_length import STEEPEST
 
 _UP = np.array([0.0, 0.0, 1.0])
-VECTORS = ("offset", "heading", "up")
+VECTORS = ("offset", "heading", "up", "lump_place", "lump_weight")
 """Fields of `CableStates` with an axis of their own."""
 
 
@@ -27,6 +29,7 @@ class CableStates:
     weight          : (..., m) w [N/m]; 0 for a straight, weightless cable
     status          : (..., m) `CableStatus` values
     up              : (..., m, 3) unit vector against gravity, world; along z if not given
+    lump_place, lump_weight : (..., m, k) of point masses, unstrained from the platform end on [m], [N]; none if not given
     """
 
     offset: np.ndarray
@@ -40,14 +43,36 @@ class CableStates:
     status: np.ndarray
     let_out: np.ndarray
     up: np.ndarray = None  # type: ignore[assignment]
+    lump_place: np.ndarray = None  # type: ignore[assignment]
+    lump_weight: np.ndarray = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
+        if self.lump_place is None:
+            none = np.broadcast_to(np.zeros(1), (*np.shape(self.length), 1))
+            object.__setattr__(self, "lump_place", none)
+            object.__setattr__(self, "lump_weight", none)
         if self.up is None:
             object.__setattr__(self, "up", np.broadcast_to(_UP, self.heading.shape))
 
     def at(self, index: int | np.ndarray | None) -> "CableStates":
         """The states at an index of the batch: a number, an array of numbers, or None for one more axis."""
         return CableStates(*(getattr(self, name)[index] for name in CableStates.__slots__))
+
+    @property
+    def has_lumps(self) -> bool:
+        """Whether point masses hang on any of them."""
+        return bool(self.lump_weight.any())
+
+    @property
+    def loading(self) -> Loading:
+        """What hangs where on them."""
+        return Loading(self.weight, self.lump_place, self.lump_weight, self.axial_stiffness)
+
+    @property
+    def whole_weight(self) -> np.ndarray:
+        """(..., m) of the free cable and the point masses on it [N]."""
+        own = self.weight * self.length
+        return own + self.lump_weight.sum(axis=-1) if self.has_lumps else own
 
     @property
     def force_on_platform(self) -> np.ndarray:
@@ -57,7 +82,7 @@ class CableStates:
     @property
     def force_at_frame(self) -> np.ndarray:
         """(..., m, 3) tension vector at the frame end, pointing from frame to platform, world [N]."""
-        return self.force_x[..., None] * self.heading + (self.force_z - self.weight * self.length)[..., None] * self.up
+        return self.force_x[..., None] * self.heading + (self.force_z - self.whole_weight)[..., None] * self.up
 
     @property
     def total_length(self) -> np.ndarray:
@@ -72,7 +97,7 @@ class CableStates:
     @property
     def tension_at_frame(self) -> np.ndarray:
         """(..., m) [N]."""
-        return np.hypot(self.force_x, self.force_z - self.weight * self.length)
+        return np.hypot(self.force_x, self.force_z - self.whole_weight)
 
     @property
     def slack(self) -> np.ndarray:
@@ -102,23 +127,45 @@ class CableStates:
     @property
     def tension(self) -> np.ndarray:
         """(..., m) tau, tension where the cable is parallel to its chord, eq. (2.17) [N]."""
+        if self.has_lumps:
+            return np.asarray(self.force_x * self.chord / np.maximum(self.span, STEEPEST * self.chord))
         return np.where(self.slack, 0.0, catenary.chord_tension(*self._pulling))
 
     @property
     def sag(self) -> np.ndarray:
         """(..., m) largest distance from the chord, eq. (2.22) [m]; nan for a slack straight cable."""
+        if self.has_lumps:
+            return self.loading.sag(self.force_x, self.force_z, self.length)
         return np.where(self.slack, np.nan, catenary.sag(*self._pulling))
 
     @property
     def elongation(self) -> np.ndarray:
         """(..., m) strained minus unstrained length, eq. (2.16) [m]."""
+        if self.has_lumps:
+            return np.asarray(catenary.elongation(*self._segments).sum(axis=-1))
         return np.where(self.slack, 0.0, catenary.elongation(*self._pulling))
 
     def compliance_split(self) -> tuple[np.ndarray, np.ndarray]:
         """Axial and sag part (2.28) of the compliance in the cable plane (heading, up): two (..., m, 2, 2) [m/N]."""
-        c_axial, c_xx, c_xz, c_zz = compliance(*self._pulling)
+        if self.has_lumps:
+            c_axial, c_xx, c_xz, c_zz = (part.sum(axis=-1) for part in compliance(*self._segments))
+        else:
+            c_axial, c_xx, c_xz, c_zz = compliance(*self._pulling)
         sag = np.stack([c_xx, c_xz, c_xz, c_zz], axis=-1).reshape((*c_xx.shape, 2, 2))
         return c_axial[..., None, None] * np.eye(2), sag
+
+    @property
+    def _segments(self) -> tuple[np.ndarray, ...]:
+        """Arguments of the generated functions for the segments between point masses, (..., m, k + 1)."""
+        return self.loading.segments(self.force_x, self.force_z, self.length)
+
+    def profile(self, fractions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Along heading and up (..., m, p) [m] from the frame end, at fractions (p,) of the unstrained lengths."""
+        arc = fractions * self.length[..., None]
+        if self.has_lumps:
+            return self.loading.profile(arc, self.force_x, self.force_z, self.length)
+        along, rise = catenary.profile(arc, *(value[..., None] for value in self._pulling))
+        return along, rise
 
     @property
     def _pulling(self) -> tuple[np.ndarray, ...]:
@@ -135,7 +182,7 @@ def cable_stiffness(states: CableStates) -> np.ndarray:
     (..., m, 3, 3) symmetric, world [N/m]: eq. (2.29) in the cable plane, and force_x / span across it (for an exactly
     vertical taut cable both horizontal directions are alike). Zero for a slack straight cable and across a fold.
     """
-    k_xx, k_xz, k_zz = stiffness(*states._pulling)
+    k_xx, k_xz, k_zz = stiffness(*states._pulling) if not states.has_lumps else _stiffness_in_series(states)
     span = states.span
     vertical = span <= 1e-140 * states.length
     across = np.where(vertical, k_xx, states.force_x / np.where(vertical, 1.0, span))
@@ -153,6 +200,12 @@ def cable_stiffness(states: CableStates) -> np.ndarray:
     if (states.weight == 0.0).any():
         matrix[states.slack] = 0.0
     return matrix
+
+
+def _stiffness_in_series(states: CableStates) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """k_xx, k_xz, k_zz (..., m) [N/m] of cables whose segments' compliances add up."""
+    inverse = np.linalg.inv(sum(states.compliance_split()))
+    return inverse[..., 0, 0], inverse[..., 0, 1], inverse[..., 1, 1]
 
 
 def _turned_stiffness(states: CableStates, parts: tuple[np.ndarray, ...]) -> np.ndarray:
