@@ -78,9 +78,11 @@ def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
     shape = cables.length.shape
     stiffness = point.end_stiffness.reshape(-1, 3, 3)
     density = np.broadcast_to(robot.linear_density, shape).reshape(-1)
+    k = robot.lump_mass.shape[-1:]
     extras = CableExtras(
-        *(np.broadcast_to(value, shape).reshape(-1) for value in (robot.bending_stiffness, robot.added_mass)),
-        np.broadcast_to(robot.lump_mass, shape + robot.lump_mass.shape[-1:]).reshape((-1, robot.lump_mass.shape[-1])),
+        np.broadcast_to(robot.bending_stiffness, shape).reshape(-1),
+        np.broadcast_to(robot.added_mass, shape).reshape(-1),
+        np.broadcast_to(robot.lump_mass, shape + k).reshape((-1, *k)),
     )
     flat = flattened(cables)
     return expand_catenaries(flat, density, order, stiffness, frame_ends(point), extras).reshaped(shape)

@@ -141,7 +141,7 @@ def transient(
         given = "nothing" if initial_velocity is None else initial_velocity
         raise InputError("initial_velocity", "", given, "give either `initial_velocity` or `trajectory`")
     cable_model, way = read_model(model), one_of(assembly, "assembly", ASSEMBLIES)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True)
     if trajectory is not None:
         require_locked_lengths(machine, "along a trajectory all winches hold lengths; initial_velocity is computed")
     law = read_damping(damping, machine, cable_model == "static")

@@ -6,6 +6,8 @@ from typing import Annotated
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
+from cdpr_struct.robot.extensions import Extensions
+
 _LARGEST = 1e12  # of any number, as elsewhere in a robot file
 _Positive = Annotated[float, Field(strict=True, gt=0.0, le=_LARGEST)]
 
@@ -63,7 +65,7 @@ def lump_arrays(lumps: tuple[Lump, ...], cables: int) -> dict[str, np.ndarray]:
     return {"lump_place": padded[..., 0], "lump_mass": padded[..., 1]}
 
 
-def lumps_fault(lumps: tuple[Lump, ...], cables: int, windy: bool, gravity: float) -> str:
+def lumps_fault(lumps: tuple[Lump, ...], cables: int, more: Extensions, gravity: float) -> str:
     """What is wrong with the lumps of a robot, "" if nothing."""
     for lump in lumps:
         if not 1 <= lump.cable <= cables:
@@ -71,6 +73,10 @@ def lumps_fault(lumps: tuple[Lump, ...], cables: int, windy: bool, gravity: floa
     places = {(lump.cable, lump.from_platform) for lump in lumps}
     if len(places) < len(lumps):
         return "two lumps sit at one place: give one with the mass of both"
-    if lumps and windy:
+    if lumps and (more.bending_stiffness.any() or more.added_mass.any()):
+        return (
+            "lumps do not go with extensions.bending_stiffness and added_mass: a lump at mid-cable does as added_mass"
+        )
+    if lumps and more.drag_width.any():
         return "lumps do not go with extensions.drag_width: a lump leaves the plane in which wind holds its cable"
     return "" if gravity > 0.0 or not lumps else "lumps need gravity above 0: without it their cables have no shape"

@@ -53,7 +53,8 @@ class Parameter:
         return np.full(self._lengths(cables), self.neutral)
 
     def _lengths(self, cables: int) -> list[int]:
-        return [{CABLES: cables, LUMPS: 1}.get(n, n) for n in self.shape]  # type: ignore[call-overload,misc]
+        named = {CABLES: cables, LUMPS: 1}
+        return [n if isinstance(n, int) else named[n] for n in self.shape]
 
     @property
     def range(self) -> str:

@@ -72,7 +72,7 @@ class Robot:
             raise ValueError(fault)
         if fault := cable_drag_fault(self.extensions, self.gravity):
             raise ValueError(fault)
-        if fault := lumps_fault(self.lumps, m, bool(self.extensions.drag_width.any()), self.gravity):
+        if fault := lumps_fault(self.lumps, m, self.extensions, self.gravity):
             raise ValueError(f"Robot.lumps: {fault}")
 
     def _settle_gravity(self) -> None:

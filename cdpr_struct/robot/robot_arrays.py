@@ -41,9 +41,8 @@ class RobotArrays:
     frame_compliance, mast_bending : (..., m) [m/N] of each cable's mast;  mast_foot : (...) [m]
     masts : (m, m) 1 where cables share one;  uprights : (m, m) how they bend, as `uprights_of` says
     hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  moment : (..., 3) [N m]
-    tilt            : (..., 2) [rad]
+    tilt            : (..., 2) [rad];  temperature_change : (...) [K]
     drag_area       : (...) [m^2], drag_width : (..., m) [m] in wind (..., 3) [m/s] of air_density (...) [kg/m^3]
-    temperature_change : (...) [K]
     nonlinearity    : (...) k with reference_tension (...) [N]
     cell_gain, cell_bias, friction, slip : (..., m);  tracker, accelerometer_gain : (..., 6)
     creep, sensor_mass : (...)
@@ -115,8 +114,8 @@ class RobotArrays:
         return self.linear_density * self.gravity[..., None]
 
     def cable_load(self, chord: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Weight and drag per unstrained length of cables along chords (..., m, 3): size (..., m) [N/m] of the sum, unit
-        vector (..., m, 3) against it."""
+        """Weight and drag per unstrained length of cables along chords (..., m, 3): size (..., m) [N/m] of the sum and
+        unit vector (..., m, 3) against it."""
         if not self.has_cable_drag:
             return self.weight, np.broadcast_to(self.up, chord.shape)
         pushed = drag_across(self.wind[..., None, :], chord, self.drag_width, self.air_density[..., None])
@@ -231,13 +230,10 @@ class RobotArrays:
 
     def stiffened(self, factor: float) -> "RobotArrays":
         """Cables, what is in line with them, and masts all `factor` times stiffer."""
-        return replace(
-            self,
-            axial_stiffness=factor * self.axial_stiffness,
-            series_compliance=self.series_compliance / factor,
-            frame_compliance=self.frame_compliance / factor,
-            mast_bending=self.mast_bending / factor,
-        )
+        soft = {
+            name: getattr(self, name) / factor for name in ("series_compliance", "frame_compliance", "mast_bending")
+        }
+        return replace(self, axial_stiffness=factor * self.axial_stiffness, **soft)
 
     def with_point_masses(self, masses: npt.ArrayLike, places: npt.ArrayLike) -> "RobotArrays":
         """The platform with point masses (..., p) [kg] fixed at places (..., p, 3) of its frame [m]."""

@@ -127,7 +127,7 @@ def _build(table: RobotTable, source: str) -> Robot:
     if fault := cable_drag_fault(more, float(np.linalg.norm(gravity))):
         raise InputError(source, "extensions.drag_width", table.extensions["drag_width"], fault)
     lumps = tuple(entry.lump for entry in table.lumps)
-    if fault := lumps_fault(lumps, len(cables), bool(more.drag_width.any()), float(np.linalg.norm(gravity))):
+    if fault := lumps_fault(lumps, len(cables), more, float(np.linalg.norm(gravity))):
         raise InputError(source, "lumps", f"{len(lumps)} of them", fault)
     try:
         return Robot(

@@ -1,10 +1,10 @@
 """Cables with point masses on them: catenaries in series, from the platform to the frame.
 
-Without wind the cable stays in one plane and its horizontal force H is the same everywhere; at a point mass the vertical
-force jumps by its weight. Each segment between two masses is thus a catenary with forces (H, V_j) at its platform end,
-V_j the vertical force at the cable's end less all weight in between. The end of the cable is the sum of the segments'
-ends, so its derivative by (H, V) is the sum of their compliances (2.24)-(2.27), and the complementary energy, whose
-gradient the gap is, is convex.
+Without wind the cable stays in one plane and its horizontal force H is the same everywhere; at a point mass the
+vertical force jumps by its weight. Each segment between two masses is thus a catenary with forces (H, V_j) at its
+platform end, V_j the vertical force at the cable's end less all weight in between. The end of the cable is the sum of
+the segments' ends, so its derivative by (H, V) is the sum of their compliances (2.24)-(2.27), and the complementary
+energy, whose gradient the gap is, is convex.
 """
 
 from dataclasses import dataclass
@@ -12,14 +12,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.generated.cable_compliance import compliance
-from cdpr_struct.generated.catenary import end_point, profile
+from cdpr_struct.generated.catenary import end_point
+from cdpr_struct.statics.cable_state import STEEPEST, segments
 from cdpr_struct.statics.catenary import CableStatus, CatenaryForces, solve_end_forces
-from cdpr_struct.statics.catenary_length import STEEPEST, length_at_chord_tension
 
 MAX_ITERATIONS = 100
 _SETTLED = 1e-13  # of the tension, between two steps
 _NOISE = 64.0 * float(np.finfo(float).eps)  # of EA: rounding of the end point, in forces
 _RESIDUAL = 1e-10  # of the unstrained length
+Ends = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""x, z and unstrained length (n,) [m]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,42 +44,14 @@ class Loading:
         return np.asarray(self.point_weight.sum(axis=-1))
 
     def segments(self, force_x: np.ndarray, force_z: np.ndarray, length: np.ndarray) -> tuple[np.ndarray, ...]:
-        """Arguments (..., k + 1) of the generated functions of every segment, that at the platform first: pulls at its
-        platform end, length, EA, w. A mass beyond the frame end of the cable sits on it."""
-        place = np.minimum(self.place, length[..., None])
-        ends = np.concatenate([np.zeros((*length.shape, 1)), place, length[..., None]], axis=-1)
-        above = np.cumsum(np.concatenate([np.zeros((*length.shape, 1)), self.point_weight], axis=-1), axis=-1)
-        w = self.weight[..., None]
-        vertical = force_z[..., None] - w * ends[..., :-1] - above
-        full = vertical.shape
-        rest = np.broadcast_to(self.axial_stiffness[..., None], full), np.broadcast_to(w, full)
-        return np.broadcast_to(force_x[..., None], full), vertical, np.diff(ends, axis=-1), *rest
+        """Arguments (..., k + 1) of the generated functions of every segment."""
+        cable = force_x, force_z, length, self.axial_stiffness, self.weight
+        return segments(cable, self.place, self.point_weight)
 
     def reached(self, *of_cable: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """x and z (...) [m] of the platform end from the frame end."""
         x, z = end_point(*self.segments(*of_cable))
         return x.sum(axis=-1), z.sum(axis=-1)
-
-    def profile(
-        self, arc: np.ndarray, force_x: np.ndarray, force_z: np.ndarray, length: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """x and z (..., p) [m] from the frame end at unstrained arcs (..., p) from there [m]."""
-        parts = self.segments(force_x, force_z, length)
-        starts = length[..., None] - np.cumsum(parts[2], axis=-1)
-        local = np.clip(arc[..., None, :] - starts[..., None], 0.0, parts[2][..., None])
-        x, z = profile(local, *(part[..., None] for part in parts))
-        return x.sum(axis=-2), z.sum(axis=-2)
-
-    def sag(self, force_x: np.ndarray, force_z: np.ndarray, length: np.ndarray) -> np.ndarray:
-        """(...) largest distance from the chord [m]: at a mass, or where a segment is parallel to the chord."""
-        parts = self.segments(force_x, force_z, length)
-        x, z = self.reached(force_x, force_z, length)
-        chord = np.hypot(x, z)
-        level = np.maximum(x, STEEPEST * chord)
-        down = np.clip((parts[1] - (force_x * z / level)[..., None]) / np.maximum(parts[4], 1e-300), 0.0, parts[2])
-        arcs = length[..., None] - (np.cumsum(parts[2], axis=-1) - parts[2]) - down
-        along, rise = self.profile(arcs, force_x, force_z, length)
-        return np.asarray((np.abs(along * z[..., None] - rise * x[..., None]) / chord[..., None]).max(axis=-1))
 
     def compliance(self, *of_cable: np.ndarray) -> tuple[np.ndarray, ...]:
         """c_axial, c_xx, c_xz, c_zz (...) [m/N] of the whole cable."""
@@ -95,15 +69,15 @@ def forces_at_length(
     if begin is None or begin.force_x.shape != x.shape:
         even = loading.weight + loading.points / length
         begin = solve_end_forces(x, z, length, loading.axial_stiffness, even)
-    flat = tuple(value.reshape(-1) for value in (x, z, length))
+    flat = x.reshape(-1), z.reshape(-1), length.reshape(-1)
     own = Loading(*(value.reshape((-1, *value.shape[x.ndim :])) for value in _whole(loading, x.shape)))
     pull = np.stack([begin.force_x.reshape(-1), begin.force_z.reshape(-1)], axis=-1)
     iterations = np.zeros(len(pull), dtype=int)
-    items, gap = np.arange(len(pull)), _gap(own, *flat, pull)
+    items, gap = np.arange(len(pull)), _gap(own, flat, pull)
     for _ in range(MAX_ITERATIONS):
         if not items.size:
             break
-        part, here = own.take(items), tuple(value[items] for value in flat)
+        part, here = own.take(items), (flat[0][items], flat[1][items], flat[2][items])
         step = -np.linalg.solve(_matrix(part, here[2], pull[items]), gap[items][..., None])[..., 0]
         pull[items], gap[items] = _searched(part, here, pull[items], gap[items], step)
         iterations[items] += 1
@@ -125,10 +99,10 @@ def _whole(loading: Loading, shape: tuple[int, ...]) -> tuple[np.ndarray, ...]:
     )
 
 
-def _gap(loading: Loading, x: np.ndarray, z: np.ndarray, length: np.ndarray, pull: np.ndarray) -> np.ndarray:
+def _gap(loading: Loading, ends: Ends, pull: np.ndarray) -> np.ndarray:
     """(n, 2) by how much the cables overshoot their ends [m]."""
-    reached = loading.reached(pull[:, 0], pull[:, 1], length)
-    return np.stack([reached[0] - x, reached[1] - z], axis=-1)
+    reached = loading.reached(pull[:, 0], pull[:, 1], ends[2])
+    return np.stack([reached[0] - ends[0], reached[1] - ends[1]], axis=-1)
 
 
 def _matrix(loading: Loading, length: np.ndarray, pull: np.ndarray) -> np.ndarray:
@@ -138,7 +112,7 @@ def _matrix(loading: Loading, length: np.ndarray, pull: np.ndarray) -> np.ndarra
 
 
 def _searched(
-    loading: Loading, ends: tuple[np.ndarray, ...], pull: np.ndarray, gap: np.ndarray, step: np.ndarray
+    loading: Loading, ends: Ends, pull: np.ndarray, gap: np.ndarray, step: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Steps shortened until the energy, convex along them, does not rise steeply at their end, and H stays positive."""
     share = np.ones(len(pull))
@@ -146,7 +120,7 @@ def _searched(
     for _ in range(60):
         trial = pull + share[:, None] * step
         trial[:, 0] = np.maximum(trial[:, 0], 0.1 * pull[:, 0])
-        found = _gap(loading, *ends, trial)
+        found = _gap(loading, ends, trial)
         slope = (found * step).sum(axis=-1)
         well = (slope <= 0.8 * np.abs(before)) | (np.hypot(*found.T) <= 0.9 * np.hypot(*gap.T))
         well |= np.hypot(*found.T) <= 1e-13 * ends[2]
@@ -167,16 +141,19 @@ class LoadedLength:
     status: np.ndarray
 
 
-def length_at_tension(x: np.ndarray, z: np.ndarray, chord_tension: np.ndarray, loading: Loading) -> LoadedLength:
+def length_at_tension(
+    x: np.ndarray, z: np.ndarray, chord_tension: np.ndarray, loading: Loading, begin: tuple[np.ndarray, np.ndarray]
+) -> LoadedLength:
     """Unstrained length of cables through (0, 0) and (x, z), x >= 0 [m], with a horizontal pull of `chord_tension` [N]
-    times x over the chord: along the chord, the tension where the cable is parallel to it."""
-    x, z, tau = np.broadcast_arrays(x, z, np.asarray(chord_tension, dtype=float))
+    times x over the chord: along the chord, the tension where the cable is parallel to it.
+
+    begin : vertical pull [N] and length [m] of cables nearly like these
+    """
+    x, z, tau = np.broadcast_arrays(x, z, chord_tension)
     chord = np.hypot(x, z)
     wide = np.maximum(x, STEEPEST * chord)
     own = Loading(*_whole(loading, x.shape))
-    even = own.weight + own.points / chord
-    begin = length_at_chord_tension(wide, z, tau, own.axial_stiffness, even)
-    fx, fz, length = tau * wide / chord, begin.force_z, begin.length
+    fx, (fz, length) = tau * wide / chord, begin
     for _ in range(MAX_ITERATIONS):
         a, b, c, d, error_x, error_z = _length_equations(own, wide, z, chord, tau, fx, fz, length)
         determinant = a * d - b * c

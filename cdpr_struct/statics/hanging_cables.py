@@ -120,7 +120,9 @@ def _catenary_at_tension(
     cable: CatenaryLength | LoadedLength
     if arrays.has_lumps:
         hung = Loading(load, arrays.lump_place, arrays.lump_weight, arrays.axial_stiffness)
-        cable = length_at_tension(span, rise, chord_tension, hung)
+        even = load + arrays.lump_weight.sum(axis=-1) / np.hypot(span, rise)
+        nearly = length_at_chord_tension(span, rise, chord_tension, arrays.axial_stiffness, even)
+        cable = length_at_tension(span, rise, chord_tension, hung, (nearly.force_z, nearly.length))
     else:
         cable = length_at_chord_tension(span, rise, chord_tension, arrays.axial_stiffness, load)
     bottom = np.hypot(cable.force_x, cable.force_z - load * cable.length - arrays.lump_weight.sum(axis=-1))

@@ -67,14 +67,13 @@ def _behind_frame(arrays: RobotArrays, states: CableStates, height: np.ndarray) 
 
 def _of_whole_cables(states: CableStates, height: np.ndarray) -> np.ndarray:
     """(..., m) energy of the free cables and the point masses on them, frame ends at `height` (..., m) [J]."""
-    pull = states.force_x, states.force_z, states.length
     if not states.has_lumps:
-        return _of_cables(*pull, states.axial_stiffness, states.weight, height)
-    parts = states.loading.segments(*pull)
-    arcs = states.length[..., None] - np.cumsum(parts[2], axis=-1)  # where the segments begin, from the frame end
-    starts = height[..., None] + states.loading.profile(arcs, *pull)[1]
+        return _of_cables(states.force_x, states.force_z, states.length, states.axial_stiffness, states.weight, height)
+    parts = states.segments
+    arcs = 1.0 - np.cumsum(parts[2], axis=-1) / states.length[..., None]  # where they begin, from the frame end
+    starts = height[..., None] + states.profile(arcs)[1]
     lifted = (states.lump_weight * starts[..., :-1]).sum(axis=-1)
-    return np.asarray(_of_cables(*parts, starts).sum(axis=-1) + lifted)
+    return np.asarray(_of_cables(parts[0], parts[1], parts[2], parts[3], parts[4], starts).sum(axis=-1) + lifted)
 
 
 def _of_cables(
