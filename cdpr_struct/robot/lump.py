@@ -74,9 +74,7 @@ def lumps_fault(lumps: tuple[Lump, ...], cables: int, more: Extensions, gravity:
     if len(places) < len(lumps):
         return "two lumps sit at one place: give one with the mass of both"
     if lumps and (more.bending_stiffness.any() or more.added_mass.any()):
-        return (
-            "lumps do not go with extensions.bending_stiffness and added_mass: a lump at mid-cable does as added_mass"
-        )
+        return "lumps do not go with extensions.bending_stiffness and added_mass: give a lump for an added_mass"
     if lumps and more.drag_width.any():
         return "lumps do not go with extensions.drag_width: a lump leaves the plane in which wind holds its cable"
     return "" if gravity > 0.0 or not lumps else "lumps need gravity above 0: without it their cables have no shape"

@@ -230,9 +230,8 @@ class RobotArrays:
 
     def stiffened(self, factor: float) -> "RobotArrays":
         """Cables, what is in line with them, and masts all `factor` times stiffer."""
-        soft = {
-            name: getattr(self, name) / factor for name in ("series_compliance", "frame_compliance", "mast_bending")
-        }
+        names = ("series_compliance", "frame_compliance", "mast_bending")
+        soft = {name: getattr(self, name) / factor for name in names}
         return replace(self, axial_stiffness=factor * self.axial_stiffness, **soft)
 
     def with_point_masses(self, masses: npt.ArrayLike, places: npt.ArrayLike) -> "RobotArrays":
@@ -262,10 +261,8 @@ class RobotArrays:
     def _flat(self, name: str, shape: tuple[int, ...]) -> np.ndarray:
         value: np.ndarray = getattr(self, name)
         batch = _batch(self, name)
-        if not batch:
-            return value
         core = value.shape[len(batch) :]
-        return np.broadcast_to(value, shape + core).reshape((-1, *core))
+        return np.broadcast_to(value, shape + core).reshape((-1, *core)) if batch else value
 
 
 @lru_cache(maxsize=_KEPT)
