@@ -133,7 +133,7 @@ def read_robot(
         raise InputError("robot", "", robot, "a Robot, a built-in name, or the path of a robot file")
     entered = robot if isinstance(robot, Robot) else load_robot(os.fspath(robot))
     if not lumps:
-        require_no_lumps(entered, "this command knows no masses on cables; inverse, forward, modes, frf, transient do")
+        require_no_lumps(entered, "this command knows no masses on cables; inverse, forward, modes, frf do")
     try:
         loaded = entered.with_load(payload, mass)
     except ValueError as error:

@@ -12,7 +12,6 @@ from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_numbers, read_robot, real, text_of
 from cdpr_struct.interface.damping_law import read_damping
 from cdpr_struct.interface.given import Numbers, PoseLike, Progress, RobotLike, TrajectoryLike
-from cdpr_struct.interface.lumps import require_no_lumps
 from cdpr_struct.interface.modes import ASSEMBLIES
 from cdpr_struct.interface.operating_point import rest
 from cdpr_struct.interface.ports import read_ports
@@ -142,10 +141,9 @@ def transient(
         given = "nothing" if initial_velocity is None else initial_velocity
         raise InputError("initial_velocity", "", given, "give either `initial_velocity` or `trajectory`")
     cable_model, way = read_model(model), one_of(assembly, "assembly", ASSEMBLIES)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     if trajectory is not None:
         require_locked_lengths(machine, "along a trajectory all winches hold lengths; initial_velocity is computed")
-        require_no_lumps(machine, "along a trajectory cables carry no masses; initial_velocity is computed")
     law = read_damping(damping, machine, cable_model == "static")
     motion, assumed = (None, []) if trajectory is None else read_trajectory(trajectory, None, _FEWEST)
     seconds = _duration(duration, motion)

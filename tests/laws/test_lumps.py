@@ -12,6 +12,7 @@ from cdpr_struct.dynamics.condensed_pose import knows
 from cdpr_struct.dynamics.many_poses import lowest_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import CdprError, InputError
+from cdpr_struct.interface.view import open_window
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.extensions import Extensions
@@ -236,7 +237,7 @@ REFUSED = {
     "new_campaign": {},
     "inverse": {"model": "spring"},
     "forward": {"model": "ideal", "lengths": [10.0] * 8},
-    "transient": {"trajectory": "line:0,0,0.5:0.5,0,0.5:2"},
+    "transient": {"initial_velocity": "0.1,0,0", "duration": 1.0},
 }
 
 
@@ -246,6 +247,19 @@ def test_commands_without_masses_on_cables_refuse_by_the_field(name, tmp_path):
     path.write_text(robot_toml(loaded("thesis-3-1"), "loaded"))
     with pytest.raises(InputError, match=r"lumps: got '?0\.5 kg on cable 1'?; leave \[\[lumps\]\] out: "):
         getattr(cs, name)(path, **REFUSED[name])
+
+
+def test_the_live_view_refuses_them():
+    with pytest.raises(InputError, match=r"leave \[\[lumps\]\] out: "):
+        open_window(loaded("thesis-3-1"))
+
+
+def test_angles_left_free_hang_where_nothing_is_left_to_balance():
+    robot = loaded("six-cable-8mm")
+    found = cs.inverse(robot, [0.3, 0.2, 0.6], free="rx,ry,rz")
+    again = inverse(robot, found.pose.position, found.pose.rotation)
+    assert again.held.all()
+    assert np.abs(again.residual_wrench).max() < 1e-8  # N and N m
 
 
 def test_a_campaign_refuses_them(tmp_path):
