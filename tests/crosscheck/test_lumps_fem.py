@@ -8,8 +8,12 @@ import pytest
 import cdpr_struct as cs
 import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import to_fem
+from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.certified_modes import certified_modes
+from cdpr_struct.dynamics.damping import Viscous
+from cdpr_struct.dynamics.frequency_response import frequency_response
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.ports import platform_port
 from cdpr_struct.generated.platform import rotation
 from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.extensions import Extensions
@@ -111,6 +115,23 @@ def test_the_fem_by_its_name_agrees_over_the_interface():
     exact, bars = (cs.modes(robot, lengths=lengths, model=m, count=10, elements=48) for m in ("exact", "fem"))
     ratio = np.asarray(bars.answer["frequencies_hz"]) / np.asarray(exact.answer["frequencies_hz"])
     assert 1e-6 < np.abs(ratio - 1.0).max() < 1e-3  # of 48 bars
+
+
+def test_damped_responses_are_the_referees():
+    """Viscous, 1 % of each cable's own first frequency, to which masses on it belong."""
+    robot, lengths = given("thesis-3-1")
+    ours = at_rest(robot, lengths)
+    point, hertz = OperatingPoint(robot, ours.position, ours.rotation, ours.cables), np.array([1.1, 1.5, 2.5])
+    cables = cable_dynamics(point, "exact", 60.0)
+    ports, law = [platform_port("", axis, False, np.zeros(3)) for axis in np.eye(3)], Viscous(np.full(8, 0.01))
+    columns = [
+        frequency_response(point, cables, law, port, tuple(ports), hertz, "displacement").response for port in ports
+    ]
+    found = np.stack(columns, axis=-1)
+    meshes = [fem.solve_robot(to_fem(robot, lengths), *pose(robot), n) for n in (32, 64)]
+    coarse, fine = (fem.frequency_response(mesh, 2.0 * np.pi * hertz, 0.01)[:, :3, :3] for mesh in meshes)
+    theirs = fine + (fine - coarse) / 3.0
+    np.testing.assert_allclose(found, theirs, atol=2e-4 * np.abs(theirs).max())  # measured: 5e-5
 
 
 def test_shapes_along_cables_are_the_referees():
