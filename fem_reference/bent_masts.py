@@ -54,12 +54,18 @@ def bend(
 
 
 def softened(
-    masts: tuple[Mast, ...], ends: np.ndarray, starts: np.ndarray, between: np.ndarray, motion: np.ndarray
+    masts: tuple[Mast, ...],
+    ends: np.ndarray,
+    starts: np.ndarray,
+    between: np.ndarray,
+    motion: np.ndarray,
+    omega_squared: complex = 0.0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (..., 6, 6) at the platform of cables on masts, and the masts' own (..., k, k) before elimination.
 
     ends, starts, between : (..., m, 3, 3) [N/m] blocks of the condensed cables: end-end, start-start, start-end
     motion : (m, 3, 6) of the cable ends per platform motion
+    omega_squared : of the vibration [rad^2/s^2], for the masses on the masts
     """
     platform = np.einsum("mka,...mkl,mlb->...ab", motion, ends, motion, optimize=True)
     places = unknowns(masts)
@@ -68,7 +74,7 @@ def softened(
     coupling = np.zeros((*platform.shape[:-2], count, 6), dtype=platform.dtype)
     for mast, rows in zip(masts, places, strict=True):
         carried = list(mast.cables)
-        own[..., rows, rows] = mast.condensed(starts) + np.linalg.inv(mast.flexibility)
+        own[..., rows, rows] = mast.condensed(starts) + np.linalg.inv(mast.flexibility) - omega_squared * mast.inertia
         across = between[..., carried, :, :] @ motion[carried]
         coupling[..., rows, :] = np.einsum("nak,...nab->...kb", mast.motion, across)
     return platform - np.swapaxes(coupling, -1, -2) @ np.linalg.solve(own, coupling), own

@@ -1,4 +1,4 @@
-"""Masts as elastic bodies without mass: unknown displacements, their flexibility, and how exits follow them.
+"""Masts as elastic bodies, with masses at the exits at most: unknowns, their flexibility, and how exits follow them.
 
 A bracket moves all its exits alike, in any direction. An upright is a chain of beam elements (two nodes, cubic
 deflection), clamped at its foot: exits follow the node at their height, sideways only.
@@ -22,18 +22,25 @@ class Mast:
     cables      : numbers (from 0) of the n cables it carries
     motion      : (n, 3, k) motion of their exits by its k unknowns [-]
     flexibility : (k, k) [m/N], symmetric and positive
+    exit_mass   : (n,) [kg], point masses at the exits
     """
 
     cables: tuple[int, ...]
     motion: np.ndarray
     flexibility: np.ndarray
+    exit_mass: np.ndarray
+
+    @property
+    def inertia(self) -> np.ndarray:
+        """(k, k) mass matrix of its unknowns [kg]."""
+        return np.einsum("nak,n,nal->kl", self.motion, self.exit_mass, self.motion)
 
     def with_part(self, motion: np.ndarray, flexibility: np.ndarray) -> Mast:
         """The same with more unknowns."""
         k, more = len(self.flexibility), len(flexibility)
         whole = np.zeros((k + more, k + more))
         whole[:k, :k], whole[k:, k:] = self.flexibility, flexibility
-        return Mast(self.cables, np.concatenate([self.motion, motion], axis=2), whole)
+        return Mast(self.cables, np.concatenate([self.motion, motion], axis=2), whole, self.exit_mass)
 
     def felt(self, pulls: np.ndarray) -> np.ndarray:
         """Generalised force (k,) of the pulls (m, 3) of all cables."""
@@ -45,9 +52,9 @@ class Mast:
         return np.einsum("nak,...nab,nbl->...kl", self.motion, own, self.motion, optimize=True)
 
 
-def rigid(cables: tuple[int, ...]) -> Mast:
-    """A mast without unknowns."""
-    return Mast(cables, np.zeros((len(cables), 3, 0)), np.zeros((0, 0)))
+def rigid(cables: tuple[int, ...], exit_mass: np.ndarray) -> Mast:
+    """A mast without unknowns; point masses at its exits (n,) [kg]."""
+    return Mast(cables, np.zeros((len(cables), 3, 0)), np.zeros((0, 0)), exit_mass)
 
 
 def with_bracket(mast: Mast, compliance: float) -> Mast:

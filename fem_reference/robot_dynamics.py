@@ -69,12 +69,12 @@ def _on_masts(equilibrium: RobotEquilibrium, omega: complex, mass: MassModel, ra
     squares = omega * omega - 1.0j * rates * omega if rates.any() else np.full(len(rates), omega * omega)
     matrices = equilibrium.element_stiffness() - squares[:, None, None, None] * equilibrium.element_mass(mass)
     pieces, _ = condensed_both_ends(matrices)
-    return _softened(equilibrium, pieces)[0]
+    return _softened(equilibrium, pieces, omega * omega)[0]
 
 
-def _softened(equilibrium: RobotEquilibrium, pieces: Pieces) -> tuple[np.ndarray, np.ndarray]:
+def _softened(equilibrium: RobotEquilibrium, pieces: Pieces, omega_squared: complex) -> tuple[np.ndarray, np.ndarray]:
     first, between, last = (block[..., 0, :, :] for block in (pieces.first, pieces.between, pieces.last))
-    return softened(equilibrium.robot.soft_masts, last, first, between, equilibrium.end_motion())
+    return softened(equilibrium.robot.soft_masts, last, first, between, equilibrium.end_motion(), omega_squared)
 
 
 def _cable_ends(equilibrium: RobotEquilibrium, omegas: np.ndarray, mass: MassModel, rates: np.ndarray) -> np.ndarray:
@@ -100,7 +100,7 @@ def count_below(equilibrium: RobotEquilibrium, omega: float, mass: MassModel = "
     platform = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
     if equilibrium.robot.surroundings.bending:
         pieces, in_cables = condensed_both_ends(matrices)
-        remaining, masts = _softened(equilibrium, pieces)
+        remaining, masts = _softened(equilibrium, pieces, omega**2)
         in_masts = int((np.linalg.eigvalsh(0.5 * (masts + masts.T)) < 0.0).sum())
     else:
         ends, in_cables = condensed_and_counted(matrices)

@@ -81,7 +81,7 @@ def _with_masts(
 ) -> csc_array:
     """The matrix with the unknowns of the masts before the platform's: first bars of their cables, and own stiffness.
 
-    elastic : whether it is the stiffness; masts have no mass
+    elastic : whether it is the stiffness; masts have mass at their exits only
     """
     robot, interior = equilibrium.robot, 3 * (equilibrium.elements - 1)
     masts, places = robot.soft_masts, unknowns(robot.soft_masts)
@@ -92,8 +92,8 @@ def _with_masts(
     full[keep[coo.row], keep[coo.col]] = coo.data
     for mast, rows in zip(masts, places, strict=True):
         own = slice(cables + rows.start, cables + rows.stop)
-        springs = np.linalg.inv(mast.flexibility) if elastic else 0.0
-        full[own, own] = mast.condensed(element_matrices[:, 0, :3, :3]) + springs
+        alone = np.linalg.inv(mast.flexibility) if elastic else mast.inertia
+        full[own, own] = mast.condensed(element_matrices[:, 0, :3, :3]) + alone
         for cable, moved in zip(mast.cables, mast.motion, strict=True):
             node = slice(cable * interior, cable * interior + 3)
             full[own, node] = moved.T @ element_matrices[cable, 0, :3, 3:]

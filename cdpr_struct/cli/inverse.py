@@ -9,6 +9,7 @@ from cdpr_struct.cli.options import (
     Free,
     LowerBound,
     Mass,
+    Orient,
     Payload,
     PoseText,
     RobotName,
@@ -29,6 +30,7 @@ def run(
     robot: RobotName,
     pose: PoseText = None,
     free: Free = None,
+    orient: Orient = None,
     payload: Payload = 0.0,
     mass: Mass = None,
     model: Annotated[str, typer.Option("--model", help="sagging, spring or ideal")] = "sagging",
@@ -41,7 +43,7 @@ def run(
 ) -> int:  # fmt: skip
     """Unstrained lengths and tensions that hold a pose (minimum norm where there is a choice)."""
     found = cs.inverse(
-        robot, pose, free=free, payload=payload, mass=mass, model=model,
+        robot, pose, free=free, orient=orient, payload=payload, mass=mass, model=model,
         wrench=wrench, temperature=temperature, lower_bound=lower_bound,
         upper_bound=upper_bound,
     )  # fmt: skip

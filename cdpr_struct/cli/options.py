@@ -85,6 +85,14 @@ Free = Annotated[
         help="Angles that the platform takes by hanging, some of rx,ry,rz; the search begins at those given.",
     ),
 ]
+Orient = Annotated[
+    str | None,
+    typer.Option(
+        "--orient",
+        metavar="hanging|even",
+        help="How the angles of --free are chosen: as the platform hangs, or for the most even tensions.",
+    ),
+]
 LowerBound = Annotated[
     float | None,
     typer.Option(

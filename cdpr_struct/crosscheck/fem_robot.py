@@ -63,7 +63,8 @@ def _surroundings(robot: Robot) -> fem.SurroundingsData:
     bracket, upright = (tuple(of_each_mast(shared, c).tolist()) for c in (more.frame_compliance, more.mast_bending))
     gravity = tilted if more.tilt.any() else None
     hose = more.hose, np.array(more.hose_center)
-    return fem.SurroundingsData(masts, bracket, upright, more.mast_foot, *hose, gravity)
+    heads = tuple(more.mast_mass.tolist())
+    return fem.SurroundingsData(masts, bracket, upright, more.mast_foot, heads, *hose, gravity)
 
 
 def push_of(robot: Robot) -> fem.PointForce | None:

@@ -5,7 +5,7 @@ dsm    : the thesis's closed form for taut cables with a small sag (eqs 2.31-2.4
 exact  : the linearised elastic catenary itself, any sag and inclination
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Literal, Protocol, get_args
 
 import numpy as np
@@ -18,6 +18,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.taut_cable_expansion import expand_taut_cables
 from cdpr_struct.dynamics.taut_cables import TautCables, closed_form_stiffness, taut_cables
 from cdpr_struct.generated.cable_dsm import damped_omega_squared
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import VECTORS, CableStates
 
 CableModel = Literal["static", "dsm", "exact"]
@@ -58,7 +59,7 @@ def cable_dynamics(
     if model == "static":
         return StaticCables(point)
     if model == "dsm":
-        return ClosedFormCables(taut_cables(point))
+        return ClosedFormCables(taut_cables(point), point.arrays)
     return CatenaryCables(expand_catenaries_at(point, polynomial_order(point, highest_omega, rough)))
 
 
@@ -85,7 +86,15 @@ def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
         np.broadcast_to(robot.lump_mass, shape + k).reshape((-1, *k)),
     )
     flat = flattened(cables)
-    return expand_catenaries(flat, density, order, stiffness, frame_ends(point), extras).reshaped(shape)
+    found = expand_catenaries(flat, density, order, stiffness, frame_ends(point), extras).reshaped(shape)
+    return with_mast_mass(found, robot)
+
+
+def with_mast_mass(expansion: ModalExpansion, robot: RobotArrays) -> ModalExpansion:
+    """Cables that carry what moves with their exits on their masts: it moves as they do when moved as a whole."""
+    if not robot.mast_mass.any():
+        return expansion
+    return replace(expansion, rigid_mass=expansion.rigid_mass + robot.mast_mass[..., None, None] * np.eye(3))
 
 
 def flattened(cables: CableStates) -> CableStates:
@@ -153,7 +162,8 @@ class StaticCables:
 
     def mast_stiffness(self, omega_squared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         none = np.zeros((*np.shape(omega_squared)[:-1], *self._ends.shape))
-        return none, none
+        heads = self.point.arrays.mast_mass[..., None, None] * np.eye(3)
+        return none, none - np.asarray(omega_squared)[..., None, None] * heads
 
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
         return np.zeros((*np.shape(omega)[:-1], self.point.arrays.cable_count), dtype=int)
@@ -169,7 +179,8 @@ class StaticCables:
 
         world = np.broadcast_to(np.eye(3), ends.shape)
         none, modes = np.zeros(ends.shape), np.zeros((*cables, 0, 3))
-        return ModalExpansion(world, ends, none, np.zeros((*cables, 0)), modes, none, none, modes, shapes)
+        found = ModalExpansion(world, ends, none, np.zeros((*cables, 0)), modes, none, none, modes, shapes)
+        return with_mast_mass(found, self.point.arrays)
 
     @property
     def _ends(self) -> np.ndarray:
@@ -178,9 +189,10 @@ class StaticCables:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClosedFormCables:
-    """The thesis's DSM."""
+    """The thesis's DSM; masts are those of a robot."""
 
     cables: TautCables
+    robot: RobotArrays
 
     @property
     def first_frequency(self) -> np.ndarray:
@@ -194,7 +206,7 @@ class ClosedFormCables:
         highest = float(np.sqrt(np.abs(omega_squared).max()))
         half_waves = _MAST_MODES * (1.0 + highest / self.first_frequency.min())
         full = expand_taut_cables(self.cables.flattened(), int(np.ceil(half_waves)))
-        return full.reshaped(self.cables.chord.shape).mast_stiffness(omega_squared)
+        return with_mast_mass(full.reshaped(self.cables.chord.shape), self.robot).mast_stiffness(omega_squared)
 
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
         return clamped_count(self.cables, omega)
@@ -202,7 +214,8 @@ class ClosedFormCables:
     def expansion(self, omega: float) -> ModalExpansion:
         half_waves = omega / self.first_frequency.min()
         full = expand_taut_cables(self.cables.flattened(), int(np.ceil(0.5 * half_waves)) + 6)
-        return full.ascending().reduced(omega).reshaped(self.cables.chord.shape)
+        found = full.ascending().reduced(omega).reshaped(self.cables.chord.shape)
+        return with_mast_mass(found, self.robot)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -213,12 +213,14 @@ def read_lengths(given: "Numbers | None", robot: "Robot") -> list[float]:
 
 
 def _require_metres(values: list[float], robot: "Robot") -> None:
-    """Refuse lengths that look like mm: even the shortest is many times as long as the robot is wide."""
+    """Refuse lengths that look like mm: even the shortest is many times the distances between anchors and platform."""
     import numpy as np
 
-    wide = float(np.linalg.norm(np.ptp(robot.frame_anchors, axis=0)))
-    if wide > 0.0 and min(values) > _LOOKS_LIKE_MM * wide:
-        raise InputError("lengths", "", values[0], f"lengths in m; these look like mm (the robot is {wide:.3g} m wide)")
+    place = np.zeros(3) if robot.home is None else robot.home.position
+    size = float(np.linalg.norm(np.ptp(np.vstack([robot.frame_anchors, place]), axis=0)))
+    if size > 0.0 and min(values) > _LOOKS_LIKE_MM * size:
+        right = f"lengths in m; these look like mm (the robot measures {size:.3g} m)"
+        raise InputError("lengths", "", values[0], right)
 
 
 _GRID_FORM = "give X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ] in m and deg, each of x, y, z a number or a range like -3:3:7"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_pose, read_robot
-from cdpr_struct.interface.free_angles import FreeAngles, hanging_pose
+from cdpr_struct.interface.free_angles import FreeAngles, chosen_pose
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.lumps import require_lumps_on_cables, require_sagging
 from cdpr_struct.interface.operating_point import held
@@ -86,6 +86,7 @@ def inverse(
     lower_bound: float | None = None,
     upper_bound: float | None = None,
     free: FreeAngles | None = None,
+    orient: str | None = None,
 ) -> InverseResult:
     """Find the cable lengths and tensions that hold a pose, of least norm where there is a choice.
 
@@ -99,6 +100,7 @@ def inverse(
     temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     free : angles of the pose that hang freely, some of rx, ry, rz; they are found from those given
+    orient : hanging, or even: the angles `free` (default: all) are those of the most even tensions instead
 
     The result's `stable` says whether the platform is held there at locked lengths, or only balanced.
 
@@ -111,7 +113,7 @@ def inverse(
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True)
     require_sagging(machine, chosen)
     where = read_pose(pose, machine)
-    hanging = None if free is None else hanging_pose(machine, where, free, chosen)
+    hanging = chosen_pose(machine, where, free, orient, chosen)
     where = where if hanging is None else hanging.pose
     solution = held(machine, where, chosen) if hanging is None else hanging.solution
     require_lumps_on_cables(machine, solution.cables)

@@ -11,7 +11,7 @@ _VIBRATION = "this concerns vibration only"
 _NO_BENDING = "this cable model has none; --model exact does"
 _AT_REST = ("inverse", "forward", "pose-error")
 _CABLES_ONLY = ("bending_stiffness", "added_mass")
-_INTERNAL = "internal_mass"
+_INTERNAL, _HEADS = "internal_mass", "mast_mass"
 _ELASTIC = ("series_compliance", "frame_compliance", "mast_bending", "nonlinearity")
 
 
@@ -76,7 +76,12 @@ def _why_straight(command: str, model: str) -> str:
     return "straight cables without weight have no drag, either" if model in ("spring", "ideal") else ""
 
 
-_OTHERWISE = {_INTERNAL: _why_rigid, "drag_width": _why_straight}
+def _why_still(command: str, model: str) -> str:
+    """Why masses on masts have no effect in a command: nothing vibrates."""
+    return _VIBRATION if command in (*_AT_REST, "distribute", "audit") else ""
+
+
+_OTHERWISE = {_INTERNAL: _why_rigid, _HEADS: _why_still, "drag_width": _why_straight}
 
 
 def _particulars(command: str, model: str) -> dict[str, str]:
@@ -99,6 +104,7 @@ def _particulars(command: str, model: str) -> dict[str, str]:
         said["added_mass"] = "added_mass takes part in vibration; its weight does not bend the cable."
     if command in ("frf", "transient"):
         said[_INTERNAL] = "The mount of internal_mass has no damping of its own."
+        said[_HEADS] = "Masses on masts have the damping of the cable whose exit they move with."
     if command == "frf":
         still = "For excitation and response at points of cables, masts are taken as rigid."
         said |= {"frame_compliance": still, "mast_bending": still}

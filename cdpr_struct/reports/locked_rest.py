@@ -7,10 +7,8 @@ import numpy as np
 from cdpr_struct.reports.text import paragraphs, plain_table, rounded
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.statics.equilibria import Equilibria
-from cdpr_struct.statics.locked_rest import LockedRest
+from cdpr_struct.statics.locked_rest import UPSET, LockedRest
 from cdpr_struct.statics.slack_cables import hangs_slack
-
-_UPSET = np.radians(60.0)  # a platform that turned further than this from its start may have rolled over
 
 
 def locked_json(found: LockedRest) -> dict[str, Any]:
@@ -39,7 +37,7 @@ def locked_warnings(found: LockedRest) -> list[str]:
             "if another pose is meant, give --start near it."
         )
     lower = int((found.others.energy < 0.0).sum())
-    if found.turned > _UPSET and found.others.count:
+    if found.turned > UPSET and found.others.count:
         said.append(
             f"the platform is turned by {np.degrees(found.turned):.0f} deg against its start, and has other stable "
             "poses at these lengths; if another pose is meant, give --start near it."

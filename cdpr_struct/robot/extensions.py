@@ -27,6 +27,7 @@ class Extensions:
     series_compliance: np.ndarray
     frame_compliance: np.ndarray
     mast_bending: np.ndarray
+    mast_mass: np.ndarray
     mast_foot: float
     hose: float
     hose_center: np.ndarray

@@ -123,6 +123,7 @@ EXTENSIONS: dict[str, Parameter] = {
                                least=0.0, most=0.1),
     "mast_bending": _extra(_EACH, 0.0, "m/N", "of the mast as an upright that bends sideways, at its highest exit",
                            least=0.0, most=0.1),
+    "mast_mass": _extra(_EACH, 0.0, "kg", "moving with the exit on the mast, for vibration only", least=0.0),
     "mast_foot": _extra((), 0.0, "m", "height z, world, at which uprights are clamped"),
     "hose": _extra((), 0.0, "N/m", "stiffness that holds the platform origin to hose_center", least=0.0),
     "hose_center": _extra((3,), 0.0, "m", "where the hose is relaxed, world frame"),

@@ -39,6 +39,7 @@ class RobotArrays:
     Extensions, without effect unless given:
     series_compliance, length_offset, length_scale, bending_stiffness, added_mass : (..., m)
     frame_compliance, mast_bending : (..., m) [m/N] of each cable's mast;  mast_foot : (...) [m]
+    mast_mass : (..., m) [kg] that moves with each cable's exit on its mast
     masts : (m, m) 1 where cables share one;  uprights : (m, m) how they bend, as `uprights_of` says
     hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  moment : (..., 3) [N m]
     tilt            : (..., 2) [rad];  temperature_change : (...) [K]
@@ -73,6 +74,7 @@ class RobotArrays:
     length_scale: np.ndarray = field(default_factory=PARAMETERS["length_scale"].without_effect)
     frame_compliance: np.ndarray = field(default_factory=PARAMETERS["frame_compliance"].without_effect)
     mast_bending: np.ndarray = field(default_factory=PARAMETERS["mast_bending"].without_effect)
+    mast_mass: np.ndarray = field(default_factory=PARAMETERS["mast_mass"].without_effect)
     mast_foot: np.ndarray = field(default_factory=PARAMETERS["mast_foot"].without_effect)
     uprights: np.ndarray = field(default_factory=PARAMETERS["uprights"].without_effect)
     masts: np.ndarray = field(default_factory=PARAMETERS["masts"].without_effect)

@@ -34,6 +34,12 @@ CASES = {
         "mast_foot": -1.0,
         "frame_compliance": 1e-5,
     },
+    "heads on brackets": {"frame_compliance": 5e-5, "mast_mass": 8.0},
+    "heads on uprights": {
+        "mast_bending": 5e-5,
+        "mast_foot": -1.0,
+        "mast_mass": [8.0, 5.0, 0.0, 2.0, 8.0, 5.0, 0.0, 2.0],
+    },
     "both": {"series_compliance": 2e-5, "frame_compliance": 2e-5},
     "hose, tilt, force": {"hose": 500.0, "hose_center": [0.0, 0.0, 1.0], "tilt": [0.02, 0.01], "force": [9.0, 5.0, 3]},
     "modulus": {"nonlinearity": 0.3, "reference_tension": 100.0},

@@ -112,9 +112,9 @@ def test_other_masses_are_seen():
 
 def test_the_fem_by_its_name_agrees_over_the_interface():
     robot, lengths = given("thesis-3-1")
-    exact, bars = (cs.modes(robot, lengths=lengths, model=m, count=10, elements=48) for m in ("exact", "fem"))
+    exact, bars = (cs.modes(robot, lengths=lengths, model=m, count=6, elements=16) for m in ("exact", "fem"))
     ratio = np.asarray(bars.answer["frequencies_hz"]) / np.asarray(exact.answer["frequencies_hz"])
-    assert 1e-6 < np.abs(ratio - 1.0).max() < 1e-3  # of 48 bars
+    assert 1e-6 < np.abs(ratio - 1.0).max() < 1e-2  # of 16 bars
 
 
 def test_damped_responses_are_the_referees():
@@ -137,7 +137,7 @@ def test_damped_responses_are_the_referees():
 def test_shapes_along_cables_are_the_referees():
     """Of the first four modes, those of the loaded cables; at stations between the masses and on them."""
     robot, lengths = given("thesis-3-1")
-    exact, bars = (cs.modes(robot, lengths=lengths, model=m, count=4, elements=64).modes for m in ("exact", "fem"))
+    exact, bars = (cs.modes(robot, lengths=lengths, model=m, count=4, elements=32).modes for m in ("exact", "fem"))
     stations = np.linspace(0.0, 1.0, 17)[1:]
     ours, theirs = (found.cable_motion(stations).reshape(4, -1) for found in (exact, bars))
     shared = np.einsum("ki,ki->k", ours, theirs) ** 2

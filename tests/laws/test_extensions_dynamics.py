@@ -33,6 +33,8 @@ SOFT = [
     {"series_compliance": 2e-5, "frame_compliance": 2e-5},
     {"mast_bending": 5e-5, "mast_foot": -1.0},
     {"frame_compliance": 2e-5, "mast_bending": [0.0, 5e-5, 2e-5, 0.0, 0.0, 5e-5, 2e-5, 0.0]},
+    {"frame_compliance": 5e-5, "mast_mass": 8.0},
+    {"mast_bending": 5e-5, "mast_foot": -1.0, "mast_mass": [0.0, 5.0, 0.0, 2.0, 8.0, 5.0, 0.0, 2.0]},
     {"hose": 500.0},
 ]
 
@@ -48,7 +50,7 @@ def test_eigenproblem_and_count_agree(given, model):
     np.testing.assert_allclose(found.shapes.omega / (2.0 * np.pi), counted, rtol=1e-5)  # dsm: a truncated series
 
 
-@pytest.mark.parametrize("given", SOFT, ids="+".join)
+@pytest.mark.parametrize("given", [given for given in SOFT if "mast_mass" not in given], ids="+".join)
 def test_massless_cables_give_the_static_frequencies(given):
     point = at_rest(given)
     found = certified_modes(point, "static", 6).frequencies.hertz

@@ -27,6 +27,7 @@ def fields_of(robot) -> dict[str, dict]:
         "series_compliance": {"series_compliance": 4e-6 * VARIED},
         "frame_compliance": {"frame_compliance": mast_values(robot, 2e-6 * VARIED)},
         "mast_bending": {"mast_bending": mast_values(robot, 3e-6 * VARIED), "mast_foot": -0.5},
+        "mast_mass": {"frame_compliance": mast_values(robot, 2e-6 * VARIED), "mast_mass": 4.0 * VARIED},
         "hose": {"hose": 40.0, "hose_center": center},
         "force": {"force": [8.0, -5.0, 3.0]},
         "moment": {"moment": [1.5, -1.0, 0.8]},

@@ -35,6 +35,7 @@ def everything() -> RobotArrays:
         length_offset=0.002 * each, length_scale=1.0 + 0.001 * each, series_compliance=2e-6 * each,
         frame_compliance=2e-6 * np.linspace(0.0, 1.5, 4) @ carriers(arrays.masts).T, cell_gain=1.0 + 0.01 * each,
         mast_bending=1e-6 * np.linspace(2.0, 0.5, 4) @ carriers(arrays.masts).T, mast_foot=np.array(-1.0 / 3.0),
+        mast_mass=0.7 * each,
         uprights=uprights_of(exits, -1.0 / 3.0),
         cell_bias=2.0 * each, friction=0.02 * each, force=np.array([5.0, -3.0, 2.0]), hose=np.array(30.0),
         hose_center=np.array([0.1, 0.2, 1.0 / 3.0]), tilt=np.array([0.002, -0.001]),
