@@ -22,6 +22,7 @@ from benchmarks import (
     robot_modes,
     single_cable,
     statics_forward_kinematics,
+    verified_robots,
     vibration_floor,
 )
 from benchmarks.markdown_page import put
@@ -41,6 +42,7 @@ QUESTIONS: tuple[Question, ...] = tuple(
         distribution,
         geometric_term,
         growth,
+        verified_robots,
     )
 )
 STUDY = "random-robots"

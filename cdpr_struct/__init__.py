@@ -38,8 +38,8 @@ Predictions and checks:
                             superposition.
   spectrogram               Show measured accelerations over time and frequency, beside the robot's certified
                             eigenfrequencies.
-  verify                    Compare the DSM's eigenfrequencies with those of the finite-element referee; `holds` says
-                            whether they agree.
+  verify                    Compare eigenfrequencies of the exact model and the DSM with those of the FEM; `holds` if
+                            they agree.
   audit                     Check each cable at each pose against the printed validity limits of the closed form;
                             `valid`: none is broken.
   limits                    Try the printed validity limits themselves against the catenary and the FEM (`audit

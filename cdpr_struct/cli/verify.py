@@ -1,4 +1,4 @@
-"""`cdpr-struct verify`: the DSM model on trial before the finite-element referee."""
+"""`cdpr-struct verify`: the exact model and the closed-form DSM before the finite-element referee."""
 
 from typing import Annotated
 
@@ -42,24 +42,43 @@ def run(
     mass: Mass = None,
     wrench: Wrench = None,
     temperature: Temperature = None,
-    elements: Annotated[str, typer.Option("--elements", help="Element counts per cable.")] = "10,20,40,80",
+    model: Annotated[
+        str | None, typer.Option("--model", help="exact or dsm: judge this one only. Default: exact first, then dsm.")
+    ] = None,
+    elements: Annotated[
+        str, typer.Option("--elements", help="Element counts per cable to begin with.")
+    ] = "10,20,40,80",
+    most_elements: Annotated[
+        int,
+        typer.Option(
+            "--most-elements",
+            parser=whole_number,
+            help="Per cable: the FEM is refined up to this, until it is certain to a tenth of the tolerance.",
+        ),
+    ] = 1280,
     modes: Annotated[
         int, typer.Option("--modes", parser=whole_number, help="How many eigenfrequencies to compare.")
     ] = 60,
     assembly: AssemblyName = "consistent",
     tolerance: Annotated[
-        float, typer.Option("--tolerance", parser=number, help="Largest relative deviation from the FEM.")
-    ] = 0.01,
+        float | None,
+        typer.Option(
+            "--tolerance",
+            parser=number,
+            help="Largest relative deviation from the FEM; default: 1e-4 for exact, 0.01 for dsm.",
+        ),
+    ] = None,
     *,
     output: Output,
 ) -> int:
-    """Compare the DSM's eigenfrequencies with the FEM's; exit 1 if they disagree."""
+    """Compare eigenfrequencies of the exact model and the DSM with the FEM's; exit 1 if the exact one disagrees."""
     with output.steps(len(elements.split(",")) + 2) as progress:
         found = cs.verify(
             robot, pose, free=free, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
             payload=payload, mass=mass,
             wrench=wrench, temperature=temperature,
             elements=elements, modes=modes, assembly=assembly, tolerance=tolerance,
+            model=model, most_elements=most_elements,
             progress=progress,
         )  # fmt: skip
     output.give(found)

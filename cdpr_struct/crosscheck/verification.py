@@ -1,60 +1,42 @@
-"""The DSM model on trial before the finite-element referee, at one pose of one robot."""
+"""The exact model and the closed-form DSM before the finite-element referee, at one pose of one robot."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.linalg
-from scipy.optimize import linear_sum_assignment
 
 import cdpr_struct.fem_reference as fem
+from cdpr_struct.crosscheck.compared_modes import ComparedModes, model_modes, static_partners
 from cdpr_struct.crosscheck.determinant_minima import DeterminantScan, match_minima, scan_determinant
-from cdpr_struct.crosscheck.fem_robot import fem_shapes, sampling_mass, solve_in_fem, vibrating
+from cdpr_struct.crosscheck.fem_robot import sampling_mass
 from cdpr_struct.crosscheck.mode_pairing import modal_assurance, pair_modes, shared_subspace
+from cdpr_struct.crosscheck.neglected_effects import neglected
+from cdpr_struct.crosscheck.refined_fem import RefinedFem, refined_fem
 from cdpr_struct.crosscheck.stiffness_convergence import StiffnessConvergence, stiffness_convergence
 from cdpr_struct.crosscheck.validity_limits import ValidityLimits, check_limits
-from cdpr_struct.dynamics.cable_dynamics import CableModel
-from cdpr_struct.dynamics.certified_modes import certified_frequencies, certified_modes
+from cdpr_struct.crosscheck.verdict_causes import Cause, find_causes
+from cdpr_struct.crosscheck.verdicts import JUDGED, Agreement, Criteria, Judged
+from cdpr_struct.dynamics.certified_modes import certified_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.dynamics.robot_dynamic_stiffness import (
-    Assembly,
-    platform_mass_matrix,
-    platform_static_stiffness,
-    stability_at,
-)
+from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, platform_mass_matrix
 from cdpr_struct.errors import CdprError
-from cdpr_struct.statics.guides import free_axes, free_block
 
 SCAN_STEPS_HERTZ = (0.05, 0.02, 0.01, 0.005)
 _REPORTED_STEP = 0.01
-_SPARE_MODES = 24
-_ALIKE = 0.1  # of a mode's energy must be a static mode's motion for the one to stand for the other
-
-
-@dataclass(frozen=True, slots=True)
-class Criteria:
-    """What must hold for the verdict.
-
-    relative_error   : largest deviation of a DSM frequency from the extrapolated FEM [-]
-    assurance        : smallest share of an FEM shape that must lie in the DSM's cluster it is paired with [-]
-    fem_uncertainty  : largest relative uncertainty of an extrapolated FEM frequency [-]
-    minimum_tolerance: a determinant minimum farther than this from a frequency does not stand for it [Hz]
-    """
-
-    relative_error: float = 0.01
-    assurance: float = 0.5
-    fem_uncertainty: float = 1e-3
-    minimum_tolerance: float = 0.03
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Verification:
-    """What the referee says about the DSM model; arrays over k modes in the order of the FEM frequencies.
+    """What the referee says about both models; arrays over k modes in the order of the FEM frequencies.
+
+    judged            : the models that get a verdict, the one that decides first
 
     fem_hertz         : (e, k) at each element count;  fem_limit_hertz, fem_uncertainty_hertz : (k,) extrapolated
     observed_order    : (k,) of the convergence with element count
     exact_hertz       : (k,) the paired frequency with the exact catenary's dynamic stiffness
-    dsm_hertz         : (k,) the paired DSM frequency;  assurance : (k,) share of the FEM shape in its cluster
+    dsm_hertz         : (k,) the paired DSM frequency
+    exact_assurance, assurance : (k,) share of the FEM shape in the cluster of the exact model's, of the DSM's mode
+    causes            : which effects the failing modes of a judged model lack
     static_hertz      : (k,) frequency on massless cables where this is the platform mode it stands for, else nan
     determinant_hertz : (k,) the minimum of the thesis's scan that stands for this mode, else nan
     missed, spurious  : per scan step [Hz], how many frequencies have no minimum, and how many minima no frequency
@@ -67,6 +49,7 @@ class Verification:
     point: OperatingPoint
     assembly: Assembly
     criteria: Criteria
+    judged: tuple[Judged, ...]
     elements: tuple[int, ...]
     fem_hertz: np.ndarray
     fem_limit_hertz: np.ndarray
@@ -75,7 +58,10 @@ class Verification:
     dsm_hertz: np.ndarray
     dsm_certified: bool
     exact_hertz: np.ndarray
+    exact_certified: bool
+    exact_assurance: np.ndarray
     assurance: np.ndarray
+    causes: dict[Judged, tuple[Cause, ...]]
     kinds: tuple[str, ...]
     static_hertz: np.ndarray
     determinant_hertz: np.ndarray
@@ -109,18 +95,35 @@ class Verification:
         """Frequencies without a determinant minimum of their own, at the reported grid step."""
         return self.missed[_REPORTED_STEP]
 
-    def objections(self) -> list[str]:
-        """Sentences, one per criterion that is not met; empty when the model holds."""
-        return [text for failed, text in _objections(self) if failed]
+    @property
+    def exact_error(self) -> np.ndarray:
+        """(k,) exact model against the extrapolated FEM, signed [-]."""
+        return self.exact_hertz / self.fem_limit_hertz - 1.0
 
+    @property
+    def fem_uncertainty(self) -> float:
+        """Largest relative uncertainty of an extrapolated FEM frequency [-]."""
+        return float(np.max(self.fem_uncertainty_hertz / self.fem_limit_hertz))
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _FemSweep:
-    meshes: list[fem.RobotEquilibrium]
-    hertz: np.ndarray
-    consistent_hertz: np.ndarray
-    shapes: np.ndarray
-    platform_shapes: np.ndarray
+    def agreement(self, model: Judged) -> Agreement:
+        """Whether the FEM confirms the model."""
+        exact = model == "exact"
+        return Agreement(
+            model,
+            self.criteria,
+            self.exact_hertz if exact else self.dsm_hertz,
+            self.fem_limit_hertz,
+            self.fem_uncertainty_hertz,
+            self.exact_assurance if exact else self.assurance,
+            self.exact_certified if exact else self.dsm_certified,
+            self.elements[-1],
+            self.neutral,
+            self.fem_neutral,
+        )
+
+    def objections(self, model: Judged | None = None) -> list[str]:
+        """One sentence per criterion that the model does not meet; None: the first of `judged`."""
+        return self.agreement(model or self.judged[0]).objections
 
 
 def verify(
@@ -130,57 +133,87 @@ def verify(
     assembly: Assembly = "consistent",
     criteria: Criteria | None = None,
     progress: Callable[[str], None] = lambda _: None,
+    most_elements: int = 0,
+    judged: tuple[Judged, ...] = JUDGED,
 ) -> Verification:
-    """Compare `modes` eigenfrequencies of the DSM model with those of the FEM at the same unstrained lengths.
+    """Compare `modes` eigenfrequencies of both models with those of the FEM at the same unstrained lengths.
 
     Parameters
     ----------
     elements : ascending element counts per cable, at least three, each a multiple of the first
+    most_elements : the FEM is refined up to this many per cable, until it is certain enough for the criteria
+    judged : models that get a verdict, with causes where they fail; both are computed in any case
     progress : called with what is being computed
     """
     criteria = criteria or Criteria()
     stations = elements[0]
     platform_mass = platform_mass_matrix(point.entered, point.rotation)
     mass = sampling_mass(point.entered, point.cables.length, stations, platform_mass)
-    sweep = _sweep_elements(point, elements, modes, mass, progress)
+    certain = min(criteria.fem_uncertainty(model) for model in judged)
+    sweep = refined_fem(point, elements, most_elements, modes, mass, certain, progress)
     progress("closed-form DSM and exact catenary")
-    dsm, exact = (_model_modes(point, model, modes, assembly, stations) for model in ("dsm", "exact"))
-    extrapolated = fem.extrapolate(elements, sweep.hertz)
-    assurance = modal_assurance(sweep.shapes, dsm.shapes, mass)
-    partner = pair_modes(assurance, sweep.hertz[-1], dsm.hertz)
-    exact_partner = pair_modes(modal_assurance(sweep.shapes, exact.shapes, mass), sweep.hertz[-1], exact.hertz)
-    dsm_hertz = dsm.hertz[partner]
+    first = model_modes(point, "exact", modes, assembly, stations)
+    exact, exact_assurance = _paired(sweep, first, mass)
+    dsm, assurance = _paired(sweep, model_modes(point, "dsm", modes, assembly, stations), mass)
     progress("determinant scan")
-    scans = _scans(point, assembly, dsm_hertz.max())
+    scans = _scans(point, assembly, dsm.hertz.max())
     matched = {
-        step: match_minima(scan.minima_hertz, dsm_hertz, criteria.minimum_tolerance) for step, scan in scans.items()
+        step: match_minima(scan.minima_hertz, dsm.hertz, criteria.minimum_tolerance) for step, scan in scans.items()
     }
-    return Verification(
+    found = Verification(
         point=point,
         assembly=assembly,
         criteria=criteria,
-        elements=tuple(elements),
+        judged=judged,
+        elements=sweep.elements,
         fem_hertz=sweep.hertz,
-        fem_limit_hertz=extrapolated.limit,
-        fem_uncertainty_hertz=extrapolated.error_estimate,
-        observed_order=extrapolated.order,
-        dsm_hertz=dsm_hertz,
+        fem_limit_hertz=sweep.limit.limit,
+        fem_uncertainty_hertz=sweep.limit.error_estimate,
+        observed_order=sweep.limit.order,
+        dsm_hertz=dsm.hertz,
         dsm_certified=dsm.certified,
-        exact_hertz=exact.hertz[exact_partner],
-        assurance=shared_subspace(assurance, dsm.hertz, partner),
-        kinds=tuple(dsm.kinds[j] for j in partner),
-        static_hertz=_static_partners(point, assembly, sweep.platform_shapes, platform_mass),
+        exact_hertz=exact.hertz,
+        exact_certified=exact.certified,
+        exact_assurance=exact_assurance,
+        assurance=assurance,
+        causes={},
+        kinds=tuple(exact.kinds),
+        static_hertz=static_partners(point, assembly, sweep.platform_shapes, platform_mass),
         determinant_hertz=matched[_REPORTED_STEP],
         scan=scans[_REPORTED_STEP],
         missed={step: int(np.isnan(m).sum()) for step, m in matched.items()},
         spurious={step: len(scans[step].minima_hertz) - int(np.isfinite(m).sum()) for step, m in matched.items()},
         consistent_hertz=sweep.consistent_hertz,
-        stiffness=stiffness_convergence(point, sweep.meshes, exact.hertz[:modes], assembly),
-        geometric_effect=_geometric_effect(point, exact.hertz[:modes], exact.neutral, assembly),
+        stiffness=stiffness_convergence(point, sweep.meshes, first.hertz[:modes], assembly),
+        geometric_effect=_geometric_effect(point, first.hertz[:modes], exact.neutral, assembly),
         limits=check_limits(point),
         neutral=exact.neutral,
         fem_neutral=fem.neutral_freedoms(sweep.meshes[-1]),
     )
+    return replace(found, causes=_causes(found, {"exact": exact, "dsm": dsm}, mass, stations))
+
+
+def _paired(sweep: RefinedFem, modes: ComparedModes, mass: np.ndarray) -> tuple[ComparedModes, np.ndarray]:
+    """The model's modes that stand for those of the FEM, and how much of each shape (k,) they share."""
+    assurance = modal_assurance(sweep.shapes, modes.shapes, mass)
+    partner = pair_modes(assurance, sweep.hertz[-1], modes.hertz)
+    shared = shared_subspace(assurance, modes.hertz, partner)
+    kinds = [modes.kinds[j] for j in partner]
+    return replace(modes, hertz=modes.hertz[partner], shapes=modes.shapes[partner], kinds=kinds), shared
+
+
+def _causes(
+    found: Verification, modes: dict[Judged, ComparedModes], mass: np.ndarray, stations: int
+) -> dict[Judged, tuple[Cause, ...]]:
+    """Causes of the judged models of which a frequency is off."""
+    causes: dict[Judged, tuple[Cause, ...]] = {}
+    for model in found.judged:
+        failing = found.agreement(model).failing
+        if failing.any():
+            effects = neglected(found.point, model, found.assembly)
+            tolerance, closed = found.criteria.tolerance(model), model == "dsm"
+            causes[model] = find_causes(found.point, modes[model], effects, failing, tolerance, mass, stations, closed)
+    return causes
 
 
 def _geometric_effect(point: OperatingPoint, hertz: np.ndarray, neutral: int, assembly: Assembly) -> float:
@@ -197,103 +230,5 @@ def _geometric_effect(point: OperatingPoint, hertz: np.ndarray, neutral: int, as
     return float(np.abs(ratio - 1.0).max())
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _ModelModes:
-    """Modes above zero; neutral: number of those at zero before them."""
-
-    neutral: int
-    hertz: np.ndarray
-    certified: bool
-    shapes: np.ndarray
-    kinds: list[str]
-
-
-def _model_modes(
-    point: OperatingPoint, model: CableModel, modes: int, assembly: Assembly, stations: int
-) -> _ModelModes:
-    """Frequencies of the model with shapes (k, 6 + 3 m (stations - 1)) sampled where the FEM's are."""
-    neutral = int(stability_at(point, assembly).neutral)
-    found = certified_modes(point, model, neutral + modes + _SPARE_MODES, assembly)
-    motion = found.shapes.cable_motion(np.arange(1, stations) / stations)
-    shapes = np.concatenate([found.shapes.platform, motion.reshape(len(motion), -1)], axis=1)
-    hertz, kinds = found.frequencies.hertz[neutral:], found.shapes.kinds()[neutral:]
-    return _ModelModes(neutral, hertz, found.frequencies.certified, shapes[neutral:], kinds)
-
-
-def _sweep_elements(
-    point: OperatingPoint, elements: Sequence[int], modes: int, mass: np.ndarray, progress: Callable[[str], None]
-) -> _FemSweep:
-    """FEM frequencies at every element count, each mode followed by its shape up to the finest mesh."""
-    meshes, lumped, consistent = [], [], []
-    for n in elements:
-        progress(f"FEM, {len(point.entered.cables)} x {n} elements")
-        spare = 0 if n == elements[-1] else _SPARE_MODES
-        every = 5 - len(point.entered.guided) + 3 * len(point.entered.cables) * (n - 1)
-        meshes.append(solve_in_fem(point, n))
-        neutral = fem.neutral_freedoms(meshes[-1])
-        count = min(neutral + modes + spare, every)
-        lumped.append(vibrating(fem.robot_modes(meshes[-1], count), neutral))
-        consistent.append(vibrating(fem.robot_modes(meshes[-1], count, "consistent"), neutral))
-    finest = lumped[-1]
-    shapes = fem_shapes(finest, elements[0])
-
-    def followed(found: list[fem.RobotModes]) -> np.ndarray:
-        return np.array([_followed(finest, shapes, coarse, elements[0], mass) for coarse in found])
-
-    return _FemSweep(meshes, followed(lumped), followed(consistent), shapes, finest.platform_shapes)
-
-
-def _followed(
-    finest: fem.RobotModes, shapes: np.ndarray, coarse: fem.RobotModes, stations: int, mass: np.ndarray
-) -> np.ndarray:
-    """(k,) frequencies [Hz] of another mesh or mass model, in the order of the finest mesh's modes."""
-    assurance = modal_assurance(shapes, fem_shapes(coarse, stations), mass)
-    return coarse.frequencies_hz[pair_modes(assurance, finest.frequencies_hz, coarse.frequencies_hz)]
-
-
 def _scans(point: OperatingPoint, assembly: Assembly, last: float) -> dict[float, DeterminantScan]:
     return {step: scan_determinant(point, step, 1.05 * last, step, assembly) for step in SCAN_STEPS_HERTZ}
-
-
-def _static_partners(
-    point: OperatingPoint, assembly: Assembly, platform_shapes: np.ndarray, mass: np.ndarray
-) -> np.ndarray:
-    """For each FEM mode the frequency of the static mode it stands for; at most six modes get one, the others nan.
-
-    platform_shapes carry unit modal mass, so the overlap with a static shape is the share of the FEM mode's energy
-    that is this platform motion.
-    """
-    free = free_axes(point.arrays)
-    stiffness, own = (free_block(part, point.arrays) for part in (platform_static_stiffness(point, assembly), mass))
-    squared, static_shapes = scipy.linalg.eigh(stiffness, own)
-    overlap = (platform_shapes[:, free] @ own @ static_shapes) ** 2
-    result = np.full(len(platform_shapes), np.nan)
-    rows, columns = linear_sum_assignment(-overlap)
-    for i, j in zip(rows, columns, strict=True):
-        if squared[j] > 0.0 and overlap[i, j] > _ALIKE:
-            result[i] = np.sqrt(squared[j]) / (2.0 * np.pi)
-    return result
-
-
-def _objections(v: Verification) -> list[tuple[bool, str]]:
-    worst = int(np.argmax(np.abs(v.relative_error)))
-    lost = int(np.argmin(v.assurance))
-    blurred = v.fem_uncertainty_hertz / v.fem_limit_hertz
-    return [
-        (
-            abs(v.relative_error[worst]) > v.criteria.relative_error,
-            f"mode {worst + 1}: DSM {v.dsm_hertz[worst]:.4f} Hz is off by {100 * v.relative_error[worst]:+.2f} % from "
-            f"the FEM's {v.fem_limit_hertz[worst]:.4f} Hz, over {100 * v.criteria.relative_error:g} %",
-        ),
-        (
-            v.assurance[lost] < v.criteria.assurance,
-            f"mode {lost + 1} at {v.fem_limit_hertz[lost]:.4f} Hz has no DSM partner of its shape "
-            f"(best share {v.assurance[lost]:.2f})",
-        ),
-        (
-            float(np.max(blurred)) > v.criteria.fem_uncertainty,
-            f"the FEM has not converged: its limit is uncertain by {100 * np.max(blurred):.2g} %; use more elements",
-        ),
-        (v.neutral != v.fem_neutral, f"the model has {v.neutral} neutral freedoms, the FEM {v.fem_neutral}"),
-        (not v.dsm_certified, "the count of the DSM's natural frequencies could not be certified"),
-    ]

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
+from cdpr_struct.dynamics.catenary_line import across, along, stiffness_density
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.piecewise_basis import PiecewiseBasis, PiecewiseCoordinate
 from cdpr_struct.dynamics.polynomial_basis import curvatures, on_gauss_nodes, polynomial_basis
@@ -44,11 +45,23 @@ class CableExtras:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class LeftOut:
+    """What m cables are to lack, so that one sees what it is worth; the shape at rest is the caller's.
+
+    axial_stiffness : (m,) EA [N] of the vibrating cables, which are not stretched at rest; None where they are
+    axial_inertia   : whether motion along the cable has no inertia
+    """
+
+    axial_stiffness: np.ndarray | None = None
+    axial_inertia: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class _Plane:
     """Motion components that are coupled with each other: i functions, c components, p modes.
 
-    omega_squared (m, p); modes (m, i, c, p); static (m, i, c, c); end_mass (m, c, c); coupling (m, p, c);
-    rigid_mass, rigid_end (m, c, c) and rigid_modes (m, p, c) of the cable moved as a whole.
+    omega_squared (m, p); modes (m, i, c, p); static (m, i, c, c); end_stiffness, end_mass (m, c, c);
+    coupling (m, p, c); rigid_mass, rigid_end (m, c, c) and rigid_modes (m, p, c) of the cable moved as a whole.
     The functions are those of `polynomial_basis` without the moving end's.
     """
 
@@ -56,6 +69,7 @@ class _Plane:
     omega_squared: np.ndarray
     modes: np.ndarray
     static: np.ndarray
+    end_stiffness: np.ndarray
     end_mass: np.ndarray
     coupling: np.ndarray
     rigid_mass: np.ndarray
@@ -70,6 +84,7 @@ def expand_catenaries(
     end_stiffness: np.ndarray,
     frame_ends: FrameEnds | None = None,
     extras: CableExtras | None = None,
+    left_out: LeftOut | None = None,
 ) -> ModalExpansion:
     """Expansion of m cables (m,) with all the modes that the polynomials span, 3 (order - 1) for fixed frame ends.
 
@@ -81,6 +96,7 @@ def expand_catenaries(
     end_stiffness : (m, 3, 3) static stiffness of the platform ends, world [N/m]
     frame_ends : None where all are fixed points
     extras : None where cables neither resist bending nor carry masses
+    left_out : not None: cables that lack something; their static stiffness is then computed here
     """
     frame = cable_frame(cables)
     to_local = np.swapaxes(frame, -1, -2)
@@ -89,9 +105,11 @@ def expand_catenaries(
     nodes, weights, values, slopes = basis.on_gauss_nodes() if lumped else on_gauss_nodes(order)
     coordinate = PiecewiseCoordinate.of(cables) if lumped else CatenaryCoordinate.of(cables)
     arc, rate = coordinate.arc(nodes)
-    density = stiffness_density(cables, arc)
+    stretched = None if left_out is None else left_out.axial_stiffness
+    density = stiffness_density(cables, arc, axial_stiffness=stretched)
     scale = weights / rate
-    mass = _products(values, linear_density[:, None] * rate * weights)
+    inertia = linear_density[:, None] * rate * weights
+    mass = _products(values, inertia)
     bending = None
     if extras is not None and extras.added_mass.any():
         middle, _ = polynomial_basis(coordinate.xi(np.array([0.5]))[:, 0], order)
@@ -103,7 +121,7 @@ def expand_catenaries(
         ends = 2.0 * slenderness(extras.bending_stiffness, cables.tension, cables.chord)
         density = stiffness_density(cables, arc, (1.0 + ends + ends**2) ** 2)
         bending = curvatures(nodes, order), extras.bending_stiffness[:, None] * weights / rate**3
-        across = _across(cables, arc)
+        sideways = across(cables, arc)
     directions = None if frame_ends is None else to_local @ frame_ends.directions
     springs = None if frame_ends is None else frame_ends.stiffness
     planes = []
@@ -111,13 +129,18 @@ def expand_catenaries(
         own = density[..., components, :][..., components]
         stiffness = np.moveaxis(_products(slopes, np.moveaxis(own * scale[..., None, None], 1, -1)), (1, 2), (2, 4))
         if bending is not None:
-            plane = across[..., components, :][..., components] * bending[1][..., None, None]
+            plane = sideways[..., components, :][..., components] * bending[1][..., None, None]
             stiffness = stiffness + np.moveaxis(_products(bending[0], np.moveaxis(plane, 1, -1)), (1, 2), (2, 4))
+        full = mass if len(components) == 1 else np.kron(mass, np.eye(len(components)))
+        if left_out is not None and left_out.axial_inertia:
+            moved = along(cables, arc)[..., components, :][..., components] * inertia[..., None, None]
+            full = full - np.moveaxis(_products(values, np.moveaxis(moved, 1, -1)), (1, 2), (2, 4)).reshape(full.shape)
         freedoms = _Freedoms.of(basis.count - 1, len(components), directions)
-        planes.append(_condense(components, stiffness, mass, freedoms, springs))
+        planes.append(_condense(components, stiffness, full, freedoms, springs))
+    computed = _end_mass([(plane.components, plane.end_stiffness) for plane in planes])
     found = ModalExpansion(
         frame=frame,
-        static_stiffness=to_local @ end_stiffness @ frame,
+        static_stiffness=to_local @ end_stiffness @ frame if left_out is None else computed,
         end_mass=_end_mass([(plane.components, plane.end_mass) for plane in planes]),
         omega_squared=np.concatenate([plane.omega_squared for plane in planes], axis=1),
         coupling=_coupling([(plane.components, plane.coupling) for plane in planes]),
@@ -132,38 +155,6 @@ def expand_catenaries(
 def _products(functions: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """(..., i, j) weighted sums over q of products of functions (i, q), weights (..., q)."""
     return (functions * weights[..., None, :]) @ functions.T
-
-
-def _across(cables: CableStates, arc: np.ndarray) -> np.ndarray:
-    """1 - t t^T (m, q, 3, 3), local axes."""
-    tangent, _ = _tangent(cables, arc)
-    return np.asarray(np.eye(3) - tangent[..., :, None] * tangent[..., None, :])
-
-
-def _tangent(cables: CableStates, arc: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Tangent (m, q, 3) and tension (m, q) [N] at unstrained arc lengths from the frame."""
-    hanging = cables.weight[:, None] * (cables.length[:, None] - arc)
-    if cables.has_lumps:
-        above = (cables.length[:, None] - cables.lump_place)[:, None, :] > arc[..., None]
-        hanging = hanging + (cables.lump_weight[:, None, :] * above).sum(axis=-1)
-    vertical = cables.force_z[:, None] - hanging
-    horizontal = np.broadcast_to(cables.force_x[:, None], vertical.shape)
-    tension = np.hypot(horizontal, vertical)
-    return np.stack([horizontal, np.zeros_like(vertical), vertical], axis=-1) / tension[..., None], tension
-
-
-def stiffness_density(cables: CableStates, arc: np.ndarray, tightened: np.ndarray | None = None) -> np.ndarray:
-    """D (m, q, 3, 3) at unstrained arc lengths (m, q) from the frame [m], local axes (heading, across, up) [N].
-
-    tightened : (m,) factor on the tension across the cable, None for 1
-    """
-    tangent, tension = _tangent(cables, arc)
-    along = np.broadcast_to(cables.axial_stiffness, cables.length.shape)[:, None]
-    across = tension / (1.0 + tension / along)
-    if tightened is not None:
-        across = across * tightened[:, None]
-    outer = tangent[..., :, None] * tangent[..., None, :]
-    return along[..., None, None] * outer + across[..., None, None] * (np.eye(3) - outer)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -212,11 +203,10 @@ def _condense(
     freedoms: _Freedoms,
     springs: np.ndarray | None,
 ) -> _Plane:
-    """Static shapes of the moving end and modes of the clamped cable; stiffness (m, i, c, i, c), mass (m, i, i)."""
-    (m, count, _), size = mass.shape, len(components)
+    """Static shapes of the moving end and modes of the clamped cable; stiffness (m, i, c, i, c), mass (m, i c, i c)."""
+    (m, count), size = stiffness.shape[:2], len(components)
     stiffness = freedoms.both(stiffness.reshape(m, count * size, count * size))
-    full = mass if size == 1 else np.kron(mass, np.eye(size))
-    mass = freedoms.both(full)
+    full, mass = mass, freedoms.both(mass)
     whole = np.kron(np.r_[np.zeros(count - 2), 1.0, 1.0][:, None], np.eye(size))  # both ramps sum up to one
     shared = freedoms.rows(full @ whole)
     inner, end = slice(None, -size), slice(-size, None)
@@ -232,6 +222,7 @@ def _condense(
         omega_squared,
         freedoms.functions(modes, size).reshape(m, count - 1, size, -1),
         freedoms.functions(static, size).reshape(m, count - 1, size, size),
+        stiffness[:, end, end] + stiffness[:, end, inner] @ static,
         end_mass,
         np.swapaxes(modes, 1, 2) @ carried,
         whole.T @ full @ whole,

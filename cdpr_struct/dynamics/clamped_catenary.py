@@ -7,7 +7,7 @@ polynomials that vanish at both ends. Motion in the plane of the cable and acros
 import numpy as np
 
 from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
-from cdpr_struct.dynamics.catenary_expansion import stiffness_density
+from cdpr_struct.dynamics.catenary_line import stiffness_density
 from cdpr_struct.dynamics.polynomial_basis import on_gauss_nodes
 from cdpr_struct.statics.cable_state import CableStates
 

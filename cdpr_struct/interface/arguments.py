@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from cdpr_struct.errors import InputError
+from cdpr_struct.interface.answering import doubt
 
 if TYPE_CHECKING:
     from cdpr_struct.interface.given import GridLike, Numbers, PoseLike, RobotLike
@@ -116,11 +117,14 @@ def read_robot(
     temperature : of the cables, above that at which lengths are entered [K]; None keeps the robot's own
     lumps : whether the command knows masses on cables
 
+    What can hardly be meant in it is said behind an error; every result says it by `with_extensions`.
+
     Raises
     ------
     InputError : no such robot, a number out of range, or masses on cables that the command does not know.
     """
     from cdpr_struct.interface.lumps import require_no_lumps
+    from cdpr_struct.robot.plausibility import implausible
     from cdpr_struct.robot.robot import Robot
     from cdpr_struct.robot.robot_file import load_robot
 
@@ -134,6 +138,7 @@ def read_robot(
     entered = robot if isinstance(robot, Robot) else load_robot(os.fspath(robot))
     if not lumps:
         require_no_lumps(entered, "this command knows no masses on cables; inverse, forward, modes, frf do")
+    doubt(implausible(entered))
     try:
         loaded = entered.with_load(payload, mass)
     except ValueError as error:

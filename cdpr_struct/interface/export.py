@@ -15,6 +15,7 @@ from cdpr_struct.interface.operating_point import pose_in_degrees, rest
 from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.gltf_file import gltf_bytes
 from cdpr_struct.reports.moordyn_file import moordyn_text
+from cdpr_struct.robot.plausibility import implausible
 from cdpr_struct.robot.robot import Robot
 
 FORMATS = ("moorpy", "moordyn", "gltf")
@@ -87,7 +88,7 @@ def export(
         require_locked_lengths(machine, "the files of MoorPy and MoorDyn hold locked lengths only")
         require_cables_without_drag(machine, "the files of MoorPy and MoorDyn hold no wind; gltf shows the cables")
     state = rest(machine, pose, lengths, start)
-    point, told = state.point, list(state.told()["warnings"])
+    point, told = state.point, [*implausible(machine), *state.told()["warnings"]]
     if form == "gltf":
         return Exported(gltf_bytes(point), pose_in_degrees(point), tuple(told))
     content = moordyn_text(point, "moorpy" if form == "moorpy" else "moordyn").encode("ascii")

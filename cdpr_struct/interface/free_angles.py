@@ -127,6 +127,12 @@ def read_free(given: FreeAngles, robot: Robot, angles: np.ndarray) -> tuple[np.n
     return free, tuple(names_of(free & ~asked))
 
 
+def _range(robot: Robot) -> str:
+    """The forces that the cables may have, in words."""
+    low, high = float(robot.force_min.min()), float(robot.force_max.max())
+    return f"from {low:g} to {high:g} N" if np.isfinite(high) else f"above {low:g} N"
+
+
 def chosen_pose(
     robot: Robot, where: Pose, given: FreeAngles | None, orient: str | None, model: str = "sagging"
 ) -> HangingPose | None:
@@ -183,7 +189,7 @@ def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sag
         names, most = ", ".join(names_of(free)), float(np.abs(found.moment).max())
         left = f"{most:.2g} of arms times tensions is left as moment about them"
         if most < 1e-9:
-            left = "no tensions within their limits balance the rest there"
+            left = f"no tensions {_range(robot)} carry the platform at any angle tried"
         raise UnholdablePoseError(
             f"no orientation is found at which the platform hangs freely about {names}: {left}. "
             f"{hint}, or begin at another orientation."

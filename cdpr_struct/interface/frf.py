@@ -17,7 +17,7 @@ from cdpr_struct.interface.modes import ASSEMBLIES
 from cdpr_struct.interface.operating_point import rest
 from cdpr_struct.interface.ports import read_ports
 from cdpr_struct.interface.result import Files, Result
-from cdpr_struct.interface.vibration_model import read_model, require_valid
+from cdpr_struct.interface.vibration_model import dropped_by, read_model, require_valid
 from cdpr_struct.reports.damping_note import damping_note
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.frf_result import frf_columns, frf_json
@@ -142,7 +142,7 @@ def frf(
         sweep = sweep_response(point, cable_model, law, source[0], targets, hertz, what, way)
     described = {"damping": damping, "frame": frame, "at_m": "0,0,0" if at is None else text_of(at), "assembly": way}
     described |= {"band_hz": band_text(band), "damping_note": damping_note(law, damping, machine, massless)}
-    told = frf_json(sweep, {**described, "command": None}) | state.told()
+    told = frf_json(sweep, {**described, "command": None}) | state.told(*dropped_by(cable_model, machine))
     return FrfResult(with_extensions(told, machine, "frf", cable_model), sweep)
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args
 
 from cdpr_struct.crosscheck.mode_motion import ModeMotion, mode_motion
-from cdpr_struct.crosscheck.robot_modes import MODELS, RobotModes, require_validity, robot_modes
+from cdpr_struct.crosscheck.robot_modes import MODELS, RobotModes, robot_modes
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.platform_directions import direction_shares
@@ -17,6 +17,7 @@ from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import pose_in_degrees, rest
 from cdpr_struct.interface.result import Files, Result
+from cdpr_struct.interface.vibration_model import dropped_by, require_valid
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.mode_words import motion_words
 from cdpr_struct.reports.modes_text import modes_columns, modes_sentence, modes_text
@@ -130,8 +131,7 @@ def modes(
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True)
     state = rest(machine, pose, lengths, start, free)
     point = state.point
-    if name == "dsm" and not force:
-        require_validity(point)
+    require_valid(name, point, force)
     with state.advised():
         most = 6 - len(machine.guided) if name == "static" else count
         found = robot_modes(point, name, min(count, most), way, elements)
@@ -151,6 +151,6 @@ def modes(
         "motion_words": motion_words(found.platform_energy, shares),
         "tensions_N": point.cables.tension_at_platform,
         "lengths_m": RobotArrays.of(machine).reading(point.cables.total_length),
-        **state.told(),
+        **state.told(*dropped_by(name, machine)),
     }
     return ModesResult(with_extensions(told, machine, "modes", name), point, found, motion)

@@ -14,7 +14,7 @@ from cdpr_struct.interface.arguments import read_robot, real
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import rest
 from cdpr_struct.interface.result import Files, Result
-from cdpr_struct.interface.vibration_model import read_model, require_valid
+from cdpr_struct.interface.vibration_model import dropped_by, read_model, require_valid
 from cdpr_struct.measurement.time_series import read_accelerations
 from cdpr_struct.reports import transient_measured
 from cdpr_struct.reports.extension_notes import with_extensions
@@ -114,5 +114,5 @@ def spectrogram(
     require_valid(cable_model, state.point, force)
     with state.advised():
         told = transient_measured.measured_json(time, acceleration, state.point, cable_model, highest)
-    told = with_extensions(told | state.told(), machine, "spectrogram", cable_model)
+    told = with_extensions(told | state.told(*dropped_by(cable_model, machine)), machine, "spectrogram", cable_model)
     return SpectrogramResult(told, time, acceleration, window)

@@ -17,7 +17,7 @@ from cdpr_struct.interface.operating_point import rest
 from cdpr_struct.interface.ports import read_ports
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.trajectory import read_trajectory
-from cdpr_struct.interface.vibration_model import read_model, require_valid
+from cdpr_struct.interface.vibration_model import dropped_by, read_model, require_valid
 from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.damping_note import ENDLESS_VIBRATION, damping_note
 from cdpr_struct.reports.extension_notes import with_extensions
@@ -164,6 +164,7 @@ def transient(
         )
     described = {"damping": damping, "frame": frame, "at_m": "0,0,0" if at is None else text_of(at), "assembly": way}
     note = damping_note(law, damping, machine, cable_model == "static", ENDLESS_VIBRATION)
+    assumed = [*assumed, *dropped_by(cable_model, machine)]
     told = transient_json(record, {**described, "damping_note": note, "command": None}) | state.told(*assumed)
     return TransientResult(with_extensions(told, machine, "transient", cable_model), record, window)
 

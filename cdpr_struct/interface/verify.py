@@ -1,4 +1,4 @@
-"""The DSM model on trial before the finite-element referee."""
+"""The exact model and the closed-form DSM before the finite-element referee."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -6,7 +6,8 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from cdpr_struct.crosscheck.fem_robot import NOT_IN_FEM
-from cdpr_struct.crosscheck.verification import Criteria, Verification
+from cdpr_struct.crosscheck.verdicts import JUDGED, Criteria
+from cdpr_struct.crosscheck.verification import Verification
 from cdpr_struct.crosscheck.verification import verify as tried
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
@@ -19,38 +20,42 @@ from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.verification_result import eigenfrequency_columns, verification_json
-from cdpr_struct.reports.verification_text import verdict, verification_text
+from cdpr_struct.reports.verification_text import verification_text
+from cdpr_struct.reports.verification_verdict import verdict_lines
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
 
+MOST_ELEMENTS = 1280
+LARGEST_COUNT = 2000
+
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class VerifyResult(Result):
-    """What the referee says of the DSM at one pose.
+    """What the referee says of both models at one pose.
 
-    trial : frequencies of both, convergence, determinant scan, validity limits, objections()
+    trial : frequencies of all, convergence, determinant scan, validity limits; judged, agreement(model), causes
     """
 
     trial: Verification
 
     @property
     def holds(self) -> bool:
-        """Whether the referee has no objection."""
+        """Whether the referee confirms the model that is judged first: the exact one, or the one that was named."""
         return not self.trial.objections()
 
     @property
     def title(self) -> str:
         """Whose frequencies are tried."""
-        return f"{self.trial.point.entered.name}: DSM against FEM"
+        return f"{self.trial.point.entered.name}: models against FEM"
 
     def text(self) -> str:
         """Tables of modes, convergence and cables, then the verdict."""
         return verification_text(self.trial)
 
     def sentences(self) -> Sequence[str]:
-        """The verdict."""
-        return verdict(self.trial).split("\n")
+        """The verdicts, with causes, and what to do."""
+        return verdict_lines(self.trial)
 
     def columns(self) -> Mapping[str, Any]:
         """Columns of eigenfrequencies.csv."""
@@ -85,11 +90,13 @@ def verify(
     elements: Numbers = (10, 20, 40, 80),
     modes: int = 60,
     assembly: str = "consistent",
-    tolerance: float = 0.01,
+    tolerance: float | None = None,
     progress: Progress = silent,
     free: FreeAngles | None = None,
+    model: str | None = None,
+    most_elements: int = MOST_ELEMENTS,
 ) -> VerifyResult:
-    """Compare the DSM's eigenfrequencies with those of the finite-element referee; `holds` says whether they agree.
+    """Compare eigenfrequencies of the exact model and the DSM with those of the FEM; `holds` if they agree.
 
     Parameters
     ----------
@@ -101,7 +108,10 @@ def verify(
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
     temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     elements : counts per cable, ascending multiples of the first;  modes : how many to compare
-    assembly : consistent, or thesis (eq. 3.8 as printed);  tolerance : largest relative deviation from the FEM [-]
+    assembly : consistent, or thesis (eq. 3.8 as printed)
+    tolerance : largest relative deviation from the FEM [-]; default: 1e-4 for the exact model, 0.01 for the DSM
+    model : exact or dsm, the only one to judge; default: both, and `holds` is about the exact one
+    most_elements : a cable; the FEM is refined up to this until its limit is certain to a tenth of the tolerance
     progress : called with the name of each step
     free : angles of the pose that hang freely, some of rx, ry, rz; they are found from those given
 
@@ -112,13 +122,20 @@ def verify(
     """
     counts = read_elements(elements)
     whole(modes, "modes", 1, 200)
-    real(tolerance, "tolerance", "give a ratio between 0 and 1, like 0.01", 0.0, 1.0)
+    whole(most_elements, "most_elements", counts[-1], LARGEST_COUNT)
+    judged = JUDGED if model is None else (one_of(model, "model", JUDGED),)
+    criteria = Criteria()
+    if tolerance is not None:
+        real(tolerance, "tolerance", "give a ratio between 0 and 1, like 0.01", 0.0, 1.0)
+        criteria = Criteria(relative_error=tolerance, exact_error=tolerance)
     way = one_of(assembly, "assembly", ASSEMBLIES)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
-    require_locked_lengths(machine, "the DSM on trial knows no such winch; compare modes --model exact and --model fem")
+    require_locked_lengths(
+        machine, "the closed-form DSM knows no such winch; compare modes --model exact and --model fem"
+    )
     state = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths, start, free)
     with state.advised():
-        trial = tried(state.point, counts, modes, way, Criteria(relative_error=tolerance), progress)
+        trial = tried(state.point, counts, modes, way, criteria, progress, most_elements, judged)
     told = verification_json(trial, pose_in_degrees(state.point)) | state.told()
     return VerifyResult(with_extensions(told, machine, "verify"), trial)
 
@@ -137,6 +154,6 @@ def read_elements(given: Numbers) -> list[int]:
     if not (integers and len(counts) >= 3 and counts[0] >= 4 and ascending and all(c % counts[0] == 0 for c in counts)):
         expected = "give at least three ascending multiples of the first (4 or more), like 10,20,40,80"
         raise InputError("elements", "", given, expected)
-    if counts[-1] > 2000:
-        raise InputError("elements", "", given, "at most 2000 elements per cable")
+    if counts[-1] > LARGEST_COUNT:
+        raise InputError("elements", "", given, f"at most {LARGEST_COUNT} elements per cable")
     return counts

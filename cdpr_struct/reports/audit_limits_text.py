@@ -157,12 +157,19 @@ def referee_rows(trial: LimitsTrial) -> list[list[str]]:
     ]
 
 
+_WHAT_TO_DO = (
+    "What to do: use the exact model, the default of all commands, which has none of these limits; `verify ROBOT` "
+    "shows how far off the closed form is for a robot."
+)
+
+
 def verdict(trial: LimitsTrial) -> list[str]:
     """The outcome in plain sentences."""
     tolerance = f"{100.0 * trial.tolerance:g} %"
     if trial.holds:
         return [
-            f"THE PRINTED LIMITS SUFFICE: inside them no error exceeds {tolerance}, strains up to {MAX_STRAIN:.0%}."
+            f"THE PRINTED LIMITS SUFFICE: inside them no error exceeds {tolerance}, strains up to {MAX_STRAIN:.0%}.",
+            _WHAT_TO_DO,
         ]
     clamped = max(float(trial.error(q)[trial.inside].max()) for q in ("in_plane_frequency", "across_frequency"))
     loaded = float(trial.error("end_mass_frequency")[trial.inside].max())
@@ -177,6 +184,7 @@ def verdict(trial: LimitsTrial) -> list[str]:
         f"What is missing to stay below {tolerance}: {further}.",
         f"At the first crossover the closed form's two frequencies cross; in a cable at {inclined.inclination_deg:g}° "
         f"with ε = {inclined.epsilon:g} they keep {100.0 * inclined.gap:.2g} % apart and exchange their shapes.",
+        _WHAT_TO_DO,
     ]
 
 

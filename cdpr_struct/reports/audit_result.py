@@ -16,6 +16,9 @@ from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import anchors_in_world
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
+_TIGHTENED = ("lambda2", "epsilon", "sag_ratio")
+_WHEN_UNHELD = "choose poses that the cables can hold; `map --quantity workspace` shows where these are."
+
 
 def audit_json(audit: PoseAudit, time: np.ndarray | None = None) -> dict[str, Any]:
     """The result under the keys that scripts rely on; poses as [x, y, z, rx, ry, rz] in m and deg."""
@@ -80,12 +83,31 @@ def sentences(audit: PoseAudit) -> list[str]:
     unheld = [f"{total - held} of {total} poses cannot be held by the cables and were not checked."]
     found = [*(unheld if held < total else []), *_slack(audit)]
     if not held:
-        return [f"NOT CHECKED: {unheld[0]}"]
+        return [f"NOT CHECKED: {unheld[0]}", f"What to do: {_WHEN_UNHELD}"]
+    found.append(f"What to do: {what_to_do(audit)}")
     if not bad:
         return [f"WITHIN THE PRINTED LIMITS: every cable at {where}.", *found]
     share = "" if total == 1 else f" {bad} of {held} poses are affected."
     parts = [f"{name} {_whose(b)} ({_worst(audit, name)})" for name, b in audit.broken.items() if b.any()]
     return [f"OUTSIDE THE PRINTED LIMITS: {', '.join(parts)}.{share}", *found]
+
+
+def what_to_do(audit: PoseAudit) -> str:
+    """Which model to use for the robot, and what to change."""
+    pulleys = any(audit.robot.pulleys)
+    if (audit.count > 0).any():
+        less = " A larger --lower-bound (or force_min) lowers lambda2, epsilon and sag."
+        tighten = less if any(audit.broken[name].any() for name in _TIGHTENED) else ""
+        return f"use the exact model, the default of all commands, which has none of these limits.{tighten}"
+    if pulleys:
+        return (
+            "use the exact model, the default of all commands: the limits say nothing of pulleys, which the closed "
+            "form (--model dsm) does not have. verify shows by how much it is off."
+        )
+    return (
+        "use the exact model, the default of all commands. The closed form (--model dsm) is inside its limits, which "
+        "do not cover inertia along the cable: verify shows whether it is close enough."
+    )
 
 
 def _slack(audit: PoseAudit) -> list[str]:

@@ -1,7 +1,9 @@
-"""Which extensions of a robot file act in a command, and which do not and why: nothing is ignored silently."""
+"""What every result says of its robot: numbers hardly meant, and which extensions act or why they do not."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
+
+from cdpr_struct.robot.plausibility import implausible
 
 if TYPE_CHECKING:
     from cdpr_struct.robot.robot import Robot
@@ -18,8 +20,11 @@ _ELASTIC = ("series_compliance", "frame_compliance", "mast_bending", "nonlineari
 def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, model: str = "") -> dict[str, Any]:
     """The result, what became of the robot's extensions if it has any, and its constant `wrench` [N, N m] if any.
 
+    Numbers of the robot that can hardly be meant come first among its warnings.
     model : cable model of a vibration command, "" if there is no choice
     """
+    if doubts := implausible(robot):
+        result = {**result, "warnings": [*doubts, *result.get("warnings", ())]}
     active = robot.extensions.active
     if not active:
         return dict(result)

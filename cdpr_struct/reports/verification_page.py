@@ -10,7 +10,7 @@ from cdpr_struct.reports.html import Page, Plate, page_files
 from cdpr_struct.reports.verification_notes import verification_notes
 from cdpr_struct.reports.verification_result import eigenfrequency_columns
 from cdpr_struct.reports.verification_tables import verification_tables
-from cdpr_struct.reports.verification_text import verdict
+from cdpr_struct.reports.verification_verdict import percent, verdict_lines
 
 
 def verification_files(trial: Verification) -> dict[str, str | bytes]:
@@ -30,12 +30,12 @@ def verification_page(trial: Verification, plates: list[Plate]) -> Page:
     robot, (x, y, z) = trial.point.entered, trial.point.position
     return Page(
         robot=robot.name,
-        title=f"{robot.name}: the closed-form dynamic stiffness on trial",
+        title=f"{robot.name}: the models before the finite elements",
         subtitle=(
             f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg at ({x:g}, {y:g}, {z:g}) m, "
             f"assembly {trial.assembly}; judged by an independent finite-element model"
         ),
-        verdict=verdict(trial).split("\n"),
+        verdict=verdict_lines(trial),
         holds=not trial.objections(),
         facts=_facts(trial),
         plates=plates,
@@ -64,7 +64,7 @@ def _convergence(trial: Verification) -> Plate:
 def _mode_errors(trial: Verification) -> Plate:
     picture = Drawing("mode_errors", mode_errors.SIZE, lambda f: mode_errors.draw_mode_errors(f, trial))
     caption = mode_errors.mode_errors_caption(trial)
-    return Plate("mode_errors", "DSM against FEM, mode by mode", picture, caption)
+    return Plate("mode_errors", "Models against FEM, mode by mode", picture, caption)
 
 
 def _limits(trial: Verification) -> Plate:
@@ -81,12 +81,12 @@ def _robot(trial: Verification) -> Plate:
 
 
 def _facts(trial: Verification) -> list[tuple[str, str]]:
-    blurred = float(np.max(trial.fem_uncertainty_hertz / trial.fem_limit_hertz))
     cables = len({v.cable for v in trial.limits.violations})
     return [
         (f"{len(trial.kinds)}", "eigenfrequencies compared"),
-        (f"{100.0 * np.abs(trial.relative_error).max():.2f} %", "largest deviation of the DSM from the FEM limit"),
-        (f"{100.0 * blurred:.2g} %", "largest uncertainty of the FEM limit"),
+        (percent(float(np.abs(trial.exact_error).max())), "largest deviation of the exact model from the FEM limit"),
+        (percent(float(np.abs(trial.relative_error).max())), "largest deviation of the DSM from the FEM limit"),
+        (percent(trial.fem_uncertainty), "largest uncertainty of the FEM limit"),
         (f"{trial.missed_by_scan} of {len(trial.kinds)}", "modes that the determinant scan misses"),
         (f"{cables} of {len(trial.limits.epsilon)}", "cables outside a printed limit"),
     ]

@@ -1,6 +1,7 @@
 """result.json of a verification, and its eigenfrequencies as a table."""
 
 import dataclasses
+import math
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,9 @@ from cdpr_struct.crosscheck.validity_limits import (
     SAG_RATIO_LIMIT,
     ValidityLimits,
 )
+from cdpr_struct.crosscheck.verdicts import Judged
 from cdpr_struct.crosscheck.verification import Verification
+from cdpr_struct.reports.verification_verdict import what_to_do, worst
 
 
 def verification_json(v: Verification, pose: list[float]) -> dict[str, Any]:
@@ -35,16 +38,41 @@ def verification_json(v: Verification, pose: list[float]) -> dict[str, Any]:
             "stiffness_max_error": v.stiffness.fem_error.max(axis=1),
             "stiffness_max_error_dsm": float(v.stiffness.dsm_error.max()),
             "stiffness_compared_at_hz": v.stiffness.omega_hertz,
-            "observed_order": float(np.nanmedian(v.observed_order)),
-            "observed_order_range": [float(np.nanmin(v.observed_order)), float(np.nanmax(v.observed_order))],
+            "max_uncertainty": v.fem_uncertainty,
+            "observed_order": _median(v.observed_order),
+            "observed_order_range": _range(v.observed_order),
         },
         "max_relative_error": float(np.abs(v.relative_error).max()),
+        "max_relative_error_exact": float(np.abs(v.exact_error).max()),
         "geometric_term_effect": v.geometric_effect,
         "missed_by_determinant_scan": v.missed_by_scan,
         "determinant_scan": {"step_hz": v.scan.step_hertz, "missed_by_step": v.missed, "spurious_by_step": v.spurious},
         "limits": limits_json(v.limits),
-        "verdict": {"holds": not v.objections(), "objections": v.objections()},
+        "verdict": {"holds": not v.objections(), "objections": v.objections(), "model": v.judged[0]},
+        "verdicts": {model: _verdict(v, model) for model in v.judged},
+        "what_to_do": what_to_do(v),
     }
+
+
+def _verdict(v: Verification, model: Judged) -> dict[str, Any]:
+    found = v.agreement(model)
+    return {
+        "holds": not found.objections,
+        "status": found.status,
+        "objections": found.objections,
+        "max_relative_error": worst(found),
+        "tolerance": v.criteria.tolerance(model),
+        "causes": [{"effect": c.effect, "remaining_error": c.error} for c in v.causes.get(model, ())],
+    }
+
+
+def _median(values: np.ndarray) -> float:
+    return float(np.nanmedian(values)) if np.isfinite(values).any() else math.nan
+
+
+def _range(values: np.ndarray) -> list[float]:
+    found = values[np.isfinite(values)]
+    return [float(found.min()), float(found.max())] if len(found) else [math.nan, math.nan]
 
 
 def limits_json(limits: ValidityLimits) -> dict[str, Any]:
@@ -81,7 +109,9 @@ def _row(v: Verification, i: int) -> dict[str, Any]:
         "static_hz": v.static_hertz[i],
         "determinant_minimum_hz": v.determinant_hertz[i],
         "relative_error": v.relative_error[i],
+        "exact_relative_error": v.exact_error[i],
         "shape_share": v.assurance[i],
+        "exact_shape_share": v.exact_assurance[i],
         "kind": v.kinds[i],
     }
 
@@ -100,4 +130,5 @@ def eigenfrequency_columns(trial: Verification) -> dict[str, Any]:
         "determinant_minimum_hz": trial.determinant_hertz,
         "shape_share": trial.assurance,
         "observed_order": trial.observed_order,
+        "exact_relative_error": trial.exact_error,
     }

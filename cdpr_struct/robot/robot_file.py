@@ -13,7 +13,7 @@ from cdpr_struct.errors import InputError
 from cdpr_struct.robot.body_table import BodyTable, body_of
 from cdpr_struct.robot.cable import LARGEST_EXPANSION, Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions, divided_mast
-from cdpr_struct.robot.file_complaints import input_error
+from cdpr_struct.robot.file_complaints import input_error, not_toml
 from cdpr_struct.robot.lump import LumpTable, lumps_fault
 from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
@@ -100,7 +100,7 @@ def robot_of_text(text: str, source: str) -> Robot:
     try:
         table = RobotTable.model_validate(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
-        raise InputError(source, "", str(error), "a TOML file, each key and table given once") from error
+        raise not_toml(source, text, error) from error
     except ValidationError as error:
         raise input_error(source, error, RobotTable) from error
     return _build(table, source)

@@ -134,16 +134,21 @@ def _with_moment_raised(
     led = continued(arrays, known, asked[None], first, wrench, wrench - moment)
     solution = forward(arrays, asked, led.position[0], led.rotation[0], model, wrench)
     if not solution.converged:
-        raise ConvergenceError(
-            f"forward kinematics under a moment of {np.linalg.norm(moment):.4g} N m",
-            float(np.linalg.norm(solution.residual_wrench)),
-            int(solution.iterations),
-            "Raised from nothing at these lengths, the moment turns the platform out of its stable equilibrium beyond "
-            f"{led.followed[0] * np.linalg.norm(moment):.4g} N m. Lower the moment, or give --start near a rest.",
-        )
-    if before is not None:
-        led = replace(led, steps=led.steps + before.steps, jumps=led.jumps + before.jumps)
-    return led, solution
+        raise _turned_away(float(np.linalg.norm(moment)), float(led.followed[0]), solution)
+    if before is None:
+        return None, solution
+    return replace(led, steps=led.steps + before.steps, jumps=led.jumps + before.jumps), solution
+
+
+def _turned_away(moment: float, followed: float, solution: ForwardSolution) -> ConvergenceError:
+    """Error about a moment [N m] of which only a share is held."""
+    return ConvergenceError(
+        f"forward kinematics under a moment of {moment:.4g} N m",
+        float(np.linalg.norm(solution.residual_wrench)),
+        int(solution.iterations),
+        "Raised from nothing at these lengths, the moment turns the platform out of its stable equilibrium beyond "
+        f"{followed * moment:.4g} N m. Lower the moment, or give --start near a rest.",
+    )
 
 
 def _from_home(

@@ -16,7 +16,7 @@ from cdpr_struct.reports.cable_page import cable_files
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.html import Plate, completed, page_files
 from cdpr_struct.reports.verification_page import verification_files, verification_page
-from cdpr_struct.reports.verification_text import verdict
+from cdpr_struct.reports.verification_verdict import verdict_lines
 
 FIGURES = ["determinant", "convergence", "mode_errors", "limits", "robot"]
 
@@ -32,8 +32,8 @@ def test_files_are_those_promised(files, cable_report):
 
 def test_page_begins_with_the_verdict(trial, files, read_page):
     text = read_page(files["report.html"]).text
-    sentence = verdict(trial).split("\n")[0]
-    assert sentence.startswith("HOLDS")
+    sentence = verdict_lines(trial)[0]
+    assert sentence.startswith("EXACT MODEL HOLDS")
     assert sentence in text
     assert all(text.index(sentence) < text.index(word) for word in ("How to read", "1. What a"))
 
@@ -42,7 +42,8 @@ def test_page_shows_a_failing_verdict_as_failing(trial, wrong_trial, read_page):
     """The twin: one frequency 5 % off turns sentence, colour, figure and table row."""
     made = verification_files(wrong_trial)
     page = read_page(made["report.html"])
-    assert "DOES NOT HOLD: mode 4" in page.text
+    assert "EXACT MODEL DOES NOT HOLD: mode 4" in page.text
+    assert "CLOSED-FORM DSM DOES NOT HOLD: mode 4" in page.text
     assert "HOLDS:" not in page.text.replace("DOES NOT HOLD:", "")
     assert [c for c in page.values("section", "class") if c.startswith("verdict")] == ["verdict fails"]
     assert len(page.values("tr", "class")) == 1
@@ -124,7 +125,7 @@ def test_a_completed_page_holds_warnings_below_the_verdict_and_the_command_at_th
     page = completed(files["report.html"], "cdpr-struct verify thesis-3-1 --modes 20", said, ["tilt acts."])
     text = re.sub(r"<nav.*?</nav>", "", page, flags=re.DOTALL)  # its contents name what follows
     text = read_page(text).text
-    order = [verdict(trial).split("\n")[0], f"Warning: {said[0]}", f"Warning: {said[1]}", "1. What a", "How to read"]
+    order = [verdict_lines(trial)[0], f"Warning: {said[0]}", f"Warning: {said[1]}", "1. What a", "How to read"]
     order += ["Extensions", "tilt acts.", "Reproduce", "cdpr-struct verify thesis-3-1 --modes 20"]
     places = [text.index(piece) for piece in order]
     assert places == sorted(places)

@@ -16,6 +16,7 @@ from cdpr_struct.reports.figures.style import (
     plain_ticks,
     quiet,
 )
+from cdpr_struct.reports.verification_verdict import percent
 
 SIZE = (9.6, 4.3)
 
@@ -41,14 +42,14 @@ def draw_convergence(figure: Figure, trial: Verification) -> None:
     left.legend(loc="lower left")
 
 
-def percent(ratio: np.ndarray) -> np.ndarray:
+def log_percent(ratio: np.ndarray) -> np.ndarray:
     """|ratio| in percent, nan where it is zero so that a log axis can hold it."""
     size = 100.0 * np.abs(ratio)
     return np.where(size > 0.0, size, np.nan)
 
 
 def _mesh_errors(axes: Axes, trial: Verification) -> None:
-    errors = percent(trial.mesh_error)
+    errors = log_percent(trial.mesh_error)
     for i, kind in enumerate(trial.kinds):
         axes.plot(trial.elements, errors[:, i], color=KIND_COLOURS[kind_group(kind)], linewidth=0.7, alpha=0.55)
     median = 100.0 * np.median(trial.mesh_error, axis=1)
@@ -65,7 +66,7 @@ def _mesh_errors(axes: Axes, trial: Verification) -> None:
 
 def _slope_triangle(axes: Axes, trial: Verification) -> None:
     first, last = trial.elements[-2], trial.elements[-1]
-    top = 2.2 * float(np.nanmax(percent(trial.mesh_error)[-2]))
+    top = 2.2 * float(np.nanmax(log_percent(trial.mesh_error)[-2]))
     bottom = top * (first / last) ** 2
     axes.fill([first, last, last], [top, top, bottom], facecolor="none", edgecolor=GREY, linewidth=0.9)
     axes.annotate("1", ((first * last) ** 0.5, top), (0, 3), textcoords="offset points", ha="center", color=GREY)
@@ -73,14 +74,14 @@ def _slope_triangle(axes: Axes, trial: Verification) -> None:
 
 
 def _deviation_band(axes: Axes, trial: Verification) -> None:
-    deviation = percent(trial.relative_error)
+    deviation = log_percent(trial.relative_error)
     low, middle, high = np.nanpercentile(deviation, [10.0, 50.0, 90.0])
     axes.axhspan(low, high, color=SKY, alpha=0.18, linewidth=0, label="DSM deviation, 10th to 90th percentile")
     axes.axhline(middle, color=SKY, linewidth=1.0, label="DSM deviation, median")
 
 
 def _deviations(axes: Axes, trial: Verification) -> None:
-    deviation = percent(trial.relative_error)
+    deviation = log_percent(trial.relative_error)
     groups = [kind_group(kind) for kind in trial.kinds]
     for column, name in enumerate(KIND_COLOURS):
         values = np.sort(deviation[[g == name for g in groups]])
@@ -111,12 +112,13 @@ def convergence_caption(trial: Verification) -> str:
     model = 100.0 * float(np.median(np.abs(trial.relative_error)))
     return (
         f"Thin lines: one mode each, {_colours()}. Two-node elements should gain a factor of four per halving, the "
-        f"slope of the triangle; {observed}. The mesh can judge the model where its error lies below the model's "
+        f"slope of the triangle; {observed}. A mesh can judge the DSM where its error lies below the DSM's "
         f"own (blue band, points on the right): at {trial.elements[-1]} elements the median mesh error is "
         f"{finest:.2g} %, the median DSM deviation {model:.2g} %. The DSM is compared with the extrapolated limit, "
-        "not with any one mesh. Green: the platform's dynamic stiffness K(ω) itself, against the exact catenary's, at "
-        f"{len(trial.stiffness.omega_hertz)} frequencies between the modes; the DSM's K(ω) is off by "
-        f"{100.0 * trial.stiffness.dsm_error.max():.2g} % there, as it gives no mass to motion along the chord."
+        "not with any one mesh. Green: how far the FEM's dynamic stiffness K(ω) of the platform is from the exact "
+        f"model's, entry by entry, at {len(trial.stiffness.omega_hertz)} frequencies between the modes, in shares of "
+        "the static stiffness. Close to an eigenfrequency K(ω) changes steeply, so that it may be far off where the "
+        f"frequencies agree; the DSM's is off by {percent(trial.stiffness.dsm_error.max())} there."
     )
 
 

@@ -16,6 +16,7 @@ from cdpr_struct.reports.figures.style import (
     plain_number,
     quiet,
 )
+from cdpr_struct.reports.verification_verdict import cause_sentence
 
 SIZE = (9.6, 3.9)
 
@@ -85,6 +86,12 @@ def _frequencies_on_top(axes: Axes, trial: Verification) -> None:
     top.set_xlabel("FEM eigenfrequency [Hz]")
 
 
+def _cause(trial: Verification) -> str:
+    if not trial.agreement("dsm").failing.any() or "dsm" not in trial.judged:
+        return ""
+    return f"{cause_sentence(trial, 'dsm')} "
+
+
 def mode_errors_caption(trial: Verification) -> str:
     """What to see in the figure."""
     error = 100.0 * trial.relative_error
@@ -99,7 +106,7 @@ def mode_errors_caption(trial: Verification) -> str:
         "Each stem is one mode, paired with the FEM by shape, above zero where the DSM is too stiff: "
         f"{'; '.join(parts)}. Largest: mode {worst + 1} ({trial.kinds[worst]}) at "
         f"{trial.fem_limit_hertz[worst]:.3f} Hz with {error[worst]:+.3f} %. Black dashes are the exact catenary's "
-        f"frequencies, at most {exact:.2g} % off: the rest of a stem is the error of the closed form. Bars "
-        "are the uncertainty of the extrapolated FEM. The scale is linear near zero, where the grid is even, and "
+        f"frequencies, at most {exact:.2g} % off: a stem is the error of the closed form. {_cause(trial)}Bars are "
+        "the uncertainty of the extrapolated FEM. The scale is linear near zero, where the grid is even, and "
         "logarithmic farther out."
     )
