@@ -189,11 +189,7 @@ def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sag
         names, most = ", ".join(names_of(free)), float(np.abs(found.moment).max())
         left = f"{most:.2g} of arms times tensions is left as moment about them"
         if most < 1e-9:
-<<<<<<< HEAD
-            left = f"no tensions {_range(robot)} carry the platform at any angle tried"
-=======
-            left = "no tensions within their limits balance the rest there"
->>>>>>> main
+            left = f"no tensions {_range(robot)} balance the rest at any orientation tried"
         raise UnholdablePoseError(
             f"no orientation is found at which the platform hangs freely about {names}: {left}. "
             f"{hint}, or begin at another orientation."

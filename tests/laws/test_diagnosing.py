@@ -106,7 +106,9 @@ def test_exchanged_load_cells_are_found_beside_a_cause():
 def test_what_one_state_shows_is_no_name():
     """There is no other state to confirm it, however sure it is."""
     robot = load_robot("thesis-3-1")
-    said = diagnosed(noisy(written(replace(robot, platform=robot.platform.with_mass(30.0)), plan_of(robot, 1), robot), 4))
+    said = diagnosed(
+        noisy(written(replace(robot, platform=robot.platform.with_mass(30.0)), plan_of(robot, 1), robot), 4)
+    )
     assert said.decision.classes == (("platform_mass",),)
     assert said.decision.status == "class"
     assert said.decision.probability <= Loss().least_said
