@@ -9,8 +9,8 @@ import pytest
 
 import cdpr_struct as cs
 from cdpr_struct.cli.main import run
-from cdpr_struct.interface.campaigns import read_campaign
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.interface.campaigns import read_campaign
 from cdpr_struct.measurement.campaign_template import READINGS
 from cdpr_struct.statics.inverse_kinematics import inverse
 from tests.laws.written_campaigns import clamped_hertz
@@ -96,7 +96,7 @@ def test_a_case_with_its_lengths_in_states_is_asked_for_them_once(made):
     filled(made)
     campaign = cs.load_campaign(made / "campaign.toml")
     assert np.isfinite(campaign.states.length).all()
-    assert "e-" not in (made / "loaded.csv").read_text()
+    assert not re.search(r"\de-[12]\d", (made / "loaded.csv").read_text())  # what rounding leaves is written as zero
 
 
 def test_kinds_of_files_are_understood(tmp_path):
