@@ -39,8 +39,8 @@ QUESTIONS: tuple[Question, ...] = tuple(
         frf,
         distribution,
         geometric_term,
-        growth,
         verified_robots,
+        growth,
     )
 )
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
