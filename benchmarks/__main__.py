@@ -1,6 +1,7 @@
 """All benchmarks, or some, by one command.
 
     python -m benchmarks [QUESTION ..] [--quick] [--write]
+    python -m benchmarks random-robots [--seeds A:B] [--workers N] --out DIR
 
 --quick : few runs and small cases, to see that all run; --write : put the answers and figures into docs/benchmarks.md
 """
@@ -27,6 +28,7 @@ from benchmarks import (
 from benchmarks.markdown_page import put
 from benchmarks.peers import versions
 from benchmarks.question import Question
+from benchmarks.random_robots import running as random_robots
 
 QUESTIONS: tuple[Question, ...] = tuple(
     module.QUESTION
@@ -43,6 +45,7 @@ QUESTIONS: tuple[Question, ...] = tuple(
         growth,
     )
 )
+STUDY = "random-robots"
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 
 
@@ -64,13 +67,16 @@ def processor() -> str:
 
 
 def main(words: list[str] | None = None) -> int:
-    """Print, and write if asked."""
+    """Print, and write if asked; a study has arguments of its own."""
+    given_words = sys.argv[1:] if words is None else words
+    if given_words[:1] == [STUDY]:
+        return random_robots.main(given_words[1:])
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=(__doc__ or "").split("\n")[0])
     names = [question.name for question in QUESTIONS]
     parser.add_argument("question", nargs="*", help=f"of: {', '.join(names)}; all if none is named")
     parser.add_argument("--quick", action="store_true", help="few runs and small cases")
     parser.add_argument("--write", action="store_true", help=f"put the answers into {PAGE.name}")
-    given = parser.parse_args(words)
+    given = parser.parse_args(given_words)
     if unknown := set(given.question) - set(names):
         parser.error(f"no question {sorted(unknown)[0]!r}; there are: {', '.join(names)}")
     if given.quick and given.write:

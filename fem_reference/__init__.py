@@ -18,6 +18,7 @@ from cdpr_struct.fem_reference.errors import (
     StepNotConvergedError,
     UndefinedSwivelError,
     UnstableEquilibriumError,
+    WindNotSettledError,
 )
 from cdpr_struct.fem_reference.extrapolation import Extrapolation, extrapolate
 from cdpr_struct.fem_reference.frequency_response import frequency_response
@@ -54,6 +55,7 @@ __all__ = [
     "TimeHistory",
     "UndefinedSwivelError",
     "UnstableEquilibriumError",
+    "WindNotSettledError",
     "Wrap",
     "cable_count_below",
     "cable_modes",

@@ -21,6 +21,7 @@ class CableData:
     linear_density    : mu [kg/m], per unstrained length
     line_give         : compliance [m/N] of what is elastic in line behind the start: joint, load cell, dead cable
     winch_tension     : [N] that a winch holds at the start, the length then being a guess; 0 where it holds the length
+    drag_width        : [m], drag coefficient times diameter, on which wind presses
     """
 
     unstrained_length: float
@@ -28,15 +29,15 @@ class CableData:
     linear_density: float
     line_give: float = 0.0
     winch_tension: float = 0.0
+    drag_width: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("unstrained_length", "axial_stiffness", "linear_density"):
             if not 0.0 < getattr(self, name) < np.inf:
                 raise ValueError(f"CableData.{name} must be positive and finite, got {getattr(self, name)!r}")
-        if not 0.0 <= self.line_give < np.inf:
-            raise ValueError(f"CableData.line_give must be zero or more, got {self.line_give!r}")
-        if not 0.0 <= self.winch_tension < np.inf:
-            raise ValueError(f"CableData.winch_tension must be zero or more, got {self.winch_tension!r}")
+        for name in ("line_give", "winch_tension", "drag_width"):
+            if not 0.0 <= getattr(self, name) < np.inf:
+                raise ValueError(f"CableData.{name} must be zero or more, got {getattr(self, name)!r}")
 
     @property
     def path_behind(self) -> float:
@@ -53,7 +54,8 @@ class CableData:
 class CableEquilibrium:
     """A cable of n bars at rest between two held ends; at the first it may slide, over a pulley or through an eyelet.
 
-    cable, gravity   : the data it was solved for, of what lies beyond its start; gravity (3,) [m/s^2]
+    cable            : the data it was solved for, of what lies beyond its start
+    node_load        : (3,) [N], world, weight and wind on each free node
     nodes            : (n + 1, 3) [m], world, from start to end
     tension_vectors  : (n, 3) [N], world, pull of each bar along its way from start to end
     start_force      : (3,) [N], applied to the cable at its start to hold it
@@ -64,7 +66,7 @@ class CableEquilibrium:
     """
 
     cable: CableData
-    gravity: np.ndarray
+    node_load: np.ndarray
     nodes: np.ndarray
     tension_vectors: np.ndarray
     start_force: np.ndarray

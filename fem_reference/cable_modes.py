@@ -33,12 +33,12 @@ class CableModes:
 def cable_frame(equilibrium: CableEquilibrium) -> np.ndarray:
     """Rows (3, 3): two directions that span the plane the cable hangs in, then the normal of that plane.
 
-    The plane holds the chord and gravity. A vertical or weightless cable has no such plane: any plane
+    The plane holds the chord and the load on the nodes. A vertical or weightless cable has no such plane: any plane
     through its chord serves, since its motion is the same in all of them.
     """
     chord = equilibrium.nodes[-1] - equilibrium.nodes[0]
     along = chord / max(float(np.linalg.norm(chord)), 1e-300)
-    pull = equilibrium.gravity / max(float(np.linalg.norm(equilibrium.gravity)), 1e-300)
+    pull = equilibrium.node_load / max(float(np.linalg.norm(equilibrium.node_load)), 1e-300)
     normal = np.cross(along, pull)
     if np.linalg.norm(normal) < 1e-9:
         axis = along if np.linalg.norm(along) > 0.5 else pull

@@ -28,7 +28,7 @@ EPS = float(np.finfo(float).eps)
 
 @dataclass(frozen=True, eq=False)
 class CableBatch:
-    """m cables of n bars each, as arrays: lengths, EA (m,), weight of one bar (m, 3) [N].
+    """m cables of n bars each, as arrays: lengths, EA (m,), weight of one bar and wind on it (m, 3) [N].
 
     handed_on : (m, 3) [N], a further force on the first free node, from a pulley
     line_give, line_tension : (m,) [m/N], [N]; the first bar is longer by give (N - tension), for what slides into it
@@ -37,7 +37,6 @@ class CableBatch:
 
     cables: tuple[CableData, ...]
     elements: int
-    gravity: np.ndarray
     element_length: np.ndarray
     axial_stiffness: np.ndarray
     element_weight: np.ndarray
@@ -46,18 +45,20 @@ class CableBatch:
     line_tension: np.ndarray
 
     @classmethod
-    def of(cls, cables: tuple[CableData, ...], elements: int, gravity: ArrayLike) -> CableBatch:
-        """Collect the arrays from cable data; gravity (3,) [m/s^2], world."""
+    def of(
+        cls, cables: tuple[CableData, ...], elements: int, gravity: ArrayLike, pressed: ArrayLike = (0.0, 0.0, 0.0)
+    ) -> CableBatch:
+        """Collect the arrays from cable data; gravity (3,) [m/s^2], world, and wind pressing on each metre of cable
+        (m, 3) [N/m]."""
         elements, acceleration = element_count(elements), fixed_array("gravity", gravity, (3,))
         length = np.array([cable.unstrained_length for cable in cables]) / elements
         density = np.array([cable.linear_density for cable in cables])
         return cls(
             cables,
             elements,
-            acceleration,
             length,
             np.array([cable.axial_stiffness for cable in cables]),
-            (density * length)[:, None] * acceleration,
+            length[:, None] * (density[:, None] * acceleration + np.asarray(pressed, dtype=float)),
             np.zeros((len(length), 3)),
             *np.zeros((2, len(length))),
         )
@@ -219,7 +220,7 @@ def _equilibrium(
         raise CompressedBarError(index, weakest, cable.axial_stiffness * stretch)
     return CableEquilibrium(
         cable,
-        batch.gravity,
+        fixed_array("node_load", weight, (3,)),
         fixed_array("nodes", nodes, (None, 3)),
         fixed_array("tensions", vectors, (None, 3)),
         start_force=fixed_array("start_force", -vectors[0] + handed - 0.5 * weight, (3,)),

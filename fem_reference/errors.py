@@ -113,6 +113,17 @@ class PulleysNotSettledError(FemError):
         )
 
 
+class WindNotSettledError(FemError):
+    """The wind on the cables kept changing with the pose."""
+
+    def __init__(self, iterations: int) -> None:
+        self.iterations = iterations
+        super().__init__(
+            f"the wind on the cables still changes after {iterations} rounds of statics. "
+            "It is too strong for this robot to rest in: take less wind, or more tension."
+        )
+
+
 class StepNotConvergedError(FemError):
     """The equations of motion of one time step were not solved."""
 

@@ -64,6 +64,8 @@ class MovingRobot:
     def of(cls, problem: MotionProblem) -> MovingRobot:
         """Collect the constants, with the last half bars fixed to the platform."""
         rest, robot = problem.equilibrium, problem.equilibrium.robot
+        if robot.windy:
+            raise ValueError("large motion knows no wind on cables: take linear=True, or CableData.drag_width = 0")
         length = np.array([cable.element_length for cable in rest.cables])
         lumps = length * np.array([cable.linear_density for cable in robot.cables])
         mass, center, inertia = _with_points(problem, 0.5 * lumps)

@@ -27,6 +27,8 @@ class RobotData:
     gravity          : (3,) [m/s^2], world, z up
     pulleys          : m PulleyData or None, or empty for none at all
     surroundings     : SurroundingsData, what the robot stands and leans on
+    wind             : (3,) [m/s], world, velocity of the air around the cables, of air_density [kg/m^3]; it presses on
+                       a cable across the line from its start to its end, alike on every metre
     guided           : numbers, from 0, of the platform's six unknowns (displacement of the reference point along x, y,
                        z, rotation about them) that a guide holds
     """
@@ -39,6 +41,8 @@ class RobotData:
     pulleys: tuple[PulleyData | None, ...] = ()
     surroundings: SurroundingsData = field(default_factory=SurroundingsData)
     guided: tuple[int, ...] = ()
+    wind: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    air_density: float = 1.225
 
     def __post_init__(self) -> None:
         cables = tuple(self.cables)
@@ -47,7 +51,10 @@ class RobotData:
         object.__setattr__(self, "cables", cables)
         for name in ("frame_anchors", "platform_anchors"):
             object.__setattr__(self, name, fixed_array(f"RobotData.{name}", getattr(self, name), (len(cables), 3)))
-        object.__setattr__(self, "gravity", fixed_array("RobotData.gravity", self.gravity, (3,)))
+        for name in ("gravity", "wind"):
+            object.__setattr__(self, name, fixed_array(f"RobotData.{name}", getattr(self, name), (3,)))
+        if not 0.0 <= self.air_density < np.inf:
+            raise ValueError(f"RobotData.air_density must be zero or more, got {self.air_density!r}")
         pulleys = tuple(self.pulleys)
         if len(pulleys) not in (0, len(cables)):
             raise ValueError(f"RobotData.pulleys must be empty or hold {len(cables)} entries, got {len(pulleys)}")
@@ -58,6 +65,11 @@ class RobotData:
             raise ValueError("RobotData: pulleys do not go with winches that hold the tension of their cables")
         if any(number not in range(6) for number in self.guided) or len(set(self.guided)) >= 6:
             raise ValueError(f"RobotData.guided must be numbers from 0 to 5, not all six, got {self.guided!r}")
+
+    @property
+    def windy(self) -> bool:
+        """Whether wind presses on any cable."""
+        return bool(self.wind.any() and any(cable.drag_width for cable in self.cables))
 
     @property
     def free_unknowns(self) -> np.ndarray:

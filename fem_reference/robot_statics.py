@@ -16,7 +16,13 @@ from cdpr_struct.fem_reference.arrays import fixed_array
 from cdpr_struct.fem_reference.bent_masts import bend, softened
 from cdpr_struct.fem_reference.cable import CableEquilibrium
 from cdpr_struct.fem_reference.cable_statics import EPS, CableBatch, ChainState, equilibria
-from cdpr_struct.fem_reference.errors import FoldedCableError, PulleysNotSettledError, RobotNotConvergedError
+from cdpr_struct.fem_reference.cable_wind import pressure, settled
+from cdpr_struct.fem_reference.errors import (
+    FoldedCableError,
+    PulleysNotSettledError,
+    RobotNotConvergedError,
+    WindNotSettledError,
+)
 from cdpr_struct.fem_reference.pulley_statics import (
     drawn_from_winches,
     guessed_wraps,
@@ -177,6 +183,7 @@ def solve_robot(
     RobotNotConvergedError : forces and moments did not balance; carries the last pose and wrench.
     FoldedCableError, CableNotConvergedError : a cable has no equilibrium that bars can show.
     PulleysNotSettledError, UndefinedSwivelError : the pulleys find no place to face.
+    WindNotSettledError : the wind on the cables kept changing with the pose.
     ValueError : wrong shapes or numbers.
     """
     place, turn = fixed_array("position", position, (3,)), fixed_array("rotation", rotation, (3, 3))
@@ -198,27 +205,29 @@ def solve_robot(
 def _settled(
     robot: RobotData, loads: DeadLoads, place: np.ndarray, turn: np.ndarray, elements: int, hold_pose: bool
 ) -> tuple[PlatformState, tuple[CableEquilibrium, ...], int]:
-    """Statics with the exits of the pulleys held, until the exits stay; one round without pulleys."""
+    """Statics with the exits of the pulleys and the wind on the cables held, until both stay; one round without."""
     wraps, first, iterations = guessed_wraps(robot, place, turn), None, 0
     handed, tensions = np.zeros_like(robot.frame_anchors), np.zeros(len(robot.cables))
+    starts = unwound(robot, wraps).frame_anchors
     for _ in range(MAX_ITERATIONS):
         bare = unwound(robot, wraps)
-        batch = sliding_in(CableBatch.of(bare.cables, elements, bare.gravity), handed, tensions, wraps)
+        pressed = pressure(robot, starts, place, turn)
+        batch = sliding_in(CableBatch.of(bare.cables, elements, bare.gravity, pressed), handed, tensions, wraps)
         state = platform_state(bare, batch, loads, place, turn, first)
         if not hold_pose:
             state, steps = _balanced(bare, batch, loads, state)
             iterations += steps
-        place, turn, first = state.position, state.rotation, state.chains.mid_force
+        place, turn, first, starts = state.position, state.rotation, state.chains.mid_force, state.starts
         before, pulls = wraps, state.chains.tension_vectors[:, 0]
         tensions = np.linalg.norm(pulls, axis=-1)
         drawn = drawn_from_winches(wraps, batch, tensions)
         wraps = wraps_towards(robot, pulls, tensions, 0.5 * batch.element_weight, drawn)
         handed = handed_on(wraps, batch.element_length * (1.0 + tensions / batch.axial_stiffness))
         moved, floor = movement(before, wraps)
-        if moved <= floor:
+        if moved <= floor and settled(pressed, pressure(robot, starts, place, turn)):
             cables = equilibria(batch, state.starts, state.chains, state.chain_iterations)
             return state, rewrapped(cables, before), iterations
-    raise PulleysNotSettledError(moved, MAX_ITERATIONS)
+    raise PulleysNotSettledError(moved, MAX_ITERATIONS) if moved > floor else WindNotSettledError(MAX_ITERATIONS)
 
 
 def _balanced(robot: RobotData, batch: CableBatch, loads: DeadLoads, state: PlatformState) -> tuple[PlatformState, int]:

@@ -52,6 +52,7 @@ def run(
     for name, text in made.files.items():
         write_new(out / name, text, overwrite)
     result = {"directory": str(out), "files_written": list(made.files), "cases": list(made.cases)}
+    result |= {"warnings": list(made.warnings)}
     text = (
         f"{out}: {', '.join(made.files)}; {len(made.cases)} poses.\n"
         f"Fill the cells with ?, then: cdpr-struct diagnose {out / 'campaign.toml'}"

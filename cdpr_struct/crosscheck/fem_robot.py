@@ -39,15 +39,18 @@ def to_fem(robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None
         )
     stiffness = robot.axial_stiffness if axial_stiffness is None else axial_stiffness
     cables = tuple(
-        fem.CableData(float(length), float(ea), cable.linear_density, float(give), cable.winch_tension)
-        for length, ea, cable, give in zip(lengths, stiffness, robot.cables, more.series_compliance, strict=True)
+        fem.CableData(float(length), float(ea), cable.linear_density, float(give), cable.winch_tension, float(width))
+        for length, ea, cable, give, width in zip(
+            lengths, stiffness, robot.cables, more.series_compliance, more.drag_width, strict=True
+        )
     )
     body = robot.platform
     platform = fem.PlatformData(body.mass, np.array(body.center_of_mass), np.array(body.inertia))
     guided = tuple(i for i, name in enumerate(FREEDOMS) if name in robot.guided)
     pulleys = tuple(None if p is None else fem.PulleyData(p.radius, np.array(p.axis)) for p in robot.pulleys)
     anchors = np.array(robot.frame_anchors), np.array(robot.platform_anchors)
-    return fem.RobotData(*anchors, cables, platform, robot.gravity_vector, pulleys, _surroundings(robot), guided)
+    around, air = _surroundings(robot), (np.array(more.wind), more.air_density)
+    return fem.RobotData(*anchors, cables, platform, robot.gravity_vector, pulleys, around, guided, *air)
 
 
 def _surroundings(robot: Robot) -> fem.SurroundingsData:

@@ -26,6 +26,11 @@ class Decision:
     classes: Classes
     probability: float
 
+    @property
+    def doubted(self) -> bool:
+        """Whether it speaks of the likeliest causes, one a class, without being sure enough to name them."""
+        return self.status == "class" and all(len(names) == 1 for names in self.classes)
+
 
 def decided(beliefs: Sequence[Belief], loss: Loss, without_size: AbstractSet[str] = frozenset()) -> Decision:
     """The decision for beliefs whose probabilities sum up to one.

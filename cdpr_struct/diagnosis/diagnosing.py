@@ -66,7 +66,7 @@ def diagnosed(
 
 
 def _decided(beliefs: Sequence[Belief], loss: Loss, hidden: set[str], p_value: float) -> Decision:
-    """All is well if nothing is significant, and only then: else what is least wrong of the rest, less sure."""
+    """All is well if nothing is significant, and only then: else what is least wrong of the rest, never by name."""
     wrong = [one for one in beliefs if one.names]
     share = sum(one.probability for one in wrong)
     if p_value >= SIGNIFICANT:
@@ -76,7 +76,7 @@ def _decided(beliefs: Sequence[Belief], loss: Loss, hidden: set[str], p_value: f
         return decision
     rest = decided([Belief(one.names, one.probability / share) for one in wrong], loss, hidden)
     if rest.status not in ("adequate", UNKNOWN):
-        return Decision(rest.status, rest.classes, rest.probability * share)
+        return Decision("class", rest.classes, rest.probability * share)
     alone = sorted((one for one in wrong if len(one.names) == 1), key=lambda one: -one.probability)
     names = [one.names[0] for one in alone if not {UNKNOWN, *hidden} & set(one.names)][:_OPEN]
     if not names or (rest.status == UNKNOWN and rest.probability > _MOSTLY):
@@ -107,7 +107,7 @@ class _Said:
         null, chosen = stories.null_of(story).best, stories.chosen_of(story, decision)
         left = left_out(data, where, chosen) if decision.classes else None
         added = least_evidence(data, where, chosen) if decision.classes else None
-        confirmed = (left is None or bool((left.kept >= KEEPS).all())) and (added is None or added >= KEEPS)
+        confirmed = _confirmed(chosen, left, added) if decision.classes else True
         sizes = tuple(whole_sizes(data, story.search.seen, chosen))
         robot = _extended(story, decision, sizes)
         doubtful = Decision("class", decision.classes, min(decision.probability, loss.least_said))
@@ -130,6 +130,13 @@ class _Said:
     @property
     def _by_damping(self) -> bool:
         return self.decision.status == "adequate" and self.damped is not None and self.damped.stands_out
+
+
+def _confirmed(chosen: Judged, left: LeftOut | None, added: float | None) -> bool:
+    """Whether every cause keeps evidence without the data that it needs most; a single state cannot say."""
+    tuned = {part.cause.tuned for part in chosen.hypothesis.parts}
+    usual = False not in tuned or (left is not None and bool((left.kept >= KEEPS).all()))
+    return usual and (True not in tuned or (added is not None and added >= KEEPS))
 
 
 def _assembled(

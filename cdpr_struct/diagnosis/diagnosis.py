@@ -141,7 +141,7 @@ class Diagnosis:
     left_out : predictions of states that were not fitted, None where nothing is chosen or can be left out
     generic : how many times smaller a common EA and load cell gain make the error of all rows left out, None likewise
     added : log evidence that added modes keep without the peaks of the state that they need most [nat], or None
-    confirmed : whether no chosen cause hangs on one state
+    confirmed : whether no chosen cause hangs on one state, or on the only one
     extended : the robot with the chosen causes, None where none is chosen
     damped : what signals say of the damping, None without signals
     minimum_detectable : by cause, parameter's name to the size found in four of five campaigns

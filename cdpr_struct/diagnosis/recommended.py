@@ -52,7 +52,7 @@ def recommended(decision: Decision, confirmed: bool, likeliest: Sequence[str]) -
     for names in decision.classes:
         if len(names) > 1:
             found += [one for name in names for one in _of_cause("tell_apart", name)]
-        elif not confirmed:
+        elif decision.doubted or not confirmed:
             found += _of_cause("confirm", names[0])
     return list(dict.fromkeys(found))
 

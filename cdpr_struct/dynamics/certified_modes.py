@@ -42,8 +42,7 @@ def certified_modes(
     UnstableEquilibriumError : a small motion of the platform would grow.
     CdprError : the model has fewer modes (massless cables: six, seven with an internal mass).
     """
-    cables, shapes = _enough_modes(point, model, count, assembly)
-    return CertifiedModes(certified(point, cables, shapes, assembly), shapes, cables)
+    return certified(point, *_enough_modes(point, model, count, assembly), assembly)
 
 
 def certified_frequencies(
@@ -72,16 +71,19 @@ def quickly_certified(
 
 def certified(
     point: OperatingPoint, cables: CableDynamics, shapes: RitzModes, assembly: Assembly = "consistent"
-) -> NaturalFrequencies:
-    """The model's natural frequencies near those of Ritz modes, enclosed by the count.
+) -> CertifiedModes:
+    """The model's natural frequencies near those of Ritz modes, enclosed by the count, and the shapes in their order.
 
-    The count at the first one above zero proves that there are no more neutral freedoms, whose frequency is zero.
+    The correction may exchange frequencies that are equal but for rounding. The count at the first one above zero
+    proves that there are no more neutral freedoms, whose frequency is zero.
     """
     every = _corrected(point, cables, shapes, assembly)
+    order = np.argsort(every, kind="stable")
+    every, shapes = every[order], shapes.modes(order)
     neutral = int((every == 0.0).sum())
     omega = every[neutral:]
     if not len(omega):
-        return NaturalFrequencies.in_brackets(np.zeros((neutral, 2)))
+        return CertifiedModes(NaturalFrequencies.in_brackets(np.zeros((neutral, 2))), shapes, cables)
     low, high = omega * (1.0 - _BRACKET), omega * (1.0 + _BRACKET)
     number = np.arange(neutral + 1, len(every) + 1)
     low_count, high_count = np.split(count_below(point, cables, np.concatenate([low, high]), assembly), 2)
@@ -89,7 +91,7 @@ def certified(
     if open_.any():
         low[open_], high[open_] = bisect_count(point, cables, number[open_], assembly, _BRACKET)
     brackets = np.concatenate([np.zeros((neutral, 2)), np.stack([low, high], axis=-1)])
-    return NaturalFrequencies.in_brackets(brackets / (2.0 * np.pi))
+    return CertifiedModes(NaturalFrequencies.in_brackets(brackets / (2.0 * np.pi)), shapes, cables)
 
 
 def _enough_modes(

@@ -29,7 +29,8 @@ def knows(point: OperatingPoint) -> bool:
     robot = point.arrays
     ends = robot.has_yielding_frame_ends or robot.has_masts
     more = robot.bending_stiffness.any() or robot.added_mass.any() or robot.has_internal_mass
-    return not (ends or more or robot.has_guides or robot.is_tilted or robot.batch_shape or point.position.ndim > 1)
+    turned = robot.is_tilted or robot.has_cable_drag
+    return not (ends or more or robot.has_guides or turned or robot.batch_shape or point.position.ndim > 1)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -206,4 +206,5 @@ def _modes_and_shapes(
     if count == 0:
         return ModesInBand(np.zeros(0), [], True, True), shapes
     found = certified(point, cables, shapes, assembly)
-    return ModesInBand(found.hertz, shapes.kinds(), found.certified, count == below), shapes
+    told = found.frequencies
+    return ModesInBand(told.hertz, found.shapes.kinds(), told.certified, count == below), found.shapes

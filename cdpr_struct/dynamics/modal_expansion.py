@@ -9,6 +9,8 @@ from typing import Protocol
 
 import numpy as np
 
+_STATIONS = np.linspace(0.0, 1.0, 33)[1:-1]  # odd and many: along them a mode's direction is judged
+
 
 class Shapes(Protocol):
     """Static shapes (..., m, s, 3, 3) [motion component, end component] and modes (..., m, p, s, 3) [kg^(-1/2)].
@@ -76,6 +78,12 @@ class ModalExpansion:
         sums = (gain[..., None, :] @ outer)[..., 0, :]
         local = static - squared[..., None] * mass - sums.reshape((*sums.shape[:-1], 3, 3))
         return np.asarray(self.frame @ local @ np.swapaxes(self.frame, -1, -2))
+
+    @property
+    def sideways(self) -> np.ndarray:
+        """(..., m, p) whether a mode moves mostly out of the cable's plane, along the second local axis."""
+        energy = (self.shapes(_STATIONS)[1] ** 2).sum(axis=-2)
+        return np.asarray(energy[..., 1] > 0.5 * energy.sum(axis=-1))
 
     def ascending(self) -> "ModalExpansion":
         """The same expansion with each cable's modes in the order of frequency, which `reduced` needs."""

@@ -49,7 +49,14 @@ class NaturalFrequencies:
 
     @classmethod
     def in_brackets(cls, bracket_hertz: np.ndarray) -> "NaturalFrequencies":
-        return cls(bracket_hertz.mean(axis=-1), bracket_hertz)
+        """From intervals that overlap where frequencies are nearly equal.
+
+        What an earlier number has above a lower end, all later ones have, and the reverse: ends taken from neighbours
+        keep the proof, and put the frequencies in order.
+        """
+        low = np.maximum.accumulate(bracket_hertz[:, 0])
+        high = np.minimum.accumulate(bracket_hertz[::-1, 1])[::-1]
+        return cls(0.5 * (low + high), np.stack([low, high], axis=-1))
 
 
 def count_below(

@@ -48,11 +48,13 @@ class RitzModes:
     def above_zero(self) -> "RitzModes":
         """Without neutral freedoms; of a batch, without as many first modes as any of it has of these."""
         first = int((self.omega == 0.0).sum(axis=-1).max(initial=0))
-        if not first:
-            return self
-        own = {name: getattr(self, name)[..., first:] for name in ("omega", "internal")}
-        own["platform"] = self.platform[..., first:, :]
-        own |= {name: getattr(self, name)[..., first:, :, :] for name in ("end", "mast", "modal")}
+        return self.modes(slice(first, None)) if first else self
+
+    def modes(self, index: slice | np.ndarray) -> "RitzModes":
+        """Some modes, or all of them in another order."""
+        own = {name: getattr(self, name)[..., index] for name in ("omega", "internal")}
+        own["platform"] = self.platform[..., index, :]
+        own |= {name: getattr(self, name)[..., index, :, :] for name in ("end", "mast", "modal")}
         return replace(self, **own)
 
     @property

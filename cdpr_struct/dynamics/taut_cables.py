@@ -15,7 +15,7 @@ class TautCables:
     """The parameters of the small-sag dynamic stiffness, arrays (..., m), SI.
 
     `frame` (..., m, 3, 3) has the cable axes as columns in the world: x along the chord from the frame to the
-    platform, y horizontal, z in the vertical plane and upwards.
+    platform, y across the plane in which the cable hangs (horizontal without wind), z in that plane and upwards.
     """
 
     chord: np.ndarray
@@ -63,7 +63,7 @@ def taut_cables(point: OperatingPoint) -> TautCables:
     if slack.any():
         number = int(np.argwhere(slack)[0][-1]) + 1
         raise CdprError(f"cable {number} carries no tension along its chord: the closed-form DSM needs taut cables")
-    weight = robot.weight * np.cos(cables.inclination)
+    weight = robot.cable_load(cables.offset)[0] * np.cos(cables.inclination)
     epsilon = cable_dsm.epsilon(cables.chord, cables.tension, weight)
     effective = cable_dsm.effective_length_integral(cables.chord, epsilon)
     ea = cables.axial_stiffness / (1.0 + robot.series_compliance * cables.axial_stiffness / effective)

@@ -59,16 +59,26 @@ def _searched(campaign: Campaign, correction: Correction | None, budget: Budget)
 
 
 def _corrected(campaign: Campaign, first: Explained, budget: Budget) -> list[Explained]:
-    """Corrections whose data alone, nothing else wrong, come near the best explanation of those recorded."""
+    """Corrections whose data come near the best explanation of those recorded, beside causes of that or alone."""
     best = first.answers[0].score
+    beside = _beside(first.answers[0].best.hypothesis)
     found = []
     for correction in [*promising(first.search.data, corrections(campaign)), *shortcuts(campaign)]:
-        data = recorded(correction.campaign)
-        null = judged(data, first.search.where, Hypothesis())
-        if null.log_evidence + correction.log_prior + correction.log_stretch > best - budget.near:
+        data, price = recorded(correction.campaign), correction.log_prior + correction.log_stretch
+        if any(judged(data, first.search.where, one).score + price > best - budget.near for one in beside):
             found.append(_searched(correction.campaign, correction, budget))
             best = max(best, found[-1].answers[0].score + found[-1].price)
     return found
+
+
+def _beside(best: Hypothesis) -> list[Hypothesis]:
+    """Nothing wrong, each cause of a hypothesis alone, and all of them: what may be true beside a correction.
+
+    One of two causes may do in vain what the correction does. Laws hold for the data that they were found in.
+    """
+    causes = tuple(part for part in best.parts if part.law is None and not part.cause.tuned)
+    kept = {tuple(part.key for part in parts): parts for parts in [(), *((part,) for part in causes), causes]}
+    return [Hypothesis(parts, best.drift if parts else 0.0) for parts in kept.values()]
 
 
 def believed(found: Sequence[Explained]) -> list[Belief]:

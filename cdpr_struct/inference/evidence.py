@@ -103,11 +103,15 @@ def fit(
 
 
 def _leap(model: LinearModel, noise: NoiseState, mixture: SoftExpectation | None, sided: np.ndarray) -> "_Point | None":
-    """The point at extrapolated sizes of the noise; None where these are so large that nothing can be computed."""
+    """The point at extrapolated sizes of the noise; None where these are so large that nothing can be computed.
+
+    A variance of the noise is a difference: far beyond what the data say of it, rounding makes it negative.
+    """
     try:
-        return _Point.at(model, noise, mixture, sided)
+        ahead = _Point.at(model, noise, mixture, sided)
     except np.linalg.LinAlgError:
         return None
+    return ahead if (ahead.square >= 0.0).all() else None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

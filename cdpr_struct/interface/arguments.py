@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from cdpr_struct.errors import InputError
+from cdpr_struct.interface.answering import doubt
 
 if TYPE_CHECKING:
     from cdpr_struct.interface.given import GridLike, Numbers, PoseLike, RobotLike
@@ -114,10 +115,13 @@ def read_robot(
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
     temperature : of the cables, above that at which lengths are entered [K]; None keeps the robot's own
 
+    What can hardly be meant in it is said behind an error; every result says it by `with_extensions`.
+
     Raises
     ------
     InputError : no such robot, or a number out of range.
     """
+    from cdpr_struct.robot.plausibility import implausible
     from cdpr_struct.robot.robot import Robot
     from cdpr_struct.robot.robot_file import load_robot
 
@@ -129,6 +133,7 @@ def read_robot(
     if not isinstance(robot, Robot | str | os.PathLike):
         raise InputError("robot", "", robot, "a Robot, a built-in name, or the path of a robot file")
     entered = robot if isinstance(robot, Robot) else load_robot(os.fspath(robot))
+    doubt(implausible(entered))
     try:
         loaded = entered.with_load(payload, mass)
     except ValueError as error:
@@ -208,12 +213,14 @@ def read_lengths(given: "Numbers | None", robot: "Robot") -> list[float]:
 
 
 def _require_metres(values: list[float], robot: "Robot") -> None:
-    """Refuse lengths that look like mm: even the shortest is many times as long as the robot is wide."""
+    """Refuse lengths that look like mm: even the shortest is many times the distances between anchors and platform."""
     import numpy as np
 
-    wide = float(np.linalg.norm(np.ptp(robot.frame_anchors, axis=0)))
-    if wide > 0.0 and min(values) > _LOOKS_LIKE_MM * wide:
-        raise InputError("lengths", "", values[0], f"lengths in m; these look like mm (the robot is {wide:.3g} m wide)")
+    place = np.zeros(3) if robot.home is None else robot.home.position
+    size = float(np.linalg.norm(np.ptp(np.vstack([robot.frame_anchors, place]), axis=0)))
+    if size > 0.0 and min(values) > _LOOKS_LIKE_MM * size:
+        right = f"lengths in m; these look like mm (the robot measures {size:.3g} m)"
+        raise InputError("lengths", "", values[0], right)
 
 
 _GRID_FORM = "give X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ] in m and deg, each of x, y, z a number or a range like -3:3:7"

@@ -20,6 +20,7 @@ from cdpr_struct.interface.trajectory import read_trajectory
 from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.audit_result import audit_columns, audit_json, audit_text, sentences
 from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.pose_batches import PoseBatches
@@ -195,23 +196,23 @@ def audit_question(
     if grid is not None or trajectory is not None:
         if start is not None:
             raise InputError("start", "", start, "it belongs to `lengths`; leave it out")
-        return _of_many(machine, grid, trajectory, None if free is None else read_free(free, machine)[0])
+        return _of_many(machine, grid, trajectory, free)
     state = rest(machine, pose, lengths, start, free)
     found = audit_rest(state.point)
     return AuditResult(with_extensions(audit_json(found) | state.told(), machine, "audit"), found)
 
 
 def _of_many(
-    machine: Robot, grid: GridLike | None, trajectory: TrajectoryLike | None, free: np.ndarray | None
+    machine: Robot, grid: GridLike | None, trajectory: TrajectoryLike | None, free: FreeAngles | None
 ) -> AuditQuestion:
-    hung = None if free is None else free.tolist()
     if grid is not None:
         poses = read_grid(grid)
-        batches = audit_batches(machine, poses.positions, poses.rotation, hung)
-        return AuditQuestion(machine, batches, poses, None, [], free)
+        hung = None if free is None else read_free(free, machine, poses.angles)[0]
+        batches = audit_batches(machine, poses.positions, poses.rotation, None if hung is None else hung.tolist())
+        return AuditQuestion(machine, batches, poses, None, [], hung)
     given = "helix" if trajectory is None else trajectory
     own = isinstance(given, str) and (given == "helix" or given.startswith("line:"))
     path, notes = read_trajectory(given, _INSTANTS if own else None)
-    return AuditQuestion(
-        machine, audit_batches(machine, path.position, path.rotation, hung), None, path.time, notes, free
-    )
+    hung = None if free is None else read_free(free, machine, angles_from_rotation(path.rotation))[0]
+    batches = audit_batches(machine, path.position, path.rotation, None if hung is None else hung.tolist())
+    return AuditQuestion(machine, batches, None, path.time, notes, hung)

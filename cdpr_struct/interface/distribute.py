@@ -209,7 +209,9 @@ def distribute_question(
     if free is not None:
         if len(machine.cables) < 6:
             raise InputError("free", "", free, "forces are distributed among six cables or more; leave it out")
-        hung = read_free(free, machine)[0]
+        if {"rx", "ry", "rz"} & set(machine.guided):
+            raise InputError("free", "", free, "leave it out: a guide holds rotations along the trajectory")
+        hung = read_free(free, machine, np.zeros(3))[0]
     return DistributeQuestion(
         machine, tuple(rules), b, price, longest, chosen, max_speed, max_acceleration, instants, hung
     )

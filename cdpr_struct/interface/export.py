@@ -9,11 +9,13 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_robot
+from cdpr_struct.interface.cable_wind import require_cables_without_drag
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import pose_in_degrees, rest
 from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.gltf_file import gltf_bytes
 from cdpr_struct.reports.moordyn_file import moordyn_text
+from cdpr_struct.robot.plausibility import implausible
 from cdpr_struct.robot.robot import Robot
 
 FORMATS = ("moorpy", "moordyn", "gltf")
@@ -84,8 +86,9 @@ def export(
     _require_free_body(machine, form)
     if form != "gltf":
         require_locked_lengths(machine, "the files of MoorPy and MoorDyn hold locked lengths only")
+        require_cables_without_drag(machine, "the files of MoorPy and MoorDyn hold no wind; gltf shows the cables")
     state = rest(machine, pose, lengths, start)
-    point, told = state.point, list(state.told()["warnings"])
+    point, told = state.point, [*implausible(machine), *state.told()["warnings"]]
     if form == "gltf":
         return Exported(gltf_bytes(point), pose_in_degrees(point), tuple(told))
     content = moordyn_text(point, "moorpy" if form == "moorpy" else "moordyn").encode("ascii")

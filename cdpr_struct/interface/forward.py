@@ -19,6 +19,7 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.bound_advice import outside_limits
 from cdpr_struct.statics.locked_rest import LockedRest, locked_rest
+from cdpr_struct.statics.strained_cables import strain_sentence
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
@@ -115,7 +116,9 @@ def forward(
     found = locked_rest(machine, length, begin, chosen)
     length = _paid_out(machine, length, found)
     told = statics_rest.forward_json(machine, chosen, length, found.solution) | {"locked": locked_json(found)}
-    told |= {"warnings": [*locked_warnings(found), *outside_limits(machine, found.solution.tensions)]}
+    torn = strain_sentence(found.solution.cables)
+    said = [*locked_warnings(found), *outside_limits(machine, found.solution.tensions), *([torn] if torn else [])]
+    told |= {"warnings": said}
     rest = found.solution
     told |= freedoms_json(OperatingPoint(machine, rest.position, rest.rotation, rest.cables))
     return ForwardResult(with_extensions(told, machine, "forward", chosen), machine, found, equilibria)

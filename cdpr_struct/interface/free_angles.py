@@ -10,15 +10,16 @@ from cdpr_struct.errors import InputError, UnholdablePoseError
 from cdpr_struct.interface.arguments import one_of
 from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
-from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.robot import FREEDOMS, Robot
 from cdpr_struct.statics.even_orientation import even_orientation
-from cdpr_struct.statics.free_orientation import ANGLES, free_orientation, left_free
+from cdpr_struct.statics.free_orientation import ANGLES, free_orientation, left_free, turn_with_guide
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, hung_solution
 
 FreeAngles: TypeAlias = str | Iterable[str]
 """Names of angles, or their text with commas between them: rx, ry, rz."""
 HANGING, EVEN = ORIENTS = ("hanging", "even")
 _EXPECTED = "give some of rx,ry,rz"
+_DECIMALS = 6  # of angles in sentences [deg]: smaller ones are rounding
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,21 +44,26 @@ class HangingPose:
 
     def sentence(self) -> str:
         """What is said of it."""
-        rx, ry, rz = np.degrees(self.pose.angles) + 0.0
+        rx, ry, rz = np.degrees(self.pose.angles).round(_DECIMALS) + 0.0
         if self.spread is not None:
             where = f"({rx:.4g}, {ry:.4g}, {rz:.4g})°"
             most = f"most even at {where}: their standard deviation is {self.spread:.3g} of their mean"
             return (
                 f"{', '.join(names_of(self.free))} were chosen: the tensions are {most} (the nearest such orientation)."
             )
-        many = f"; {', '.join(self.added)} because so few cables cannot hold it" if self.added else ""
+        many = f"; {', '.join(self.added)} because so few cables cannot hold more" if self.added else ""
         hangs = f"the platform hangs at ({rx:.4g}, {ry:.4g}, {rz:.4g})° about x, y, z."
-        return f"{', '.join(names_of(self.free))} were left free{many}: {hangs}"
+        return f"{_were_left_free(self.free)}{many}: {hangs}"
 
 
 def names_of(free: Sequence[bool] | np.ndarray) -> list[str]:
     """Names of the free angles, (3,) bool."""
     return [name for name, chosen in zip(ANGLES, free, strict=True) if chosen]
+
+
+def _were_left_free(free: Sequence[bool] | np.ndarray) -> str:
+    names = names_of(free)
+    return f"{', '.join(names)} {'was' if len(names) == 1 else 'were'} left free"
 
 
 def where_judged(quantity: str) -> str:
@@ -71,7 +77,7 @@ def told_in_map(
     told: Mapping[str, Any], free: Sequence[bool], more: str = "", table: str = "map.csv"
 ) -> dict[str, Any]:
     """The result of a map with its free angles, (3,) bool, and a warning that says in which table those found stand."""
-    said = f"{', '.join(names_of(free))} were left free: rx_deg, ry_deg and rz_deg of {table} are the angles found."
+    said = f"{_were_left_free(free)}: rx_deg, ry_deg and rz_deg of {table} are the angles found."
     return {**told, "free": {"angles": names_of(free)}, "warnings": [said + more, *told["warnings"]]}
 
 
@@ -84,7 +90,7 @@ def told_on_way(told: Mapping[str, Any], free: Sequence[bool], rotation: np.ndar
     degrees = np.degrees(np.unwrap(angles_from_rotation(rotation), axis=0)) + 0.0
     reach = {name: [float(a.min()), float(a.max())] for name, a in zip(ANGLES, degrees.T, strict=True) if name in names}
     ranges = ", ".join(f"{name} from {low:.3g} to {high:.3g}°" for name, (low, high) in reach.items())
-    said = f"{', '.join(names)} were left free: the platform hangs along the apparent gravity, {ranges}."
+    said = f"{_were_left_free(free)}: the platform hangs along the apparent gravity, {ranges}."
     said += f" The inertia of its turning, at most {left_out:.2g} N m, is left out."
     return {
         **told,
@@ -93,23 +99,38 @@ def told_on_way(told: Mapping[str, Any], free: Sequence[bool], rotation: np.ndar
     }
 
 
-def read_free(given: FreeAngles, robot: Robot) -> tuple[np.ndarray, tuple[str, ...]]:
+def read_free(given: FreeAngles, robot: Robot, angles: np.ndarray) -> tuple[np.ndarray, tuple[str, ...]]:
     """(3,) bool: which of rx, ry, rz are free on the cables of a robot, and the names of those not asked for.
+
+    angles : (..., 3) rx, ry, rz where the search begins [rad]
 
     Raises
     ------
-    InputError : other names, too few cables, or a winch that holds the tension of its cable.
+    InputError : other names, angles that a guide holds, too few cables, or a winch that holds the tension of its cable.
     """
     require_locked_lengths(robot, "free angles are found for cables of locked lengths")
     names = [part.strip() for part in given.split(",")] if isinstance(given, str) else list(given)
     if not names or any(name not in ANGLES for name in names):
         raise InputError("free", "", given if isinstance(given, str) else names, _EXPECTED)
     asked = np.array([name in names for name in ANGLES])
+    if held := [name for name in names if name in robot.guided]:
+        what = "it" if len(held) == 1 else "them"
+        raise InputError("free", "", given, f"leave out {', '.join(held)}: a guide of {robot.name} holds {what}")
+    guided = np.array([name in robot.guided for name in FREEDOMS])
     try:
-        free = left_free(asked, len(robot.cables))
+        free = left_free(asked, len(robot.cables), guided)
     except ValueError as error:
         raise InputError("free", "", given, str(error)) from error
+    if not turn_with_guide(free, angles, guided):
+        right = "beside guided rotations only the last one can be free, with the other angles zero; or give lengths"
+        raise InputError("free", "", given, right)
     return free, tuple(names_of(free & ~asked))
+
+
+def _range(robot: Robot) -> str:
+    """The forces that the cables may have, in words."""
+    low, high = float(robot.force_min.min()), float(robot.force_max.max())
+    return f"from {low:g} to {high:g} N" if np.isfinite(high) else f"above {low:g} N"
 
 
 def chosen_pose(
@@ -141,7 +162,7 @@ def even_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "saggin
     """
     if len(robot.cables) < 6:
         raise InputError("orient", "", EVEN, "it needs six cables or more; with fewer the platform hangs: leave it out")
-    free, _ = read_free(given, robot)
+    free, _ = read_free(given, robot, where.angles)
     found = even_orientation(robot, where.position[None], where.angles, free, model)
     if not found.found[0]:
         raise UnholdablePoseError(
@@ -160,16 +181,17 @@ def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sag
     InputError : unusable names, or a winch that holds the tension of its cable.
     UnholdablePoseError : no such orientation is found from that of the pose.
     """
-    free, added = read_free(given, robot)
+    free, added = read_free(given, robot, where.angles)
     found = free_orientation(robot, where.position[None], where.angles, free, model=model)
     if not found.found[0]:
-        kept = names_of(~free)
-        hint = f"Free {', '.join(kept)} as well, or begin at another orientation." if kept else "Move the pose."
+        kept = [name for name in names_of(~free) if name not in robot.guided]
+        hint = f"Free {', '.join(kept)} as well" if kept else "Move the pose"
         names, most = ", ".join(names_of(free)), float(np.abs(found.moment).max())
         left = f"{most:.2g} of arms times tensions is left as moment about them"
         if most < 1e-9:
-            left = "the cables balance nothing else there within their limits"
+            left = f"no tensions {_range(robot)} carry the platform at any angle tried"
         raise UnholdablePoseError(
-            f"no orientation is found at which the platform hangs freely about {names}: {left}. {hint}"
+            f"no orientation is found at which the platform hangs freely about {names}: {left}. "
+            f"{hint}, or begin at another orientation."
         )
     return HangingPose(Pose(where.position, found.angles[0]), hung_solution(robot, found).at(0), free, added)

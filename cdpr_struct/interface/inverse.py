@@ -21,6 +21,7 @@ from cdpr_struct.statics.bound_advice import slack_warning
 from cdpr_struct.statics.held_stability import held_stability, unstable_sentence
 from cdpr_struct.statics.inverse_kinematics import InverseSolution
 from cdpr_struct.statics.slack_cables import sag_sentence, sagging_cables
+from cdpr_struct.statics.strained_cables import strain_sentence
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
@@ -120,6 +121,7 @@ def inverse(
         unstable_sentence(stability),
         slack_warning(machine, where.position, where.rotation, solution.cables),
         sag_sentence(solution.cables),
+        strain_sentence(solution.cables),
     ]
     told = {
         **statics_rest.inverse_json(machine, chosen, where, solution),

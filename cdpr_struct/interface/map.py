@@ -226,7 +226,7 @@ def map_question(
         return MapQuestion(machine, poses, name, chunk, None, compute)
     if name.startswith("mode-"):
         raise InputError("free", "", free, f"{name} is computed at the orientation of the grid; leave it out")
-    return MapQuestion(machine, poses, name, chunk, read_free(free, machine)[0], compute)
+    return MapQuestion(machine, poses, name, chunk, read_free(free, machine, poses.angles)[0], compute)
 
 
 def _own(name: str, evaluates: Callable[..., Columns], more: More) -> ManyQuantities | None:
@@ -259,7 +259,7 @@ def _workspace_question(
     if free is not None and errors:
         raise InputError("free", "", free, "pose errors are computed at the orientation of the grid; leave it out")
     compute = ManyQuantities(names, NO_WRENCH if asked is None else asked, _zone(zone))
-    rx, ry, rz = (False,) * 3 if free is None else read_free(free, robot)[0].tolist()
+    rx, ry, rz = (False,) * 3 if free is None else read_free(free, robot, grid.angles)[0].tolist()
     hanging = None if free is None else (rx, ry, rz)
     return WorkspaceQuestion(robot, grid, required, compute, whole(refine, "refine", 0, 6), chunk, hanging)
 

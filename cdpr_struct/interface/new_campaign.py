@@ -10,12 +10,14 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_numbers, read_robot, real
+from cdpr_struct.interface.cable_wind import require_cables_without_drag
 from cdpr_struct.interface.given import PoseLike
 from cdpr_struct.interface.written import write_text
 from cdpr_struct.measurement.assumed_angles import ANGLES
-from cdpr_struct.measurement.campaign_template import READINGS, campaign_files, planned
+from cdpr_struct.measurement.campaign_template import KINDS, READINGS, campaign_files, planned
 from cdpr_struct.measurement.data_table import read_table
 from cdpr_struct.measurement.time_series import columns_of
+from cdpr_struct.robot.plausibility import implausible
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import builtin_names
@@ -31,10 +33,12 @@ class NewCampaign:
     """Files of a campaign to begin with.
 
     files : contents by name: campaign.toml and the data files;  cases : names of the poses, in order
+    warnings : numbers of the robot that can hardly be meant
     """
 
     files: Mapping[str, str]
     cases: tuple[str, ...]
+    warnings: tuple[str, ...] = ()
 
     def write(self, directory: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
         """Write the files into a directory and return the path of campaign.toml.
@@ -73,7 +77,8 @@ def new_campaign(
     Parameters
     ----------
     robot : built-in name, or path of a robot file
-    kinds : of tensions, lengths, cable_frequency, robot_frequency, loaded; text with commas, or a list
+    kinds : of tensions, lengths, cable_frequency, robot_frequency, loaded; text with commas, or a list; kinds of
+        files, such as loaded_pose, stand for all readings in them
     poses : list of poses, text with ; between them, or path of a CSV file; default: the home pose
     payload : of the loaded poses [kg];  directory : where the files will be, for the robot's path
 
@@ -85,12 +90,19 @@ def new_campaign(
     if isinstance(robot, Robot):
         raise InputError("robot", "", robot.name, "a built-in name or the path of a robot file: a campaign names it")
     machine = read_robot(robot)
+    require_cables_without_drag(machine, "wind on cables is not among what is diagnosed")
     names = [part.strip() for part in (kinds.split(",") if isinstance(kinds, str) else kinds)]
-    chosen = [one_of(name, "kinds", READINGS) for name in dict.fromkeys(names)]
+    chosen = [one_of(name, "kinds", READINGS) for name in dict.fromkeys(own for name in names for own in _own(name))]
     real(payload, "payload", "give a mass in kg above zero", 0.0)
     cases, places = _poses(poses, machine)
     plan = planned(machine, cases, places)
-    return NewCampaign(campaign_files(plan, _named(robot, Path(directory)), chosen, float(payload)), tuple(cases))
+    files = campaign_files(plan, _named(robot, Path(directory)), chosen, float(payload))
+    return NewCampaign(files, tuple(cases), implausible(machine))
+
+
+def _own(name: str) -> list[str]:
+    """The kinds of readings that a name means: itself, or all that a file of that kind holds."""
+    return [own for own, kind in KINDS.items() if kind == name and name not in READINGS] or [name]
 
 
 def _named(robot: str | os.PathLike[str], directory: Path) -> str:

@@ -27,6 +27,7 @@ from cdpr_struct.statics.slack_cables import (
     sagging_cables,
     slack_sentence,
 )
+from cdpr_struct.statics.strained_cables import strain_sentence
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,8 +66,8 @@ class AtRest:
     def _warnings(self) -> list[str]:
         """Sentences on slack cables, on locked cables outside the robot's force limits, and on a constant moment."""
         point = self.point
-        sag = sag_sentence(point.cables)
-        told = [sentence for sentence in (sag, moment_sentence(point)) if sentence is not None]
+        said_of_cables = (sag_sentence(point.cables), strain_sentence(point.cables))
+        told = [sentence for sentence in (*said_of_cables, moment_sentence(point)) if sentence is not None]
         if self.locked is None:
             said = slack_warning(point.entered, point.position, point.rotation, point.cables)
             return [*([] if said is None else [said]), *told]

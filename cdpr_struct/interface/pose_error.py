@@ -202,7 +202,7 @@ def pose_error_question(
     if free is not None:
         if poses is None:
             raise InputError("free", "", free, "free angles are for errors over a `grid`; leave it out")
-        hung = read_free(free, machine)[0]
+        hung = read_free(free, machine, poses.angles)[0]
     if tolerance is None:
         return PoseErrorQuestion(machine, poses, None, hung)
     where = read_pose(pose, machine)

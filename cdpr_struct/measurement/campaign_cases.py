@@ -1,6 +1,7 @@
 """Rows of several files become states: the same case in two files is the same state with the same readings."""
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
@@ -10,11 +11,15 @@ from cdpr_struct.measurement.campaign import SIGNALS, CableFrequencies, RobotFre
 from cdpr_struct.measurement.campaign_rows import POSE, Rows, length_columns
 
 _SAME = 1e-9  # m, deg: two notes of the same number
+_ONE_STATE = "one case is one state: copy the digits, leave the cells empty, or give this case another name"
 
 
 @dataclass(slots=True)
 class _State:
+    """A case: `file` gave its pose first, `length_file` its lengths, `tension_file` its tensions ("": none)."""
+
     name: str
+    file: str
     pose: np.ndarray
     payload: float
     sigma_position: float
@@ -28,6 +33,8 @@ class _State:
     time: float
     loaded: bool = False
     static: bool = False
+    length_file: str = ""
+    tension_file: str = ""
 
 
 @dataclass(slots=True)
@@ -70,10 +77,12 @@ class Gathering:
         payload = float(rows.get("payload_kg", 0.0)[i])
         found = self.known.get(name)
         if found is None:
-            found = self._new(name, pose, payload, sigmas)
+            found = self._new(name, rows.file, pose, payload, sigmas)
             found.temperature, found.time = float(rows.get("temperature_K")[i]), float(rows.get("time_s")[i])
         elif _differ(found.pose, pose) or found.payload != payload:
-            expected = f"the pose and payload given before for this case, {[*found.pose.tolist(), found.payload]}"
+            before = [*found.pose.tolist(), found.payload]
+            expected = f"the pose and payload given before for this case in {Path(found.file).name}, {before}"
+            expected += f": {_ONE_STATE}"
             if _thousandfold(found.pose, pose):
                 expected += " (is one of the two positions in mm?)"
             if note := angle_note("this file", list(rows.numbers)):
@@ -82,10 +91,10 @@ class Gathering:
         found.pose = np.where(np.isfinite(found.pose), found.pose, pose)
         return found
 
-    def _new(self, name: str, pose: np.ndarray, payload: float, sigmas: Sigmas) -> _State:
+    def _new(self, name: str, file: str, pose: np.ndarray, payload: float, sigmas: Sigmas) -> _State:
         blank = np.full((5, self.m), np.nan)
         self.known[name] = _State(
-            name, pose, payload, sigmas.position_m, float(np.radians(sigmas.rotation_deg)),
+            name, file, pose, payload, sigmas.position_m, float(np.radians(sigmas.rotation_deg)),
             blank[0], blank[1], blank[2], blank[3], blank[4], np.nan, np.nan,
         )  # fmt: skip
         return self.known[name]
@@ -100,7 +109,7 @@ class Gathering:
         """
         state = self.known.get(case)
         if state is None:
-            state = self._new(case, pose, payload, sigmas)
+            state = self._new(case, "", pose, payload, sigmas)
             state.length, state.length_sigma = lengths, np.full(self.m, sigmas.length_m)
         place = list(self.known).index(case)
         for hertz, sigma, shape, origin in frequencies:
@@ -123,6 +132,7 @@ class Gathering:
             state.tension_sigma[cable] = given or sigmas.tension_N
             state.length[cable] = rows.get("length_m")[i]
             state.length_sigma[cable] = sigmas.length_m if has_tension else given or sigmas.length_m
+            state.length_file = state.tension_file = rows.file
             state.approach[cable] = rows.get("approach")[i]
 
     def _loaded(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
@@ -131,9 +141,8 @@ class Gathering:
             length = np.array([rows.numbers[c][i] for c in length_columns(self.m)])
             state.loaded = True
             if _differ(state.length, length):
-                raise InputError(
-                    rows.file, f"{rows.place(i)}, case {state.name}", length.tolist(), "the lengths given before"
-                )
+                raise _other_length(rows, i, state, length)
+            state.length_file = rows.file
             state.length = np.where(np.isfinite(length), length, state.length)
             state.length_sigma = np.full(self.m, sigmas.length_m)
             state.sigma_position = own[i] if np.isfinite(own[i]) else sigmas.position_m
@@ -149,6 +158,7 @@ class Gathering:
             tension = rows.get("tension_N")[i]
             if np.isfinite(tension) and not np.isfinite(state.tension[cable]):
                 state.tension[cable], state.tension_sigma[cable] = tension, sigmas.tension_N
+                state.tension_file = rows.file
 
     def _robot_frequency(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         order = {name: i for i, name in enumerate(self.known)}
@@ -157,6 +167,10 @@ class Gathering:
             hertz = rows.numbers["frequency_hz"][i]
             sigma = own[i] if np.isfinite(own[i]) else float(sigmas.frequency(np.array(hertz)))
             self.robot_rows.append((order[state.name], hertz, sigma))
+
+    def tension_files(self) -> dict[str, str]:
+        """The file that gave the tensions of each case."""
+        return {name: state.tension_file for name, state in self.known.items()}
 
     def states(self) -> States:
         """All states, in the order of their first appearance."""
@@ -197,6 +211,14 @@ class Gathering:
         for row, made in self.origins.items():
             origin[row] = made
         return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2], shape, origin)
+
+
+def _other_length(rows: Rows, i: int, state: _State, length: np.ndarray) -> InputError:
+    """A length of a case that differs from that of another file, or of another row."""
+    cable = next(k for k in range(len(length)) if _differ(state.length[k : k + 1], length[k : k + 1]))
+    place = f"{rows.place(i)}, case {state.name}, column {length_columns(len(length))[cable]}"
+    expected = f"in {Path(state.length_file).name} this case has {state.length[cable]:.12g}; {_ONE_STATE}"
+    return InputError(rows.file, place, float(length[cable]), expected)
 
 
 def _twice(rows: Rows, i: int, case: str) -> InputError:

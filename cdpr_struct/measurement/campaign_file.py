@@ -13,12 +13,14 @@ from cdpr_struct.measurement.assumed_angles import angle_note
 from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
+from cdpr_struct.measurement.campaign_template import KINDS
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.measurement.missing_readings import missing_notes
+from cdpr_struct.measurement.misspelt_cases import misspelt_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
 from cdpr_struct.measurement.unit_scale import check_scale
-from cdpr_struct.robot.file_complaints import input_error
+from cdpr_struct.robot.file_complaints import input_error, not_toml
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import (
     Matrix,
@@ -116,14 +118,15 @@ def load_campaign(
     lowest = table.lower_bound_N if lower_bound is None else lower_bound
     commanding = _commanding(robot, lowest, source)
     gathering = Gathering(len(robot.cables))
-    sheets = []
+    sheets, cases = [], {}
     for number, entry in enumerate(table.measurement, start=1):
         rows, sigmas = _rows(entry, source, number, len(robot.cables), planned), _sigmas(entry)
         gathering.add(rows, sigmas)
+        cases[entry.file] = rows.words.get("case", [])
         sheets.append(_sheet(entry, rows, sigmas))
     _check_poses(gathering)
     check_scale(str(path), robot, gathering.states())
-    check_robot_scale(str(path), robot, gathering.states())
+    check_robot_scale(str(path), robot, gathering.states(), gathering.tension_files())
     identified = join_signals(gathering, commanding, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(
@@ -146,6 +149,7 @@ def load_campaign(
         sheets=tuple(sheets),
         notes=(
             *(note for sheet in sheets if (note := angle_note(sheet.file, sheet.columns))),
+            *misspelt_notes(cases),
             *missing_notes(gathering.states()),
         ),
     )
@@ -164,9 +168,19 @@ def _table(source: Path) -> CampaignTable:
             raise InputError(str(source), "[measurement]", "single brackets", "[[measurement]], one for each file")
         return CampaignTable.model_validate(table)
     except tomllib.TOMLDecodeError as error:
-        raise InputError(str(source), "", str(error), "a TOML file, each key and table given once") from error
+        raise not_toml(str(source), text, error) from error
     except ValidationError as error:
-        raise input_error(str(source), error, CampaignTable) from error
+        raise _kind_error(source, error) or input_error(str(source), error, CampaignTable) from error
+
+
+def _kind_error(source: Path, error: ValidationError) -> InputError | None:
+    """What to say of a kind that `new-campaign` calls by another name; None if it is not that."""
+    first = error.errors()[0]
+    meant = KINDS.get(str(first["input"])) if first["loc"][-1] == "kind" else None
+    if meant is None:
+        return None
+    said = f"{first['input']} is a word of new-campaign: its readings are in files of the kind {meant}"
+    return InputError(str(source), f"measurement[{int(first['loc'][1]) + 1}].kind", first["input"], said)
 
 
 def _robot(name: str, source: Path) -> Robot:
@@ -251,19 +265,8 @@ def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:
     ------
     InputError : a robot that a diagnosis does not know.
     """
-    level = robot.down.tolist() == [0.0, 0.0, -1.0] and robot.gravity > 0.0
-    if robot.guided or not level:
-        what = (
-            f"platform.guided = {list(robot.guided)}" if robot.guided else f"gravity = {robot.gravity_vector.tolist()}"
-        )
-        expected = "a free platform under gravity along -z: guides and other gravity are not among what is diagnosed"
-        raise InputError(str(source), "robot", f"{robot.name} with {what}", expected)
+    _require_known(robot, source)
     body, cables = robot.platform, robot.cables
-    if robot.tension_winches:
-        held = robot.tension_winches[0]
-        expected = "winches that hold lengths: those that hold a tension are not among what is diagnosed"
-        what = f"{robot.name} with cables[{held}].winch_tension = {cables[held - 1].winch_tension:g}"
-        raise InputError(str(source), "robot", what, expected)
     changes: dict[str, Any] = {
         "mass": table.platform_mass,
         "center_of_mass": None if table.center_of_mass is None else np.array(table.center_of_mass),
@@ -282,3 +285,27 @@ def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:
         for c in cables
     )
     return replace(robot, platform=body, cables=cables, gravity=table.gravity or robot.gravity)
+
+
+def _require_known(robot: Robot, source: Path) -> None:
+    """Refuse a robot that a diagnosis does not know.
+
+    Raises
+    ------
+    InputError : guides, other gravity than along -z, winches that hold tensions, or wind on cables.
+    """
+    level = robot.down.tolist() == [0.0, 0.0, -1.0] and robot.gravity > 0.0
+    if robot.guided or not level:
+        what = (
+            f"platform.guided = {list(robot.guided)}" if robot.guided else f"gravity = {robot.gravity_vector.tolist()}"
+        )
+        expected = "a free platform under gravity along -z: guides and other gravity are not among what is diagnosed"
+        raise InputError(str(source), "robot", f"{robot.name} with {what}", expected)
+    if robot.tension_winches:
+        held = robot.tension_winches[0]
+        expected = "winches that hold lengths: those that hold a tension are not among what is diagnosed"
+        what = f"{robot.name} with cables[{held}].winch_tension = {robot.cables[held - 1].winch_tension:g}"
+        raise InputError(str(source), "robot", what, expected)
+    if robot.extensions.drag_width.any():
+        what = f"{robot.name} with extensions.drag_width = {robot.extensions.drag_width.tolist()}"
+        raise InputError(str(source), "robot", what, "no drag_width: wind on cables is not among what is diagnosed")

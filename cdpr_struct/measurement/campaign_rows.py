@@ -147,10 +147,10 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
     if kind == "free_decay" and "ax" not in columns and "x_m_s2" in columns:
         how = "time_s and x_m_s2, y_m_s2, z_m_s2 as ax, ay, az, and the pose at rest as x_m, y_m, z_m (docs/files.md)"
         raise InputError(source, "x_m_s2", "the motion that `transient` writes", how)
-    check_wide(kind, source, columns, cables)
     found, how = renaming(columns, known, "" if "cable" in columns else kind, cables)
     if how:
         raise InputError(source, "header", found, f"unknown for {kind}; {how}")
+    check_wide(kind, source, columns, cables)
     for name in _needed(kind, columns, cables):
         if name not in columns:
             raise InputError(source, name, "no such column", _needs(kind, columns, cables))

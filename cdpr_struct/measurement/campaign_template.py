@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
+from cdpr_struct.dynamics.cable_dynamics import expand_catenaries_at, polynomial_order
 from cdpr_struct.dynamics.certified_modes import certified_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import CdprError, UnholdablePoseError
@@ -22,7 +22,13 @@ from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
 
 READINGS = ("tensions", "lengths", "cable_frequency", "robot_frequency", "loaded")
+KINDS = {
+    "tensions": "static_state", "lengths": "static_state", "cable_frequency": "cable_frequency",
+    "robot_frequency": "robot_frequency", "loaded": "loaded_pose",
+}  # fmt: skip
+"""The kind of file that each of them is read from."""
 _PEAKS = 6  # rows of robot frequencies a pose
+_NOTHING = 1e-12  # of any number [m, deg, N, Hz]
 _SIGMAS = {
     "static_state": "tension_N = 2.0, length_m = 0.0005, position_m = 0.0005, rotation_deg = 0.02",
     "cable_frequency": "frequency_hz = 0.01",
@@ -37,13 +43,14 @@ _FILES = {
 }
 _HINTS = {
     "static_state": "one row a pose: cable forces at the platform, unstrained lengths that the encoders say",
-    "cable_frequency": "one row a pose: first in-plane frequency of each cable, plucked, both ends held",
+    "cable_frequency": "one row a pose: first frequency of each cable, both ends held, plucked up and down (plane in)",
     "robot_frequency": "one row a peak of the spectrum, in any order; delete rows that you do not need, add others",
     "loaded_pose": "two rows a pose at the same locked lengths: without and with the payload; measure both poses",
 }
 _COMMENTS = (
     f"# Replace each {UNFILLED} by what was measured; leave a cell empty where nothing was measured.",
-    "# Pose columns hold the planned pose: replace it by the measured one, the same digits in all files.",
+    "# Pose columns hold the planned pose: replace it by the measured one, and copy it to the rows of the same case in",
+    "# the other files, digit by digit. Give repeated readings a case of their own.",
     f"# Columns {PREDICTED}... are the simulation's, to compare with; they are not read.",
 )
 _STATIC = {"tensions": TENSION, "lengths": LENGTH}
@@ -101,11 +108,15 @@ def campaign_files(plan: PlannedPoses, robot: str, readings: Sequence[str], payl
     if "robot_frequency" in readings:
         tables["robot_frequency"] = _robot_frequencies(plan)
     if "loaded" in readings:
-        tables["loaded_pose"] = _loaded(plan, payload)
+        tables["loaded_pose"] = _loaded(plan, payload, "lengths" in readings)
     files = {"campaign.toml": _campaign(robot, list(tables))}
     return files | {_FILES[kind]: _csv(kind, columns) for kind, columns in tables.items()}
 
 
+_MORE = {
+    "cable_frequency": "# Plucked sideways, the plane is out: over a swivelling pulley that is a few per cent lower.",
+    "loaded_pose": "# Cells of lengths are empty where the case has its lengths in states.csv.",
+}
 Columns = Mapping[str, Sequence[str]]
 
 
@@ -119,8 +130,11 @@ def _static(plan: PlannedPoses, quantities: Sequence[CableQuantity]) -> Columns:
 
 
 def _cable_frequencies(plan: PlannedPoses) -> Columns:
-    first = np.array([cable_dynamics(_one(plan, i), "exact", 0.0).first_frequency for i in range(len(plan.names))])
-    return _poses(plan) | {"mode": ["1"] * len(plan.names)} | _open(FREQUENCY, first / (2.0 * np.pi))
+    """The first mode in the plane of each cable: over a swivelling pulley the lowest of all is one out of it."""
+    expansion = expand_catenaries_at(plan.point, polynomial_order(plan.point, 0.0))
+    first = np.sqrt(np.where(expansion.sideways, np.inf, expansion.omega_squared).min(axis=-1))
+    named = {"mode": ["1"] * len(plan.names), "plane": ["in"] * len(plan.names)}
+    return _poses(plan) | named | _open(FREQUENCY, first / (2.0 * np.pi))
 
 
 def _robot_frequencies(plan: PlannedPoses) -> Columns:
@@ -130,8 +144,11 @@ def _robot_frequencies(plan: PlannedPoses) -> Columns:
     return columns | {"frequency_hz": open_cells, f"{PREDICTED}frequency_hz": _numbers(np.concatenate(hertz))}
 
 
-def _loaded(plan: PlannedPoses, payload: float) -> Columns:
-    """Every pose without and with the payload, at the lengths that are locked there."""
+def _loaded(plan: PlannedPoses, payload: float, read_before: bool) -> Columns:
+    """Every pose without and with the payload, at the lengths that are locked there.
+
+    read_before : the lengths without payload stand in another file
+    """
     robot, point = plan.point.entered, plan.point
     lengths = point.cables.total_length
     moved = forward(robot.with_load(payload), lengths, point.position, point.rotation)
@@ -145,7 +162,11 @@ def _loaded(plan: PlannedPoses, payload: float) -> Columns:
     readings = np.repeat(point.arrays.reading(lengths), 2, axis=0)
     reached = np.concatenate([moved.position, angles], axis=1)
     told = {f"{PREDICTED}{name}": _paired(bare[name], _numbers(reached[:, k])) for k, name in enumerate(POSE)}
-    return columns | _open(LENGTH, readings) | told
+    open_cells = _open(LENGTH, readings)
+    if read_before:
+        for name in LENGTH.columns(readings.shape[1]):
+            open_cells[name] = _paired([""] * count, [UNFILLED] * count)
+    return columns | open_cells | told
 
 
 def _one(plan: PlannedPoses, i: int) -> OperatingPoint:
@@ -170,7 +191,8 @@ def _paired(first: Iterable[str], second: Iterable[str]) -> list[str]:
 
 
 def _numbers(values: np.ndarray) -> list[str]:
-    return [f"{value:.6g}" for value in values]
+    """Six digits; zero where rounding left something."""
+    return [f"{value if abs(value) > _NOTHING else 0.0:.6g}" for value in values]
 
 
 def _short(value: float) -> str:
@@ -180,7 +202,8 @@ def _short(value: float) -> str:
 
 def _csv(kind: str, columns: Columns) -> str:
     rows = [",".join(columns), *(",".join(row) for row in zip(*columns.values(), strict=True))]
-    return "\n".join([f"# {_HINTS[kind]}.", *_COMMENTS, *rows]) + "\n"
+    more = [_MORE[kind]] if kind in _MORE else []
+    return "\n".join([f"# {_HINTS[kind]}.", *more, *_COMMENTS, *rows]) + "\n"
 
 
 def _campaign(robot: str, kinds: Sequence[str]) -> str:

@@ -70,9 +70,20 @@ def _meant(name: str, free: Sequence[str]) -> str:
     own = _squashed(name)
     same = [k for k in free if _squashed(k) == own]
     same = same or [k for k in free if own in {_squashed(_stem(k)) + unit for unit in ("", *_foreign(k))}]
+    same = same or [k for k in free if _in_other_unit(name, k)]
     if not same and _ALIASES.get(name) in free:
         return _ALIASES[name]
     return same[0] if len(same) == 1 else ""
+
+
+def _in_other_unit(name: str, known: str) -> str:
+    """The other unit that stands in a name beside all of a known column's, as in tension_kN_1_N; "" if none does."""
+    own, ours = (re.findall(r"[^\W\d_]+|\d+", text) for text in (name, known))
+    for unit in (part for part in own if part.lower() in _foreign(known)):
+        rest = [part for part in own if part is not unit]
+        if rest in (ours, ours[:-1]):
+            return unit
+    return ""
 
 
 def _stem(name: str) -> str:
@@ -91,13 +102,14 @@ def _unit(name: str, meant: str) -> str:
     if own == _squashed(meant):
         return ""
     other = next((unit for unit in _foreign(meant) if own == _squashed(_stem(meant)) + unit), "")
+    other = other or _in_other_unit(name, meant)
     return f" ({'Hz' if ours == 'hz' else ours}{_conversion(name, other)})"
 
 
 def _conversion(name: str, unit: str) -> str:
     """What to do with values in a unit (lower case, "" for ours), which is called as in the column's name."""
-    last = _PARTS.findall(name)[-1:]
-    return f"; convert the values from {last[0] if last and last[0].lower() == unit else unit}" if unit else ""
+    called = next((part for part in _PARTS.findall(name) if part.lower() == unit.lower()), unit)
+    return f"; convert the values from {called}" if unit else ""
 
 
 def _groups(names: Sequence[str]) -> list[_Group]:
@@ -118,6 +130,8 @@ def _word_and_unit(before: str, after: str) -> tuple[str, str]:
     """Of the text around a number, in lower case: all words as one, and the unit that ends it or ""."""
     words = [word.lower() for word in _PARTS.findall(before) + _PARTS.findall(after)]
     unit = words.pop() if words and words[-1] in _UNITS and (len(words) > 1 or not before.strip()) else ""
+    if unit in _OURS and len(words) > 1 and words[-1] in _UNITS:
+        unit = words.pop()  # named in front of ours: tension_kN_1_N
     return "".join(words), unit
 
 

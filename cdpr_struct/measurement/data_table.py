@@ -14,6 +14,7 @@ from cdpr_struct.measurement.foreign_file import refuse_foreign
 
 _HEADER = "a CSV file with a header line"
 _SEPARATORS = {";": "';'", "\t": "tabs", "|": "'|'", " ": "spaces"}
+_SHOWN = 8  # values of a row that does not fit: of more, their number is said
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 
 
@@ -55,7 +56,9 @@ class DataTable:
         for number, (row, line) in enumerate(zip(self.rows, self.line, strict=True), start=1):
             if len(row) > len(self.names):
                 expected = f"{len(self.names)} values as in the header, decimals with a point"
-                raise InputError(self.file, f"row {number}, line {line}", ", ".join(row), expected)
+                expected += " (are they commas?)" if len(row) > len(self.names) + 1 else ""
+                given = ", ".join(row) if len(row) <= _SHOWN else f"{len(row)} values"
+                raise InputError(self.file, f"row {number}, line {line}", given, expected)
 
 
 def read_table(path: Path) -> DataTable:

@@ -1,5 +1,7 @@
 """An entered robot that cannot be the one that was measured, its numbers in other units; said before any simulation."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from cdpr_struct.errors import InputError
@@ -13,8 +15,10 @@ _TIMES_WEIGHT = 30.0  # beyond this tensions together do not carry, in weights o
 _GIVE = 0.1  # of the frame's size, beyond which no mast gives way
 
 
-def check_robot_scale(source: str, robot: Robot, states: States) -> None:
+def check_robot_scale(source: str, robot: Robot, states: States, files: Mapping[str, str]) -> None:
     """Hold platform, cables and masts against the frame's size and the tensions measured.
+
+    files : of each case, that which gave its tensions
 
     Raises
     ------
@@ -23,6 +27,7 @@ def check_robot_scale(source: str, robot: Robot, states: States) -> None:
     _check_body(source, robot)
     if np.isfinite(states.tension).any():
         _check_cables(source, robot, states)
+        _check_readings(robot, states, files)
         _check_weight(source, robot, states)
         _check_masts(source, robot, states)
 
@@ -55,6 +60,18 @@ def _check_cables(source: str, robot: Robot, states: States) -> None:
         expected = f"kg/m: such cables would weigh {times:.3g} times the tensions measured, in the median "
         expected += "(is it in g/m, or are the tensions not in N?)"
         raise InputError(source, "linear_density", float(np.median(robot.linear_density)), expected)
+
+
+def _check_readings(robot: Robot, states: States, files: Mapping[str, str]) -> None:
+    """One tension that would tear its cable has lost its decimal point."""
+    strain = np.nan_to_num(states.tension / robot.axial_stiffness)
+    i, cable = np.unravel_index(int(strain.argmax()), strain.shape)
+    if strain[i, cable] > _STRAIN:
+        name, stiffness = states.names[i], robot.axial_stiffness[cable]
+        expected = f"a tension in N: with EA = {stiffness:g} N it would stretch the cable to "
+        expected += f"{1.0 + strain[i, cable]:.2g} times its length (is a decimal point missing?)"
+        place = f"case {name}, cable {cable + 1}: tension_N"
+        raise InputError(files[name], place, float(states.tension[i, cable]), expected)
 
 
 def _check_weight(source: str, robot: Robot, states: States) -> None:

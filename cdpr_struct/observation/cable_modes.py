@@ -16,7 +16,6 @@ from cdpr_struct.statics.cable_state import VECTORS
 _PER_HALF_WAVE, _SPARE = 2, 14  # order of the polynomials: ten digits of a taut cable's mode
 _SAG = 8.0  # further orders per unit of weight over chord tension: half waves shift, and the tension varies
 _HIGHEST = 400  # order at most: beyond, a cable is so slack that its modes are nobody's measurement
-_STATIONS = 33  # odd and many: along them the mode's direction is judged
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,7 +59,7 @@ def cable_modes_at(point: OperatingPoint, rows: CableRows) -> CableModes:
     slack = float((one.cables.weight * one.cables.length / one.cables.tension).max())
     order = min(_HIGHEST, _SPARE + _PER_HALF_WAVE * int(rows.mode.max()) + int(_SAG * slack))
     expansion = expand_catenaries_at(one, order)
-    number = _numbers(expansion.shapes(np.linspace(0.0, 1.0, _STATIONS)[1:-1])[1][:, 0], place, rows)
+    number = _numbers(expansion.sideways[:, 0], place, rows)
     rank = _ranks(place)
     squared = np.ones((len(one.position), rank.max() + 1))
     squared[place, rank] = expansion.omega_squared[place, 0, number]
@@ -103,10 +102,8 @@ def _one_cable_each(point: OperatingPoint, state: np.ndarray, cable: np.ndarray)
     return OperatingPoint(arrays, point.position[state], point.rotation[state], type(cables)(**states))
 
 
-def _numbers(shapes: np.ndarray, place: np.ndarray, rows: CableRows) -> np.ndarray:
-    """(r,) which mode of the expansion each row's is; shapes (u, p, s, 3) of all modes, local axes."""
-    energy = (shapes**2).sum(axis=-2)
-    sideways = energy[..., 1] > 0.5 * energy.sum(axis=-1)
+def _numbers(sideways: np.ndarray, place: np.ndarray, rows: CableRows) -> np.ndarray:
+    """(r,) which mode of the expansion each row's is; (u, p) whether they move out of the cable's plane."""
     mine = np.cumsum(sideways[place] != rows.in_plane[:, None], axis=-1)
     return np.asarray((mine == rows.mode[:, None]).argmax(axis=-1))
 

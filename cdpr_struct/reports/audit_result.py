@@ -14,6 +14,7 @@ from cdpr_struct.crosscheck.validity_limits import (
 from cdpr_struct.reports.text import paragraphs, place, plain_table
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import anchors_in_world
+from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _TIGHTENED = ("lambda2", "epsilon", "sag_ratio")
 _WHEN_UNHELD = "choose poses that the cables can hold; `map --quantity workspace` shows where these are."
@@ -113,7 +114,7 @@ def _slack(audit: PoseAudit) -> list[str]:
     """That cables pull with less than their own weight, and what tightens them; nothing if none does."""
     robot = audit.robot
     chord = anchors_in_world(robot, audit.position, audit.rotation) - robot.frame_anchors
-    weight = robot.weight_per_length * np.linalg.norm(chord, axis=-1)
+    weight = RobotArrays.of(robot).cable_load(chord)[0] * np.linalg.norm(chord, axis=-1)
     poses = int((audit.held & (audit.tension < weight).any(axis=-1)).sum())
     if not poses:
         return []

@@ -1,7 +1,9 @@
-"""Which extensions of a robot file act in a command, and which do not and why: nothing is ignored silently."""
+"""What every result says of its robot: numbers hardly meant, and which extensions act or why they do not."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
+
+from cdpr_struct.robot.plausibility import implausible
 
 if TYPE_CHECKING:
     from cdpr_struct.robot.robot import Robot
@@ -10,7 +12,6 @@ _READINGS = "this describes readings, which only diagnose and plan compare"
 _VIBRATION = "this concerns vibration only"
 _NO_BENDING = "this cable model has none; --model exact does"
 _AT_REST = ("inverse", "forward", "pose-error")
-_NOT_VIBRATING = (*_AT_REST, "distribute", "audit")
 _CABLES_ONLY = ("bending_stiffness", "added_mass")
 _INTERNAL, _HEADS = "internal_mass", "mast_mass"
 _ELASTIC = ("series_compliance", "frame_compliance", "mast_bending", "nonlinearity")
@@ -19,8 +20,11 @@ _ELASTIC = ("series_compliance", "frame_compliance", "mast_bending", "nonlineari
 def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, model: str = "") -> dict[str, Any]:
     """The result, what became of the robot's extensions if it has any, and its constant `wrench` [N, N m] if any.
 
+    Numbers of the robot that can hardly be meant come first among its warnings.
     model : cable model of a vibration command, "" if there is no choice
     """
+    if doubts := implausible(robot):
+        result = {**result, "warnings": [*doubts, *result.get("warnings", ())]}
     active = robot.extensions.active
     if not active:
         return dict(result)
@@ -43,8 +47,8 @@ def _why_idle(name: str, command: str, model: str) -> str:
         return ""
     if name in SENSORS:
         return _READINGS
-    if name in (_INTERNAL, _HEADS):
-        return _why_rigid(command, model) if name == _INTERNAL else _VIBRATION if command in _NOT_VIBRATING else ""
+    if name in _OTHERWISE:
+        return _OTHERWISE[name](command, model)
     if command == "distribute":
         return "forces are distributed with EA as entered" if name == "nonlinearity" else ""
     if name not in _CABLES_ONLY:
@@ -71,10 +75,31 @@ def _why_rigid(command: str, model: str) -> str:
     return "the platform of the FEM is rigid; use --model exact" if model == "fem" else ""
 
 
+def _why_straight(command: str, model: str) -> str:
+    """Why wind does not push cables although they have a drag width."""
+    del command
+    return "straight cables without weight have no drag, either" if model in ("spring", "ideal") else ""
+
+
+def _why_still(command: str, model: str) -> str:
+    """Why masses on masts have no effect in a command: nothing vibrates."""
+    return _VIBRATION if command in (*_AT_REST, "distribute", "audit") else ""
+
+
+_OTHERWISE = {_INTERNAL: _why_rigid, _HEADS: _why_still, "drag_width": _why_straight}
+
+
 def _particulars(command: str, model: str) -> dict[str, str]:
     """What is to be known about extensions that act."""
     said = {"tilt": "tilt turns the weight of the platform; that of the cables stays vertical."}
-    said["drag_area"] = "Wind acts on the platform only, as a constant force at its origin; cables have no drag."
+    said["drag_area"] = "Wind acts on the platform as a constant force at its origin."
+    said["drag_width"] = "Drag on a cable is that of the wind across its chord, alike on every metre."
+    if command == "forward":
+        said["drag_width"] += " It has no potential, so energies of other equilibria are not compared."
+    if command in ("frf", "transient", "modes", "map", "verify", "audit", "distribute", "spectrogram"):
+        said["drag_width"] += " Stiffness and vibration take it as constant; it damps nothing."
+    if command == "pose-error":
+        said["drag_width"] += " It enters the part of sag: straight cables have none."
     said["moment"] = "moment keeps its axes in the world when the platform turns, so it has no potential."
     if command == "forward":
         said["moment"] += " Energies of other equilibria leave it out."
@@ -84,7 +109,6 @@ def _particulars(command: str, model: str) -> dict[str, str]:
         said["added_mass"] = "added_mass takes part in vibration; its weight does not bend the cable."
     if command in ("frf", "transient"):
         said[_INTERNAL] = "The mount of internal_mass has no damping of its own."
-    if command in ("frf", "transient"):
         said[_HEADS] = "Masses on masts have the damping of the cable whose exit they move with."
     if command == "frf":
         still = "For excitation and response at points of cables, masts are taken as rigid."

@@ -7,10 +7,8 @@ import numpy as np
 from cdpr_struct.reports.text import paragraphs, plain_table, rounded
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.statics.equilibria import Equilibria
-from cdpr_struct.statics.locked_rest import LockedRest
+from cdpr_struct.statics.locked_rest import UPSET, LockedRest
 from cdpr_struct.statics.slack_cables import hangs_slack
-
-_UPSET = np.radians(60.0)  # a platform that turned further than this from its start may have rolled over
 
 
 def locked_json(found: LockedRest) -> dict[str, Any]:
@@ -39,7 +37,7 @@ def locked_warnings(found: LockedRest) -> list[str]:
             "if another pose is meant, give --start near it."
         )
     lower = int((found.others.energy < 0.0).sum())
-    if found.turned > _UPSET and found.others.count:
+    if found.turned > UPSET and found.others.count:
         said.append(
             f"the platform is turned by {np.degrees(found.turned):.0f} deg against its start, and has other stable "
             "poses at these lengths; if another pose is meant, give --start near it."
@@ -63,7 +61,7 @@ def equilibria_text(result: dict[str, Any]) -> str:
             str(i),
             *(f"{v:.4f}" for v in rounded(each["pose"][:3], 4)),
             *(f"{v:.2f}" for v in rounded(each["pose"][3:], 2)),
-            f"{each['energy_J']:.4g}",
+            f"{each['energy_J']:.4g}" if np.isfinite(each["energy_J"]) else "-",
             f"{each['least_stiffness_N_m']:.4g}",
             str(each["slack_cables"]),
         ]
@@ -104,6 +102,8 @@ def _others(found: LockedRest) -> str:
     if not count:
         return f"No other stable pose was found at these lengths by {found.others.starts} descents."
     poses = "1 other stable pose exists" if count == 1 else f"{count} other stable poses exist"
+    if not np.isfinite(found.others.energy).all():
+        return f"{poses} at these lengths. Energies are not compared: drag on cables has no potential."
     return f"{poses} at these lengths; the lowest has {found.others.energy[0]:+.3g} J, {_where(found.others, 0)}."
 
 

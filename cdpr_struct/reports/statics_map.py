@@ -8,6 +8,7 @@ import numpy as np
 
 from cdpr_struct.reports.csv_table import LongTable
 from cdpr_struct.reports.html import Page, Plate, page_files
+from cdpr_struct.reports.unheld_poses import what_helps
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.bound_advice import shared_cure
 from cdpr_struct.statics.slack_cables import DEEP
@@ -59,6 +60,7 @@ def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str,
     return {
         "robot": robot.name,
         "cables": len(robot.cables),
+        **({"guided": list(robot.guided)} if robot.guided else {}),
         "mass_kg": robot.platform.mass,
         "quantity": name,
         "unit": quantity.unit,
@@ -171,10 +173,10 @@ def map_files(
 
 def map_sentence(result: Mapping[str, Any]) -> str:
     """The outcome in words."""
-    label = quantity_of(result["quantity"]).label
+    label, helps = quantity_of(result["quantity"]).label, what_helps(result, (result["quantity"],))
     if result["mean"] is None:
         count = "The pose is not" if result["poses"] == 1 else f"None of the {result['poses']} poses is"
-        return f"{count} held by the cables and stable.{_few_cables(result)}{_let_it_hang(result)}"
+        return f"{count} held by the cables and stable.{helps}"
     low, high = result["smallest"], result["largest"]
     at = ["(" + ", ".join(f"{v:g}" for v in end["position_m"]) + ") m" for end in (low, high)]
     if result["poses"] == 1:
@@ -186,7 +188,7 @@ def map_sentence(result: Mapping[str, Any]) -> str:
     held += _veering(result)
     return (
         f"{label[0].upper()}{label[1:]}: {low['value']:.4g} {result['unit']} at {at[0]} to {high['value']:.4g} "
-        f"{result['unit']} at {at[1]}, {result['mean']:.4g} {result['unit']} on average.{held}{_let_it_hang(result)}"
+        f"{result['unit']} at {at[1]}, {result['mean']:.4g} {result['unit']} on average.{held}{helps}"
     )
 
 
@@ -201,21 +203,6 @@ def _veering(result: Mapping[str, Any]) -> str:
     if several := result.get("behind_veering_poses"):
         said += f" {several} poses are reached only across such poses: there it may be another mode."
     return said
-
-
-def _few_cables(result: Mapping[str, Any]) -> str:
-    if result["cables"] >= 6 or result["held"]:
-        return ""
-    count = "1 cable" if result["cables"] == 1 else f"{result['cables']} cables"
-    return f" With {count} hardly any given pose is in balance; lock --lengths instead (forward, modes)."
-
-
-def _let_it_hang(result: Mapping[str, Any]) -> str:
-    """What to do if six or seven cables do not hold the orientation of the grid at every pose."""
-    unheld = result["poses"] - result["held"]
-    if not unheld or result["cables"] not in (6, 7) or "free" in result or result["quantity"].startswith("pose-error"):
-        return ""
-    return f" {result['cables']} cables hold a given orientation at few poses: --free rx,ry,rz lets the platform hang."
 
 
 def _map_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:

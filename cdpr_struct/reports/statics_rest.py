@@ -17,9 +17,9 @@ from cdpr_struct.statics.equilibria import Equilibria
 from cdpr_struct.statics.forward_kinematics import ForwardSolution
 from cdpr_struct.statics.inverse_kinematics import InverseSolution
 from cdpr_struct.statics.locked_rest import LockedRest
+from cdpr_struct.statics.strained_cables import strains
 
 _COLUMNS = ["cable", "unstrained length [m]", "tension at the platform [N]", "sag [mm]", "stretch [mm]"]
-_MOST_STRAIN = 0.05  # steel ropes break near 0.02, high-modulus fibres at 0.035
 _MODEL_NOTES = {
     "sagging": "Sagging model: each cable is an elastic catenary, exact for any sag.",
     "spring": "Spring model: straight massless springs that cannot push.",
@@ -37,7 +37,7 @@ def inverse_json(robot: Robot, model: str, pose: Pose, solution: InverseSolution
         "lengths_m": solution.lengths,
         "tensions_N": solution.tensions,
         "residual_wrench": solution.residual_wrench,
-        "strains": _strains(solution.cables),
+        "strains": strains(solution.cables),
     }
 
 
@@ -53,7 +53,7 @@ def forward_json(robot: Robot, model: str, lengths: Sequence[float], solution: F
         "tensions_N": solution.tensions,
         "slack": solution.cables.slack,
         "residual_wrench": solution.residual_wrench,
-        "strains": _strains(solution.cables),
+        "strains": strains(solution.cables),
         "stable": bool(solution.stable),
         "least_stiffness_N_m": float(solution.least_stiffness),
         "iterations": int(solution.iterations),
@@ -79,19 +79,10 @@ def pose_sentence(result: Mapping[str, Any]) -> str:
     return f"{state} at ({x:.5f}, {y:.5f}, {z:.5f}) m, turned by ({rx:.4f}, {ry:.4f}, {rz:.4f})° about x, y, z.{loose}"
 
 
-def _strains(cables: CableStates) -> np.ndarray:
-    return np.nan_to_num(cables.elongation / cables.total_length)
-
-
 def residual_sentence(result: Mapping[str, Any]) -> str:
-    """How well forces and moments balance, and a word on cables that would break long before."""
-    left, strain = np.abs(result["residual_wrench"]), np.asarray(result["strains"])
-    torn = (
-        f"Cable {int(strain.argmax()) + 1} is stretched by {100.0 * strain.max():.3g} %: it would break long before. "
-        if strain.max() > _MOST_STRAIN
-        else ""
-    )
-    return f"{torn}Largest unbalanced force {left[:3].max():.2g} N, moment {left[3:].max():.2g} N m."
+    """How well forces and moments balance."""
+    left = np.abs(result["residual_wrench"])
+    return f"Largest unbalanced force {left[:3].max():.2g} N, moment {left[3:].max():.2g} N m."
 
 
 def inverse_files(

@@ -9,6 +9,7 @@ import numpy as np
 from cdpr_struct.reports.csv_table import LongTable
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.statics_map import deep_sag, sag_warnings, slack_poses, slack_warnings
+from cdpr_struct.reports.unheld_poses import what_helps
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.region import Region
@@ -64,6 +65,7 @@ def result(
     return {
         "robot": robot.name,
         "cables": len(robot.cables),
+        **({"guided": list(robot.guided)} if robot.guided else {}),
         "mass_kg": robot.platform.mass,
         "quantity": "workspace",
         "unit": unit,
@@ -103,7 +105,8 @@ def sentences(told: Mapping[str, Any]) -> list[str]:
             words = _WORDS.get(one["requirement"])
             what = words or f"fail {one['requirement']}"
             alone = "" if words else f", {one['alone']} of them nothing else"
-            said.append(f"{one['poses']} poses ({100.0 * one['share']:.3g} %) {what}{alone}.")
+            helps = what_helps(told, told["requirements"]) if one["requirement"] == "held" else ""
+            said.append(f"{one['poses']} poses ({100.0 * one['share']:.3g} %) {what}{alone}.{helps}")
     return said
 
 

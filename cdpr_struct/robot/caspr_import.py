@@ -89,6 +89,8 @@ def import_caspr(bodies: str, cables: str, bodies_name: str, cables_name: str, c
 
 def _body(root: ElementTree.Element, source: str, choices: Choices, warnings: list[str]) -> _Body:
     links = root.findall(".//link_rigid")
+    if not links and root.find(".//cable_set") is not None:
+        raise InputError(source, "", "a file of cables", "the file of the bodies here: give that of the bodies first")
     if len(links) != 1:
         raise InputError(source, "links", f"{len(links)} rigid links", "a model with exactly one, the platform")
     link = links[0]
@@ -136,9 +138,9 @@ def _products_warning(matrix: np.ndarray) -> str:
     gap = as_integrals[0] + as_integrals[1] - as_integrals[2]
     impossible = " (which no body has)" if as_integrals[0] <= 0.0 or gap < 0.0 else ""
     return (
-        "check the products of inertia: they are taken as entries of the matrix, principal moments "
-        f"{_list(as_entries)} kg m^2; programs that export integrals of x y need the opposite sign, principal moments "
-        f"{_list(as_integrals)} kg m^2{impossible}. Give --inertia to replace them."
+        "the products of inertia are taken as entries of the matrix, principal moments "
+        f"{_few(as_entries)} kg m^2; programs that export integrals of x y need the opposite sign, principal moments "
+        f"{_few(as_integrals)} kg m^2{impossible}. Give --inertia to replace them."
     )
 
 
@@ -149,7 +151,7 @@ def _check_inertia(matrix: np.ndarray, source: str, field: str) -> None:
             "principal moments of a body: positive, and the two smaller sum to at least the largest (triangle "
             "inequality). Check the products of inertia, or give --inertia IXX,IYY,IZZ,IXY,IXZ,IYZ"
         )
-        raise InputError(source, field, f"principal moments {_list(principal)} kg m^2", expected)
+        raise InputError(source, field, f"principal moments {_few(principal)} kg m^2", expected)
 
 
 def _symmetric(entries: Sequence[float]) -> np.ndarray:
@@ -258,6 +260,11 @@ def _toml(
 
 def _list(values: np.ndarray) -> str:
     return "[" + ", ".join(repr(round(float(v), 12) + 0.0) for v in values) + "]"
+
+
+def _few(values: np.ndarray) -> str:
+    """Numbers to be looked at: four digits."""
+    return "[" + ", ".join(f"{v:.4g}" for v in values) + "]"
 
 
 def _plain(text: str) -> str:

@@ -34,6 +34,7 @@ class Extensions:
     force: np.ndarray
     moment: np.ndarray
     drag_area: float
+    drag_width: np.ndarray
     wind: np.ndarray
     air_density: float
     tilt: np.ndarray
@@ -107,7 +108,7 @@ class Extensions:
     @property
     def entered(self) -> dict[str, list[float] | float]:
         """The active fields, and what belongs to them, as plain numbers: what a robot file holds."""
-        names = [n for n in EXTENSIONS if n in self.active or AUXILIARY.get(n) in self.active]
+        names = [n for n in EXTENSIONS if n in self.active or set(AUXILIARY.get(n, ())) & set(self.active)]
         return {n: np.asarray(getattr(self, n)).tolist() for n in names}
 
     def with_changes(self, **changes: npt.ArrayLike) -> "Extensions":
@@ -128,6 +129,17 @@ def drag(wind: np.ndarray, area: np.ndarray, density: np.ndarray) -> np.ndarray:
     """
     size = 0.5 * np.asarray(density) * np.asarray(area) * np.linalg.norm(wind, axis=-1)
     return np.asarray(size[..., None] * wind)
+
+
+def drag_across(wind: np.ndarray, chord: np.ndarray, width: np.ndarray, density: np.ndarray) -> np.ndarray:
+    """Force per length (..., 3) [N/m] of wind (..., 3) [m/s] on cables along chords (..., 3), of a drag width (...) [m]
+    in air of a density (...) [kg/m^3].
+
+    rho/2 c d |v_n| v_n, v_n the part of the wind across the chord (cross-flow principle, Hoerner 1965, ch. 3): along a
+    cable the air does not pull.
+    """
+    along = chord / np.linalg.norm(chord, axis=-1, keepdims=True)
+    return drag(wind - (wind * along).sum(axis=-1, keepdims=True) * along, width, density)
 
 
 def masts_of(frame_anchors: np.ndarray) -> np.ndarray:

@@ -1,5 +1,7 @@
 """What is wrong with a file, in one sentence: file, field, value and what would be right."""
 
+import re
+from tomllib import TOMLDecodeError
 from typing import get_args
 
 from pydantic import BaseModel, ValidationError
@@ -19,10 +21,23 @@ def input_error(source: str, error: ValidationError, model: type[BaseModel] | No
     value = "nothing" if first["type"] == "missing" else first["input"]
     words = _EXPECTED.get(first["type"])
     expected = first["msg"].lower() if words is None else words.format(**first.get("ctx", {}))
+    if first["type"] in ("list_type", "too_short", "too_long") and _INERTIAS & set(first["loc"]):
+        expected += "; an inertia has three rows: [[Ixx, 0, 0], [0, Iyy, 0], [0, 0, Izz]]"
     if first["type"] == "extra_forbidden" and model is not None:
         known = known_keys(model, first["loc"][:-1])
         expected += "; " + known_names(str(first["loc"][-1]), known)
     return InputError(source, field, value, expected)
+
+
+def not_toml(source: str, text: str, error: TOMLDecodeError) -> InputError:
+    """What is wrong with a file that is no TOML, and the line where it ends to be."""
+    where = re.search(r" \(at line (\d+), column \d+\)", str(error))
+    reason = str(error) if where is None else str(error)[: where.start()]
+    lines = text.splitlines()
+    number = len(lines) if where is None else min(int(where[1]), len(lines))
+    line = lines[number - 1].strip() if lines else ""
+    expected = f"a TOML file: decimals with a point, text in quotes, each key and table given once ({reason})"
+    return InputError(source, f"line {number}", line, expected)
 
 
 def known_keys(model: type[BaseModel], place: tuple[int | str, ...]) -> list[str]:
@@ -36,6 +51,7 @@ def known_keys(model: type[BaseModel], place: tuple[int | str, ...]) -> list[str
     return sorted(model.model_fields)
 
 
+_INERTIAS = {"inertia", "platform_inertia"}
 _EXPECTED = {
     "extra_forbidden": "no such key is known here",
     "missing": "this key is required",

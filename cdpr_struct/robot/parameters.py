@@ -119,8 +119,9 @@ EXTENSIONS: dict[str, Parameter] = {
     "force": _extra((3,), 0.0, "N", "constant force on the platform origin, world frame"),
     "moment": _extra((3,), 0.0, "N m", "constant moment on the platform, world frame, however it turns"),
     "drag_area": _extra((), 0.0, "m^2", "of the platform in wind: drag coefficient times area", least=0.0),
+    "drag_width": _extra(_EACH, 0.0, "m", "of the cable in wind: drag coefficient times diameter", least=0.0),
     "wind": _extra((3,), 0.0, "m/s", "velocity of the air, world frame"),
-    "air_density": _extra((), 1.225, "kg/m^3", "of drag_area", least=0.0),
+    "air_density": _extra((), 1.225, "kg/m^3", "of drag_area and drag_width", least=0.0),
     "tilt": _extra((2,), 0.0, "rad", "of the platform's weight: m g (tilt_x, tilt_y, -1)"),
     "nonlinearity": _extra((), 0.0, "1", "k in EA (1 + k (T / T0 - 1)), T the tension at the platform"),
     "reference_tension": _extra((), 1.0, "N", "T0 of nonlinearity", above=0.0),
@@ -149,12 +150,12 @@ PARAMETERS: dict[str, Parameter] = {**_RULES, **EXTENSIONS}
 SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain", "sensor_mass")
 """Act only where readings are compared: they describe sensors, or need the time of a reading."""
 AUXILIARY = {
-    "mast_foot": "mast_bending",
-    "wind": "drag_area",
-    "air_density": "drag_area",
-    "hose_center": "hose",
-    "reference_tension": "nonlinearity",
-    "internal_frequency": "internal_mass",
-    "internal_direction": "internal_mass",
+    "mast_foot": ("mast_bending",),
+    "wind": ("drag_area", "drag_width"),
+    "air_density": ("drag_area", "drag_width"),
+    "hose_center": ("hose",),
+    "reference_tension": ("nonlinearity",),
+    "internal_frequency": ("internal_mass",),
+    "internal_direction": ("internal_mass",),
 }
-"""Mean something only with the other parameter."""
+"""Mean something only with one of the other parameters."""

@@ -42,8 +42,13 @@ class Pose:
 
 
 def angles_from_rotation(rotation: np.ndarray) -> np.ndarray:
-    """Angles rx, ry, rz [rad] (..., 3) of rotation matrices (..., 3, 3) = Rz Ry Rx."""
+    """Angles rx, ry, rz [rad] (..., 3) of rotation matrices (..., 3, 3) = Rz Ry Rx.
+
+    Near ry = 90 deg the axes of rx and rz meet, and rx is uncertain; rz then makes up for it: it turns the y axis from
+    the world to where R Rx^-1 has it.
+    """
     ry = np.arctan2(-rotation[..., 2, 0], np.hypot(rotation[..., 0, 0], rotation[..., 1, 0]))
     rx = np.arctan2(rotation[..., 2, 1], rotation[..., 2, 2])
-    rz = np.arctan2(rotation[..., 1, 0], rotation[..., 0, 0])
+    turned = rotation[..., 1] * np.cos(rx)[..., None] - rotation[..., 2] * np.sin(rx)[..., None]
+    rz = np.arctan2(-turned[..., 0], turned[..., 1])
     return np.stack([rx, ry, rz], axis=-1)

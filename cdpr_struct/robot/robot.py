@@ -67,6 +67,8 @@ class Robot:
             raise ValueError(f"Robot.extensions must be for {m} cables, got {len(self.extensions.slip)}")
         if fault := internal_mass_fault(self.platform, self.extensions):
             raise ValueError(fault)
+        if fault := cable_drag_fault(self.extensions, self.gravity):
+            raise ValueError(fault)
 
     def _settle_gravity(self) -> None:
         """Size and direction of gravity, which may have been given as one vector."""
@@ -180,6 +182,15 @@ def _check_guided(guided: tuple[str, ...]) -> None:
     unknown = [name for name in guided if name not in FREEDOMS]
     if unknown or len(set(guided)) < len(guided) or len(guided) == len(FREEDOMS):
         raise ValueError(f"Robot.guided must be some of {', '.join(FREEDOMS)}, not all, each once, got {guided!r}")
+
+
+def cable_drag_fault(more: Extensions, gravity: float) -> str:
+    """What drag_width lacks, "" if nothing: wind that pushes, and gravity, in which every cable has a shape."""
+    if not more.drag_width.any():
+        return ""
+    if not more.wind.any():
+        return "drag_width needs wind = [x, y, z], the velocity of the air in m/s, world frame"
+    return "" if gravity > 0.0 else "drag_width needs gravity above 0: a cable in the lee would have no shape"
 
 
 def internal_mass_fault(platform: Platform, more: Extensions) -> str:

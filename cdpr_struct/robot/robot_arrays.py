@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from cdpr_struct.robot.extensions import drag, masts_of, uprights_of
+from cdpr_struct.robot.extensions import drag, drag_across, masts_of, uprights_of
 from cdpr_struct.robot.parameters import EXTENSIONS, PARAMETERS
 from cdpr_struct.robot.platform import joined_masses
 from cdpr_struct.robot.robot import FREEDOMS, Robot
@@ -41,7 +41,7 @@ class RobotArrays:
     masts : (m, m) 1 where cables share one;  uprights : (m, m) how they bend, as `uprights_of` says
     hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  moment : (..., 3) [N m]
     tilt            : (..., 2) [rad]
-    drag_area       : (...) [m^2] in wind (..., 3) [m/s] of air_density (...) [kg/m^3]
+    drag_area       : (...) [m^2], drag_width : (..., m) [m] in wind (..., 3) [m/s] of air_density (...) [kg/m^3]
     temperature_change : (...) [K]
     nonlinearity    : (...) k with reference_tension (...) [N]
     cell_gain, cell_bias, friction, slip : (..., m);  tracker, accelerometer_gain : (..., 6)
@@ -80,6 +80,7 @@ class RobotArrays:
     force: np.ndarray = field(default_factory=PARAMETERS["force"].without_effect)
     moment: np.ndarray = field(default_factory=PARAMETERS["moment"].without_effect)
     drag_area: np.ndarray = field(default_factory=PARAMETERS["drag_area"].without_effect)
+    drag_width: np.ndarray = field(default_factory=PARAMETERS["drag_width"].without_effect)
     wind: np.ndarray = field(default_factory=PARAMETERS["wind"].without_effect)
     air_density: np.ndarray = field(default_factory=PARAMETERS["air_density"].without_effect)
     tilt: np.ndarray = field(default_factory=PARAMETERS["tilt"].without_effect)
@@ -110,6 +111,16 @@ class RobotArrays:
     def weight(self) -> np.ndarray:
         """(..., m) of the cables, w = mu g [N/m]."""
         return self.linear_density * self.gravity[..., None]
+
+    def cable_load(self, chord: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Weight and drag per unstrained length of cables along chords (..., m, 3): size (..., m) [N/m] of their sum,
+        and unit vector (..., m, 3) against it, world."""
+        if not self.has_cable_drag:
+            return self.weight, np.broadcast_to(self.up, chord.shape)
+        pushed = drag_across(self.wind[..., None, :], chord, self.drag_width, self.air_density[..., None])
+        against = self.weight[..., None] * self.up - pushed
+        size = np.linalg.norm(against, axis=-1)
+        return size, np.where(size[..., None] > 0.0, against / np.maximum(size, 1e-300)[..., None], self.up)
 
     @property
     def constant_force(self) -> np.ndarray:
@@ -147,6 +158,11 @@ class RobotArrays:
     def is_tilted(self) -> bool:
         """Whether gravity acts in another direction than world -z."""
         return bool((self.down[..., 2] != -1.0).any())
+
+    @property
+    def has_cable_drag(self) -> bool:
+        """Whether wind pushes the cables, so that each hangs in a plane of its own."""
+        return bool(self.drag_width.any() and self.wind.any())
 
     @property
     def is_weightless(self) -> bool:
@@ -193,13 +209,12 @@ class RobotArrays:
 
     def stiffness_at(self, tension: np.ndarray) -> np.ndarray:
         """(..., m) EA [N] of cables with tensions (..., m) at the platform [N]: E may change with the tension."""
-        rise = tension / self.reference_tension[..., None] - 1.0
-        return self.axial_stiffness * np.maximum(1.0 + self.nonlinearity[..., None] * rise, _LEAST_MODULUS)
+        factor = 1.0 + self.nonlinearity[..., None] * (tension / self.reference_tension[..., None] - 1.0)
+        return self.axial_stiffness * np.maximum(factor, _LEAST_MODULUS)
 
     def with_rigid_ends(self) -> "RobotArrays":
         """Nothing elastic but the cables themselves, and these alike at all tensions."""
-        rigid = np.zeros(1)
-        nothing = np.zeros(())
+        rigid, nothing = np.zeros(1), np.zeros(())
         return replace(self, series_compliance=rigid, frame_compliance=rigid, mast_bending=rigid, nonlinearity=nothing)
 
     def stiffened(self, factor: float) -> "RobotArrays":

@@ -13,11 +13,11 @@ from cdpr_struct.errors import InputError
 from cdpr_struct.robot.body_table import BodyTable, body_of
 from cdpr_struct.robot.cable import LARGEST_EXPANSION, Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions, divided_mast
-from cdpr_struct.robot.file_complaints import input_error
+from cdpr_struct.robot.file_complaints import input_error, not_toml
 from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
-from cdpr_struct.robot.robot import FREEDOMS, Robot, internal_mass_fault
+from cdpr_struct.robot.robot import FREEDOMS, Robot, cable_drag_fault, internal_mass_fault
 
 LARGEST, SMALLEST = 1e12, 1e-12  # of any number; beyond them squares and products leave what can be computed
 Number = Annotated[float, Field(strict=True, ge=-LARGEST, le=LARGEST)]
@@ -98,7 +98,7 @@ def robot_of_text(text: str, source: str) -> Robot:
     try:
         table = RobotTable.model_validate(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
-        raise InputError(source, "", str(error), "a TOML file, each key and table given once") from error
+        raise not_toml(source, text, error) from error
     except ValidationError as error:
         raise input_error(source, error, RobotTable) from error
     return _build(table, source)
@@ -121,11 +121,14 @@ def _build(table: RobotTable, source: str) -> Robot:
     platform, more = _with_joints(_platform(table.platform, source), table, source), _extensions(table, source)
     if fault := internal_mass_fault(platform, more):
         raise InputError(source, "extensions.internal_mass", more.internal_mass, fault)
+    gravity = _gravity(table.gravity, source)
+    if fault := cable_drag_fault(more, float(np.linalg.norm(gravity))):
+        raise InputError(source, "extensions.drag_width", table.extensions["drag_width"], fault)
     try:
         return Robot(
             name=table.name,
             description=table.description,
-            gravity=_gravity(table.gravity, source),
+            gravity=gravity,
             guided=_guided(table.platform.guided, source),
             home=home,
             platform=platform,

@@ -152,9 +152,10 @@ class SaggingModel:
     def least_chord_tension(self, arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
         offset = points - arrays.frame_anchors
         chord = np.linalg.norm(offset, axis=-1)
-        level = np.hypot(offset[..., 0], offset[..., 1]) / np.maximum(chord, 1e-300)
+        load, up = arrays.cable_load(offset)
+        level = span_and_rise(offset, up)[0] / np.maximum(chord, 1e-300)
         most = np.interp(-np.log(np.maximum(level, 1e-9)), _LEVEL_LOGARITHM, _LARGEST)
-        return np.asarray(0.5 * arrays.weight * chord / most)
+        return np.asarray(0.5 * load * chord / most)
 
 
 def _spring_on_winches(arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:

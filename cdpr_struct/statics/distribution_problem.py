@@ -203,14 +203,14 @@ class DistributionProblem:
             value=value.sum(axis=1),
             slope=slope * growth,
             own=curvature * growth**2 + slope * turning,
-            pull_bend=slope * (force * holding.arrays.up).sum(axis=-1) / pull * held.bend,
+            pull_bend=slope * (force * holding.up).sum(axis=-1) / pull * held.bend,
             bend=held.bend,
         )
 
     def vertical_share(self, along: np.ndarray) -> np.ndarray:
         """(k, m) part of each cable's vertical force that shows in the scaled wrench direction `along` (k, 6)."""
         scaled, lever = (along / self.holding.unit)[:, None, :], self.holding.arms.arms
-        up = self.holding.arrays.up
+        up = self.holding.up
         share: np.ndarray = (scaled[..., :3] * up + scaled[..., 3:] * np.cross(lever, up)).sum(axis=-1)
         return share
 

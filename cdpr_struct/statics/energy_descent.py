@@ -6,7 +6,6 @@ from typing import Protocol, Self
 import numpy as np
 
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.statics.equilibrium import rotation_from_vector
 
 _SHORTEST_LIMIT, _LIMIT = 0.6, 0.06  # a step is at most 0.6 m or .06 of the reach, rotations as arcs
 LARGEST_TURN = 0.5  # [rad]
@@ -16,7 +15,8 @@ _PUSH = 0.02  # [m] off a saddle, along its softest motion
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Evaluation:
-    """Wrench (n, 6) [N, N m], its symmetric tangent (n, 6, 6) and the tolerated residual (n,) [N]."""
+    """Wrench (n, 6) [N, N m], its tangent (n, 6, 6), symmetric but for an applied moment, and the tolerated residual
+    (n,) [N]."""
 
     wrench: np.ndarray
     tangent: np.ndarray
@@ -29,6 +29,10 @@ class Balance(Protocol):
     def take(self, index: np.ndarray) -> Self: ...
 
     def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation: ...
+
+    def moved(
+        self, position: np.ndarray, rotation: np.ndarray, motion: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]: ...
 
 
 def longest_step(reach: float) -> float:
@@ -93,20 +97,20 @@ class EnergyDescent:
     def leave_saddles(self, limit: int, attempts: int = 3) -> np.ndarray:
         """Push balanced but unstable items along their softest motion and descend again.
 
-        Returns the eigenvalues of the tangent (n, 6), ascending, in scaled coordinates [N/m].
+        Returns the eigenvalues of the symmetric tangent (n, 6), ascending, in scaled coordinates [N/m].
         """
-        values = np.linalg.eigvalsh(self._scaled(self.tangent))
+        values = np.linalg.eigvalsh(symmetric(self._scaled(self.tangent)))
         for _ in range(attempts):
             items = np.flatnonzero(self.converged & (values[:, 0] < -1e-9 * np.abs(values[:, -1])))
             if not items.size:
                 break
-            softest = np.linalg.eigh(self._scaled(self.tangent[items]))[1][:, :, 0]
+            softest = np.linalg.eigh(symmetric(self._scaled(self.tangent[items])))[1][:, :, 0]
             self.position[items], self.rotation[items] = self._moved(items, _PUSH * softest)
             there = self.balance.take(items).evaluate(self.position[items], self.rotation[items])
             self.wrench[items], self.tangent[items] = there.wrench, there.tangent
             self.converged[items] = False
             self.run(limit)
-            values[items] = np.linalg.eigvalsh(self._scaled(self.tangent[items]))
+            values[items] = np.linalg.eigvalsh(symmetric(self._scaled(self.tangent[items])))
         return values
 
     def _small(self, there: Evaluation) -> np.ndarray:
@@ -116,8 +120,7 @@ class EnergyDescent:
         return tangent / self.unit / self.unit[:, None]
 
     def _moved(self, items: np.ndarray, step: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        turn = rotation_from_vector(step[:, 3:] / self.unit[-1])
-        return self.position[items] + step[:, :3], turn @ self.rotation[items]
+        return self.balance.take(items).moved(self.position[items], self.rotation[items], step / self.unit)
 
 
 def newton_step(tangent: np.ndarray, wrench: np.ndarray, scale: float, longest: float) -> np.ndarray:
@@ -137,8 +140,13 @@ def newton_step(tangent: np.ndarray, wrench: np.ndarray, scale: float, longest: 
 
 
 def _positive_step(tangent: np.ndarray, wrench: np.ndarray, longest: float) -> np.ndarray:
-    values, vectors = np.linalg.eigh(tangent)
+    values, vectors = np.linalg.eigh(symmetric(tangent))
     force = np.linalg.norm(wrench, axis=-1, keepdims=True)
     floor = np.maximum(1e-9 * np.abs(values[:, -1:]), force / longest * 1e-3)
     values = np.maximum(np.abs(values), np.maximum(floor, 1e-300))
     return np.einsum("nij,nj->ni", vectors, np.einsum("nji,nj->ni", vectors, wrench) / values)
+
+
+def symmetric(tangent: np.ndarray) -> np.ndarray:
+    """The part (n, 6, 6) of a tangent that has an energy."""
+    return np.asarray(0.5 * (tangent + np.swapaxes(tangent, -1, -2)))

@@ -117,6 +117,15 @@ def moment_skew(moment: np.ndarray) -> np.ndarray:
     return skew
 
 
+def platform_radius(arrays: RobotArrays) -> float:
+    """r [m], one number for all of a batch: the largest of the anchors' mean radius, the radius of gyration and the
+    distance of the centre of mass."""
+    anchors = np.sqrt((arrays.platform_anchors**2).sum(axis=-1).mean())
+    gyration = np.sqrt((np.trace(arrays.inertia, axis1=-2, axis2=-1) / arrays.mass).max() / 2.0)
+    center = np.linalg.norm(arrays.center_of_mass, axis=-1).max()
+    return float(max(anchors, gyration, center, 1e-3))
+
+
 def rotation_from_vector(vector: np.ndarray) -> np.ndarray:
     """Rotation matrices (..., 3, 3) of rotation vectors (..., 3) [rad]."""
     angle = np.linalg.norm(vector, axis=-1)[..., None, None]

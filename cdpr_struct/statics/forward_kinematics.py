@@ -19,7 +19,7 @@ from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.energy_descent import EnergyDescent, arm_scale, longest_step
 from cdpr_struct.statics.equilibrium import PlatformArms, tangent_stiffness
 from cdpr_struct.statics.locked_balance import LockedBalance
-from cdpr_struct.statics.neutral_freedoms import stability
+from cdpr_struct.statics.neutral_freedoms import stability, turned_least
 from cdpr_struct.statics.tension_winches import pulls_as_held
 
 MAX_ITERATIONS = 200
@@ -123,7 +123,7 @@ def forward(
     balance = LockedBalance(
         arrays.flattened(shape), _flat(length, shape, 1), _flat(wrench, shape, 1), cable_model(model)
     )
-    entered, sizes = balance.arrays, (arm_scale(arrays), longest_step(float(length.mean())))
+    begun, entered, sizes = turns.copy(), balance.arrays, (arm_scale(arrays), longest_step(float(length.mean())))
     for station in balance.model.approach():
         balance = replace(balance, arrays=station.seen(entered), model=station)
         descent = EnergyDescent(balance, place, turns, *sizes)
@@ -131,7 +131,7 @@ def forward(
         place, turns = descent.position, descent.rotation
     if balance.arrays.nonlinearity.any():
         balance, descent = _stiffening(balance, descent, sizes)
-    return _solution(descent, balance, descent.leave_saddles(MAX_ITERATIONS), shape)
+    return _solution(descent, balance, descent.leave_saddles(MAX_ITERATIONS), shape, begun)
 
 
 def _stiffening(
@@ -166,20 +166,26 @@ def _flat(value: np.ndarray, shape: tuple[int, ...], core_axes: int) -> np.ndarr
 
 
 def _solution(
-    descent: EnergyDescent, balance: LockedBalance, eigenvalues: np.ndarray, shape: tuple[int, ...]
+    descent: EnergyDescent,
+    balance: LockedBalance,
+    eigenvalues: np.ndarray,
+    shape: tuple[int, ...],
+    begun: np.ndarray,
 ) -> ForwardSolution:
+    """The state of a descent; `begun`: rotations (n, 3, 3) at its start, which neutral freedoms keep."""
     states = balance.states(descent.position, descent.rotation)
     cables = CableStates(
         *(getattr(states, name).reshape(shape + getattr(states, name).shape[1:]) for name in states.__slots__)
     )
     arms = PlatformArms.at(balance.arrays, descent.position, descent.rotation)
     held = stability(balance.arrays, descent.rotation, tangent_stiffness(balance.arrays, states, arms))
+    position, rotation = turned_least(held, descent.position, descent.rotation, begun)
     status = np.where(held.neutral > 0, ForwardStatus.NEUTRAL, ForwardStatus.CONVERGED)
     status[held.unstable] = ForwardStatus.NOT_STABLE
     status[~descent.converged | ~pulls_as_held(balance.arrays, states)] = ForwardStatus.NOT_CONVERGED
     return ForwardSolution(
-        position=descent.position.reshape((*shape, 3)),
-        rotation=descent.rotation.reshape((*shape, 3, 3)),
+        position=position.reshape((*shape, 3)),
+        rotation=rotation.reshape((*shape, 3, 3)),
         cables=cables,
         residual_wrench=descent.wrench.reshape((*shape, 6)),
         least_stiffness=eigenvalues[:, 0].reshape(shape),

@@ -3,7 +3,8 @@
 The tensions are those of least norm that balance the forces and the moments about the angles that are kept: the cables
 do nothing to turn the platform about the others. The free angles are where these tensions leave no moment about them.
 Newton on the free angles of all poses at once; its derivatives are differences. Poses it does not reach from the given
-angles are begun again from the nearest one that it reached.
+angles are begun again from the nearest one that it reached. If all three angles are free, the steps are turns about the
+world axes: angles have poses at which two of their axes meet (ry = 90 deg), turns have none.
 """
 
 from dataclasses import dataclass, replace
@@ -12,11 +13,19 @@ import numpy as np
 import numpy.typing as npt
 
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
+from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
-from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench
+from cdpr_struct.statics.equilibrium import (
+    PlatformArms,
+    cable_wrench,
+    load_wrench,
+    platform_radius,
+    rotation_from_vector,
+)
+from cdpr_struct.statics.guides import free_part
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 
 ANGLES = ("rx", "ry", "rz")
@@ -24,6 +33,7 @@ _ITERATIONS = 25
 _DIFFERENCE = 1e-6  # [rad]
 _LARGEST_TURN = 0.2  # of one step [rad]
 _BALANCED = 1e-11  # moment over arms times tensions
+_ALIGNED = 1e-9  # by so much an axis of a free angle may differ from one about which a guide lets the platform turn
 _WITHIN = 1e-8  # of load and tensions: what counts as balanced and within the bounds
 _NEXT = 3  # rounds of starts from neighbours
 
@@ -35,7 +45,8 @@ class FreeOrientation:
     angles : (k, 3) rx, ry, rz [rad];  rotation : (k, 3, 3) platform to world
     found  : (k,) bool, no moment is left about the free angles, and tensions balance the rest within their bounds
     cables : `CableStates` (k, m) there;  wrench : (k, 6) that is left unbalanced [N, N m]
-    moment : (k, 3) about the free angles, 0 about the others, over arms times tensions
+    moment : (k, 3) about the free angles, 0 about the others, over arms times tensions; about the world axes if all
+        are free
     """
 
     angles: np.ndarray
@@ -71,19 +82,33 @@ def free_orientation(
     return hang_freely(problem, np.array(np.broadcast_to(np.asarray(angles, dtype=float), (k, 3))))
 
 
-def left_free(free: npt.ArrayLike, cables: int) -> np.ndarray:
+def left_free(free: npt.ArrayLike, cables: int, guided: npt.ArrayLike = (0,) * 6) -> np.ndarray:
     """(3,) bool: the angles that are free if those of `free` (3,) are asked for: as many as the cables cannot hold too.
+
+    guided : (6,) bool, what a guide holds of x, y, z, rx, ry, rz
 
     Raises
     ------
     ValueError : too few cables to place the platform.
     """
-    chosen = np.array(free, dtype=bool)
-    missing = 6 - cables - int(chosen.sum())
-    if cables < 3:
-        raise ValueError(f"{cables} cables cannot place a platform; three are needed")
-    chosen[np.flatnonzero(~chosen)[: max(missing, 0)]] = True
+    chosen, held = np.array(free, dtype=bool), np.asarray(guided, dtype=bool)
+    missing = 6 - int(held.sum()) - cables - int(chosen.sum())
+    others = np.flatnonzero(~chosen & ~held[3:])
+    if missing > len(others):
+        many = f"{cables} cable" + ("s" if cables > 1 else "")
+        raise ValueError(f"{many} cannot place this platform; at least {cables + missing - len(others)} are needed")
+    chosen[others[: max(missing, 0)]] = True
     return chosen
+
+
+def turn_with_guide(free: np.ndarray, angles: np.ndarray, guided: npt.ArrayLike) -> bool:
+    """Whether a guide, (6,) bool, allows changes of the free angles, (3,) bool, at rx, ry, rz (..., 3) [rad]: any if it
+    leaves the rotations alone, else one about the only world axis that is left."""
+    held = np.asarray(guided, dtype=bool)[3:]
+    if not held.any():
+        return True
+    allowed = held.sum() == 2 and not (held & free).any()
+    return bool(allowed and np.abs(turning_axes(angles)[..., free, :] @ np.eye(3)[:, held]).max() <= _ALIGNED)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -104,25 +129,37 @@ class HangingProblem:
             arrays, self.model, self.position[index], self.wrench[index], (low[index], high[index]), self.free
         )
 
-    def hung(self, angles: np.ndarray, tension: np.ndarray | None = None) -> "_Hung":
+    def at(self, angles: np.ndarray, tension: np.ndarray | None = None) -> "_Hung":
         """Moments at angles (k, 3) [rad]; the search for the tensions begins at `tension` (k, m) [N]."""
-        axes = turning_axes(angles)
-        pose = self.position, rotation_from_angles(*np.moveaxis(angles, -1, 0))
-        problem = HoldingProblem.at(self.arrays, self.model, pose, self.wrench, self.bounds)
+        return self.hung(angles, rotation_from_angles(*np.moveaxis(angles, -1, 0)), tension)
+
+    def turned(self, ends: "_Hung", step: np.ndarray) -> "_Hung":
+        """Moments once the free angles have changed by steps (k, 3) [rad], or about the world axes if all are free."""
+        if not self.free.all():
+            return self.at(ends.angles + step, ends.tension)
+        rotation = rotation_from_vector(step) @ ends.rotation
+        return self.hung(angles_from_rotation(rotation), rotation, ends.tension)
+
+    def hung(self, angles: np.ndarray, rotation: np.ndarray, tension: np.ndarray | None) -> "_Hung":
+        """Moments at angles (k, 3) [rad] and their rotations (k, 3, 3)."""
+        axes = np.broadcast_to(np.eye(3), rotation.shape) if self.free.all() else turning_axes(angles)
+        problem = HoldingProblem.at(self.arrays, self.model, (self.position, rotation), self.wrench, self.bounds)
         problem = replace(problem, kept=_kept(axes, self.free))
         tension = problem.solve(tension)[0]
         states = self.model.hold(problem.arrays, problem.arms.points, tension).states
         left = cable_wrench(states, problem.arms) + problem.load
         pulls = np.linalg.norm(problem.load[:, :3], axis=1) + states.tension_at_platform.sum(axis=1)
         about = np.where(self.free, np.einsum("kij,kj->ki", axes, left[:, 3:]), 0.0)
-        return _Hung(angles, tension, about / (problem.unit[:, 3] * pulls)[:, None])
+        return _Hung(angles, rotation, tension, about / (platform_radius(self.arrays) * pulls)[:, None])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Hung:
-    """angles (k, 3) [rad], chord tensions (k, m) [N], moments (k, 3) about the free angles over arms times tensions."""
+    """angles (k, 3) [rad], rotations (k, 3, 3), chord tensions (k, m) [N], moments (k, 3) about the free angles over
+    arms times tensions."""
 
     angles: np.ndarray
+    rotation: np.ndarray
     tension: np.ndarray
     moment: np.ndarray
 
@@ -132,7 +169,7 @@ class _Hung:
         return np.asarray(np.abs(self.moment).max(axis=1))
 
     def take(self, index: np.ndarray) -> "_Hung":
-        return _Hung(self.angles[index], self.tension[index], self.moment[index])
+        return _Hung(*(getattr(self, name)[index] for name in self.__slots__))
 
     def replaced(self, index: np.ndarray, other: "_Hung") -> None:
         """Takes the items `index` from another; works in place."""
@@ -141,8 +178,12 @@ class _Hung:
 
 
 def hang_freely(problem: HangingProblem, angles: np.ndarray) -> FreeOrientation:
-    """Free angles found from given ones (k, 3) [rad]; the others stay."""
-    ends = _newton(problem, problem.hung(angles.copy()))
+    """Free angles found from given ones (k, 3) [rad], or else from level ones; the others stay."""
+    ends = _newton(problem, problem.at(angles))
+    level = np.where(problem.free, 0.0, angles)
+    lost = np.flatnonzero((ends.size > _BALANCED) & (level != angles).any(axis=1))
+    if lost.size:
+        _begun_again(problem, ends, lost, level[lost])
     for _ in range(_NEXT):
         found = ends.size <= _BALANCED
         lost, reached = np.flatnonzero(~found), np.flatnonzero(found)
@@ -150,24 +191,33 @@ def hang_freely(problem: HangingProblem, angles: np.ndarray) -> FreeOrientation:
             break
         apart = np.linalg.norm(problem.position[lost, None] - problem.position[None, reached], axis=-1)
         near = ends.take(reached[apart.argmin(axis=1)])
-        part = problem.take(lost)
-        again = _newton(part, part.hung(np.where(problem.free, near.angles, angles[lost]), near.tension))
-        better = again.size < ends.size[lost]
-        ends.replaced(lost[better], again.take(better))
-    rotation = rotation_from_angles(*np.moveaxis(ends.angles, -1, 0))
+        _begun_again(problem, ends, lost, np.where(problem.free, near.angles, angles[lost]), near.tension)
+    return _checked(problem, ends)
+
+
+def _begun_again(
+    problem: HangingProblem, ends: _Hung, lost: np.ndarray, angles: np.ndarray, tension: np.ndarray | None = None
+) -> None:
+    """Newton once more for some items from other angles (n, 3) [rad]; takes what is better, in place."""
+    part = problem.take(lost)
+    again = _newton(part, part.at(angles, tension))
+    better = again.size < ends.size[lost]
+    ends.replaced(lost[better], again.take(better))
+
+
+def _checked(problem: HangingProblem, ends: _Hung) -> FreeOrientation:
+    """Where the search ends, and whether the tensions there balance the rest within their bounds."""
     arrays, (low, high) = problem.arrays, problem.bounds
-    arms = PlatformArms.at(arrays, problem.position, rotation)
+    arms = PlatformArms.at(arrays, problem.position, ends.rotation)
     cables = problem.model.hold(arrays, arms.points, ends.tension).states
-    wrench = cable_wrench(cables, arms) + load_wrench(arrays, arms) + problem.wrench
+    wrench = free_part(cable_wrench(cables, arms) + load_wrench(arrays, arms) + problem.wrench, arrays)
     pull = cables.tension_at_platform
     size = np.linalg.norm(problem.wrench[:, :3], axis=1) + arrays.mass * arrays.gravity + pull.sum(axis=1)
     margin = _WITHIN * size[:, None]
     inside = ((pull >= low - margin) & (pull <= high + margin)).all(axis=1)
-    radius = np.linalg.norm(arms.arms, axis=-1).max(axis=1)[:, None]
-    left = np.abs(np.concatenate([wrench[:, :3], wrench[:, 3:] / radius], axis=1)).max(axis=1)
-    balanced = left <= _WITHIN * size
-    found = (ends.size <= _BALANCED) & inside & balanced
-    return FreeOrientation(ends.angles, rotation, found, ends.moment, cables, wrench)
+    left = np.abs(np.concatenate([wrench[:, :3], wrench[:, 3:] / platform_radius(arrays)], axis=1)).max(axis=1)
+    found = (ends.size <= _BALANCED) & inside & (left <= _WITHIN * size)
+    return FreeOrientation(ends.angles, ends.rotation, found, ends.moment, cables, wrench)
 
 
 def _newton(problem: HangingProblem, ends: _Hung) -> _Hung:
@@ -180,7 +230,7 @@ def _newton(problem: HangingProblem, ends: _Hung) -> _Hung:
             break
         if fresh.size:
             step[fresh] = _step(problem.take(fresh), ends.take(fresh))
-        tried = problem.take(items).hung(ends.angles[items] + share[items, None] * step[items], ends.tension[items])
+        tried = problem.take(items).turned(ends.take(items), share[items, None] * step[items])
         better = tried.size < ends.size[items]
         ends.replaced(items[better], tried.take(better))
         share[items] = np.where(better, 1.0, 0.25 * share[items])
@@ -192,10 +242,9 @@ def _newton(problem: HangingProblem, ends: _Hung) -> _Hung:
 def _step(problem: HangingProblem, ends: _Hung) -> np.ndarray:
     """(k, 3) Newton step of the free angles [rad]."""
     free, k = np.flatnonzero(problem.free), len(ends.angles)
-    shifted = np.repeat(ends.angles[None], len(free), axis=0)
-    shifted[np.arange(len(free)), :, free] += _DIFFERENCE
-    near = np.tile(ends.tension, (len(free), 1))
-    there = problem.take(np.tile(np.arange(k), len(free))).hung(shifted.reshape((-1, 3)), near).moment
+    every = np.tile(np.arange(k), len(free))
+    shifts = np.repeat(_DIFFERENCE * np.eye(3)[free], k, axis=0)
+    there = problem.take(every).turned(ends.take(every), shifts).moment
     rates = np.moveaxis((there.reshape((-1, k, 3)) - ends.moment) / _DIFFERENCE, 0, -1)[:, free]
     step = np.zeros_like(ends.angles)
     step[:, free] = -(np.linalg.pinv(rates, rcond=1e-8) @ ends.moment[:, free, None])[..., 0]
@@ -215,5 +264,4 @@ def turning_axes(angles: np.ndarray) -> np.ndarray:
 def _kept(axes: np.ndarray, free: np.ndarray) -> np.ndarray:
     """(k, 3, 3) projection on the moments that do no work when the free angles change."""
     rows = axes[:, free]
-    across = np.swapaxes(rows, -1, -2) @ np.linalg.solve(rows @ np.swapaxes(rows, -1, -2), rows)
-    return np.asarray(np.eye(3) - across)
+    return np.asarray(np.eye(3) - np.linalg.pinv(rows, rcond=_ALIGNED) @ rows)

@@ -55,10 +55,10 @@ def _catenary(
     passed: np.ndarray,
     near: CatenaryForces | None,
 ) -> tuple[CableStates, CatenaryForces]:
-    up = np.broadcast_to(arrays.up, offset.shape)
+    load, up = arrays.cable_load(offset)
     (heading, span), rise = heading_and_span(offset, up), span_and_rise(offset, up)[1]
     stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
-    weight = np.broadcast_to(arrays.weight, length.shape)
+    weight = np.broadcast_to(load, length.shape)
     forces = solve_end_forces(span, rise, length, stiff, weight, near)
     pull = forces.force_x, forces.force_z
     return CableStates(offset, heading, length, wrapped, *pull, stiff, weight, forces.status, passed, up), forces
@@ -102,13 +102,13 @@ def _catenary_at_tension(
     arrays: RobotArrays, offset: np.ndarray, chord_tension: np.ndarray, wrap: np.ndarray
 ) -> tuple[CableStates, np.ndarray]:
     """State, and rate of the length with the chord tension; `wrap` is the strained length on the pulley."""
-    up = np.broadcast_to(arrays.up, offset.shape)
+    load, up = arrays.cable_load(offset)
     (heading, span), rise = heading_and_span(offset, up), span_and_rise(offset, up)[1]
-    cable = length_at_chord_tension(span, rise, chord_tension, arrays.axial_stiffness, arrays.weight)
-    bottom = np.hypot(cable.force_x, cable.force_z - arrays.weight * cable.length)
+    cable = length_at_chord_tension(span, rise, chord_tension, arrays.axial_stiffness, load)
+    bottom = np.hypot(cable.force_x, cable.force_z - load * cable.length)
     wrapped = wrap / (1.0 + bottom / arrays.axial_stiffness)
     stiff = np.broadcast_to(arrays.axial_stiffness, wrapped.shape)
-    weight = np.broadcast_to(arrays.weight, wrapped.shape)
+    weight = np.broadcast_to(load, wrapped.shape)
     states = CableStates(
         offset, heading, cable.length, wrapped, np.where(span > 0.0, cable.force_x, 0.0), cable.force_z, stiff,
         weight, cable.status, np.broadcast_to(let_out(arrays, bottom, stiff), wrapped.shape), up,

@@ -87,8 +87,8 @@ class HoldingProblem:
 
     def straight_tensions(self, high: np.ndarray) -> np.ndarray:
         """(k, m) least-norm tensions [N] of straight cables within the bounds, as far as they balance the load."""
-        chord = np.linalg.norm(self.arms.points - self.arrays.frame_anchors, axis=-1)
-        shallow = np.where(self._least() > 0.0, 0.5 * self.arrays.weight * chord / _TAUT, 0.0)
+        chord = np.linalg.norm(self._chords, axis=-1)
+        shallow = np.where(self._least() > 0.0, 0.5 * self.arrays.cable_load(self._chords)[0] * chord / _TAUT, 0.0)
         low = np.maximum(self.low, shallow)
         ones = np.ones_like(low)
         reach = _REACH * np.maximum(np.linalg.norm(self.load / self.unit, axis=1, keepdims=True), low)
@@ -122,9 +122,19 @@ class HoldingProblem:
     def _least(self) -> np.ndarray:
         return self.model.least_chord_tension(self.arrays, self.arms.points)
 
+    @property
+    def _chords(self) -> np.ndarray:
+        """(k, m, 3) from the frame anchors to the platform anchors, world [m]."""
+        return self.arms.points - self.arrays.frame_anchors
+
+    @property
+    def up(self) -> np.ndarray:
+        """(k, m, 3) unit vector against weight and drag of each cable, world."""
+        return self.arrays.cable_load(self._chords)[1]
+
     def straight_matrix(self) -> np.ndarray:
         """(k, m, 6) wrench per newton of straight cables, world [-, m]."""
-        offset = self.arrays.frame_anchors - self.arms.points
+        offset = -self._chords
         return self._wrench_rates(offset / np.linalg.norm(offset, axis=-1)[..., None])
 
     def _wrench_rates(self, force_rate: np.ndarray) -> np.ndarray:
@@ -147,7 +157,7 @@ class HoldingProblem:
         """(k, m) second derivative of cost minus multipliers times balance, kept positive."""
         lever = self.arms.arms
         scaled = (dual / self.unit)[:, None, :]
-        up = self.arrays.up
+        up = self.up
         along_up = (scaled[..., :3] * up + scaled[..., 3:] * np.cross(lever, up)).sum(axis=-1)
         first = np.einsum("kmi,kmi->km", held.force_rate, held.force_rate)
         return np.maximum(

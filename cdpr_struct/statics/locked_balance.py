@@ -4,11 +4,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cdpr_struct.generated.platform import geometric_stiffness
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.energy_descent import Evaluation
-from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, tangent_stiffness
+from cdpr_struct.statics.equilibrium import (
+    PlatformArms,
+    cable_wrench,
+    load_wrench,
+    moment_skew,
+    rotation_from_vector,
+    tangent_stiffness,
+)
 from cdpr_struct.statics.guides import behind_guides, free_part
 
 _TOLERANCE = 1e-11  # of weight plus cable tensions
@@ -34,7 +42,10 @@ class LockedBalance:
     def evaluate(self, position: np.ndarray, rotation: np.ndarray) -> Evaluation:
         """Wrench, tangent and tolerated residual at positions (n, 3) and rotations (n, 3, 3).
 
-        Of a guided platform those of its free directions, and a stiffness that is coupled with nothing in the others.
+        The tangent is the second derivative of the energy along the ways of `moved`, and of an applied moment, which
+        has no energy, the part that is not symmetric: at rest it is the whole derivative of the wrench. Of a guided
+        platform wrench and tangent are those of its free directions, and a stiffness that is coupled with nothing in
+        the others.
         """
         arms = PlatformArms.at(self.arrays, position, rotation)
         states = self.model.states(self.arrays, arms.points, self.length)
@@ -42,9 +53,27 @@ class LockedBalance:
         rounding = 8.0 * np.finfo(float).eps * states.axial_stiffness.sum(axis=-1)
         size = self.arrays.mass * self.arrays.gravity + states.tension_at_platform.sum(axis=-1)
         tangent = tangent_stiffness(self.arrays, states, arms)
+        tangent[..., 3:, 3:] += moment_skew(-self.arrays.moment - self.wrench[..., 3:])
         if self.arrays.has_guides:
             wrench, tangent = free_part(wrench, self.arrays), behind_guides(tangent, self.arrays, _held(states))
+        else:
+            tangent[..., 3:, 3:] -= geometric_stiffness(*wrench[..., :3].T, *self._middle(rotation).T)
         return Evaluation(wrench, tangent, _TOLERANCE * size + rounding)
+
+    def moved(self, position: np.ndarray, rotation: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Positions (n, 3) and rotations (n, 3, 3) after a motion (n, 6) of the origin and a turn [m, rad].
+
+        The middle of the cables' platform ends goes straight, so that a turn about it strains the cables least: where
+        all cables meet in a point, not at all. A guided platform moves with its origin.
+        """
+        turned = rotation_from_vector(motion[:, 3:]) @ rotation
+        before, after = self._middle(rotation), self._middle(turned)
+        return position + motion[:, :3] + np.cross(motion[:, 3:], before) + before - after, turned
+
+    def _middle(self, rotation: np.ndarray) -> np.ndarray:
+        """(n, 3) from the origin to the middle of the cables' platform ends; zero for a guided platform [m]."""
+        middle = self.arrays.platform_anchors.mean(axis=-2) * (0.0 if self.arrays.has_guides else 1.0)
+        return np.asarray((rotation @ middle[..., None])[..., 0])
 
     def states(self, position: np.ndarray, rotation: np.ndarray) -> CableStates:
         """The cables there."""

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.equilibrium import platform_radius, rotation_from_vector
 from cdpr_struct.statics.guides import free_axes
 
 NEUTRAL = 1e-9  # of the largest eigenvalue, or of the weight's own stiffness, below which an eigenvalue counts as zero
@@ -56,7 +57,7 @@ def stability(arrays: RobotArrays, rotation: np.ndarray, stiffness: np.ndarray, 
     stiffness : (..., 6, 6) symmetric, at locked lengths, world axes, rotations about the platform origin
     weightless : of an assembly that leaves out the work of the weight
     """
-    lead, scale = stiffness.shape[:-2], _scales(arrays)
+    lead, scale = stiffness.shape[:-2], platform_radius(arrays)
     unit = np.where(np.arange(6) < 3, 1.0, scale)
     scaled = (0.5 * (stiffness + np.swapaxes(stiffness, -1, -2)) / unit / unit[:, None]).reshape(-1, 6, 6)
     free = free_axes(arrays)
@@ -71,12 +72,25 @@ def stability(arrays: RobotArrays, rotation: np.ndarray, stiffness: np.ndarray, 
     return _gathered(found, unstable, largest, unit, lead)
 
 
-def _scales(arrays: RobotArrays) -> float:
-    """r [m], one number for all of a batch."""
-    anchors = np.sqrt((arrays.platform_anchors**2).sum(axis=-1).mean())
-    gyration = np.sqrt((np.trace(arrays.inertia, axis1=-2, axis2=-1) / arrays.mass).max() / 2.0)
-    center = np.linalg.norm(arrays.center_of_mass, axis=-1).max()
-    return float(max(anchors, gyration, center, 1e-3))
+def turned_least(
+    held: Stability, position: np.ndarray, rotation: np.ndarray, start: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Positions (n, 3) and rotations (n, 3, 3), turned about the axis of their one neutral freedom so far that they
+    differ least from rotations (n, 3, 3) at the start; those whose freedom symmetry does not prove as they are."""
+    position, rotation = position.copy(), rotation.copy()
+    for i in np.flatnonzero((held.neutral == 1) & held.proved[..., :1].any(axis=-1)).tolist():
+        moved, turn = held.twists[i, :3, 0], held.twists[i, 3:, 0]
+        size = float(np.linalg.norm(turn))
+        if not size > 0.0 or abs(moved @ turn) > _STILL * size**2:  # a translation, or a screw
+            continue
+        axis, center = turn / size, np.cross(turn, moved) / size**2
+        apart = rotation[i] @ start[i].T
+        along = axis @ apart @ axis
+        sine = np.cross(axis, apart.T).trace()
+        back = rotation_from_vector(np.arctan2(sine, np.trace(apart) - along) * axis)
+        position[i] += center - back @ center
+        rotation[i] = back @ rotation[i]
+    return position, rotation
 
 
 def _own_scale(arrays: RobotArrays, radius: float) -> np.ndarray:

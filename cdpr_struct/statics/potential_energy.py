@@ -33,7 +33,11 @@ def potential_energy(
     ----------
     position, rotation : (..., 3) [m], (..., 3, 3)
     wrench : (..., 6); its force counts. A moment in it, or of the robot, has no potential and is left out
+
+    nan where wind pushes hanging cables: its drag has no potential.
     """
+    if arrays.has_cable_drag and states.weight.any():
+        return np.full(position.shape[:-1], np.nan)
     arms = PlatformArms.at(arrays, position, rotation)
     platform = -(weight_force(arrays) * (position + arms.center)).sum(axis=-1)
     loads = -((arrays.constant_force + wrench[..., :3]) * position).sum(axis=-1)

@@ -1,9 +1,9 @@
 """Is it certain that no tensions within the bounds hold a pose? A wrench that separates them from the load proves it.
 
-At a fixed pose the force of cable i on the platform is tau u - V e_z: the chord tension along the chord, and the share
-V of its weight. Let y be a wrench. If the largest powers of all cables along y, each at its own best chord tension, and
-the load's together stay below zero, nothing balances (Farkas). V is enclosed on intervals of tau, where the unstrained
-length L and g = coth q - 1/q both fall:
+At a fixed pose the force of cable i on the platform is tau u - V e: the chord tension along the chord, and the share
+V of its load, which is weight and drag of wind, w per length, against e. Let y be a wrench. If the largest powers of
+all cables along y, each at its own best chord tension, and the load's together stay below zero, nothing balances
+(Farkas). V is enclosed on intervals of tau, where the unstrained length L and g = coth q - 1/q both fall:
 
     V = w (z g(q) + L) / 2,   L^2 = z^2 + (x sinh(q) / q)^2,   q = w chord / (2 tau),   L of an elastic cable up to
     1 + tau / EA shorter.
@@ -33,12 +33,14 @@ _MARGIN = 1e-3  # of the unbalanced wrench: by how much at least the sum must st
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Chords:
-    """Straight cables: pull (k, m, 3) unit vector, chord and rise (k, m) [m], weight per length (k, m) [N/m]."""
+    """Straight cables: pull (k, m, 3) unit vector, chord and rise (k, m) [m], load per length (k, m) [N/m] and the unit
+    vector against it (k, m, 3); load is weight and drag of wind, rise is along that vector."""
 
     pull: np.ndarray
     chord: np.ndarray
     rise: np.ndarray
     weight: np.ndarray
+    up: np.ndarray
 
     def take(self, index: np.ndarray) -> "_Chords":
         return _Chords(*(getattr(self, name)[index] for name in self.__slots__))
@@ -86,7 +88,8 @@ def _separates(
     load = (along * problem.load / problem.unit).sum(axis=1)
     reach = _largest_powers(problem, chords, along, low, high).sum(axis=1) + load
     enough = size > 1e-8 * np.linalg.norm(problem.load / problem.unit, axis=1)
-    return np.asarray((reach < -_MARGIN * size) & enough)
+    turned = problem.arrays.has_cable_drag and problem.arrays.has_pulleys  # the drag at another exit has no bound here
+    return np.asarray((reach < -_MARGIN * size) & enough) & (not turned)
 
 
 def _relinearised(
@@ -109,8 +112,9 @@ def _chords(problem: HoldingProblem) -> _Chords:
         direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
         offset = offset - pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius).point
     chord = np.linalg.norm(offset, axis=-1)
-    weight = arrays.weight if isinstance(problem.model, SaggingModel) else np.zeros(1)
-    return _Chords(-offset / chord[..., None], chord, offset[..., 2], np.broadcast_to(weight, chord.shape))
+    load, up = arrays.cable_load(offset)
+    weight = np.broadcast_to(load if isinstance(problem.model, SaggingModel) else np.zeros(1), chord.shape)
+    return _Chords(-offset / chord[..., None], chord, (offset * up).sum(axis=-1), weight, up)
 
 
 def _chord_bounds(problem: HoldingProblem, chords: _Chords) -> tuple[np.ndarray, np.ndarray]:
@@ -149,8 +153,7 @@ def _least_unbalance(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Tensions (k, m) of straight cables with half of their weight, and the scaled wrench (k, 6) that they leave."""
     matrix = np.concatenate([chords.pull, np.cross(problem.arms.arms, chords.pull)], axis=-1) / problem.unit[:, None]
-    hanging = np.zeros_like(chords.pull)
-    hanging[..., 2] = -0.5 * chords.weight * chords.chord
+    hanging = -0.5 * (chords.weight * chords.chord)[..., None] * chords.up
     hung = np.concatenate([hanging, np.cross(problem.arms.arms, hanging)], axis=-1).sum(axis=1) + problem.load
     ones, target = np.ones_like(low), -hung / problem.unit
     programs = QuadraticPrograms(ones, 0.0 * ones, np.swapaxes(matrix, -1, -2), target, low, high)
@@ -164,7 +167,7 @@ def _largest_powers(
     """(k, m) upper bounds of the power of each cable between its bounds of chord tension."""
     scaled, lever = along / problem.unit, problem.arms.arms
     share = scaled[:, None, :3] + np.cross(scaled[:, None, 3:], lever)  # of a force at the anchor
-    straight, up = (chords.pull * share).sum(axis=-1), share[..., 2]
+    straight, up = (chords.pull * share).sum(axis=-1), (chords.up * share).sum(axis=-1)
     taut = np.clip(_TAUT * low, low, high)
     near, far = (np.linspace(0.0, 1.0, count + 1).reshape((-1, 1, 1)) for count in (_INTERVALS, _TAUTER))
     places = np.concatenate([low * (taut / low) ** near, taut * (high / taut) ** far[1:]])

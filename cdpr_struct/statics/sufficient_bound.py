@@ -106,7 +106,8 @@ def _ladder(
 ) -> np.ndarray:
     """(b,) bounds [N] from below every cable's weight to above all loads."""
     arms = PlatformArms.at(arrays, place, turn)
-    weight = arrays.weight * np.linalg.norm(arms.points - arrays.frame_anchors, axis=-1)
+    chords = arms.points - arrays.frame_anchors
+    weight = arrays.cable_load(chords)[0] * np.linalg.norm(chords, axis=-1)
     wrench = load_wrench(arrays, arms) + (0.0 if external_wrench is None else np.asarray(external_wrench))
     load = float(np.linalg.norm(wrench[..., :3], axis=-1).max())
     if not (load or weight.any()):

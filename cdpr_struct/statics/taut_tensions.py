@@ -9,8 +9,8 @@ where its tension at the frame now points; the conditions have the exact rates w
 
 Bounds act as in an active-set method: cables that would pass one are fixed in it, one after the other, and freed once
 the cost wants them inside. What this leaves to `HoldingProblem.solve`: poses at which a cable hangs slack
-(tau < w L), the last step is not negligible or no set of bounds settles; masts, guides, gravity that is tilted or zero,
-fewer than six cables. A pose's answer does not depend on those it is computed with.
+(tau < w L), the last step is not negligible or no set of bounds settles; masts, guides, wind on cables, tilted or no
+gravity, fewer than six cables. A pose's answer does not depend on those it is computed with.
 """
 
 from dataclasses import dataclass
@@ -67,7 +67,7 @@ def suits(problem: HoldingProblem) -> bool:
     """Whether this batch may be tried."""
     arrays = problem.arrays
     enough = arrays.cable_count >= EQUATIONS and len(problem.load) > 0
-    other = arrays.is_tilted or arrays.is_weightless or arrays.has_tension_winches
+    other = arrays.is_tilted or arrays.is_weightless or arrays.has_tension_winches or arrays.has_cable_drag
     return not (arrays.has_masts or arrays.has_guides or other) and enough and isinstance(problem.model, SaggingModel)
 
 

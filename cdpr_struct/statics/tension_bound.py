@@ -72,8 +72,8 @@ def chord_tension_at(problem: HoldingProblem, wanted: Wanted) -> tuple[np.ndarra
 def _shallow_guess(problem: HoldingProblem, tension: np.ndarray) -> np.ndarray:
     """(k, m) chord tension of a shallow cable that pulls with `tension` [N] at the platform."""
     offset = problem.arms.points - problem.arrays.frame_anchors
-    half = 0.5 * problem.arrays.weight
-    span, rise = span_and_rise(offset, np.broadcast_to(problem.arrays.up, offset.shape))
+    load, up = problem.arrays.cable_load(offset)
+    half, (span, rise) = 0.5 * load, span_and_rise(offset, up)
     guess: np.ndarray = np.sqrt(np.maximum(tension**2 - (half * span) ** 2, 0.0)) - half * rise
     return guess
 

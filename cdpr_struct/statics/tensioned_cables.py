@@ -56,10 +56,10 @@ def _between(
     arrays: RobotArrays, offset: np.ndarray, tension: np.ndarray, wrap: np.ndarray, near: CatenaryLength | None
 ) -> tuple[CableStates, CatenaryLength]:
     """Free catenaries over `offset` (..., m, 3), a strained length `wrap` (..., m) on the pulleys behind them [m]."""
-    up = np.broadcast_to(arrays.up, offset.shape)
+    load, up = arrays.cable_load(offset)
     (heading, span), rise = heading_and_span(offset, up), span_and_rise(offset, up)[1]
-    held = solve_length(span, rise, tension, arrays.axial_stiffness, arrays.weight, near)
-    bottom = np.hypot(held.force_x, held.force_z - arrays.weight * held.length)
+    held = solve_length(span, rise, tension, arrays.axial_stiffness, load, near)
+    bottom = np.hypot(held.force_x, held.force_z - load * held.length)
     passed = let_out(arrays, bottom, arrays.axial_stiffness)
     shape = np.broadcast_shapes(held.length.shape, passed.shape)
 
@@ -69,7 +69,7 @@ def _between(
     states = CableStates(
         whole(offset, (3,)), whole(heading, (3,)), whole(held.length),
         whole(wrap / (1.0 + bottom / arrays.axial_stiffness)),
-        whole(held.force_x), whole(held.force_z), whole(arrays.axial_stiffness), whole(arrays.weight),
+        whole(held.force_x), whole(held.force_z), whole(arrays.axial_stiffness), whole(load),
         whole(held.status), whole(passed), whole(up, (3,)),
     )  # fmt: skip
     return states, held

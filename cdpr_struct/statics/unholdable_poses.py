@@ -1,6 +1,7 @@
 """Why is a pose not held? Which direction no cable acts in, or which cable's bound is in the way, and how much."""
 
 import numpy as np
+from scipy.optimize import nnls
 
 from cdpr_struct.errors import UnholdablePoseError
 from cdpr_struct.statics.holding_tensions import HoldingProblem
@@ -9,6 +10,7 @@ from cdpr_struct.statics.least_crossing import LeastCrossing, least_crossing
 DIRECTIONS = ("force x", "force y", "force z", "moment x", "moment y", "moment z")
 _NO_LENGTH = 1e-9  # of the robot's size: ends of a cable this near to each other leave it no direction
 _GIVE_LENGTHS = "Give cable lengths to find where the platform hangs."
+_LET_HANG = "Leave its angles free (--free rx,ry,rz where the command has it), or give cable lengths."
 
 
 def without_length(problem: HoldingProblem) -> np.ndarray:
@@ -45,7 +47,7 @@ def unholdable(
         axis = int(np.abs(left / one.unit[0]).argmax())
         amount = float(abs(left[axis]))
         reason = f"{who}: no cable acts against {amount:.4g} {'N' if axis < 3 else 'N m'} of {DIRECTIONS[axis]}. "
-        return UnholdablePoseError(reason + _GIVE_LENGTHS, None, amount)
+        return UnholdablePoseError(reason + (_LET_HANG if _forces_balance(one) else _GIVE_LENGTHS), None, amount)
     crossed = _crossed(one, residual[worst], tension[worst])
     size = 1e-9 * np.linalg.norm(one.load / one.unit)
     if crossed is not None and crossed.amount > size:
@@ -58,6 +60,15 @@ def unholdable(
             f"{who}: {one.low.shape[1]} cables cannot balance the platform there. {_GIVE_LENGTHS}"
         )
     return UnholdablePoseError(f"{who}: the cables' own weight uses up the bounds. Widen them, or move the pose.")
+
+
+def _forces_balance(one: HoldingProblem) -> bool:
+    """Straight cables that pull balance the forces, and only moments are in the way; not where a guide takes some."""
+    if one.arrays.has_guides:
+        return False
+    force = -one.load[0, :3]
+    left = nnls(one.straight_matrix()[0, :, :3].T, force)[1]
+    return bool(left <= 1e-6 * np.linalg.norm(force))
 
 
 def _crossed(one: HoldingProblem, residual: np.ndarray, tension: np.ndarray) -> LeastCrossing | None:

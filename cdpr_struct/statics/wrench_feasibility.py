@@ -20,7 +20,8 @@ class WrenchFeasibility:
     """Poses of a flat batch (n) under wrenches (w).
 
     feasible     : (n, w) bool, held within the limits under each wrench
-    slack_margin : (n,) [N] smallest cable force less its lower limit, at the worst wrench; nan if one is not held
+    slack_margin : (n,) [N] smallest cable force less its lower limit, at the worst wrench; nan if one is not held. A
+        force that lies beyond its limit by rounding has no margin: 0
     force_margin : (n,) [N] upper limit less the cable force, the least; inf without a limit
     """
 
@@ -53,4 +54,5 @@ def wrench_feasibility(
         low, high = force_margins(robot, solution.tensions)
         slack, most = np.minimum(slack, low), np.minimum(most, high)
     good = feasible.all(axis=1)
-    return WrenchFeasibility(feasible, np.where(good, slack, np.nan), np.where(good, most, np.nan))
+    margins = (np.where(good, np.maximum(margin, 0.0), np.nan) for margin in (slack, most))
+    return WrenchFeasibility(feasible, *margins)

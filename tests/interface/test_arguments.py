@@ -163,3 +163,10 @@ def test_what_the_robot_cannot_do_is_no_bad_argument():
     assert not isinstance(told.value, cs.InputError)
     with pytest.raises(cs.OutsideValidityError, match="cable"):
         cs.modes("thesis-3-1", (4.0, 3.0, 0.5), model="dsm", count=3)
+
+
+def test_long_ropes_of_a_narrow_robot_are_not_taken_for_millimetres():
+    lift = ROOT / "examples/robots/lift/robot.toml"
+    assert cs.forward(lift, [99.92842] * 4).answer["pose"][2] == pytest.approx(0.0, abs=1e-4)  # given to 0.01 mm
+    with pytest.raises(cs.InputError, match=r"look like mm \(the robot measures 100 m\)"):
+        cs.forward(lift, [99928.42] * 4)

@@ -36,6 +36,7 @@ ALONE = [
     {"moment": [6.0, -4.0, 9.0]},
     {"drag_area": 1.3, "wind": [6.0, -5.0, 1.0]},
     {"temperature_change": 40.0},
+    {"drag_width": 0.012, "wind": [12.0, -7.0, 2.0]},
     ALL,
 ]
 

@@ -1,6 +1,7 @@
 """Free angles: no moment is left about them, the referee rests at the same pose, and maps have them at every pose."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +16,7 @@ from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.statics.free_orientation import left_free
 from tests.fast_like import fast_like, few_cables
 
+ROBOTS = Path(__file__).parents[2] / "examples" / "robots"
 PLACE = [60.0, -50.0, 145.0]
 
 
@@ -88,7 +90,7 @@ def test_a_map_has_its_own_orientation_at_every_pose():
 def test_angles_that_few_cables_cannot_hold_are_free_too():
     assert left_free([False, True, False], 4).tolist() == [True, True, False]
     assert left_free([False, False, True], 3).all()
-    with pytest.raises(ValueError, match="three are needed"):
+    with pytest.raises(ValueError, match="at least 3 are needed"):
         left_free([True, True, True], 2)
     found = cs.inverse(few_cables(4), [0.5, 0.3, 0.4], free="ry")
     assert found.answer["free"]["added"] == ["rx"]
@@ -100,6 +102,63 @@ def test_unusable_names_are_refused():
             cs.inverse("cogiro", free=free)
     with pytest.raises(InputError, match="is computed at the orientation of the grid"):
         cs.map("cogiro", "-1:1:2,0,1", "mode-3", free="rx")
+
+
+@pytest.mark.parametrize(("start", "free"), [((20, -10, 30), "rx,ry,rz"), ((10, 40, 9), "rx")])
+def test_a_camera_on_cables_that_meet_in_its_origin_hangs_with_its_mass_below(start, free):
+    found = cs.inverse(ROBOTS / "point-camera" / "robot.toml", [2, 1, 6, *start], free=free)
+    below = found.pose.rotation @ [0.0, 0.0, -0.2]
+    # A moment of 1e-11 m g r, r = 0.21 m, is left at an angle of as many rad.
+    assert np.abs(below - [0.0, 0.0, -0.2]).max() <= 1e-11
+    assert found.answer["residual_wrench"] == pytest.approx([0.0] * 6, abs=1e-8)
+    level = cs.inverse(ROBOTS / "point-camera" / "robot.toml", [2, 1, 6])
+    assert found.solution.tensions == pytest.approx(level.solution.tensions, rel=1e-9)  # they do not turn it
+
+
+@pytest.mark.parametrize("start", [(0, 90, 0), (0, 89.9999999, 0), (15, 80, 12)])
+def test_axes_of_rx_and_rz_that_meet_where_the_platform_hangs_do_no_harm(start):
+    robot, quarter = fast_like(), Pose.from_degrees([0, 0, 0, 0, 90, 0]).rotation
+    own = robot.platform
+    turned = replace(own, center_of_mass=quarter.T @ own.center_of_mass, inertia=quarter.T @ own.inertia @ quarter)
+    renamed = replace(robot, platform=turned, platform_anchors=robot.platform_anchors @ quarter)
+    found = cs.inverse(renamed, [*PLACE, *start], free="rx,ry,rz")
+    level = cs.inverse(robot, PLACE, free="rx,ry,rz")
+    assert found.pose.rotation == pytest.approx(level.pose.rotation @ quarter, abs=1e-8)  # other axes, the same body
+    assert found.solution.tensions == pytest.approx(level.solution.tensions, rel=1e-8)
+
+
+def test_angles_of_a_rotation_give_it_back_where_axes_meet():
+    other = Pose.from_degrees([0, 0, 0, 33, 44, 55]).rotation
+    for ry in (90.0, -90.0, 90.0 - 1e-7, 89.0, 12.0):
+        rounded = other @ Pose.from_degrees([0, 0, 0, 25, ry, -70]).rotation
+        rotation = other.T @ rounded  # with the rounding of a product
+        again = Pose(np.zeros(3), angles_from_rotation(rotation)).rotation
+        assert np.abs(again - rotation).max() <= 1e-15  # rounding; rx alone is off by 1e-8 next to 90 degrees
+
+
+def test_beside_a_guide_the_angle_that_it_leaves_may_be_free():
+    robot = cs.load_robot(ROBOTS / "planar-four-cables" / "robot.toml")
+    found = cs.inverse(robot, [0.3, 0.0, 0.2], free="ry")
+    assert found.answer["free"]["added"] == []
+    assert np.abs(found.pose.angles[1]) > np.radians(5.0)
+    left = moment_about(robot, found.pose, found.solution.tensions, found.solution.cables.force_on_platform)
+    assert np.abs(left).max() <= 1e-9
+    mapped = cs.map(robot, "0.3,0,0.2", "tension-max", free="ry").frame()
+    assert mapped["ry_deg"][0] == pytest.approx(np.degrees(found.pose.angles[1]), abs=1e-9)
+
+
+def test_angles_that_a_guide_holds_or_couples_are_refused():
+    robot = cs.load_robot(ROBOTS / "planar-four-cables" / "robot.toml")
+    with pytest.raises(InputError, match="leave out rx: a guide of planar-four-cables holds it"):
+        cs.inverse(robot, free="rx,ry")
+    with pytest.raises(InputError, match="beside guided rotations only the last one can be free"):
+        cs.inverse(robot, [0.0, 0.0, 0.0, 0.0, 0.0, 5.0], free="ry")
+    assert left_free([False] * 3, 2, [0, 1, 0, 1, 0, 1]).tolist() == [False, True, False]
+
+
+def test_angles_are_told_without_their_rounding():
+    told = cs.inverse(ROBOTS / "zero-gravity" / "robot.toml", [0.1, 0.0, 0.1], free="rx,ry,rz").warnings
+    assert "the platform hangs at (0, -5.78, 0)° about x, y, z." in told[0]
 
 
 @pytest.mark.parametrize("count", [3, 5])

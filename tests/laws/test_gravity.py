@@ -22,9 +22,12 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.robot.robot_writing import robot_toml
+from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.forward_kinematics import forward
+from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.potential_energy import potential_energy
+from cdpr_struct.statics.separating_wrench import separation
 from cdpr_struct.statics.static_stiffness import static_stiffness
 
 POSE = Pose.from_degrees(np.array([0.5, 0.3, 0.8, 3.0, 6.0, -5.0]))
@@ -231,3 +234,21 @@ def test_a_body_given_in_python_is_checked_too():
     for wrong in (-1.0, np.array([0.0, np.nan, 1.0]), np.zeros((2, 3))):
         with pytest.raises(ValueError, match="gravity"):
             replace(load_robot("thesis-5"), gravity=wrong)
+
+
+@pytest.mark.parametrize("turn", TURNS, ids=["one", "other"])
+def test_what_proves_a_pose_out_of_reach_turns_with_the_world(turn):
+    """Slackest cables, and the tensions that leave the least wrench where none balance."""
+    robot = load_robot("thesis-3-1-8mm")
+    far = Pose(np.array([6.5, 4.5, 0.8]), np.array([0.0, 0.2, 0.1]))
+    found = []
+    for machine, pose in ((robot, far), (turned(robot, turn), turned_pose(far, turn))):
+        arrays, bounds = RobotArrays.of(machine), (np.full((1, 8), 200.0), np.full((1, 8), 900.0))
+        place = pose.position[None], pose.rotation[None]
+        problem = HoldingProblem.at(arrays, cable_model("sagging"), place, np.zeros((1, 6)), bounds)
+        found.append((separation(problem), problem.model.least_chord_tension(arrays, problem.arms.points)))
+    (ours, least), (theirs, least_there) = found
+    assert ours.proven.all()
+    assert theirs.proven.all()
+    assert theirs.tension == pytest.approx(ours.tension, rel=1e-6)
+    assert least_there == pytest.approx(least, rel=1e-9)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from cdpr_struct.errors import ConvergenceError
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
@@ -139,6 +140,67 @@ def test_wrench_is_the_slope_of_the_energy(case, model):
     balance = LockedBalance(arrays, length[None], np.zeros((1, 6)), chosen)
     wrench = balance.evaluate(place[None], np.eye(3)[None]).wrench[0]
     assert (energy[1] - energy[0]) / (2.0 * step) == pytest.approx(wrench, rel=1e-6, abs=1e-6 * np.abs(wrench).max())
+
+
+def test_tangent_is_the_curvature_of_the_energy_along_the_ways_of_the_descent():
+    robot = replace(
+        load_robot("cogiro"), platform_anchors=load_robot("cogiro").platform_anchors + np.array([0.3, -0.2, 0.4])
+    )
+    arrays, chosen = RobotArrays.of(robot), cable_model("sagging")
+    length = inverse(load_robot("cogiro"), robot.home.position, robot.home.rotation).lengths
+    place, turn, step = robot.home.position + np.array([0.03, -0.02, 0.01]), rotation_from_vector(np.full(3, 0.1)), 1e-3
+
+    def energy(motion):
+        balance = LockedBalance(arrays, length[None], np.zeros((1, 6)), chosen)
+        there = balance.moved(place[None], turn[None], motion[None])
+        return potential_energy(arrays, *there, balance.states(*there), np.zeros(6))[0]
+
+    found = LockedBalance(arrays, length[None], np.zeros((1, 6)), chosen).evaluate(place[None], turn[None])
+    assert np.linalg.norm(found.wrench[0, :3]) > 1e3  # far from balance: the ways' own curvature counts
+    for motion in np.random.default_rng(1).normal(size=(8, 6)):
+        change = energy(step * motion) - 2.0 * energy(np.zeros(6)) + energy(-step * motion)
+        # differences of fourth order; without the curvature of the ways 6e-2 of it is missing
+        assert change / step**2 == pytest.approx(motion @ found.tangent[0] @ motion, rel=1e-3)
+
+
+def test_under_a_moment_the_tangent_at_rest_is_the_derivative_of_the_wrench():
+    robot = load_robot("six-cable-4mm")
+    load = np.array([0.0, 0.0, 0.0, 9.0, 6.0, -8.0])
+    length = inverse(robot, robot.home.position, robot.home.rotation).lengths
+    rest = locked_rest(robot, length, external_wrench=load).solution
+    balance = LockedBalance(RobotArrays.of(robot), np.tile(length, (12, 1)), np.tile(load, (12, 1)), SAGGING)
+    step, own = 1e-6, (np.tile(rest.position, (12, 1)), np.tile(rest.rotation, (12, 1, 1)))
+    found = balance.evaluate(*balance.moved(*own, step * np.concatenate([np.eye(6), -np.eye(6)])))
+    rates = -(found.wrench[:6] - found.wrench[6:]).T / (2.0 * step)
+    tangent = balance.evaluate(*own).tangent[0]
+    np.testing.assert_allclose(tangent, rates, atol=1e-6 * np.abs(rates).max())
+    assert np.abs(tangent - tangent.T).max() > 8.9  # the moment itself, half on both sides: it has no energy
+
+
+def test_the_largest_moment_that_is_held_is_told():
+    robot = load_robot("six-cable-4mm")
+    length = inverse(robot, robot.home.position, robot.home.rotation).lengths
+    found = locked_rest(robot, length, external_wrench=[0.0, 0.0, 0.0, 18.0, 0.0, 0.0])
+    assert bool(found.solution.stable)
+    assert found.jumps == 0  # rates of motion without the moment's own part find 512
+    # a branch that was followed by its arc length turns back at 18.66 N m
+    with pytest.raises(ConvergenceError, match=r"under a moment of 30 N m.* beyond 18\.6\d* N m"):
+        locked_rest(robot, length, external_wrench=[0.0, 0.0, 0.0, 30.0, 0.0, 0.0])
+
+
+def test_a_platform_whose_cables_meet_in_a_point_turns_about_it_all_the_way():
+    robot = load_robot("cogiro")
+    point, hangs = np.array([0.1, 0.05, 0.3]), robot.home.position + np.array([0.0, 0.0, 1.0])
+    cables = tuple(replace(cable, axial_stiffness=1e8) for cable in robot.cables)
+    robot = replace(robot, platform_anchors=np.tile(point, (8, 1)), cables=cables)
+    length = np.linalg.norm(robot.frame_anchors - hangs, axis=1)
+    upset = rotation_from_vector(np.array([[0.0, 3.0, 0.0], [2.0, 0.0, 0.0], [0.5, -1.0, 1.0]]))
+    found = forward(robot, length, hangs - upset @ point, upset)
+    assert found.converged.all()
+    down = found.rotation @ (robot.platform.center_of_mass - point)
+    np.testing.assert_allclose(down[:, :2], 0.0, atol=1e-6)  # the centre of mass hangs below the point
+    assert (down[:, 2] < 0.0).all()
+    assert found.iterations.max() < 60  # about the origin, 200 are not enough
 
 
 def test_equilibria_are_balanced_distinct_and_stable():

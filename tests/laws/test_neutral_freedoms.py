@@ -1,6 +1,7 @@
 """Freedoms that nothing pushes back: found, counted, named; what is unstable or held is not among them."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -263,3 +264,14 @@ def test_observed_modes_begin_above_zero():
     own = certified_frequencies(at_home(robot), "exact", 4).hertz[1:]
     assert np.exp(seen.log_hertz[0, :3]) == pytest.approx(own, rel=1e-6)
     assert np.isfinite(seen.gradient).all()
+
+
+@pytest.mark.parametrize("wind", [(10.0, 0.0), (100.0, 50.0)])
+def test_a_balloon_that_leans_does_not_spin_about_its_own_axis(wind):
+    robot = cs.load_robot(Path(__file__).parents[2] / "examples" / "robots" / "tethered-aerostat" / "robot.toml")
+    found = cs.forward(robot, [163.405] * 3, wrench=[*wind, 0.0, 0.0, 0.0, 0.0])
+    turn = found.rest.solution.rotation
+    # The least turn that takes the vertical to the leaning axis is about a horizontal one.
+    assert turn[1, 0] - turn[0, 1] == pytest.approx(0.0, abs=1e-9)
+    assert turn[2, 2] < np.cos(np.radians(1.0))  # it does lean
+    assert np.abs(found.answer["residual_wrench"]).max() < 1e-7 * 900.0

@@ -72,7 +72,7 @@ OF_READINGS = (
     "slip",
     "accelerometer_gain",
 )
-ALONE = [name for name in EXTENSIONS if name not in AUXILIARY and name != "sensor_mass"]
+ALONE = [name for name in EXTENSIONS if name not in (*AUXILIARY, "sensor_mass", "drag_width")]  # the last: refused
 
 
 def seen(campaign) -> Local:

@@ -39,7 +39,7 @@ def everything() -> RobotArrays:
         uprights=uprights_of(exits, -1.0 / 3.0),
         cell_bias=2.0 * each, friction=0.02 * each, force=np.array([5.0, -3.0, 2.0]), hose=np.array(30.0),
         hose_center=np.array([0.1, 0.2, 1.0 / 3.0]), tilt=np.array([0.002, -0.001]),
-        moment=np.array([1.0, -2.0, 1.0 / 3.0]), drag_area=np.array(1.3),
+        moment=np.array([1.0, -2.0, 1.0 / 3.0]), drag_area=np.array(1.3), drag_width=np.array(0.012),
         wind=np.array([6.0, -5.0, 1.0 / 3.0]), air_density=np.array(1.1), temperature_change=np.array(-12.5),
         nonlinearity=np.array(0.1),
         reference_tension=np.array(1000.0 / 3.0), tracker=np.array([0.001, 0.0, 0.002, 0.0, 0.001, 0.0]),

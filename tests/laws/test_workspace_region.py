@@ -1,6 +1,7 @@
 """Workspaces: feasibility against a linear program, known volumes and their errors, requirements."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -60,7 +61,15 @@ def test_feasibility_is_that_of_a_linear_program(name):
     assert not expected.all()
     assert (found.feasible == expected).all()
     assert np.isnan(found.slack_margin[~expected.all(axis=1)]).all()
-    assert (found.slack_margin[expected.all(axis=1)] >= -1e-6).all()
+    assert (found.slack_margin[expected.all(axis=1)] >= 0.0).all()
+
+
+def test_forces_at_their_limit_have_a_margin_of_zero_and_not_of_rounding():
+    facade = Path(__file__).parents[2] / "examples" / "robots" / "facade" / "robot.toml"
+    found = cs.map(facade, "-12:12:5,1,3:37:5", "slack-margin", lower_bound=400).frame()
+    held = found["held"] == 1
+    assert (found["slack_margin_N"][held] >= 0.0).all()
+    assert (found["slack_margin_N"][held] == 0.0).sum() > 5
 
 
 def test_volume_of_a_ball_converges():

@@ -140,10 +140,17 @@ def test_a_campaign_file_in_another_encoding_is_told(tmp_path, capsys):
 
 
 def test_one_reading_far_too_large_is_no_cable_in_another_unit(tmp_path):
-    """It is for the diagnosis to find, also in a campaign of one state."""
-    (tmp_path / "states.csv").write_text(HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,1,3,300000"))
+    """It is for the diagnosis to find, also in a campaign of one state, as long as a cable can bear it."""
+    (tmp_path / "states.csv").write_text(HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,1,3,30000"))
     (tmp_path / "campaign.toml").write_text(CAMPAIGN)
-    assert load_campaign(tmp_path / "campaign.toml").states.tension.max() == 300000.0
+    assert load_campaign(tmp_path / "campaign.toml").states.tension.max() == 30000.0
+
+
+def test_a_reading_above_the_stiffness_of_its_cable_is_refused_with_its_file(tmp_path, capsys):
+    """EA is 251 kN: no fit of masts or cables can be asked about such a number."""
+    line = complaint(tmp_path, capsys, CAMPAIGN, HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,1,3,300000"))
+    words = ["states.csv: case a, cable 3: tension_N", "300000", "EA = 251327 N", "is a decimal point missing?"]
+    assert all(word in line for word in words), line
 
 
 def test_lengths_of_one_file_in_feet_are_refused(tmp_path, capsys):

@@ -3,12 +3,14 @@
 import json
 import re
 from importlib import resources
+from pathlib import Path
 
 import pytest
 
 from cdpr_struct.cli.main import run
 from tests.robustness.test_bad_input import ANCHORS, CABLE, ROBOT, complaint
 
+EXAMPLES = Path(__file__).parents[2] / "examples" / "robots"
 STOP = ["transient", "six-cable-4mm", "--initial-velocity=0.1,0,0"]
 
 
@@ -117,6 +119,22 @@ def test_an_empty_map_of_a_robot_with_few_cables_says_what_to_do(tmp_path, capsy
     path.write_text(ROBOT + ANCHORS)
     assert run(["map", str(path), "--grid=0,0,0.5", "--quantity=sag-max"]) == 1
     assert "--lengths" in capsys.readouterr().out
+
+
+def test_poses_that_would_be_held_with_free_angles_are_refused_with_that_hint(capsys):
+    receiver = f"{EXAMPLES}/telescope-receiver/robot.toml"
+    assert run(["inverse", receiver, "--pose=60,-40,130"]) == 1
+    assert "Leave its angles free (--free rx,ry,rz" in capsys.readouterr().err
+    for quantity in ("workspace", "tension-max"):
+        asked = ["map", receiver, "--grid=0:60:2,-40,130", f"--quantity={quantity}"]
+        run(asked)
+        assert "--free rx,ry,rz lets the platform hang" in capsys.readouterr().out
+        assert run([*asked, "--free=rx,ry,rz"]) == 0  # and that helps
+        assert "lets the platform hang" not in capsys.readouterr().out
+    assert run(["inverse", "thesis-3-1", "--pose=9,0,0.5"]) == 1
+    assert "--free" not in capsys.readouterr().err  # beyond the frame: no orientation is held
+    run(["map", f"{EXAMPLES}/load-on-one-rope/robot.toml", "--grid=0:1:2,0,0", "--quantity=sag-max"])
+    assert "--free" not in capsys.readouterr().out  # one rope cannot place a load
 
 
 def test_a_map_goes_on_past_poses_that_are_not_stable(tmp_path, capsys):

@@ -73,7 +73,8 @@ def _named(found: Diagnosis) -> list[str]:
         return [*lead, f"There is a significant error in {place(found.location)}. Possible causes: {left}."]
     for size in found.sizes:
         names = next((n for n in own if size.part.cause.name in n), ())
-        lead_of = "best candidate of its class: " if len(names) > 1 else "" if found.confirmed else "best candidate: "
+        doubted = found.decision.doubted or not found.confirmed
+        lead_of = "best candidate of its class: " if len(names) > 1 else "best candidate: " if doubted else ""
         parts.append(lead_of + described(size))
     text = "; ".join(parts)
     said = [f"{text[:1].upper()}{text[1:]}."]
@@ -111,12 +112,12 @@ def _standing(found: Diagnosis) -> str:
     share = 0.0 if chosen is None else 100.0 * chosen.explained
     said = [f"This accounts for {share:.0f} % of the error beyond noise."] if share >= 0.5 else []
     left = found.left_out
+    if left is None and found.added is None:
+        return " ".join([*said, "A single state leaves no held-out data to confirm it."])
     if not found.confirmed:
         return " ".join([*said, "It rests on one part of the data; held-out data do not confirm it."])
     if found.added is not None:
         said.append(f"Without the peaks of any one state the evidence for the mode is still {found.added:.0f} nats.")
-    elif left is None:
-        said.append("A single state leaves no held-out data to confirm it.")
     if left is not None:
         ratio = left.ratio(left.concerned)
         fall = f"falls by a factor of {ratio:.1f}" if ratio > _BETTER else "is no smaller"

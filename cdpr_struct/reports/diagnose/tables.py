@@ -17,8 +17,15 @@ def standing(result: Row) -> list[str]:
     lines = [f"status: {said['status']}; probability {percentage(said['probability'])}; p = {result['p_value']:.2g}"]
     lines += [f"class: {' | '.join(names)}" for names in said["class"] if len(names) > 1]
     if said["status"] == "class" and len(lines) == 1:
-        lines.append("reported as a class: held-out states do not confirm the cause")
+        lines.append(f"reported as a class: {_why_unnamed(result['gain'])}")
     return lines
+
+
+def _why_unnamed(gain: Row) -> str:
+    """Why the only cause of a class has no name."""
+    if gain["ratio"] is None and gain["added_mode_nats"] is None:
+        return "a single state leaves no held-out data to confirm the cause"
+    return "no cause is likely enough" if gain["confirmed"] else "held-out states do not confirm the cause"
 
 
 def percentage(probability: float) -> str:

@@ -1,0 +1,122 @@
+"""One seed: a pose held, the way back from its lengths, and its natural frequencies, each judged."""
+
+import signal
+import time
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+
+import cdpr_struct as cs
+from benchmarks.random_robots.drawing import Case, drawn
+from benchmarks.random_robots.judging import (
+    mode_faults,
+    not_numbers,
+    refusal_faults,
+    rest_faults,
+    static_faults,
+    way_back_faults,
+)
+from benchmarks.random_robots.own_mechanics import OwnRest, own_rest
+from benchmarks.random_robots.refusals import holdable
+
+_LONGEST = 120  # [s] of a seed
+_COUNT = 12  # frequencies
+
+
+def tried(seed: int) -> dict[str, Any]:
+    """What was answered and what is wrong with it, for one line of JSON."""
+    case, begun = drawn(seed), time.process_time()
+    told: dict[str, Any] = {
+        "seed": seed, "kind": case.kind, "cables": len(case.robot.cables), "gravity": case.robot.gravity,
+        "free": case.free, "violations": [],
+    }  # fmt: skip
+    faults = told["violations"]
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always")
+        try:
+            with _limited():
+                _judge(case, told, faults)
+        except _TooLongError:
+            faults.append(f"time: more than {_LONGEST} s")
+    faults += sorted({f"warning: {each.category.__name__}: {each.message}" for each in heard})
+    told["seconds"] = round(time.process_time() - begun, 3)
+    return told
+
+
+def _judge(case: Case, told: dict[str, Any], faults: list[str]) -> None:
+    held = _asked("inverse", case, told, faults, None, case.robot, case.pose, free=case.free)
+    if held is None:
+        return
+    forces = held.solution.cables.force_on_platform
+    own = own_rest(case.robot, held.pose, held.answer["lengths_m"], forces)
+    told |= {"stable": held.answer["stable"], "balance": own.unbalanced}
+    faults += [f"inverse: {fault}" for fault in rest_faults(own, forces, held.answer)]
+    _judge_way_back(case, held, own, told, faults)
+    found = _asked("modes", case, told, faults, own, case.robot, held.pose, free=case.free, count=_COUNT)
+    if found is not None:
+        faults += [f"modes: {fault}" for fault in mode_faults(found.modes.hertz, found.answer, own)]
+        count = 6 - len(case.robot.guided)
+        rigid = _asked(
+            "static", case, told, faults, own, case.robot, held.pose, free=case.free, model="static", count=count
+        )
+        if rigid is not None:
+            faults += [f"static: {fault}" for fault in static_faults(rigid.modes.hertz, own)]
+
+
+def _judge_way_back(case: Case, held: Any, own: OwnRest, told: dict[str, Any], faults: list[str]) -> None:
+    back = _asked("forward", case, told, faults, own, case.robot, held.answer["lengths_m"], start=case.start)
+    if back is None:
+        return
+    rest, forces = back.rest.solution, back.rest.solution.cables.force_on_platform
+    there = own_rest(case.robot, (rest.position, rest.rotation), back.answer["lengths_m"], forces)
+    told |= {"balance_forward": there.unbalanced, "rivals": len(back.answer["locked"]["other_equilibria"])}
+    faults += [f"forward: {fault}" for fault in rest_faults(there, forces, back.answer)]
+    faults += [f"forward: {fault}" for fault in way_back_faults(case, held, back)]
+
+
+def _asked(
+    step: str, case: Case, told: dict[str, Any], faults: list[str], own: OwnRest | None, *args: Any, **named: Any
+) -> Any:
+    """The answer to a question of the program, None if it refuses."""
+    question = {"inverse": cs.inverse, "forward": cs.forward}.get(step, cs.modes)
+    try:
+        answer = question(*args, **named)
+    except _TooLongError:
+        raise
+    except Exception as error:
+        told[step] = f"{type(error).__name__}: {error}"
+        faults += [f"{step}: {fault}" for fault in refusal_faults(case, step, error, own)]
+        if isinstance(error, cs.UnholdablePoseError) and case.free is None:
+            told["holdable"] = holdable(case.robot, case.pose)
+        return None
+    told[step] = "answered"
+    faults += [f"{step}: not a number: {name}" for name in not_numbers(answer.answer)]
+    return answer
+
+
+class _TooLongError(Exception):
+    """A seed takes longer than any should."""
+
+
+@contextmanager
+def _limited() -> Iterator[None]:
+    """Work that ends after `_LONGEST` seconds."""
+
+    def stop(*_: object) -> None:
+        raise _TooLongError
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.alarm(_LONGEST)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def worst_balance(told: dict[str, Any]) -> float:
+    """Over load and tensions, of the rests that were answered."""
+    return float(np.max([told.get("balance", 0.0), told.get("balance_forward", 0.0)]))

@@ -1,0 +1,24 @@
+"""Cables that are stretched more than ropes can bear."""
+
+import numpy as np
+
+from cdpr_struct.statics.cable_state import CableStates
+
+_BREAKS = 0.02  # steel ropes break near it, high-modulus fibres near 0.035
+
+
+def strains(cables: CableStates) -> np.ndarray:
+    """(..., m) elongation over unstrained length, as a whole; 0 of cables without an end to it."""
+    return np.nan_to_num(cables.elongation / cables.total_length)
+
+
+def strain_sentence(cables: CableStates) -> str | None:
+    """A sentence on the cable that is stretched most, where ropes break; None if none is."""
+    strain = strains(cables)
+    if not strain.max() > _BREAKS:
+        return None
+    cable = int(strain.argmax()) + 1
+    return (
+        f"Cable {cable} is stretched by {100.0 * strain.max():.3g} %: it would break long before, steel near 2 %, "
+        "high-modulus fibres near 3.5 %. Check its axial_stiffness (EA in N, not kN) and the load."
+    )

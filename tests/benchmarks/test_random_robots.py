@@ -1,0 +1,98 @@
+"""The study of random robots: its judges see what is wrong, a stopped run continues, and answers stand up."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import cdpr_struct as cs
+from benchmarks.random_robots import running
+from benchmarks.random_robots.drawing import KINDS, drawn
+from benchmarks.random_robots.judging import mode_faults, not_numbers, refusal_faults, rest_faults, static_faults
+from benchmarks.random_robots.own_mechanics import compliance, end_offset, own_rest
+from benchmarks.random_robots.refusals import holdable
+from benchmarks.random_robots.summary import summary
+from benchmarks.random_robots.trying import tried
+
+PRELOADED, HANGING = cs.load_robot("thesis-3-1"), cs.load_robot("cogiro")
+
+
+def rest_of(robot: cs.Robot, stretch: float = 1.0):
+    held = cs.inverse(robot)
+    forces = held.solution.cables.force_on_platform
+    return held, forces, own_rest(robot, held.pose, stretch * np.asarray(held.answer["lengths_m"]), forces)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_answers_about_random_robots_stand_up(seed):
+    assert tried(seed)["violations"] == []
+
+
+@pytest.mark.slow
+def test_answers_about_three_hundred_random_robots_stand_up():
+    found = [tried(seed) for seed in range(1000, 1300)]
+    assert {told["seed"]: told["violations"] for told in found if told["violations"]} == {}
+
+
+@pytest.mark.parametrize("robot", [PRELOADED, HANGING], ids=lambda robot: robot.name)
+def test_own_mechanics_agree_and_see_a_small_error(robot):
+    held, forces, own = rest_of(robot)
+    assert list(rest_faults(own, forces, held.answer)) == []
+    assert own.verdict() == "stable"
+    modes = cs.modes(robot, model="static", count=6).modes.hertz
+    assert list(static_faults(modes, own)) == []
+    assert "off by" in next(static_faults(modes * (1.0 + 1e-5), own))
+    assert "stability" in next(rest_faults(own, forces, held.answer | {"stable": False}))
+    _, _, longer = rest_of(robot, 1.0 + 1e-7)
+    assert any("balance" in fault for fault in rest_faults(longer, forces, held.answer))
+
+
+def test_compliance_is_the_derivative_of_the_shape():
+    force = np.array([[300.0, -200.0, 150.0], [30.0, 0.0, -90.0], [20.0, 10.0, 3.0], [0.0, 1e-9, 500.0]])
+    length, stiff, weight = np.array([8.0, 3.0, 12.0, 5.0]), np.full(4, 1e4), np.array([1.0, 2.0, 3.0, 1.0])
+    found, step = compliance(force, length, stiff, weight), 1e-4
+    for axis in range(3):
+        change = step * np.eye(3)[axis]
+        more, less = (end_offset(force + sign * change, length, stiff, weight) for sign in (1.0, -1.0))
+        # differences of second order, steps of 1e-4 N where forces are ten or more
+        np.testing.assert_allclose(found[:3, :, axis], ((more - less) / (2.0 * step))[:3], atol=1e-7)
+
+
+def test_judges_of_frequencies_and_refusals_see_what_is_wrong():
+    _, _, own = rest_of(PRELOADED)
+    told = {"count_certified": True, "neutral_freedoms": []}
+    assert list(mode_faults(np.array([1.0, 1.0, 2.0]), told, own)) == []
+    assert "order" in next(mode_faults(np.array([1.0, 1.0 - 1e-15, 2.0]), told, own))
+    assert "neutral" in next(mode_faults(np.array([0.0, 1.0]), told, own))
+    assert "count" in next(mode_faults(np.array([1.0]), told | {"count_certified": False}, own))
+    assert list(not_numbers({"a": {"b": np.array([1.0, np.nan])}, "c": 1.0})) == ["a.b"]
+    case = replace(drawn(1), robot=PRELOADED, pose=PRELOADED.home, free=None)
+    for error in (ValueError("x"), cs.CdprError("cannot be computed (Singular matrix)"), cs.UnholdablePoseError("no"),
+                  cs.UnstableEquilibriumError("no"), cs.ConvergenceError("it", 1.0, 2, "")):  # fmt: skip
+        assert list(refusal_faults(case, "inverse", error, own)), error
+
+
+def test_a_linear_program_proves_what_cables_cannot_hold():
+    assert holdable(PRELOADED, PRELOADED.home) == "yes"
+    outside = cs.Pose(np.array([100.0, 0.0, 1.0]), np.zeros(3))
+    assert holdable(PRELOADED, outside) == "no"
+
+
+def test_seeds_draw_every_kind_always_alike():
+    cases = [drawn(seed) for seed in range(60)]
+    assert {case.kind for case in cases} == set(KINDS)
+    assert {len(case.robot.cables) for case in cases} >= {3, 8, 16}
+    assert (drawn(7).robot.frame_anchors == cases[7].robot.frame_anchors).all()
+
+
+def test_a_run_goes_on_after_a_line_that_was_cut_short(tmp_path, monkeypatch, capsys):
+    file = tmp_path / running.FILE
+    done = {"seed": 0, "kind": "hanging", "inverse": "answered", "violations": ["balance: 1e-3 is left"]}
+    file.write_text(json.dumps(done) + '\n{"seed": 1, "ki', "utf-8")
+    assert running.main(["--seeds", "0:2", "--out", str(tmp_path)]) == 1
+    assert sorted(running.read(file)) == [0, 1]
+    assert "balance: # is left" in capsys.readouterr().out
+    assert "| all | 2 |" in summary(list(running.read(file).values()))
+    with pytest.raises(SystemExit):
+        running.main(["--seeds", "two", "--out", str(tmp_path)])
