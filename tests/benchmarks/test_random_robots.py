@@ -17,6 +17,9 @@ from benchmarks.random_robots.trying import tried
 
 PRELOADED, HANGING = cs.load_robot("thesis-3-1"), cs.load_robot("cogiro")
 
+CORRECTED = (589, 991, 1709, 2497, 2575, 3722, 3727, 4066, 4702, 5181, 6401, 6495, 6519, 6850, 7657, 8236, 8517, 9799)
+"""Seeds about which the program, or the study, was wrong."""
+
 
 def rest_of(robot: cs.Robot, stretch: float = 1.0):
     held = cs.inverse(robot)
@@ -31,7 +34,7 @@ def test_answers_about_random_robots_stand_up(seed):
 
 @pytest.mark.slow
 def test_answers_about_three_hundred_random_robots_stand_up():
-    found = [tried(seed) for seed in range(1000, 1300)]
+    found = [tried(seed) for seed in (*CORRECTED, *range(1000, 1300))]
     assert {told["seed"]: told["violations"] for told in found if told["violations"]} == {}
 
 
