@@ -41,8 +41,8 @@ QUESTIONS: tuple[Question, ...] = tuple(
         frf,
         distribution,
         geometric_term,
-        growth,
         verified_robots,
+        growth,
     )
 )
 STUDY = "random-robots"

@@ -34,7 +34,7 @@ def bend(
         return BentMasts(anchors, 0.0, chains, steps)
     moved, energy = [np.zeros(len(mast.flexibility)) for mast in masts], 0.0
     for _ in range(MAX_ITERATIONS):
-        pulls = chains.tension_vectors[:, 0] + 0.5 * batch.element_weight
+        pulls = chains.tension_vectors[:, 0] + 0.5 * batch.element_weight + batch.lump_weight[:, 0]
         rates = np.linalg.inv(chains.flexibility)
         largest, energy, starts = 0.0, 0.0, anchors.copy()
         for number, mast in enumerate(masts):

@@ -22,6 +22,8 @@ class CableData:
     line_give         : compliance [m/N] of what is elastic in line behind the start: joint, load cell, dead cable
     winch_tension     : [N] that a winch holds at the start, the length then being a guess; 0 where it holds the length
     drag_width        : [m], drag coefficient times diameter, on which wind presses
+    lumps             : pairs of a distance from the end, unstrained [m], and a mass [kg] that sits there; between two
+                        nodes it is shared as on a lever
     """
 
     unstrained_length: float
@@ -30,6 +32,7 @@ class CableData:
     line_give: float = 0.0
     winch_tension: float = 0.0
     drag_width: float = 0.0
+    lumps: tuple[tuple[float, float], ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("unstrained_length", "axial_stiffness", "linear_density"):
@@ -38,6 +41,16 @@ class CableData:
         for name in ("line_give", "winch_tension", "drag_width"):
             if not 0.0 <= getattr(self, name) < np.inf:
                 raise ValueError(f"CableData.{name} must be zero or more, got {getattr(self, name)!r}")
+
+    def node_lumps(self, elements: int) -> np.ndarray:
+        """Masses (n + 1,) [kg] that sit on the nodes of a mesh, start to end."""
+        masses = np.zeros(elements + 1)
+        for distance, mass in self.lumps:
+            place = elements * (1.0 - min(distance / self.unstrained_length, 1.0))
+            first = min(int(place + 1e-9), elements - 1)
+            masses[first] += mass * (first + 1.0 - place)
+            masses[first + 1] += mass * (place - first)
+        return masses
 
     @property
     def path_behind(self) -> float:
@@ -130,6 +143,9 @@ class CableEquilibrium:
         """Mass matrix (n, 6, 6) [kg] of every bar; a start that slides moves as the first free node demands."""
         each = np.full(self.elements, self.cable.linear_density * self.element_length)
         matrices = bar_mass(each, mass)
+        lumps = self.cable.node_lumps(self.elements)
+        matrices[:, 3:, 3:] += lumps[1:, None, None] * np.eye(3)
+        matrices[0, :3, :3] += lumps[0] * np.eye(3)
         if self.wrap is not None:
             state = float(self.tensions[0]), self.element_length, self.cable.axial_stiffness
             matrices[0] = self.wrap.first_bar_mass(matrices[0], *state)

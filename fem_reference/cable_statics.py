@@ -31,6 +31,7 @@ class CableBatch:
     """m cables of n bars each, as arrays: lengths, EA (m,), weight of one bar and wind on it (m, 3) [N].
 
     handed_on : (m, 3) [N], a further force on the first free node, from a pulley
+    lump_weight : (m, n + 1, 3) [N], of what sits on each node
     line_give, line_tension : (m,) [m/N], [N]; the first bar is longer by give (N - tension), for what slides into it
         from behind the start when its tension N is not yet the one for which the lengths were taken
     """
@@ -40,6 +41,7 @@ class CableBatch:
     element_length: np.ndarray
     axial_stiffness: np.ndarray
     element_weight: np.ndarray
+    lump_weight: np.ndarray
     handed_on: np.ndarray
     line_give: np.ndarray
     line_tension: np.ndarray
@@ -59,6 +61,7 @@ class CableBatch:
             length,
             np.array([cable.axial_stiffness for cable in cables]),
             length[:, None] * (density[:, None] * acceleration + np.asarray(pressed, dtype=float)),
+            np.array([cable.node_lumps(elements) for cable in cables])[..., None] * acceleration,
             np.zeros((len(length), 3)),
             *np.zeros((2, len(length))),
         )
@@ -78,7 +81,18 @@ class CableBatch:
         offsets = np.arange(self.elements) - 0.5 * (self.elements - 1)
         vectors = mid_force[:, None, :] - offsets[:, None] * self.element_weight[:, None, :]
         vectors[:, 0] += self.handed_on
+        vectors[:, 1:] -= np.cumsum(self.lump_weight[:, 1:-1], axis=1)
         return vectors
+
+    @property
+    def on_end(self) -> np.ndarray:
+        """Weight (m, 3) [N] that `mid_force` leaves to the end of each cable: half its own, and all that sits on it."""
+        return 0.5 * self.elements * self.element_weight + self.lump_weight[:, 1:].sum(axis=1)
+
+    @property
+    def on_start(self) -> np.ndarray:
+        """Weight (m, 3) [N] at the start: half its own, and what sits on the first node."""
+        return 0.5 * self.elements * self.element_weight + self.lump_weight[:, 0]
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +134,7 @@ def chain_state(batch: CableBatch, chord: np.ndarray, mid_force: np.ndarray) -> 
 def starting_force(batch: CableBatch, chord: np.ndarray) -> np.ndarray:
     """First guess (m, 3) [N]: Hooke along the straight chord, or the shallow parabola of the spare length."""
     span = np.linalg.norm(chord, axis=-1)
-    weight = np.linalg.norm(batch.element_weight, axis=-1) * batch.elements
+    weight = np.linalg.norm(batch.element_weight * batch.elements + batch.lump_weight.sum(axis=1), axis=-1)
     strain = span / batch.unstrained_length - 1.0
     stretched = np.maximum(batch.axial_stiffness * strain, 0.0)
     stretched = stretched + np.cbrt(batch.axial_stiffness * weight**2 / 24.0)
@@ -212,7 +226,7 @@ def _equilibrium(
     tensions = np.linalg.norm(vectors, axis=-1)
     steps = vectors * (length * (1.0 / tensions + 1.0 / cable.axial_stiffness))[:, None]
     nodes = np.vstack([start, start + np.cumsum(steps, axis=0)])
-    left_over = internal_forces(nodes, length, cable.axial_stiffness)[1:-1] - weight
+    left_over = internal_forces(nodes, length, cable.axial_stiffness)[1:-1] - weight - batch.lump_weight[index, 1:-1]
     left_over[0] -= handed
     weakest = int(np.argmin(np.linalg.norm(np.diff(nodes, axis=0), axis=-1)))
     stretch = float(np.linalg.norm(nodes[weakest + 1] - nodes[weakest])) / length - 1.0
@@ -223,8 +237,8 @@ def _equilibrium(
         fixed_array("node_load", weight, (3,)),
         fixed_array("nodes", nodes, (None, 3)),
         fixed_array("tensions", vectors, (None, 3)),
-        start_force=fixed_array("start_force", -vectors[0] + handed - 0.5 * weight, (3,)),
-        end_force=fixed_array("end_force", vectors[-1] - 0.5 * weight, (3,)),
+        start_force=fixed_array("start_force", -vectors[0] + handed - 0.5 * weight - batch.lump_weight[index, 0], (3,)),
+        end_force=fixed_array("end_force", vectors[-1] - 0.5 * weight - batch.lump_weight[index, -1], (3,)),
         residual_norm=float(np.linalg.norm(left_over, axis=-1).max()),
         iterations=iterations,
     )

@@ -66,6 +66,8 @@ class MovingRobot:
         rest, robot = problem.equilibrium, problem.equilibrium.robot
         if robot.windy:
             raise ValueError("large motion knows no wind on cables: take linear=True, or CableData.drag_width = 0")
+        if any(cable.lumps for cable in robot.cables):
+            raise ValueError("large motion knows no masses on cables: take linear=True, or CableData.lumps = ()")
         length = np.array([cable.element_length for cable in rest.cables])
         lumps = length * np.array([cable.linear_density for cable in robot.cables])
         mass, center, inertia = _with_points(problem, 0.5 * lumps)

@@ -76,8 +76,7 @@ def platform_state(
     around = robot.surroundings
     bent = bend(batch, robot.frame_anchors, ends, robot.soft_masts, first)
     chains = bent.chains
-    half_weight = 0.5 * batch.elements * batch.element_weight
-    pulls = half_weight - chains.mid_force
+    pulls = batch.on_end - chains.mid_force
     forces, levers = np.vstack([pulls, loads.forces]), np.vstack([arms, load_arms])
     wrench = np.concatenate([forces.sum(axis=0), np.cross(levers, forces).sum(axis=0)])
     away = position - around.tether_point
@@ -91,7 +90,7 @@ def platform_state(
         tangent = np.einsum("mka,mkb->ab", motion, np.linalg.solve(chains.flexibility, motion))
     tangent[:3, :3] += around.tether_stiffness * np.eye(3)
     tangent += rotating_arm_stiffness(levers, forces)
-    cable_energy = -chains.energy - (half_weight * (bent.starts + ends)).sum(axis=1)
+    cable_energy = -chains.energy - (batch.on_start * bent.starts + batch.on_end * ends).sum(axis=1)
     load_energy = (loads.forces * (position + load_arms)).sum() - 0.5 * around.tether_stiffness * (away @ away)
     energy = float(cable_energy.sum() - load_energy) + bent.energy
     return PlatformState(position, rotation, chains, bent.iterations, wrench, tangent, energy, bent.starts)

@@ -38,10 +38,13 @@ def to_fem(robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None
             "mast_bending, to check the rest; the model exact computes both"
         )
     stiffness = robot.axial_stiffness if axial_stiffness is None else axial_stiffness
+    lumps = [tuple((p.from_platform, p.mass) for p in robot.lumps if p.cable == i + 1) for i in range(len(lengths))]
     cables = tuple(
-        fem.CableData(float(length), float(ea), cable.linear_density, float(give), cable.winch_tension, float(width))
-        for length, ea, cable, give, width in zip(
-            lengths, stiffness, robot.cables, more.series_compliance, more.drag_width, strict=True
+        fem.CableData(
+            float(length), float(ea), cable.linear_density, float(give), cable.winch_tension, float(width), held
+        )
+        for length, ea, cable, give, width, held in zip(
+            lengths, stiffness, robot.cables, more.series_compliance, more.drag_width, lumps, strict=True
         )
     )
     body = robot.platform

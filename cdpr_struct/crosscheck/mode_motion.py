@@ -49,7 +49,7 @@ def mode_motion(point: OperatingPoint, modes: RobotModes) -> ModeMotion:
 def half_waves(point: OperatingPoint, hertz: np.ndarray) -> np.ndarray:
     """(k,) half waves of that frequency that fit into a cable where its waves are slowest, the most of all cables."""
     cables = point.cables
-    upper, lower = cables.force_z, cables.force_z - cables.weight * cables.length
+    upper, lower = cables.force_z, cables.force_z - cables.whole_weight
     rise = np.where(upper * lower > 0.0, np.minimum(np.abs(upper), np.abs(lower)), 0.0)
     slowest = np.sqrt(np.hypot(cables.force_x, rise) / point.arrays.linear_density)
     return np.asarray(2.0 * hertz * np.max(cables.length / np.maximum(slowest, 1e-9)))

@@ -54,7 +54,15 @@ def recommended(decision: Decision, confirmed: bool, likeliest: Sequence[str]) -
             found += [one for name in names for one in _of_cause("tell_apart", name)]
         elif decision.doubted or not confirmed:
             found += _of_cause("confirm", names[0])
-    return list(dict.fromkeys(found))
+    return _merged(found)
+
+
+def _merged(found: Sequence[Recommendation]) -> list[Recommendation]:
+    """Each measurement once, with all causes that it is about."""
+    causes: dict[tuple[str, str], dict[str, None]] = {}
+    for one in found:
+        causes.setdefault((one.purpose, one.measurement), {}).update(dict.fromkeys(one.causes))
+    return [Recommendation(purpose, what, tuple(names)) for (purpose, what), names in causes.items()]
 
 
 def _of_cause(purpose: str, name: str) -> list[Recommendation]:

@@ -56,6 +56,7 @@ def reasons_against(point: OperatingPoint) -> list[str]:
         "a guided platform": robot.has_guides,
         "tilted gravity": robot.is_tilted,
         "wind on cables": robot.has_cable_drag,
+        "masses on cables": robot.has_lumps,
         "parameters of their own at each pose": bool(robot.batch_shape),
     }
     return [name for name, present in known.items() if present]

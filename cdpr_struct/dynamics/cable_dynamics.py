@@ -67,7 +67,7 @@ def polynomial_order(point: OperatingPoint, highest_omega: float, rough: bool = 
     """Order of the polynomials with which "exact" is as accurate as `cable_dynamics` says."""
     half_waves = highest_omega / _first_frequency(point).min()
     kinks = point.arrays.bending_stiffness.any() or point.arrays.added_mass.any()  # at clamped ends, at the mass
-    taut = not kinks and (point.cables.weight * point.cables.length < _TAUT * point.cables.tension).all()
+    taut = not kinks and (point.cables.whole_weight < _TAUT * point.cables.tension).all()
     fine = _KINKED if kinks else _FEW if taut else _MANY
     spare, least = (_FEWEST if taut else _FEW) if rough else fine
     return int(np.clip(2.0 * half_waves + spare, least, 400.0))
@@ -79,8 +79,11 @@ def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
     shape = cables.length.shape
     stiffness = point.end_stiffness.reshape(-1, 3, 3)
     density = np.broadcast_to(robot.linear_density, shape).reshape(-1)
+    k = robot.lump_mass.shape[-1:]
     extras = CableExtras(
-        *(np.broadcast_to(value, shape).reshape(-1) for value in (robot.bending_stiffness, robot.added_mass))
+        np.broadcast_to(robot.bending_stiffness, shape).reshape(-1),
+        np.broadcast_to(robot.added_mass, shape).reshape(-1),
+        np.broadcast_to(robot.lump_mass, shape + k).reshape((-1, *k)),
     )
     flat = flattened(cables)
     found = expand_catenaries(flat, density, order, stiffness, frame_ends(point), extras).reshaped(shape)
@@ -98,10 +101,11 @@ def flattened(cables: CableStates) -> CableStates:
     """The same cables with the batch of poses and m in one axis."""
     shape = cables.length.shape
 
-    def flat(value: np.ndarray, core: tuple[int, ...]) -> np.ndarray:
+    def flat(value: np.ndarray, own: int) -> np.ndarray:
+        core = value.shape[value.ndim - own :]
         return np.broadcast_to(value, shape + core).reshape((-1, *core))
 
-    return CableStates(**{f.name: flat(getattr(cables, f.name), (3,) * (f.name in VECTORS)) for f in fields(cables)})
+    return CableStates(**{f.name: flat(getattr(cables, f.name), int(f.name in VECTORS)) for f in fields(cables)})
 
 
 def damped(cables: CableDynamics, damping_ratio: np.ndarray, omega: np.ndarray) -> np.ndarray:

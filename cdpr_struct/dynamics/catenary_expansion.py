@@ -16,6 +16,7 @@ import numpy as np
 from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
 from cdpr_struct.dynamics.catenary_line import across, along, stiffness_density
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
+from cdpr_struct.dynamics.piecewise_basis import PiecewiseBasis, PiecewiseCoordinate
 from cdpr_struct.dynamics.polynomial_basis import curvatures, on_gauss_nodes, polynomial_basis
 from cdpr_struct.dynamics.stiff_cable import slenderness
 from cdpr_struct.statics.cable_state import CableStates, cable_frame
@@ -35,10 +36,12 @@ class FrameEnds:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CableExtras:
-    """Bending stiffness EI (m,) [N m^2] of taut cables clamped at both ends, and masses (m,) at mid-cable [kg]."""
+    """Bending stiffness EI (m,) [N m^2] of taut cables clamped at both ends, masses (m,) at mid-cable, and those of
+    the point masses (m, k) that hang where `CableStates.lump_place` says [kg]."""
 
     bending_stiffness: np.ndarray
     added_mass: np.ndarray
+    lump_mass: np.ndarray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,8 +100,10 @@ def expand_catenaries(
     """
     frame = cable_frame(cables)
     to_local = np.swapaxes(frame, -1, -2)
-    nodes, weights, values, slopes = on_gauss_nodes(order)
-    coordinate = CatenaryCoordinate.of(cables)
+    lumped = cables.has_lumps
+    basis = PiecewiseBasis(order, 1 + lumped * cables.lump_place.shape[-1])
+    nodes, weights, values, slopes = basis.on_gauss_nodes() if lumped else on_gauss_nodes(order)
+    coordinate = PiecewiseCoordinate.of(cables) if lumped else CatenaryCoordinate.of(cables)
     arc, rate = coordinate.arc(nodes)
     stretched = None if left_out is None else left_out.axial_stiffness
     density = stiffness_density(cables, arc, axial_stiffness=stretched)
@@ -109,6 +114,9 @@ def expand_catenaries(
     if extras is not None and extras.added_mass.any():
         middle, _ = polynomial_basis(coordinate.xi(np.array([0.5]))[:, 0], order)
         mass = mass + extras.added_mass[:, None, None] * middle.T[:, :, None] * middle.T[:, None, :]
+    if extras is not None and lumped:
+        there, _ = basis.values(coordinate.xi(1.0 - cables.lump_place / cables.length[:, None]))
+        mass = mass + np.einsum("imk,jmk,mk->mij", there, there, extras.lump_mass, optimize=True)
     if extras is not None and extras.bending_stiffness.any():
         ends = 2.0 * slenderness(extras.bending_stiffness, cables.tension, cables.chord)
         density = stiffness_density(cables, arc, (1.0 + ends + ends**2) ** 2)
@@ -127,7 +135,7 @@ def expand_catenaries(
         if left_out is not None and left_out.axial_inertia:
             moved = along(cables, arc)[..., components, :][..., components] * inertia[..., None, None]
             full = full - np.moveaxis(_products(values, np.moveaxis(moved, 1, -1)), (1, 2), (2, 4)).reshape(full.shape)
-        freedoms = _Freedoms.of(order, len(components), directions)
+        freedoms = _Freedoms.of(basis.count - 1, len(components), directions)
         planes.append(_condense(components, stiffness, full, freedoms, springs))
     computed = _end_mass([(plane.components, plane.end_stiffness) for plane in planes])
     found = ModalExpansion(
@@ -139,7 +147,7 @@ def expand_catenaries(
         rigid_mass=_end_mass([(plane.components, plane.rigid_mass) for plane in planes]),
         rigid_end=_end_mass([(plane.components, plane.rigid_end) for plane in planes]),
         rigid_modes=_coupling([(plane.components, plane.rigid_modes) for plane in planes]),
-        shapes=lambda stations, derivative=0: _shapes(planes, coordinate, order, stations, derivative),
+        shapes=lambda stations, derivative=0: _shapes(planes, coordinate, basis, stations, derivative),
     )
     return found.ascending()
 
@@ -255,14 +263,18 @@ def _coupling(parts: list[tuple[tuple[int, ...], np.ndarray]]) -> np.ndarray:
 
 
 def _shapes(
-    planes: list[_Plane], coordinate: CatenaryCoordinate, order: int, stations: np.ndarray, derivative: int
+    planes: list[_Plane],
+    coordinate: CatenaryCoordinate | PiecewiseCoordinate,
+    basis: PiecewiseBasis,
+    stations: np.ndarray,
+    derivative: int,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Static shapes (m, s, 3, 3) and modes (m, p, s, 3) as `Shapes` says; the second derivative for taut cables."""
     xi = coordinate.xi(stations)
-    values, slopes = polynomial_basis(xi, order)
+    values, slopes = basis.values(xi)
     if derivative:
         stretch = coordinate.length[:, None] / coordinate.arc(xi)[1]
-        values = slopes * stretch if derivative == 1 else curvatures(xi, order) * stretch**2
+        values = slopes * stretch if derivative == 1 else curvatures(xi, basis.order) * stretch**2
     inner, ramp = values[:-1], values[-1]
     static = np.zeros((*xi.shape, 3, 3))
     blocks = []

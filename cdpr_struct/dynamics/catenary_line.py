@@ -8,6 +8,9 @@ from cdpr_struct.statics.cable_state import CableStates
 def tangent_and_tension(cables: CableStates, arc: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Tangent (m, q, 3) and tension (m, q) [N] at unstrained arc lengths from the frame."""
     hanging = cables.weight[:, None] * (cables.length[:, None] - arc)
+    if cables.has_lumps:
+        above = (cables.length[:, None] - cables.lump_place)[:, None, :] > arc[..., None]
+        hanging = hanging + (cables.lump_weight[:, None, :] * above).sum(axis=-1)
     vertical = cables.force_z[:, None] - hanging
     horizontal = np.broadcast_to(cables.force_x[:, None], vertical.shape)
     tension = np.hypot(horizontal, vertical)

@@ -13,7 +13,8 @@ _STEPS = 2.0  # of the even lines: beyond this many of them their own spacing is
 _ABOUT_A_POLE = 1e-3  # of its frequency: as half width with which lines are laid about an undamped mode
 # A weak mode on the flank of a strong one peaks up to some five half widths off its frequency. Maxima beyond ten are
 # humps between two antiresonances: measured up to 1 % of the highest peak, and none in driving-point responses.
-_REACH = 10.0
+PEAK_REACH = 10.0
+"""Half widths between a mode and a peak that belongs to it, at most."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,7 +44,7 @@ class Resonances:
     def near(self, hertz: np.ndarray) -> np.ndarray:
         """(f,) bool: whether a maximum at this frequency belongs to a damped mode, or to one beyond `known_to`."""
         apart = np.abs(hertz[:, None] - self.hertz)
-        return np.asarray((apart <= _REACH * self.half_width).any(axis=1) | (hertz > self.known_to))
+        return np.asarray((apart <= PEAK_REACH * self.half_width).any(axis=1) | (hertz > self.known_to))
 
     def lines(self, even: np.ndarray) -> Lines:
         """Lines that even ones (f,) lack; each mode is served up to the midpoints to its neighbours.

@@ -59,6 +59,8 @@ def taut_cables(point: OperatingPoint) -> TautCables:
             f"cable {number} has a winch_tension: the closed-form DSM has no inertia along the cable, where such a "
             "cable slides; use the model exact"
         )
+    if robot.has_lumps:
+        raise CdprError("the closed-form DSM knows no masses on cables (lumps); use the model exact")
     slack = ~(np.asarray(cables.tension) > 0.0)
     if slack.any():
         number = int(np.argwhere(slack)[0][-1]) + 1

@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Pattern
 from cdpr_struct.hypotheses.periods import likeliest_periods
 from cdpr_struct.residuals.linearised import Local, Outside
-from cdpr_struct.robot.robot_arrays import plus
+from cdpr_struct.robot.changed_arrays import plus
 
 UNKNOWN = "unknown"
 """Name of every hypothesis that no cause of the library explains."""

@@ -104,6 +104,7 @@ def read_robot(
     upper_bound: float | None = None,
     wrench: "Numbers | None" = None,
     temperature: float | None = None,
+    lumps: bool = False,
 ) -> "Robot":
     """The robot with its load and temperature, its force limits replaced where arguments give others.
 
@@ -114,13 +115,15 @@ def read_robot(
     lower_bound, upper_bound : of the cable forces at the platform [N]; None keeps each cable's own
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
     temperature : of the cables, above that at which lengths are entered [K]; None keeps the robot's own
+    lumps : whether the command knows masses on cables
 
     What can hardly be meant in it is said behind an error; every result says it by `with_extensions`.
 
     Raises
     ------
-    InputError : no such robot, or a number out of range.
+    InputError : no such robot, a number out of range, or masses on cables that the command does not know.
     """
+    from cdpr_struct.interface.lumps import require_no_lumps
     from cdpr_struct.robot.plausibility import implausible
     from cdpr_struct.robot.robot import Robot
     from cdpr_struct.robot.robot_file import load_robot
@@ -133,6 +136,8 @@ def read_robot(
     if not isinstance(robot, Robot | str | os.PathLike):
         raise InputError("robot", "", robot, "a Robot, a built-in name, or the path of a robot file")
     entered = robot if isinstance(robot, Robot) else load_robot(os.fspath(robot))
+    if not lumps:
+        require_no_lumps(entered, "this command knows no masses on cables; inverse, forward, modes, frf do")
     doubt(implausible(entered))
     try:
         loaded = entered.with_load(payload, mass)

@@ -163,7 +163,8 @@ class AuditQuestion:
         found = audit_of(self.batches, columns)
         told: dict[str, Any] = audit_json(found, self.time) | {"warnings": self.notes}
         if self.free is not None:
-            told = told_in_map(told, self.free.tolist(), table="audit.csv")
+            angles = np.degrees(angles_from_rotation(found.rotation[found.held]))
+            told = told_in_map(told, self.robot, self.free.tolist(), angles, table="audit.csv")
         return AuditResult(with_extensions(told, self.robot, "audit"), found, self.grid, self.time)
 
 

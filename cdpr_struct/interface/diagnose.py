@@ -40,7 +40,7 @@ class DiagnoseResult(Result):
     @property
     def title(self) -> str:
         """Whose simulation."""
-        return f"{self.diagnosis.campaign.robot_name}: what the simulation gets wrong"
+        return f"{self.diagnosis.campaign.robot.name}: what the simulation gets wrong"
 
     def text(self) -> str:
         """The verdict first, then errors, candidates and the gain."""

@@ -9,6 +9,7 @@ from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_lengths, read_pose, read_robot
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.inverse import MODELS
+from cdpr_struct.interface.lumps import require_lumps_on_cables, require_sagging
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.reports import statics_rest
 from cdpr_struct.reports.extension_notes import with_extensions
@@ -108,12 +109,14 @@ def forward(
     CdprError : no equilibrium was found.
     """
     machine, chosen = (
-        read_robot(robot, payload, mass, wrench=wrench, temperature=temperature),
+        read_robot(robot, payload, mass, wrench=wrench, temperature=temperature, lumps=True),
         one_of(model, "model", MODELS),
     )
+    require_sagging(machine, chosen)
     length = read_lengths(lengths, machine)
     begin = None if start is None else read_pose(start, machine, "start")
     found = locked_rest(machine, length, begin, chosen)
+    require_lumps_on_cables(machine, found.solution.cables)
     length = _paid_out(machine, length, found)
     told = statics_rest.forward_json(machine, chosen, length, found.solution) | {"locked": locked_json(found)}
     torn = strain_sentence(found.solution.cables)

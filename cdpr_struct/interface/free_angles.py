@@ -14,6 +14,7 @@ from cdpr_struct.robot.robot import FREEDOMS, Robot
 from cdpr_struct.statics.even_orientation import even_orientation
 from cdpr_struct.statics.free_orientation import ANGLES, free_orientation, left_free, turn_with_guide
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, hung_solution
+from cdpr_struct.workspace.margins import largest_tilt
 
 FreeAngles: TypeAlias = str | Iterable[str]
 """Names of angles, or their text with commas between them: rx, ry, rz."""
@@ -61,6 +62,11 @@ def names_of(free: Sequence[bool] | np.ndarray) -> list[str]:
     return [name for name, chosen in zip(ANGLES, free, strict=True) if chosen]
 
 
+def found_angles(columns: Mapping[str, Any]) -> np.ndarray:
+    """(k, 3) columns `rx_deg`, `ry_deg`, `rz_deg` of a map."""
+    return np.stack([columns[f"{name}_deg"] for name in ANGLES], axis=-1)
+
+
 def _were_left_free(free: Sequence[bool] | np.ndarray) -> str:
     names = names_of(free)
     return f"{', '.join(names)} {'was' if len(names) == 1 else 'were'} left free"
@@ -74,11 +80,22 @@ def where_judged(quantity: str) -> str:
 
 
 def told_in_map(
-    told: Mapping[str, Any], free: Sequence[bool], more: str = "", table: str = "map.csv"
+    told: Mapping[str, Any],
+    robot: Robot,
+    free: Sequence[bool],
+    degrees: np.ndarray,
+    more: str = "",
+    table: str = "map.csv",
 ) -> dict[str, Any]:
-    """The result of a map with its free angles, (3,) bool, and a warning that says in which table those found stand."""
-    said = f"{_were_left_free(free)}: rx_deg, ry_deg and rz_deg of {table} are the angles found."
-    return {**told, "free": {"angles": names_of(free)}, "warnings": [said + more, *told["warnings"]]}
+    """The result of a map with its free angles, (3,) bool, and a sentence on them.
+
+    degrees : (k, 3) rx, ry, rz found, nan where none are;  table : which file has them
+    """
+    said = f"{_were_left_free(free)}: rx_deg, ry_deg and rz_deg of {table} are the angles found"
+    tilt = largest_tilt(robot, degrees)
+    said += "." if tilt is None else f", tilt up to {tilt:.1f}°."
+    answer = {"angles": names_of(free), "largest_tilt_deg": tilt}
+    return {**told, "free": answer, "warnings": [said + more, *told["warnings"]]}
 
 
 def told_on_way(told: Mapping[str, Any], free: Sequence[bool], rotation: np.ndarray, left_out: float) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_pose, read_robot
 from cdpr_struct.interface.free_angles import FreeAngles, chosen_pose
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
+from cdpr_struct.interface.lumps import require_lumps_on_cables, require_sagging
 from cdpr_struct.interface.operating_point import held
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.reports import statics_rest
@@ -110,11 +111,13 @@ def inverse(
     UnholdablePoseError : the cables cannot hold the pose.
     """
     chosen = one_of(model, "model", MODELS)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True)
+    require_sagging(machine, chosen)
     where = read_pose(pose, machine)
     hanging = chosen_pose(machine, where, free, orient, chosen)
     where = where if hanging is None else hanging.pose
     solution = held(machine, where, chosen) if hanging is None else hanging.solution
+    require_lumps_on_cables(machine, solution.cables)
     stability = held_stability(RobotArrays.of(machine), where.position, where.rotation, solution.cables)
     said = [
         None if hanging is None else hanging.sentence(),

@@ -11,7 +11,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import SMALLEST, read_grid, read_robot, real, whole
-from cdpr_struct.interface.free_angles import FreeAngles, names_of, read_free, told_in_map, where_judged
+from cdpr_struct.interface.free_angles import FreeAngles, found_angles, names_of, read_free, told_in_map, where_judged
 from cdpr_struct.interface.given import GridLike, Numbers, Progress, RobotLike
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
@@ -177,7 +177,8 @@ class MapQuestion:
         values = quantity_of(self.quantity).finished(self.robot, self.grid, run(self.batches))
         told = statics_map.map_json(self.robot, self.quantity, self.grid, values) | {"resumed_chunks": 0}
         if self.free is not None:
-            told = told_in_map(told, self.free.tolist(), where_judged(self.quantity))
+            free, angles = self.free.tolist(), found_angles(values)
+            told = told_in_map(told, self.robot, free, angles, where_judged(self.quantity))
         answer = with_extensions(told, self.robot, _kin(self.quantity))
         return MapResult(answer, self.robot, self.quantity, self.grid, values)
 

@@ -13,6 +13,7 @@ from cdpr_struct.errors import CdprError, ConvergenceError, InputError, Unholdab
 from cdpr_struct.interface.arguments import read_lengths, read_pose
 from cdpr_struct.interface.free_angles import FreeAngles, HangingPose, hanging_pose
 from cdpr_struct.interface.given import Numbers, PoseLike
+from cdpr_struct.interface.lumps import require_lumps_on_cables
 from cdpr_struct.reports.locked_rest import locked_json, locked_warnings
 from cdpr_struct.reports.platform_freedoms import freedoms_json
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
@@ -105,6 +106,7 @@ def rest(
         where = where if hanging is None else hanging.pose
         cables = held(robot, where).cables if hanging is None else hanging.solution.cables
         point = OperatingPoint(robot, where.position, where.rotation, cables)
+        require_lumps_on_cables(robot, cables)
         _require_shape(point, True)
         return AtRest(point, hanging=hanging)
     if free is not None:
@@ -142,6 +144,7 @@ def _locked(robot: Robot, lengths: Numbers, start: PoseLike | None) -> AtRest:
             f"stable ones elsewhere: {found.others.count}"
         )
     point = OperatingPoint(robot, solution.position, solution.rotation, solution.cables)
+    require_lumps_on_cables(robot, solution.cables)
     _require_shape(point, False)
     return AtRest(point, found)
 

@@ -32,7 +32,7 @@ class PlanResult(Result):
     @property
     def title(self) -> str:
         """Whose plan."""
-        return f"{self.campaign.robot_name}: what the campaign can find"
+        return f"{self.campaign.robot.name}: what the campaign can find"
 
     def text(self) -> str:
         """Smallest sizes, confusions, and next measurements."""

@@ -10,7 +10,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import read_grid, read_pose, read_robot, real
-from cdpr_struct.interface.free_angles import FreeAngles, names_of, read_free, told_in_map, where_judged
+from cdpr_struct.interface.free_angles import FreeAngles, found_angles, names_of, read_free, told_in_map, where_judged
 from cdpr_struct.interface.given import GridLike, Numbers, PoseLike, Progress, RobotLike
 from cdpr_struct.interface.map import require_drawable
 from cdpr_struct.interface.result import Files, Result
@@ -118,7 +118,8 @@ class PoseErrorQuestion:
             errors = PoseErrorMap(machine.name, machine.platform.mass, self.grid, values).require_some()
             told |= statics_pose_error.pose_error_json(errors, machine)
             if self.free is not None:
-                told = told_in_map(told, self.free.tolist(), where_judged(QUANTITY), "pose_error.csv")
+                free, angles = self.free.tolist(), found_angles(values)
+                told = told_in_map(told, machine, free, angles, where_judged(QUANTITY), "pose_error.csv")
         if self.load is not None:
             told["sufficient_load"] = statics_pose_error.sufficient_load_json(*self.load)
         return PoseErrorResult(with_extensions(told, machine, "pose-error"), machine, errors, self.load)

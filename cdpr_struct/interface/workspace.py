@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cdpr_struct.errors import InputError
-from cdpr_struct.interface.free_angles import told_in_map
+from cdpr_struct.interface.free_angles import found_angles, told_in_map
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.wrenches import Wrenches
 from cdpr_struct.reports import statics_map, workspace_region
@@ -105,7 +105,7 @@ class WorkspaceQuestion:
         told["anchor_zone_m"] = self.compute.zone
         told["resumed_chunks"] = 0
         if self.free is not None:
-            told = told_in_map(told, self.free)
+            told = told_in_map(told, self.robot, self.free, found_angles(values))
         answer = with_extensions(told, self.robot, "inverse")
         return WorkspaceResult(answer, self.robot, self.grid, values, self.requirements, fails, region)
 

@@ -292,7 +292,7 @@ def _require_known(robot: Robot, source: Path) -> None:
 
     Raises
     ------
-    InputError : guides, other gravity than along -z, winches that hold tensions, or wind on cables.
+    InputError : guides, other gravity than along -z, winches that hold tensions, masses or wind on cables.
     """
     level = robot.down.tolist() == [0.0, 0.0, -1.0] and robot.gravity > 0.0
     if robot.guided or not level:
@@ -306,6 +306,9 @@ def _require_known(robot: Robot, source: Path) -> None:
         expected = "winches that hold lengths: those that hold a tension are not among what is diagnosed"
         what = f"{robot.name} with cables[{held}].winch_tension = {robot.cables[held - 1].winch_tension:g}"
         raise InputError(str(source), "robot", what, expected)
+    if robot.lumps:
+        what = f"{robot.name} with {len(robot.lumps)} lumps"
+        raise InputError(str(source), "robot", what, "no [[lumps]]: masses on cables are not among what is diagnosed")
     if robot.extensions.drag_width.any():
         what = f"{robot.name} with extensions.drag_width = {robot.extensions.drag_width.tolist()}"
         raise InputError(str(source), "robot", what, "no drag_width: wind on cables is not among what is diagnosed")

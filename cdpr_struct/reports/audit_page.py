@@ -76,7 +76,8 @@ def _plates(audit: PoseAudit, grid: Grid | None, time: np.ndarray | None) -> lis
     if grid is not None and len(grid.free) == 2:
         caption = audit_map.audit_map_caption(audit)
         plot = map_plot(grid, audit_map.audit_layers(audit), FramePlan.of(audit.robot, grid))
-        return [Plate("map", "Broken limits over the workspace", Drawing("map", size, draw), caption, plot)]
+        drawing, live = Drawing("map", size, draw), audit_map.audit_map_caption(audit, wide=False)
+        return [Plate("map", "Broken limits over the workspace", drawing, caption, plot, live_caption=live)]
     return [
         Plate("course", "Limits along the way", Drawing("course", size, draw), audit_map.audit_course_caption(audit))
     ]
@@ -137,5 +138,7 @@ def _tables(audit: PoseAudit) -> list[HtmlTable]:
         poses = poses_in_degrees(audit)
         rows = [[", ".join(f"{v:g}" for v in poses[i]), audit.reason[i]] for i in unheld[:_UNHELD_SHOWN]]
         more = f"{len(unheld) - _UNHELD_SHOWN} more in audit.csv." if len(unheld) > _UNHELD_SHOWN else ""
-        tables.append(HtmlTable("Poses that cannot be held", ["pose [m, deg]", "why"], rows, more))
+        tables.append(
+            HtmlTable("Poses that cannot be held", ["pose [m, deg]", "why"], rows, more, prose=frozenset({1}))
+        )
     return tables

@@ -88,7 +88,7 @@ def sentences(audit: PoseAudit) -> list[str]:
     if not bad:
         return [f"WITHIN THE PRINTED LIMITS: every cable at {where}.", *found]
     share = "" if total == 1 else f" {bad} of {held} poses are affected."
-    parts = [f"{name} {_whose(b)} ({_worst(audit, name)})" for name, b in audit.broken.items() if b.any()]
+    parts = [f"{WORDS[name]} {_whose(b)} ({_worst(audit, name)})" for name, b in audit.broken.items() if b.any()]
     return [f"OUTSIDE THE PRINTED LIMITS: {', '.join(parts)}.{share}", *found]
 
 
@@ -133,7 +133,7 @@ def _worst(audit: PoseAudit, name: str) -> str:
     value = np.where(audit.broken[name], audit.value[name], np.nan)
     least = name == "crossover_distance"
     worst = float(np.nanmin(value) if least else np.nanmax(value))
-    limit = "a limit by inclination" if name == "epsilon" else f"{float(audit.limit[name].flat[0]):.4g}"
+    limit = "a limit by inclination" if name == "epsilon" else f"a limit of {_limit(name, audit.limit[name].flat[0])}"
     return f"worst {worst:.4g} against {limit}"
 
 
@@ -166,6 +166,8 @@ def _extreme(audit: PoseAudit, name: str, poses: list[list[float]]) -> dict[str,
     return {"value": float(value[pose, cable]), "limit": limit, "cable": cable + 1, "pose": poses[pose]}
 
 
+WORDS = dict(zip(PARAMETERS, ("λ²", "crossover distance", "|α|", "ε", "sag/chord"), strict=True))
+"""The parameters as tables and figures name them."""
 CABLE_COLUMNS = ["cable", "tension [N]", "λ²", "crossover distance", "|α| [°]", "ε", "ε limit", "sag/chord", "breaks"]
 
 
@@ -174,7 +176,7 @@ def cable_rows(audit: PoseAudit, pose: int) -> list[list[str]]:
     rows = []
     for i in range(audit.tension.shape[1]):
         value = {name: audit.value[name][pose, i] for name in PARAMETERS}
-        broken = ", ".join(name for name in PARAMETERS if audit.broken[name][pose, i])
+        broken = ", ".join(WORDS[name] for name in PARAMETERS if audit.broken[name][pose, i])
         rows.append(
             [
                 str(i + 1), f"{audit.tension[pose, i]:.2f}", f"{value['lambda2']:.3f}",
@@ -204,12 +206,19 @@ def count_rows(audit: PoseAudit) -> list[list[str]]:
         worst = _extreme(audit, name, poses)
         rows.append(
             [
-                name, str(int(audit.broken[name].sum())), str(int(audit.broken[name].any(axis=1).sum())),
-                f"{worst['value']:.4g}", f"{worst['limit']:.4g}" if worst["limit"] else "steep",
+                f"{WORDS[name]} [°]" if name == "alpha_deg" else WORDS[name], str(int(audit.broken[name].sum())),
+                str(int(audit.broken[name].any(axis=1).sum())), f"{worst['value']:.4g}", _limit(name, worst["limit"]),
                 str(worst["cable"]), *(f"{v:g}" for v in worst["pose"][:3]),
             ]
         )  # fmt: skip
     return rows
+
+
+def _limit(name: str, value: float) -> str:
+    """A limit with its side; the one on ε is none where the cable is too steep."""
+    if not value:
+        return "steep"
+    return f"{'>=' if name == 'crossover_distance' else '<='} {value:.4g}"
 
 
 def _counts(audit: PoseAudit) -> str:

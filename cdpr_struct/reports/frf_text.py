@@ -4,6 +4,9 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
+from cdpr_struct.dynamics.resonances import PEAK_REACH
 from cdpr_struct.reports.text import paragraphs, place, plain_table
 
 _MOST_ROWS = 30
@@ -26,14 +29,16 @@ def frf_summary(result: Mapping[str, Any]) -> str:
     """How many eigenfrequencies lie in the band, and how many of them show as peaks."""
     modes, peaks = len(result["natural_frequencies_hz"]), len(result["peaks_hz"])
     proof = "certified complete by counting" if result["count_certified"] else "not certified"
-    peak = "1 peak" if peaks == 1 else f"{peaks} peaks"
     if not result["all_modes_of_the_band"]:
         last = result["natural_frequencies_hz"][-1]
+        peak = "1 peak" if peaks == 1 else f"{peaks} peaks"
         return (
             f"{peak} in the band; the robot has at least {modes} eigenfrequencies there, more than are listed. Above "
             f"{last:.4g} Hz peaks are only as fine as the step of the band."
         )
-    return f"{peak} in the band; the robot has {modes} eigenfrequencies there ({proof})."
+    seen = len({nearest_mode(result, float(hertz)) for one in result["responses"] for hertz in one["peaks_hz"]})
+    show = "shows as a peak" if seen == 1 else "show as peaks"
+    return f"The robot has {modes} eigenfrequencies in the band ({proof}); {seen} of them {show}."
 
 
 def _peaks(result: Mapping[str, Any], response: Mapping[str, Any]) -> str:
@@ -64,9 +69,15 @@ def peak_rows(result: Mapping[str, Any], response: Mapping[str, Any]) -> list[li
 
 
 def nearest_mode(result: Mapping[str, Any], hertz: float) -> tuple[float | None, str]:
-    """The eigenfrequency [Hz] next to a peak, and its kind; (None, "") if the band holds none."""
-    modes = result["natural_frequencies_hz"]
-    if not any(mode > 0.0 for mode in modes):
+    """The eigenfrequency [Hz] that a peak belongs to, and its kind; (None, "") if the band holds none.
+
+    The nearest of those within ten half widths of the peak, as far as peaks are looked for about a mode; the nearest of
+    all if there is none.
+    """
+    modes = np.asarray(result["natural_frequencies_hz"], dtype=float)
+    if not (modes > 0.0).any():
         return None, ""
-    index = min(range(len(modes)), key=lambda i: abs(modes[i] - hertz))
+    apart = np.abs(modes - hertz)
+    own = apart <= PEAK_REACH * np.asarray(result["natural_damping_ratios"], dtype=float) * modes
+    index = int(np.where(own, apart, np.inf).argmin() if own.any() else apart.argmin())
     return float(modes[index]), result["kinds"][index]

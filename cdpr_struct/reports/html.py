@@ -1,6 +1,7 @@
 """One self-contained HTML page from sentences, figures and tables; it loads nothing from anywhere."""
 
 import json
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import jinja2
 
 from cdpr_struct.reports.figures.plotly_source import plotly_packed
+from cdpr_struct.reports.typeset import typeset
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.drawing import Drawing
@@ -26,6 +28,8 @@ class Plate:
     picture     : what is shown where scripts do not run, in print, and in papers
     interactive : the same as plotly data, or None
     live        : the same as markup with a script of its own, which hides the static figure; "" for none
+    caption     : of the picture;  live_caption : of what stands in its place on the screen, "" where it is the same
+    both        : on the screen the picture stays above the interactive figure, which shows something else
     """
 
     name: str
@@ -34,6 +38,8 @@ class Plate:
     caption: str
     interactive: Mapping[str, Any] | None = None
     live: str = ""
+    live_caption: str = ""
+    both: bool = False
 
     @property
     def markup(self) -> str:
@@ -129,6 +135,7 @@ def render_page(page: Page) -> str:
         loader=jinja2.FunctionLoader(_template), autoescape=True, trim_blocks=True, lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )  # fmt: skip
+    environment.filters["typeset"] = typeset
     template = environment.get_template("page.html.j2")
     packed = plotly_packed() if any(plate.interactive for plate in page.plates) else ""
     return template.render(
@@ -152,7 +159,7 @@ def completed(
     top = f'<section class="warnings">{_paragraphs(f"Warning: {w}" for w in warnings)}</section>' if warnings else ""
     top += f'<section class="notes">{_paragraphs(locked)}</section>' if locked else ""
     end = f'<section class="notes"><h2>Extensions</h2>{_paragraphs(extensions)}</section>\n' if extensions else ""
-    end += f'<section class="notes"><h2>Reproduce</h2>\n<pre>{escape(command)}</pre></section>'
+    end += f'<section class="notes"><h2>Reproduce</h2>\n<pre>{_words(command)}</pre></section>'
     return text.replace(_WARNINGS, top, 1).replace(_END, end, 1)
 
 
@@ -161,7 +168,15 @@ def _element(svg: str) -> str:
 
 
 def _paragraphs(sentences: Iterable[str]) -> str:
-    return "".join(f"<p>{escape(sentence)}</p>" for sentence in sentences)
+    return "".join(f"<p>{escape(typeset(sentence))}</p>" for sentence in sentences)
+
+
+def _words(command: str) -> str:
+    """A command whose lines break between its words, not inside them; copied, it is the same text."""
+    return "".join(
+        part if part.isspace() else f'<span class="word">{escape(part)}</span>'
+        for part in re.split(r"(\s+)", command) if part
+    )  # fmt: skip
 
 
 def _template(name: str) -> str:

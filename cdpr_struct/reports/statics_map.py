@@ -23,10 +23,7 @@ if TYPE_CHECKING:
 
 _SAME = 1e-9  # relative: values of poses that count as equal
 _MOST_HELD, _MOST_RELEASED = 64, 16  # poses with slack cables at which a cure is searched; a release takes longer
-_FRAME = (
-    " In the frame (or with the button): the mapped rectangle in blue, the numbered frame anchors with the line around "
-    "them, and the platform in the middle of the map."
-)
+_FRAME = "the numbered frame anchors with the line around them, and the platform in the middle of the map."
 _NOTE = (
     "Each value is computed at the reference pose, or for pose errors from it, as the quantity's line in the "
     "documentation says. Tensions are those of minimum norm that balance the platform on sagging cables within the "
@@ -242,21 +239,39 @@ def _layer(name: str, columns: Columns) -> "Layer":
 
 
 def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
-    from cdpr_struct.reports.figures import frame_plan, interactive_map, workspace_slices
+    from cdpr_struct.reports.figures import frame_plan, interactive_map
     from cdpr_struct.reports.figures.drawing import Drawing
 
-    quantity, value = quantity_of(name), map_values(name, columns)
+    quantity = quantity_of(name)
     draw, size = map_figure(robot, name, grid, columns)
     picture = Drawing("map", size, draw)
-    hatched = " Hatched: poses that cannot be held or are not stable." if np.isnan(value).any() else ""
-    which = f"{robot.name}, {robot.platform.mass:g} kg{_comma(grid.fixed_text())}"
-    slices = f" {workspace_slices.Slices.of(grid).said()}" if len(grid.free) == 3 else ""
-    veers = "veering" in columns and columns["veering"].any()
-    veer = " Triangles: modes veer, the frequency may step there." if veers else ""
-    frame = _FRAME if len(grid.free) > 1 else ""
-    caption = f"{which}: {quantity.meaning} [{quantity.unit}].{slices}{hatched}{veer}{frame}"
+    caption, live = _captions(robot, name, grid, columns)
     plot = interactive_map.map_plot(grid, [_layer(name, columns)], frame_plan.FramePlan.of(robot, grid))
-    return Plate("map", f"{quantity.label[0].upper()}{quantity.label[1:]}", picture, caption, plot)
+    return Plate("map", f"{quantity.label[0].upper()}{quantity.label[1:]}", picture, caption, plot, live_caption=live)
+
+
+def _captions(robot: Robot, name: str, grid: Grid, columns: Columns) -> tuple[str, str]:
+    """What to see in the picture, and in the map that can be zoomed: only what each of them shows."""
+    from cdpr_struct.reports.figures import workspace_slices
+
+    quantity, gaps = quantity_of(name), bool(np.isnan(map_values(name, columns)).any())
+    about = (
+        f"{robot.name}, {robot.platform.mass:g} kg{_comma(grid.fixed_text())}: {quantity.meaning} [{quantity.unit}]."
+    )
+    picture, live = [about], [about]
+    if len(grid.free) == 3:
+        slices = workspace_slices.Slices.of(grid)
+        picture.append(slices.said())
+        live.append(f"The slider goes through the slices along {AXES[slices.axis]}.")
+    if gaps:
+        picture.append("Hatched: poses that cannot be held or are not stable.")
+        live.append(f"{'Blank' if len(grid.free) > 1 else 'Gaps'}: poses that cannot be held or are not stable.")
+    if "veering" in columns and columns["veering"].any():
+        picture.append("Triangles: modes veer, the frequency may step there.")
+    if len(grid.free) > 1:
+        picture.append(f"In the frame: the mapped rectangle in blue, {_FRAME}")
+        live.append(f"Blue line: the mapped rectangle. The button “whole frame” shows {_FRAME}")
+    return " ".join(picture), " ".join(live)
 
 
 def _comma(text: str) -> str:

@@ -117,7 +117,8 @@ def _pose_error_plates(robot: Robot, errors: PoseErrorMap) -> list[Plate]:
     picture = Drawing("pose_error", size, draw)
     layers = list(pose_error_figure.error_layers(errors).values())
     plot = map_plot(errors.grid, layers, FramePlan.of(robot, errors.grid))
-    return [Plate("pose_error", "Pose error along z", picture, pose_error_figure.pose_error_caption(errors), plot)]
+    said, live = (pose_error_figure.pose_error_caption(errors, live) for live in (False, True))
+    return [Plate("pose_error", "Pose error along z", picture, said, plot, live_caption=live)]
 
 
 def main_figure(

@@ -1,6 +1,7 @@
 """Results as text for a terminal."""
 
 import io
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -30,6 +31,16 @@ def rounded(values: Iterable[float], digits: int) -> list[float]:
 def place(position: Iterable[float]) -> str:
     """A position as (x, y, z) m, to a tenth of a millimetre."""
     return "(" + ", ".join(f"{v:g}" for v in rounded(position, 4)) + ") m"
+
+
+def with_sigma(value: float, sigma: float) -> str:
+    """A size with the digits that its sigma allows."""
+    if not (sigma > 0.0 and math.isfinite(sigma)):
+        return f"{value:.4g}"
+    decimals = 1 - math.floor(math.log10(sigma))
+    if not -3 <= decimals <= 6:
+        return f"{value:.4g} ± {sigma:.2g}"
+    return f"{round(value, decimals) + 0.0:.{max(decimals, 0)}f} ± {round(sigma, decimals):.{max(decimals, 0)}f}"
 
 
 def paragraphs(*blocks: str) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 from cdpr_struct.reports.csv_table import LongTable
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.statics_map import deep_sag, sag_warnings, slack_poses, slack_warnings
+from cdpr_struct.reports.text import with_sigma
 from cdpr_struct.reports.unheld_poses import what_helps
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import Grid
@@ -97,14 +98,14 @@ def sentences(told: Mapping[str, Any]) -> list[str]:
     asked = ", ".join(told["requirements"]) or "held and stable"
     edge = " It reaches the edge of the grid and may go on beyond." if found["ends_at_grid"] else ""
     said = [
-        f"Workspace ({asked}): {kind} {found[kind]:.4g} ± {found['error']:.2g} {unit}; "
+        f"Workspace ({asked}): {kind} {with_sigma(found[kind], found['error'])} {unit}; "
         f"{told['hold_all']} of {told['poses']} poses of the grid hold.{edge}"
     ]
     for one in told["rejections"]:
         if one["poses"]:
             words = _WORDS.get(one["requirement"])
             what = words or f"fail {one['requirement']}"
-            alone = "" if words else f", {one['alone']} of them nothing else"
+            alone = "" if words else f", {one['alone']} of them only this"
             helps = what_helps(told, told["requirements"]) if one["requirement"] == "held" else ""
             said.append(f"{one['poses']} poses ({100.0 * one['share']:.3g} %) {what}{alone}.{helps}")
     return said
@@ -131,12 +132,10 @@ def plates(
 
     draw, size = figure(robot, grid, requirements, fails, region)
     surface = drawn.surface(robot, region) if len(grid.free) == 3 else None
-    turned = " On the page: its surface between the frame anchors, to be turned." if surface else ""
-    caption = (
-        "Coloured: the first requirement that rejects each pose. Black line: the boundary of the workspace on the "
-        f"finest grid.{turned}"
-    )
-    return [Plate("map", "Workspace", Drawing("map", size, draw), caption, surface)]
+    said = "Coloured: the first requirement that rejects each pose. Black line: the boundary of the workspace on the "
+    said += "finest grid."
+    live = f"{said} Below: the surface of the workspace between the numbered frame anchors." if surface else ""
+    return [Plate("map", "Workspace", Drawing("map", size, draw), said, surface, live_caption=live, both=True)]
 
 
 def files(
@@ -157,7 +156,7 @@ def files(
         verdict=sentences(told),
         holds=told["hold_all"] == told["poses"],
         facts=[
-            (f"{found[kind]:.4g} ± {found['error']:.2g} {unit}", kind),
+            (f"{with_sigma(found[kind], found['error'])} {unit}", kind),
             (f"{told['hold_all']} of {told['poses']}", "poses hold"),
         ],
         plates=shown,

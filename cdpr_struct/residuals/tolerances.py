@@ -3,7 +3,8 @@
 import numpy as np
 
 from cdpr_struct.measurement.campaign import Tolerances
-from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
+from cdpr_struct.robot.changed_arrays import plus, times
+from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _HALF = np.sqrt(0.5)  # of a relative tolerance's sigma is common to all cables, which come from one reel
 

@@ -8,6 +8,7 @@ import numpy as np
 from cdpr_struct.robot.cable import LARGEST_EXPANSION, STEEL
 
 CABLES = "m"  # stands for the number of cables in a shape
+LUMPS = "k"  # for the number of point masses on the cable that has most, at least one
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +53,8 @@ class Parameter:
         return np.full(self._lengths(cables), self.neutral)
 
     def _lengths(self, cables: int) -> list[int]:
-        return [cables if n == CABLES else int(n) for n in self.shape]
+        named = {CABLES: cables, LUMPS: 1}
+        return [n if isinstance(n, int) else named[n] for n in self.shape]
 
     @property
     def range(self) -> str:
@@ -102,6 +104,15 @@ _RULES: dict[str, Parameter] = {
     "winch_tension": _of_cables(
         "N", "at the frame that the winch holds, 0: it holds the length", "cable.winch_tension", 0.0, least=0.0
     ),
+    "lump_place": Parameter(
+        (CABLES, LUMPS),
+        "m",
+        "of point masses on the cable, unstrained, from the platform on",
+        "lumps[]",
+        0.0,
+        least=0.0,
+    ),
+    "lump_mass": Parameter((CABLES, LUMPS), "kg", "of them", "lumps[]", 0.0, least=0.0),
     "masts": Parameter((CABLES, CABLES), "1", "1 where cables share a mast, by the frame anchors", "", 1.0),
     "uprights": Parameter((CABLES, CABLES), "1", "U, exits moved by a unit compliance of uprights: U U^T F", "", 0.0),
 }

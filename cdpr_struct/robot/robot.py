@@ -9,6 +9,7 @@ from cdpr_struct.robot.arrays import frozen_array
 from cdpr_struct.robot.body import Body
 from cdpr_struct.robot.cable import Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions
+from cdpr_struct.robot.lump import Lump, lumps_fault
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
 
@@ -32,6 +33,7 @@ class Robot:
     down             : (3,) unit vector along which gravity acts, world frame
     extensions       : compliance in line, masts, loads, encoders and sensors; neutral if not given
     bodies           : what cables must keep away from; statics and dynamics know nothing of them
+    lumps            : point masses on cables
     """
 
     name: str
@@ -47,6 +49,7 @@ class Robot:
     guided: tuple[str, ...] = ()
     down: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
     bodies: tuple[Body, ...] = ()
+    lumps: tuple[Lump, ...] = ()
 
     def __post_init__(self) -> None:
         self._settle_gravity()
@@ -69,6 +72,8 @@ class Robot:
             raise ValueError(fault)
         if fault := cable_drag_fault(self.extensions, self.gravity):
             raise ValueError(fault)
+        if fault := lumps_fault(self.lumps, m, self.extensions, self.gravity):
+            raise ValueError(f"Robot.lumps: {fault}")
 
     def _settle_gravity(self) -> None:
         """Size and direction of gravity, which may have been given as one vector."""

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cdpr_struct.robot.extensions import drag, drag_across, masts_of, uprights_of
+from cdpr_struct.robot.lump import lump_arrays
 from cdpr_struct.robot.parameters import EXTENSIONS, PARAMETERS
 from cdpr_struct.robot.platform import joined_masses
 from cdpr_struct.robot.robot import FREEDOMS, Robot
@@ -33,6 +34,7 @@ class RobotArrays:
     damping_ratio   : (..., m) xi [-];  thermal_expansion : (..., m) [1/K]
     force_min, force_max : (..., m) [N], limits of the tension at the platform
     winch_tension   : (..., m) [N] at the frame that the winch holds, 0 where it holds the length
+    lump_place      : (..., m, k) [m] of point masses lump_mass (..., m, k) [kg], ascending, from the platform on
 
     Extensions, without effect unless given:
     series_compliance, length_offset, length_scale, bending_stiffness, added_mass : (..., m)
@@ -40,9 +42,8 @@ class RobotArrays:
     mast_mass : (..., m) [kg] that moves with each cable's exit on its mast
     masts : (m, m) 1 where cables share one;  uprights : (m, m) how they bend, as `uprights_of` says
     hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  moment : (..., 3) [N m]
-    tilt            : (..., 2) [rad]
+    tilt            : (..., 2) [rad];  temperature_change : (...) [K]
     drag_area       : (...) [m^2], drag_width : (..., m) [m] in wind (..., 3) [m/s] of air_density (...) [kg/m^3]
-    temperature_change : (...) [K]
     nonlinearity    : (...) k with reference_tension (...) [N]
     cell_gain, cell_bias, friction, slip : (..., m);  tracker, accelerometer_gain : (..., 6)
     creep, sensor_mass : (...)
@@ -66,6 +67,8 @@ class RobotArrays:
     force_min: np.ndarray = field(default_factory=PARAMETERS["force_min"].without_effect)
     force_max: np.ndarray = field(default_factory=PARAMETERS["force_max"].without_effect)
     winch_tension: np.ndarray = field(default_factory=PARAMETERS["winch_tension"].without_effect)
+    lump_place: np.ndarray = field(default_factory=PARAMETERS["lump_place"].without_effect)
+    lump_mass: np.ndarray = field(default_factory=PARAMETERS["lump_mass"].without_effect)
     series_compliance: np.ndarray = field(default_factory=PARAMETERS["series_compliance"].without_effect)
     length_offset: np.ndarray = field(default_factory=PARAMETERS["length_offset"].without_effect)
     length_scale: np.ndarray = field(default_factory=PARAMETERS["length_scale"].without_effect)
@@ -113,8 +116,8 @@ class RobotArrays:
         return self.linear_density * self.gravity[..., None]
 
     def cable_load(self, chord: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Weight and drag per unstrained length of cables along chords (..., m, 3): size (..., m) [N/m] of their sum,
-        and unit vector (..., m, 3) against it, world."""
+        """Weight and drag per unstrained length of cables along chords (..., m, 3): size (..., m) [N/m] of the sum and
+        unit vector (..., m, 3) against it."""
         if not self.has_cable_drag:
             return self.weight, np.broadcast_to(self.up, chord.shape)
         pushed = drag_across(self.wind[..., None, :], chord, self.drag_width, self.air_density[..., None])
@@ -128,6 +131,16 @@ class RobotArrays:
         if not self.drag_area.any():
             return self.force
         return self.force + drag(self.wind, self.drag_area, self.air_density)
+
+    @property
+    def has_lumps(self) -> bool:
+        """Whether point masses sit on cables."""
+        return bool(self.lump_mass.any())
+
+    @property
+    def lump_weight(self) -> np.ndarray:
+        """(..., m, k) of the point masses on cables [N]."""
+        return self.lump_mass * self.gravity[..., None, None]
 
     @property
     def cable_count(self) -> int:
@@ -219,13 +232,9 @@ class RobotArrays:
 
     def stiffened(self, factor: float) -> "RobotArrays":
         """Cables, what is in line with them, and masts all `factor` times stiffer."""
-        return replace(
-            self,
-            axial_stiffness=factor * self.axial_stiffness,
-            series_compliance=self.series_compliance / factor,
-            frame_compliance=self.frame_compliance / factor,
-            mast_bending=self.mast_bending / factor,
-        )
+        names = ("series_compliance", "frame_compliance", "mast_bending")
+        soft = {name: getattr(self, name) / factor for name in names}
+        return replace(self, axial_stiffness=factor * self.axial_stiffness, **soft)
 
     def with_point_masses(self, masses: npt.ArrayLike, places: npt.ArrayLike) -> "RobotArrays":
         """The platform with point masses (..., p) [kg] fixed at places (..., p, 3) of its frame [m]."""
@@ -254,10 +263,8 @@ class RobotArrays:
     def _flat(self, name: str, shape: tuple[int, ...]) -> np.ndarray:
         value: np.ndarray = getattr(self, name)
         batch = _batch(self, name)
-        if not batch:
-            return value
         core = value.shape[len(batch) :]
-        return np.broadcast_to(value, shape + core).reshape((-1, *core))
+        return np.broadcast_to(value, shape + core).reshape((-1, *core)) if batch else value
 
 
 @lru_cache(maxsize=_KEPT)
@@ -282,6 +289,7 @@ def _entered(robot: Robot) -> RobotArrays:
         force_min=robot.force_min,
         force_max=robot.force_max,
         winch_tension=np.array([cable.winch_tension for cable in robot.cables]),
+        **lump_arrays(robot.lumps, len(robot.cables)),
         masts=masts_of(robot.frame_anchors),
         uprights=uprights_of(robot.frame_anchors, more.mast_foot),
         **{name: np.asarray(getattr(more, name), dtype=float) for name in EXTENSIONS},
@@ -291,13 +299,3 @@ def _entered(robot: Robot) -> RobotArrays:
 def _batch(arrays: RobotArrays, name: str) -> tuple[int, ...]:
     shape: tuple[int, ...] = getattr(arrays, name).shape
     return shape[: len(shape) - PARAMETERS[name].axes]
-
-
-def plus(arrays: RobotArrays, **changes: np.ndarray) -> RobotArrays:
-    """The robot with changes added to the named fields; batch axes broadcast."""
-    return replace(arrays, **{name: getattr(arrays, name) + change for name, change in changes.items()})
-
-
-def times(arrays: RobotArrays, **factors: np.ndarray) -> RobotArrays:
-    """The robot with the named fields multiplied; batch axes broadcast."""
-    return replace(arrays, **{name: getattr(arrays, name) * factor for name, factor in factors.items()})

@@ -14,6 +14,7 @@ from cdpr_struct.robot.body_table import BodyTable, body_of
 from cdpr_struct.robot.cable import LARGEST_EXPANSION, Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions, divided_mast
 from cdpr_struct.robot.file_complaints import input_error, not_toml
+from cdpr_struct.robot.lump import LumpTable, lumps_fault
 from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
@@ -70,6 +71,7 @@ class RobotTable(_Table):
     cables: Annotated[list[CablesEntry], Field(min_length=1)]
     extensions: dict[str, Any] = {}
     bodies: list[BodyTable] = []
+    lumps: list[LumpTable] = []
 
 
 def builtin_names() -> list[str]:
@@ -124,6 +126,9 @@ def _build(table: RobotTable, source: str) -> Robot:
     gravity = _gravity(table.gravity, source)
     if fault := cable_drag_fault(more, float(np.linalg.norm(gravity))):
         raise InputError(source, "extensions.drag_width", table.extensions["drag_width"], fault)
+    lumps = tuple(entry.lump for entry in table.lumps)
+    if fault := lumps_fault(lumps, len(cables), more, float(np.linalg.norm(gravity))):
+        raise InputError(source, "lumps", f"{len(lumps)} of them", fault)
     try:
         return Robot(
             name=table.name,
@@ -137,6 +142,7 @@ def _build(table: RobotTable, source: str) -> Robot:
             frame_anchors=np.array([e.frame_anchor for e in table.cables]),
             pulleys=pulleys,
             extensions=more,
+            lumps=lumps,
             bodies=tuple(body_of(entry, source, i) for i, entry in enumerate(table.bodies, start=1)),
         )
     except InputError:

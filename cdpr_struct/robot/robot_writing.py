@@ -7,6 +7,7 @@ import numpy as np
 
 from cdpr_struct.robot.body_table import body_lines
 from cdpr_struct.robot.cable import STEEL, Cable
+from cdpr_struct.robot.lump import lump_lines
 from cdpr_struct.robot.robot import Robot
 
 
@@ -31,6 +32,8 @@ def robot_toml(robot: Robot, name: str, comments: Sequence[str] = ()) -> str:
     ]
     for i in range(len(robot.cables)):
         lines += ["", *_cable(robot, i)]
+    for lump in robot.lumps:
+        lines += ["", *lump_lines(lump)]
     for obstacle in robot.bodies:
         lines += ["", *body_lines(obstacle, _quotable)]
     return "\n".join(lines) + "\n"

@@ -155,7 +155,7 @@ class SaggingModel:
         load, up = arrays.cable_load(offset)
         level = span_and_rise(offset, up)[0] / np.maximum(chord, 1e-300)
         most = np.interp(-np.log(np.maximum(level, 1e-9)), _LEVEL_LOGARITHM, _LARGEST)
-        return np.asarray(0.5 * load * chord / most)
+        return np.asarray(0.5 * (load * chord + arrays.lump_weight.sum(axis=-1)) / most)
 
 
 def _spring_on_winches(arrays: RobotArrays, points: np.ndarray, length: np.ndarray) -> CableStates:

@@ -7,8 +7,9 @@ import numpy as np
 from cdpr_struct.generated import catenary
 from cdpr_struct.generated.cable_compliance import compliance, stiffness
 
+STEEPEST = 1e-9  # cos(inclination) of a cable with point masses below this is treated as this
 _UP = np.array([0.0, 0.0, 1.0])
-VECTORS = ("offset", "heading", "up")
+VECTORS = ("offset", "heading", "up", "lump_place", "lump_weight")
 """Fields of `CableStates` with an axis of their own."""
 
 
@@ -27,6 +28,7 @@ class CableStates:
     weight          : (..., m) w [N/m]; 0 for a straight, weightless cable
     status          : (..., m) `CableStatus` values
     up              : (..., m, 3) unit vector against gravity, world; along z if not given
+    lump_place, lump_weight : (..., m, k) of masses, unstrained from the platform end on [m], [N]; none if not given
     """
 
     offset: np.ndarray
@@ -40,14 +42,31 @@ class CableStates:
     status: np.ndarray
     let_out: np.ndarray
     up: np.ndarray = None  # type: ignore[assignment]
+    lump_place: np.ndarray = None  # type: ignore[assignment]
+    lump_weight: np.ndarray = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
+        if self.lump_place is None:
+            none = np.broadcast_to(np.zeros(1), (*np.shape(self.length), 1))
+            object.__setattr__(self, "lump_place", none)
+            object.__setattr__(self, "lump_weight", none)
         if self.up is None:
             object.__setattr__(self, "up", np.broadcast_to(_UP, self.heading.shape))
 
     def at(self, index: int | np.ndarray | None) -> "CableStates":
         """The states at an index of the batch: a number, an array of numbers, or None for one more axis."""
         return CableStates(*(getattr(self, name)[index] for name in CableStates.__slots__))
+
+    @property
+    def has_lumps(self) -> bool:
+        """Whether point masses hang on any of them."""
+        return bool(self.lump_weight.any())
+
+    @property
+    def whole_weight(self) -> np.ndarray:
+        """(..., m) of the free cable and the point masses on it [N]."""
+        own = self.weight * self.length
+        return own + self.lump_weight.sum(axis=-1) if self.has_lumps else own
 
     @property
     def force_on_platform(self) -> np.ndarray:
@@ -57,7 +76,7 @@ class CableStates:
     @property
     def force_at_frame(self) -> np.ndarray:
         """(..., m, 3) tension vector at the frame end, pointing from frame to platform, world [N]."""
-        return self.force_x[..., None] * self.heading + (self.force_z - self.weight * self.length)[..., None] * self.up
+        return self.force_x[..., None] * self.heading + (self.force_z - self.whole_weight)[..., None] * self.up
 
     @property
     def total_length(self) -> np.ndarray:
@@ -72,7 +91,7 @@ class CableStates:
     @property
     def tension_at_frame(self) -> np.ndarray:
         """(..., m) [N]."""
-        return np.hypot(self.force_x, self.force_z - self.weight * self.length)
+        return np.hypot(self.force_x, self.force_z - self.whole_weight)
 
     @property
     def slack(self) -> np.ndarray:
@@ -102,29 +121,83 @@ class CableStates:
     @property
     def tension(self) -> np.ndarray:
         """(..., m) tau, tension where the cable is parallel to its chord, eq. (2.17) [N]."""
+        if self.has_lumps:
+            return np.asarray(self.force_x * self.chord / np.maximum(self.span, STEEPEST * self.chord))
         return np.where(self.slack, 0.0, catenary.chord_tension(*self._pulling))
 
     @property
     def sag(self) -> np.ndarray:
         """(..., m) largest distance from the chord, eq. (2.22) [m]; nan for a slack straight cable."""
+        if self.has_lumps:
+            return self._sag_of_segments()
         return np.where(self.slack, np.nan, catenary.sag(*self._pulling))
 
     @property
     def elongation(self) -> np.ndarray:
         """(..., m) strained minus unstrained length, eq. (2.16) [m]."""
+        if self.has_lumps:
+            return np.asarray(catenary.elongation(*self.segments).sum(axis=-1))
         return np.where(self.slack, 0.0, catenary.elongation(*self._pulling))
 
     def compliance_split(self) -> tuple[np.ndarray, np.ndarray]:
         """Axial and sag part (2.28) of the compliance in the cable plane (heading, up): two (..., m, 2, 2) [m/N]."""
-        c_axial, c_xx, c_xz, c_zz = compliance(*self._pulling)
+        if self.has_lumps:
+            c_axial, c_xx, c_xz, c_zz = (part.sum(axis=-1) for part in compliance(*self.segments))
+        else:
+            c_axial, c_xx, c_xz, c_zz = compliance(*self._pulling)
         sag = np.stack([c_xx, c_xz, c_xz, c_zz], axis=-1).reshape((*c_xx.shape, 2, 2))
         return c_axial[..., None, None] * np.eye(2), sag
+
+    @property
+    def segments(self) -> tuple[np.ndarray, ...]:
+        """Arguments of the generated functions for the segments between point masses, (..., m, k + 1)."""
+        return segments(self._pulling, self.lump_place, self.lump_weight)
+
+    def profile(self, fractions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Along heading and up (..., m, p) [m] from the frame end, at fractions (p,) or (..., m, p) of the unstrained
+        lengths."""
+        arc = fractions * self.length[..., None]
+        if not self.has_lumps:
+            along, rise = catenary.profile(arc, *(value[..., None] for value in self._pulling))
+            return along, rise
+        parts = self.segments
+        starts = self.length[..., None] - np.cumsum(parts[2], axis=-1)
+        local = np.clip(arc[..., None, :] - starts[..., None], 0.0, parts[2][..., None])
+        along, rise = catenary.profile(local, *(part[..., None] for part in parts))
+        return along.sum(axis=-2), rise.sum(axis=-2)
+
+    def _sag_of_segments(self) -> np.ndarray:
+        """(..., m) [m]: at a point mass, or where a segment is parallel to the chord."""
+        _, vertical, own, _, weight = parts = self.segments
+        span = np.maximum(self.span, STEEPEST * self.chord)
+        parallel = (self.force_x * self.rise / span)[..., None]
+        down = np.clip((vertical - parallel) / np.maximum(weight, 1e-300), 0.0, own)
+        arc = self.length[..., None] - np.cumsum(parts[2], axis=-1) + own - down
+        along, rise = self.profile(arc / self.length[..., None])
+        away = np.abs(along * self.rise[..., None] - rise * self.span[..., None]) / self.chord[..., None]
+        return np.asarray(away.max(axis=-1))
 
     @property
     def _pulling(self) -> tuple[np.ndarray, ...]:
         """Arguments of the generated functions, with a unit pull where the cable is slack."""
         force_z = np.where(self.slack, 1.0, self.force_z)
         return self.force_x, force_z, self.length, self.axial_stiffness, self.weight
+
+
+def segments(cable: tuple[np.ndarray, ...], place: np.ndarray, point_weight: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Arguments (..., k + 1) of the generated functions for each segment between point masses, that at the platform
+    first: pulls at its platform end, length, EA, w.
+
+    cable : those (...) of the whole cable;  place, point_weight : (..., k) from its platform end on, ascending [m],
+        [N]. A mass beyond the frame end sits on it
+    """
+    force_x, force_z, length, axial_stiffness, weight = (value[..., None] for value in np.broadcast_arrays(*cable))
+    none, place = np.zeros(length.shape), np.minimum(place, length)
+    ends = np.concatenate([none, place, length], axis=-1)
+    above = np.cumsum(np.concatenate([none, point_weight], axis=-1), axis=-1)
+    vertical = force_z - weight * ends[..., :-1] - above
+    rest = (np.broadcast_to(value, vertical.shape) for value in (axial_stiffness, weight))
+    return np.broadcast_to(force_x, vertical.shape), vertical, np.diff(ends, axis=-1), *rest
 
 
 def cable_stiffness(states: CableStates) -> np.ndarray:
@@ -135,7 +208,7 @@ def cable_stiffness(states: CableStates) -> np.ndarray:
     (..., m, 3, 3) symmetric, world [N/m]: eq. (2.29) in the cable plane, and force_x / span across it (for an exactly
     vertical taut cable both horizontal directions are alike). Zero for a slack straight cable and across a fold.
     """
-    k_xx, k_xz, k_zz = stiffness(*states._pulling)
+    k_xx, k_xz, k_zz = stiffness(*states._pulling) if not states.has_lumps else _stiffness_in_series(states)
     span = states.span
     vertical = span <= 1e-140 * states.length
     across = np.where(vertical, k_xx, states.force_x / np.where(vertical, 1.0, span))
@@ -153,6 +226,12 @@ def cable_stiffness(states: CableStates) -> np.ndarray:
     if (states.weight == 0.0).any():
         matrix[states.slack] = 0.0
     return matrix
+
+
+def _stiffness_in_series(states: CableStates) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """k_xx, k_xz, k_zz (..., m) [N/m] of cables whose segments' compliances add up."""
+    inverse = np.linalg.inv(sum(states.compliance_split()))
+    return inverse[..., 0, 0], inverse[..., 0, 1], inverse[..., 1, 1]
 
 
 def _turned_stiffness(states: CableStates, parts: tuple[np.ndarray, ...]) -> np.ndarray:

@@ -4,9 +4,10 @@ import numpy as np
 
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import exit_jacobian, let_out
+from cdpr_struct.statics.cable_segments import LoadedLength, Loading, forces_at_length, length_at_tension
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span, span_and_rise
 from cdpr_struct.statics.catenary import CatenaryForces, solve_end_forces
-from cdpr_struct.statics.catenary_length import length_at_chord_tension
+from cdpr_struct.statics.catenary_length import CatenaryLength, length_at_chord_tension
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 from cdpr_struct.statics.tension_winches import held_at_frame, with_winches
 
@@ -59,9 +60,21 @@ def _catenary(
     (heading, span), rise = heading_and_span(offset, up), span_and_rise(offset, up)[1]
     stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
     weight = np.broadcast_to(load, length.shape)
-    forces = solve_end_forces(span, rise, length, stiff, weight, near)
+    lumps = _lumps(arrays, length.shape)
+    if arrays.has_lumps:
+        forces = forces_at_length(span, rise, length, Loading(weight, *lumps, stiff), near)
+    else:
+        forces = solve_end_forces(span, rise, length, stiff, weight, near)
     pull = forces.force_x, forces.force_z
-    return CableStates(offset, heading, length, wrapped, *pull, stiff, weight, forces.status, passed, up), forces
+    return CableStates(
+        offset, heading, length, wrapped, *pull, stiff, weight, forces.status, passed, up, *lumps
+    ), forces
+
+
+def _lumps(arrays: RobotArrays, shape: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Places and weights (..., m, k) of point masses on cables of a shape (..., m)."""
+    place, weight = arrays.lump_place, arrays.lump_weight
+    return np.broadcast_to(place, shape + place.shape[-1:]), np.broadcast_to(weight, shape + weight.shape[-1:])
 
 
 def _catenary_over_pulley(
@@ -104,14 +117,22 @@ def _catenary_at_tension(
     """State, and rate of the length with the chord tension; `wrap` is the strained length on the pulley."""
     load, up = arrays.cable_load(offset)
     (heading, span), rise = heading_and_span(offset, up), span_and_rise(offset, up)[1]
-    cable = length_at_chord_tension(span, rise, chord_tension, arrays.axial_stiffness, load)
-    bottom = np.hypot(cable.force_x, cable.force_z - load * cable.length)
+    cable: CatenaryLength | LoadedLength
+    if arrays.has_lumps:
+        hung = Loading(load, arrays.lump_place, arrays.lump_weight, arrays.axial_stiffness)
+        even = load + arrays.lump_weight.sum(axis=-1) / np.hypot(span, rise)
+        nearly = length_at_chord_tension(span, rise, chord_tension, arrays.axial_stiffness, even)
+        cable = length_at_tension(span, rise, chord_tension, hung, (nearly.force_z, nearly.length))
+    else:
+        cable = length_at_chord_tension(span, rise, chord_tension, arrays.axial_stiffness, load)
+    bottom = np.hypot(cable.force_x, cable.force_z - load * cable.length - arrays.lump_weight.sum(axis=-1))
     wrapped = wrap / (1.0 + bottom / arrays.axial_stiffness)
     stiff = np.broadcast_to(arrays.axial_stiffness, wrapped.shape)
     weight = np.broadcast_to(load, wrapped.shape)
     states = CableStates(
         offset, heading, cable.length, wrapped, np.where(span > 0.0, cable.force_x, 0.0), cable.force_z, stiff,
         weight, cable.status, np.broadcast_to(let_out(arrays, bottom, stiff), wrapped.shape), up,
+        *_lumps(arrays, wrapped.shape),
     )  # fmt: skip
     return states, cable.length_rate
 

@@ -88,7 +88,8 @@ class HoldingProblem:
     def straight_tensions(self, high: np.ndarray) -> np.ndarray:
         """(k, m) least-norm tensions [N] of straight cables within the bounds, as far as they balance the load."""
         chord = np.linalg.norm(self._chords, axis=-1)
-        shallow = np.where(self._least() > 0.0, 0.5 * self.arrays.cable_load(self._chords)[0] * chord / _TAUT, 0.0)
+        weight = self.arrays.cable_load(self._chords)[0] * chord + self.arrays.lump_weight.sum(axis=-1)
+        shallow = np.where(self._least() > 0.0, 0.5 * weight / _TAUT, 0.0)
         low = np.maximum(self.low, shallow)
         ones = np.ones_like(low)
         reach = _REACH * np.maximum(np.linalg.norm(self.load / self.unit, axis=1, keepdims=True), low)

@@ -43,7 +43,7 @@ def potential_energy(
     loads = -((arrays.constant_force + wrench[..., :3]) * position).sum(axis=-1)
     hose = 0.5 * arrays.hose * ((arrays.hose_center - position) ** 2).sum(axis=-1)
     height = ((arms.points - states.offset) * states.up).sum(axis=-1)
-    cables = (_of_cables(states, height) + _behind_frame(arrays, states, height)).sum(axis=-1)
+    cables = (_of_whole_cables(states, height) + _behind_frame(arrays, states, height)).sum(axis=-1)
     masts = MastShapes.soft(arrays).energy(states.force_at_frame) if arrays.has_masts else 0.0
     winches = _of_winches(arrays, states, height).sum(axis=-1) if arrays.has_tension_winches else 0.0
     return np.asarray(platform + loads + hose + cables + masts + winches)
@@ -65,14 +65,28 @@ def _behind_frame(arrays: RobotArrays, states: CableStates, height: np.ndarray) 
     return np.asarray(wrapped + in_line - states.weight * height * states.let_out)
 
 
-def _of_cables(states: CableStates, height: np.ndarray) -> np.ndarray:
-    """(..., m) energy of the free cables, their frame ends at `height` (..., m) [J]."""
-    upper, lower = states.force_z, states.force_z - states.weight * states.length
-    first, last = states.tension_at_frame, states.tension_at_platform
+def _of_whole_cables(states: CableStates, height: np.ndarray) -> np.ndarray:
+    """(..., m) energy of the free cables and the point masses on them, frame ends at `height` (..., m) [J]."""
+    if not states.has_lumps:
+        return _of_cables(states.force_x, states.force_z, states.length, states.axial_stiffness, states.weight, height)
+    parts = states.segments
+    arcs = 1.0 - np.cumsum(parts[2], axis=-1) / states.length[..., None]  # where they begin, from the frame end
+    starts = height[..., None] + states.profile(arcs)[1]
+    lifted = (states.lump_weight * starts[..., :-1]).sum(axis=-1)
+    return np.asarray(_of_cables(parts[0], parts[1], parts[2], parts[3], parts[4], starts).sum(axis=-1) + lifted)
+
+
+def _of_cables(
+    force_x: np.ndarray, force_z: np.ndarray, length: np.ndarray, axial_stiffness: np.ndarray, weight: np.ndarray,
+    height: np.ndarray,
+) -> np.ndarray:  # fmt: skip
+    """(...) energy of uniform cables, their frame ends at `height` (...) [J]."""
+    upper, lower = force_z, force_z - weight * length
+    first, last = np.hypot(force_x, lower), np.hypot(force_x, upper)
     both = np.maximum(first + last, 1e-300)
-    ratio = np.minimum(states.weight * states.length / both, 1.0)
+    ratio = np.minimum(weight * length / both, 1.0)
     bend = np.where(ratio > 1e-8, np.arctanh(np.minimum(ratio, 1.0 - 1e-16)) / np.maximum(ratio, 1e-8), 1.0)
-    pull = 0.5 * (0.5 * both + 0.5 * (lower + upper) ** 2 / both + 2.0 * states.force_x**2 * bend / both)
-    square = states.force_x**2 + (lower**2 + lower * upper + upper**2) / 3.0
-    there = first + 0.5 * first**2 / states.axial_stiffness - states.weight * height
-    return np.asarray(states.length * (pull + square / states.axial_stiffness - there))
+    pull = 0.5 * (0.5 * both + 0.5 * (lower + upper) ** 2 / both + 2.0 * force_x**2 * bend / both)
+    square = force_x**2 + (lower**2 + lower * upper + upper**2) / 3.0
+    there = first + 0.5 * first**2 / axial_stiffness - weight * height
+    return np.asarray(length * (pull + square / axial_stiffness - there))

@@ -89,7 +89,7 @@ def _separates(
     reach = _largest_powers(problem, chords, along, low, high).sum(axis=1) + load
     enough = size > 1e-8 * np.linalg.norm(problem.load / problem.unit, axis=1)
     turned = problem.arrays.has_cable_drag and problem.arrays.has_pulleys  # the drag at another exit has no bound here
-    return np.asarray((reach < -_MARGIN * size) & enough) & (not turned)
+    return np.asarray((reach < -_MARGIN * size) & enough) & (not (turned or problem.arrays.has_lumps))
 
 
 def _relinearised(

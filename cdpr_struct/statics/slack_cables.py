@@ -16,7 +16,7 @@ DEEP = 0.1  # sag over chord from which on a cable's sag is told
 
 def hangs_slack(states: CableStates) -> np.ndarray:
     """(..., m) bool: the chord tension is below the weight of the cable, or the cable does not pull."""
-    return np.asarray(states.slack | (states.tension < states.weight * states.length))
+    return np.asarray(states.slack | (states.tension < states.whole_weight))
 
 
 def slack_count(states: CableStates, known: np.ndarray) -> np.ndarray:
@@ -47,7 +47,7 @@ def sag_over_chord(states: CableStates) -> np.ndarray:
 
 def tension_over_weight(states: CableStates) -> np.ndarray:
     """(..., m) chord tension over the weight of the cable; inf for a weightless one that pulls."""
-    weight = states.weight * states.length
+    weight = states.whole_weight
     return np.where(
         weight > 0.0, states.tension / np.where(weight > 0.0, weight, 1.0), np.where(states.slack, 0.0, np.inf)
     )

@@ -68,7 +68,11 @@ def suits(problem: HoldingProblem) -> bool:
     arrays = problem.arrays
     enough = arrays.cable_count >= EQUATIONS and len(problem.load) > 0
     other = arrays.is_tilted or arrays.is_weightless or arrays.has_tension_winches or arrays.has_cable_drag
-    return not (arrays.has_masts or arrays.has_guides or other) and enough and isinstance(problem.model, SaggingModel)
+    return (
+        not (arrays.has_masts or arrays.has_guides or arrays.has_lumps or other)
+        and enough
+        and isinstance(problem.model, SaggingModel)
+    )
 
 
 def taut_tensions(problem: HoldingProblem) -> TautTensions:

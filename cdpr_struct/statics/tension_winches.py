@@ -44,10 +44,10 @@ def held_at_frame(arrays: RobotArrays, points: np.ndarray, hold: Held) -> CableS
     chord = np.linalg.norm(offset, axis=-1)
     shape = np.broadcast_shapes(chord.shape, arrays.winch_tension.shape)
     load, up = arrays.cable_load(offset)
-    weight = np.broadcast_to(load * chord, shape)
+    weight = np.broadcast_to(load * chord + arrays.lump_weight.sum(axis=-1), shape)
     wanted = np.broadcast_to(np.where(arrays.winch_tension > 0.0, arrays.winch_tension, 2.0 * weight), shape)
     rise = np.broadcast_to(span_and_rise(offset, up)[1], shape)
-    tension = wanted + 0.5 * np.abs(load * rise) + 0.5 * weight
+    tension = wanted + 0.5 * np.abs(weight * rise / chord) + 0.5 * weight
     least = 0.5 * weight / _SLACKEST
     states, slope = hold(tension), np.ones(shape)
     miss = states.tension_at_frame - wanted

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.robot.robot import Robot, anchors_in_world
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_curves import CableCurves
@@ -71,11 +72,21 @@ def distances(
 def tilts(robot: Robot, positions: np.ndarray, rotation: np.ndarray, found: InverseSolution | None = None) -> Columns:
     """Angle between the platform's z axis and the vertical [deg]."""
     solution = inverse(robot, positions, rotation, allow_unheld=True) if found is None else found
-    axis = np.broadcast_to(rotation, (len(positions), 3, 3))[..., 2]
-    upright = -axis @ robot.down
-    level = np.linalg.norm(np.cross(axis, robot.down), axis=-1)
-    tilt = np.degrees(np.arctan2(level, upright))
+    tilt = from_vertical(robot, np.broadcast_to(rotation, (len(positions), 3, 3)))
     return {"tilt_deg": np.where(solution.held, tilt, np.nan), **sagging(solution), "held": solution.held}
+
+
+def from_vertical(robot: Robot, rotation: np.ndarray) -> np.ndarray:
+    """(k,) angle between the z axis of platforms turned by (k, 3, 3) and the vertical [deg]."""
+    axis = rotation[..., 2]
+    level = np.linalg.norm(np.cross(axis, robot.down), axis=-1)
+    return np.asarray(np.degrees(np.arctan2(level, -axis @ robot.down)))
+
+
+def largest_tilt(robot: Robot, degrees: np.ndarray) -> float | None:
+    """Largest angle to the vertical of platforms at angles rx, ry, rz (k, 3) [deg], nan left out; None if all are."""
+    known = np.radians(degrees[np.isfinite(degrees).all(axis=1)])
+    return float(from_vertical(robot, rotation_from_angles(*known.T)).max()) if len(known) else None
 
 
 def sagging(solution: InverseSolution) -> Columns:

@@ -86,8 +86,8 @@ def test_the_slider_goes_through_the_slices(browser, folders):
         sight.page.locator(".slider-rail-touch-rect").click(position={"x": 4, "y": 4}, force=True)
         sight.page.wait_for_timeout(300)
         after = sight.page.evaluate(shown)
-        assert before == [False, False, True, True, False, False, True, True, True]
-        assert after == [True, True, False, False, False, False, True, True, True]
+        assert before == [False, False, True, True, False, False, True, True, True, True]
+        assert after == [True, True, False, False, False, False, True, True, True, True]
 
 
 def test_hover_names_a_mode(browser, folders):

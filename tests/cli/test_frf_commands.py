@@ -57,8 +57,8 @@ def test_frf_writes_csv_universal_file_and_report(tmp_path, capsys):
         height = np.abs(own)[apart.argmin(axis=0)]
         np.testing.assert_allclose(height, response["peak_magnitudes"], rtol=1e-6)
     page = (tmp_path / "report.html").read_text()
-    assert "frf thesis-3-1" in page
-    assert "peaks in the band" in page
+    assert '<span class="word">frf</span> <span class="word">thesis-3-1</span>' in page
+    assert "show as peaks" in page
     assert (tmp_path / "frf.svg").read_text().startswith("<?xml")
 
 

@@ -9,8 +9,11 @@ import pytest
 
 import cdpr_struct as cs
 from cdpr_struct.cli.main import run
+from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.interface.campaigns import read_campaign
 from cdpr_struct.measurement.campaign_template import READINGS
+from cdpr_struct.statics.inverse_kinematics import inverse
+from tests.laws.written_campaigns import clamped_hertz
 
 POSES = "0,0,1;1,0.5,1.2,0,0,3"
 
@@ -63,6 +66,43 @@ def test_filled_with_the_predictions_it_is_a_campaign(made):
     heavy = list(campaign.states.names).index("pose 1 with 20 kg")
     moved = cs.forward("cogiro", lengths=cs.inverse("cogiro", "0,0,1").solution.lengths, start="0,0,1", payload=20.0)
     np.testing.assert_allclose(campaign.states.position[heavy], moved.answer["pose"][:3], atol=1e-5)
+
+
+ON_PULLEYS = ["--pulleys", "0.05", "--cables", "8", "--size", "3,3,2"]
+
+
+def test_over_pulleys_the_frequency_to_pluck_is_that_in_the_plane(tmp_path):
+    """Of each cable between held ends the lowest mode is the swivel's, out of the plane, and the next is in it."""
+    assert run(["new-robot", "mine", *ON_PULLEYS, "--out", str(tmp_path / "mine.toml"), "--quiet"]) == 0
+    words = ["new-campaign", str(tmp_path / "mine.toml"), "--kinds", "cable_frequency", "--out", str(tmp_path / "c")]
+    assert run([*words, "--quiet"]) == 0
+    table = pd.read_csv(tmp_path / "c" / "cable_frequencies.csv", comment="#")
+    told = table[[f"predicted_frequency_{i}_hz" for i in range(1, 9)]].to_numpy()[0]
+    robot = cs.load_robot(tmp_path / "mine.toml")
+    held = inverse(robot, robot.home.position, robot.home.rotation)
+    point = OperatingPoint(robot, robot.home.position, robot.home.rotation, held.cables)
+    lowest = clamped_hertz(point, 2)  # by bisection of the number of modes below a frequency
+    assert (lowest[:, 0] < 0.999 * lowest[:, 1]).all()
+    np.testing.assert_allclose(told, lowest[:, 1], rtol=1e-5)  # six digits are written
+    assert list(table["plane"]) == ["in"]
+
+
+def test_a_case_with_its_lengths_in_states_is_asked_for_them_once(made):
+    """Two readings of one state would contradict each other; those under load are others."""
+    table = pd.read_csv(made / "loaded.csv", comment="#", dtype=str, keep_default_na=False)
+    lengths = table[[f"length_{i}_m" for i in range(1, 9)]].to_numpy()
+    assert not re.search(r"e-[1-9]\d", table.to_csv())  # rounding is zero
+    assert (lengths[::2] == "").all()
+    assert (lengths[1::2] == "?").all()
+    filled(made)
+    campaign = cs.load_campaign(made / "campaign.toml")
+    assert np.isfinite(campaign.states.length).all()
+
+
+def test_kinds_of_files_are_understood(tmp_path):
+    chosen = cs.new_campaign("cogiro", kinds="static_state,loaded_pose", directory=tmp_path)
+    assert chosen.files.keys() == {"campaign.toml", "states.csv", "loaded.csv"}
+    assert {"tension_1_N", "length_1_m"} <= set(chosen.files["states.csv"].splitlines()[-2].split(","))
 
 
 def test_a_plan_needs_no_readings(made):

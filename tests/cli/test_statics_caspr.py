@@ -165,6 +165,11 @@ def test_bad_bodies(old, new, words, tmp_path, capsys):
     assert all(word in line for word in words), line
 
 
+def test_files_in_the_wrong_order_are_told(tmp_path, capsys):
+    line, _ = convert(tmp_path, capsys, cables())
+    assert all(word in line for word in ["a file of cables", "bodies first"]), line
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [

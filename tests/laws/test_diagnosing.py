@@ -8,9 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cdpr_struct.diagnosis import diagnosing
+from cdpr_struct.diagnosis.decision import Decision, decided
 from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
+from cdpr_struct.hypotheses.explain import Belief
 from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
 from tests.laws.written_campaigns import (
@@ -85,6 +89,40 @@ def test_exchanged_load_cells_are_found(pair):
     assert said.decision.classes == (("swapped_channels",),)
     assert said.correction.parameters == {"first": pair[0] + 1, "second": pair[1] + 1}
     assert not said.set_aside
+
+
+def test_exchanged_load_cells_are_found_beside_a_cause():
+    """Compliance in line is 60 nats, exchanged cells are 30: neither hides the other, and nothing is an outlier."""
+    robot = load_robot("thesis-3-1")
+    real = extended(robot, series_compliance=np.full(8, 3e-5))
+    plan = plan_of(robot, 3, loads=(10.0, 20.0), cables_in=(0, 1))
+    said = diagnosed(exchanged(noisy(written(real, plan, robot), 4), 0, 2))
+    assert ("swapped_channels",) in said.decision.classes
+    assert any("joint_compliance" in names for names in said.decision.classes)
+    assert said.correction.parameters == {"first": 1, "second": 3}
+    assert not said.set_aside
+
+
+def test_what_one_state_shows_is_no_name():
+    """There is no other state to confirm it, however sure it is."""
+    robot = load_robot("thesis-3-1")
+    said = diagnosed(
+        noisy(written(replace(robot, platform=robot.platform.with_mass(30.0)), plan_of(robot, 1), robot), 4)
+    )
+    assert said.decision.classes == (("platform_mass",),)
+    assert said.decision.status == "class"
+    assert said.decision.probability <= Loss().least_said
+    assert not said.confirmed
+    assert [one.purpose for one in said.recommendations][:1] == ["confirm"]
+
+
+def test_the_likeliest_of_what_is_not_likely_enough_is_no_name():
+    """Significant, but nothing wrong is the cheapest answer: then a cause is a class, with its own probability."""
+    beliefs = [Belief((), 0.52), Belief(("platform_mass",), 0.46), Belief(("temperature",), 0.02)]
+    assert decided(beliefs, Loss()).status == "adequate"
+    said = diagnosing._decided(beliefs, Loss(), set(), 0.004)
+    assert said == Decision("class", (("platform_mass",),), pytest.approx(0.46))
+    assert said.doubted
 
 
 @pytest.mark.parametrize("times_detectable", [2.0, 4.0, 8.0, 16.0])

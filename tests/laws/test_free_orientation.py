@@ -175,7 +175,7 @@ def test_a_reference_that_hangs_on_ideal_cables_is_met_by_stiff_weightless_ones(
     # stretch of 200 N on 2e12 N over 5 m: 5e-7 mm; the search for the reference ends at 1e-11 of its moments
     assert np.abs(missed).max() <= 1e-5
     assert np.abs(turned).max() <= 1e-5
-    assert "hang on straight, inextensible cables" in found.warnings[0]
+    assert any("hang on straight, inextensible cables" in warning for warning in found.warnings)
     mapped = cs.map(stiff, "0.2:0.5:2,0.3,0.4", "pose-error", free="rx,ry,rz")
     assert mapped.values["rx_deg"] == pytest.approx(columns["rx_deg"], abs=1e-9)
 

@@ -12,8 +12,9 @@ from cdpr_struct.hypotheses.causes.cause import Cause, Parameter
 from cdpr_struct.hypotheses.causes.library import LIBRARY, register
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.residuals.recorded import recorded
+from cdpr_struct.robot.changed_arrays import times
 from cdpr_struct.robot.parameters import PARAMETERS
-from cdpr_struct.robot.robot_arrays import RobotArrays, times
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from tests.laws.written_campaigns import noisy, plan_of, written
 

@@ -1,5 +1,6 @@
 """Evidence of a linear model: equal to the dense Gaussian, to sums over all scales, and to plain integration."""
 
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -247,3 +248,16 @@ def test_stacks_that_do_not_fit_together_are_refused():
         LinearModel((*model.stacks, other), model.groups)
     with pytest.raises(ValueError, match="index of readings"):
         changed(model, index=model.stacks[0].index + 1)
+
+
+@pytest.mark.parametrize("start", [1.0, 1000.0])
+def test_readings_far_beyond_their_sigmas_have_scales_that_settle(start):
+    """A leap to scales so large that a variance, a difference, is rounding alone is no step: the bound seems higher."""
+    model = campaign(4, shape=(30, 1, 1, 1), joint=1, kinds=1)
+    wild = changed(model, r=start * model.stacks[0].r)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        found = fit(wild, NoiseState.stated(model.groups))
+    assert found.converged
+    assert np.diff(found.bounds).min() > -SETTLED
+    assert (found.noise_variance[0] > 0.0).all()

@@ -113,7 +113,17 @@ STATES: dict[str, Callable[[], State]] = {
     "a tool on a mount": lambda: state_of("cogiro", **INTERNAL),
 }
 READINGS = ("position", "rotation", "tension")
-AS_ENTERED = ("masts", "uprights", "mast_foot", "down", "guided", "winch_tension")
+AS_ENTERED = (
+    "masts",
+    "uprights",
+    "mast_foot",
+    "down",
+    "guided",
+    "winch_tension",
+    "drag_width",
+    "lump_place",
+    "lump_mass",
+)
 ACTING = tuple(n for n in PARAMETERS if n not in IDLE and n not in AS_ENTERED)  # what a diagnosis may change
 
 

@@ -9,7 +9,7 @@ from cdpr_struct.dynamics.cable_dynamics import CABLE_MODELS, cable_dynamics, ex
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.robot.extensions import Extensions
-from cdpr_struct.robot.parameters import CABLES, EXTENSIONS, PARAMETERS
+from cdpr_struct.robot.parameters import CABLES, EXTENSIONS, LUMPS, PARAMETERS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
@@ -29,7 +29,7 @@ def test_the_table_has_one_row_a_field():
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_arrays_have_the_shape_of_the_table_and_obey_its_bounds(name):
     rule, value = PARAMETERS[name], getattr(RobotArrays.of(ROBOT), name)
-    assert value.shape == tuple(8 if n == CABLES else n for n in rule.shape)
+    assert value.shape == tuple({CABLES: 8, LUMPS: 1}.get(n, n) for n in rule.shape)
     assert ((value >= rule.least) & (value > rule.above) & (value <= rule.most)).all()
     assert (rule.place == "extensions") == (name in EXTENSIONS)
 

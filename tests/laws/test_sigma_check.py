@@ -14,6 +14,7 @@ from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind, doubts, sigmas_used
 from cdpr_struct.measurement.campaign import Sheet, Sigmas
 from cdpr_struct.reports.diagnose.tables import default_sigmas, sigmas
 from cdpr_struct.reports.diagnose.words import doubt
+from cdpr_struct.reports.typeset import typeset
 from cdpr_struct.robot.robot_file import load_robot
 from tests.laws.written_campaigns import plan_of, written
 
@@ -90,4 +91,4 @@ def test_screen_and_page_show_the_warning_as_a_sentence(tmp_path, capsys):
     assert any("sigma.position_m" in sentence and sentence.endswith("?") for sentence in said)
     assert any("rx_deg" in sentence and sentence.endswith(".") for sentence in said)
     assert [f"Warning: {sentence}" in shown for sentence in said] == [True] * len(said)
-    assert [f"<p>Warning: {escape(sentence)}</p>" in page for sentence in said] == [True] * len(said)
+    assert [f"<p>Warning: {escape(typeset(sentence))}</p>" in page for sentence in said] == [True] * len(said)

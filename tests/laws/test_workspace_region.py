@@ -148,6 +148,9 @@ def test_freely_hanging_poses_are_judged_for_stability():
     table = found.frame()
     assert table["stable"].any()
     assert "tability is judged" in found.warnings[0]
+    largest = np.nanmax(table["tilt_deg"])
+    assert found.answer["free"]["largest_tilt_deg"] == pytest.approx(largest, abs=1e-9)  # the same angles, rounded
+    assert f"tilt up to {largest:.1f}°" in found.warnings[0]
     assert found.answer["unstable"] == (table["held"] & ~table["stable"].astype(bool)).sum()
 
 

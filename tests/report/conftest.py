@@ -10,7 +10,9 @@ import pytest
 from cdpr_struct.crosscheck.single_cable import describe_cable
 from cdpr_struct.crosscheck.verification import verify
 from cdpr_struct.reports.cable_page import cable_files
+from cdpr_struct.reports.figures.frame_plan import FramePlan
 from cdpr_struct.reports.verification_page import verification_files
+from cdpr_struct.robot.robot_file import load_robot
 
 INSIDE = ("#", "data:image/png;base64,")  # a reference on the page, or the bytes themselves
 
@@ -99,3 +101,10 @@ def inlined():
 def same():
     """Equality of arrays in which nan equals nan."""
     return lambda a, b: np.array_equal(np.asarray(a, float), np.asarray(b, float), equal_nan=True)
+
+
+@pytest.fixture(scope="session")
+def robot_plan():
+    """Where a grid lies in the frame of a robot."""
+    robot = load_robot("thesis-3-1")
+    return lambda over: FramePlan.of(robot, over)

@@ -35,10 +35,10 @@ def test_maps_are_valid_plotly(shape, count):
 def test_each_step_of_the_slider_shows_one_slice_and_the_frame():
     plot = mapped(grid(5, 4, 3))
     kinds = [trace["type"] for trace in plot["data"]]
-    assert kinds == ["heatmap", "contour"] * 3 + ["scatter"] * 3
+    assert kinds == ["heatmap", "scatter"] * 3 + ["scatter"] * 4
     for number, step in enumerate(plot["layout"]["sliders"][0]["steps"]):
         shown = [kind for kind, seen in zip(kinds, step["args"][0]["visible"], strict=True) if seen]
-        assert shown == ["heatmap", "contour", "scatter", "scatter", "scatter"]
+        assert shown == ["heatmap", *["scatter"] * 5]
         assert step["label"] == f"z = {number} m"
         heat = plot["data"][2 * number]
         assert heat["z"][3][4] == 4.0 + 30.0 + 100.0 * number  # rows are y, columns x

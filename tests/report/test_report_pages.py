@@ -15,6 +15,7 @@ from cdpr_struct.crosscheck.single_cable import describe_cable
 from cdpr_struct.reports.cable_page import cable_files
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.html import Plate, completed, page_files
+from cdpr_struct.reports.typeset import typeset
 from cdpr_struct.reports.verification_page import verification_files, verification_page
 from cdpr_struct.reports.verification_verdict import verdict_lines
 
@@ -32,7 +33,7 @@ def test_files_are_those_promised(files, cable_report):
 
 def test_page_begins_with_the_verdict(trial, files, read_page):
     text = read_page(files["report.html"]).text
-    sentence = verdict_lines(trial)[0]
+    sentence = typeset(verdict_lines(trial)[0])
     assert sentence.startswith("EXACT MODEL HOLDS")
     assert sentence in text
     assert all(text.index(sentence) < text.index(word) for word in ("How to read", "1. What a"))
@@ -125,7 +126,7 @@ def test_a_completed_page_holds_warnings_below_the_verdict_and_the_command_at_th
     page = completed(files["report.html"], "cdpr-struct verify thesis-3-1 --modes 20", said, ["tilt acts."])
     text = re.sub(r"<nav.*?</nav>", "", page, flags=re.DOTALL)  # its contents name what follows
     text = read_page(text).text
-    order = [verdict_lines(trial)[0], f"Warning: {said[0]}", f"Warning: {said[1]}", "1. What a", "How to read"]
+    order = [typeset(verdict_lines(trial)[0]), f"Warning: {said[0]}", f"Warning: {said[1]}", "1. What a", "How to read"]
     order += ["Extensions", "tilt acts.", "Reproduce", "cdpr-struct verify thesis-3-1 --modes 20"]
     places = [text.index(piece) for piece in order]
     assert places == sorted(places)

@@ -6,6 +6,7 @@ import pytest
 
 from cdpr_struct.cli.main import run
 from cdpr_struct.measurement.campaign_file import load_campaign
+from cdpr_struct.measurement.misspelt_cases import misspelt_notes
 
 HEAD = "case,x_m,y_m,z_m,cable,tension_N\n"
 ROWS = "".join(f"a,0,0,1,{i},300\n" for i in range(1, 9))
@@ -161,3 +162,46 @@ def test_lengths_of_one_file_in_feet_are_refused(tmp_path, capsys):
     second = CAMPAIGN.split("\n", 1)[1].replace("static_state", "loaded_pose").replace("states.csv", "locked.csv")
     line = complaint(tmp_path, capsys, CAMPAIGN + second, rows)
     assert all(word in line for word in ["case a: length_m", "33.0", "3.3 times", "are they in ft?"]), line
+
+
+@pytest.mark.parametrize(("word", "kind"), [("loaded", "loaded_pose"), ("tensions", "static_state")])
+def test_words_of_new_campaign_are_translated(word, kind, tmp_path, capsys):
+    line = complaint(tmp_path, capsys, CAMPAIGN.replace('"static_state"', f'"{word}"'))
+    assert all(said in line for said in ["measurement[1].kind", f"'{word}'", "new-campaign", kind]), line
+
+
+LOCKED = "case,x_m,y_m,z_m," + ",".join(f"length_{i}_m" for i in range(1, 9)) + "\n"
+TWO_FILES = CAMPAIGN + '[[measurement]]\nkind = "loaded_pose"\nfile = "locked.csv"\n'
+
+
+def test_two_lengths_of_a_case_are_told_with_both_files_and_the_remedy(tmp_path, capsys):
+    (tmp_path / "locked.csv").write_text(f"{LOCKED}a,0,0,1,{','.join(7 * ['10.0'])},10.001\n")
+    rows = HEAD.replace("cable,", "length_m,cable,") + ROWS.replace("a,0,0,1,", "a,0,0,1,10.0,")
+    line = complaint(tmp_path, capsys, TWO_FILES, rows)
+    words = ["locked.csv: row 1, case a, column length_8_m: got 10.001", "in states.csv", "10;", "another name"]
+    assert all(word in line for word in words), line
+
+
+def test_a_case_that_is_perhaps_misspelt_is_a_warning(tmp_path):
+    """Names alike but for a space; the same names, and names of other poses, are no slip."""
+    (tmp_path / "states.csv").write_text(HEAD + ROWS.replace("a,", "pose1,") + ROWS.replace("a,", "pose 2,"))
+    (tmp_path / "campaign.toml").write_text(TWO_FILES)
+    locked = "".join(f"{name},0,0,1,{','.join(8 * ['10.0'])}\n" for name in ("pose 1", "pose 2", "pose 3"))
+    (tmp_path / "locked.csv").write_text(LOCKED + locked)
+    slips = [note for note in load_campaign(tmp_path / "campaign.toml").notes if "one name" in note]
+    assert len(slips) == 1
+    assert slips[0].startswith("Case pose 1 of locked.csv has no row in states.csv, which has pose1")
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "slips"),
+    [
+        (["left 1", "b"], ["lfet 1", "b"], 1),
+        (["left 1", "b"], ["left 2", "b"], 0),
+        (["left 1", "b"], ["lfet 1", "c"], 0),
+        (["Pose_1"], ["pose 1"], 1),
+    ],
+    ids=["a slip", "another number", "files without common cases", "signs and capitals"],
+)
+def test_slips_are_few_letters_and_no_numbers(one, other, slips):
+    assert len(misspelt_notes({"one.csv": one, "other.csv": other})) == slips

@@ -149,3 +149,23 @@ def test_rows_of_poses(rows, words, tmp_path, capsys):
 def test_no_frequency_at_all(tmp_path):
     empty = table("frequency_{}_hz").splitlines()[0] + "\n0,0,1" + 8 * "," + "\n"
     assert "no readings" in refusal(tmp_path, empty, "cable_frequency")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("tension_3_N", "tension3", ["'tension3'", "rename tension3 to tension_3_N (N)"]),
+        ("tension_3_N", "tension_kN_3_N", ["rename tension_kN_3_N to tension_3_N", "convert the values from kN"]),
+        ("tension_", "tension_kN_", ["name them tension_1_N ... tension_8_N", "convert the values from kN"]),
+    ],
+    ids=["no unit", "another unit too", "another unit too, in all"],
+)
+def test_one_name_that_differs_is_named(old, new, words, tmp_path):
+    line = refusal(tmp_path, table("tension_{}_N").replace(old, new))
+    assert all(word in line for word in words), line
+
+
+def test_decimal_commas_between_commas_are_counted_and_not_repeated(tmp_path):
+    header = table("tension_{}_N").splitlines()[0]
+    line = refusal(tmp_path, f"{header}\n{','.join(11 * ['1,5'])}\n")
+    assert "got '22 values'; 11 values as in the header, decimals with a point (are they commas?)" in line

@@ -52,9 +52,17 @@ def test_bad_words(arguments, words, capsys):
         (ROBOT + ANCHORS + "pulley = 0.1\n", ["cables[1].pulley", "table"]),
         (ROBOT.replace("[0, 1, 0]", "[0, 0, 0]") + ANCHORS, ["platform.inertia", "positive definite"]),
         ("home_pose = [0, 0, 1, 2]\n" + ROBOT + ANCHORS, ["home_pose", "3 or 6 numbers"]),
-        (ROBOT.replace("mass = 10.0", "mass = 10.0\nmass = 11.0") + ANCHORS, ["TOML", "given once"]),
+        (
+            ROBOT.replace("mass = 10.0", "mass = 10.0\nmass = 11.0") + ANCHORS,
+            ["line 5", "mass = 11.0", "TOML", "given once"],
+        ),
+        (ROBOT.replace("mass = 10.0", "mass = 60,5") + ANCHORS, ["line 4", "mass = 60,5", "decimals with a point"]),
+        (
+            re.sub("inertia = .*", "inertia = [2.4, 2.9, 4.6]", ROBOT) + ANCHORS,
+            ["got 2.4", "[[Ixx, 0, 0], [0, Iyy, 0]"],
+        ),
     ],
-    ids=range(10),
+    ids=range(12),
 )
 def test_robot_files(text, words, tmp_path, capsys):
     path = tmp_path / "robot.toml"

@@ -4,7 +4,8 @@ import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen
 from cdpr_struct.measurement.signal_records import MOTION
-from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
+from cdpr_struct.robot.changed_arrays import plus, times
+from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _GAIN = 0.05  # of the logarithm
 _MASS = 2.0  # kg: some accelerometers with their cables, a small shaker

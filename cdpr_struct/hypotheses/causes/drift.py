@@ -5,7 +5,8 @@ Without it a drift is a wrong cause; that it begins at zero tells it from a bias
 
 import numpy as np
 
-from cdpr_struct.robot.robot_arrays import RobotArrays, plus
+from cdpr_struct.robot.changed_arrays import plus
+from cdpr_struct.robot.robot_arrays import RobotArrays
 
 WAVES = 3  # Karhunen-Loeve functions: the rest of a walk is 7 % of its variance, and looks like noise
 AMPLITUDES = ((0.0, 0.6), (1.0, 0.2), (3.0, 0.2))

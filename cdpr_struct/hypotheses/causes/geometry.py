@@ -4,7 +4,8 @@ import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen, by_carrier
 from cdpr_struct.robot.cable import STEEL
-from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
+from cdpr_struct.robot.changed_arrays import plus, times
+from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _XYZ = ("x", "y", "z")
 

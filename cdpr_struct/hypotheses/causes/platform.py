@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen
+from cdpr_struct.robot.changed_arrays import plus, times
 from cdpr_struct.robot.platform import moved_mass
-from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
+from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _XYZ = ("x", "y", "z")
 _NOTHING = 1e-10  # of the platform's mass: mode frequencies keep ten digits

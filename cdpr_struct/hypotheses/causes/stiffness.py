@@ -3,7 +3,8 @@
 import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import A_MINUTE, Cause, Parameter, Seen, by_carrier
-from cdpr_struct.robot.robot_arrays import RobotArrays, plus, times
+from cdpr_struct.robot.changed_arrays import plus, times
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.masts import carriers
 
 

@@ -23,6 +23,12 @@ _METHOD = (
     "weighs the quality of the fit against the number of parameters. The verdict has the least expected loss. "
     "Held-out states were predicted from fits to all other states."
 )
+_RESIDUALS = (
+    "Each point is one residual, simulated minus measured at the measured state, divided by its standard deviation "
+    "under noise and tolerances. Look for points outside the shaded band of +-2 sigma, and for several points inside "
+    "it with the same trend; a single point inside it means nothing. Grey lines separate the kinds of readings."
+)
+_VALUES = "Values of all points: residuals.csv."
 
 
 def result_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, str | bytes]:
@@ -45,11 +51,9 @@ def plates(found: Diagnosis, result: Mapping[str, Any]) -> list[Plate]:
             "residuals",
             "What the simulation gets wrong",
             Drawing("residuals", figures.RESIDUAL_SIZE, lambda f: figures.draw_residuals(f, found)),
-            "Each point is one residual, simulated minus measured at the measured state, divided by its standard "
-            "deviation under noise and tolerances. Look for points outside the shaded band of +-2 sigma, and for "
-            "several points inside it with the same trend; a single point inside it means nothing. Faint lines "
-            "separate the states, named above where there is room. Values of all points: residuals.csv.",
+            f"{_RESIDUALS} Faint lines separate the states, named above where there is room. {_VALUES}",
             residuals_plot(residual_columns(found), figures.ROW_NAMES),
+            live_caption=f"{_RESIDUALS} {_VALUES}",
         )
     ]
     if result["candidates"]:
@@ -97,8 +101,8 @@ def page(found: Diagnosis, result: Mapping[str, Any], shown: list[Plate]) -> Pag
     states = len(found.campaign.states.names)
     counted = "1 state" if states == 1 else f"{states} states"
     return Page(
-        robot=found.campaign.robot_name,
-        title=f"{found.campaign.robot_name}: what the simulation gets wrong, and why",
+        robot=found.campaign.robot.name,
+        title=f"{found.campaign.robot.name}: what the simulation gets wrong, and why",
         subtitle=f"model {found.campaign.model}, {counted}, {found.campaign.source}",
         verdict=diagnosis_sentences(result),
         holds=said["status"] == "adequate",

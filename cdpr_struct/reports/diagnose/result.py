@@ -31,7 +31,8 @@ MOST_REPEATED = 4  # readings that are proposed to be read again
 def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> dict[str, Any]:
     """result.json of `diagnose`; simulated measurements stand before those that the library names."""
     hidden, law = _hidden(found), found.outside
-    steps = [*map(recommendation_text, simulated), *_next(found)]
+    steps = list(map(recommendation_text, simulated))
+    steps += [step for step in _next(found) if not _is_among(step, steps)]
     return {
         "campaign": found.campaign.source,
         "robot": found.campaign.robot_name,
@@ -91,6 +92,12 @@ def _next(found: Diagnosis) -> list[str]:
     shown = [one for one in found.recommendations if one not in again[MOST_REPEATED:]]
     more = len(again) - MOST_REPEATED
     return [*map(recommendation, shown), *([f"measure {more} more contradicting readings again"] if more > 0 else [])]
+
+
+def _is_among(step: str, simulated: Sequence[str]) -> bool:
+    """Whether a proposal of the library is one of the simulated measurements, which say more of it."""
+    named = step.split(" (")[0].removeprefix("a ")
+    return any(one.startswith(named) for one in simulated)
 
 
 def likeliest(found: Diagnosis) -> list[str]:

@@ -7,6 +7,7 @@ from typing import Any
 
 from cdpr_struct.diagnosis.sensor_sigmas import tolerance_unit
 from cdpr_struct.reports.html import HtmlTable
+from cdpr_struct.reports.text import with_sigma
 
 Row = Mapping[str, Any]
 
@@ -35,16 +36,22 @@ def percentage(probability: float) -> str:
 
 def errors(result: Row) -> HtmlTable:
     """Simulation against measurement, kind by kind."""
+    some = any(row["expected"] is not None for row in result["simulation_error"])
     rows = [
         [
-            row["kind"], f"{row['rms']:.3g}", "" if row["expected"] is None else f"{row['expected']:.3g}", row["unit"],
+            row["kind"], f"{row['rms']:.3g}", *(_expected(row) if some else ()), row["unit"],
             "" if row["chi2_per_n"] is None else figure(row["chi2_per_n"], 2), _place(row["worst"]),
         ]
         for row in result["simulation_error"]
     ]  # fmt: skip
     note = "p: upper bound of the probability of evidence this strong against the nominal model if nothing were wrong."
-    columns = ["kind", "rms", "expected", "unit", "chi2/n", "worst"]
-    return HtmlTable("Simulation against measurement", columns, rows, note if result["significant"] else "")
+    columns = ["kind", "rms", *(("expected",) if some else ()), "unit", "chi2/n", "worst"]
+    prose = frozenset({len(columns) - 3, len(columns) - 1})
+    return HtmlTable("Simulation against measurement", columns, rows, note * bool(result["significant"]), prose=prose)
+
+
+def _expected(row: Row) -> list[str]:
+    return ["" if row["expected"] is None else f"{row['expected']:.3g}"]
 
 
 def _place(worst: Row) -> str:
@@ -97,7 +104,7 @@ def candidates(rows: Sequence[Row], most: int, sizes: int) -> HtmlTable | None:
     if any(row.get("description") for row in rows):
         note += " Evidence of a correction is against the data as recorded; that of causes against the corrected data."
     columns = ["cause", "evidence [nats]", "explained [%]", "size"]
-    return HtmlTable("Candidates", columns, shown, note) if shown else None
+    return HtmlTable("Candidates", columns, shown, note, prose=frozenset({3})) if shown else None
 
 
 def all_sizes(rows: Sequence[Row]) -> HtmlTable | None:
@@ -109,7 +116,7 @@ def all_sizes(rows: Sequence[Row]) -> HtmlTable | None:
     ]
     columns = ["candidate", "parameter", "size", "unit"]
     note = "Sizes are total deviations: cause and tolerance of the same parameter together."
-    return HtmlTable("Sizes of all candidates", columns, shown, note) if shown else None
+    return HtmlTable("Sizes of all candidates", columns, shown, note, prose=frozenset({1, 3})) if shown else None
 
 
 def _first(hypothesis: Hypothesis, count: int) -> str:
@@ -127,16 +134,6 @@ def _sigmas(size: Row) -> float:
     """How many sigmas a size is off what was entered; zero without a sigma."""
     off = abs(size["value"] - (1.0 if size["unit"] == "ratio" else 0.0))
     return off / size["sigma"] if size["sigma"] and math.isfinite(size["sigma"]) and size["sigma"] > 0.0 else 0.0
-
-
-def with_sigma(value: float, sigma: float) -> str:
-    """A size with the digits that its sigma allows."""
-    if not (sigma > 0.0 and math.isfinite(sigma)):
-        return f"{value:.4g}"
-    decimals = 1 - math.floor(math.log10(sigma))
-    if not -3 <= decimals <= 6:
-        return f"{value:.4g} ± {sigma:.2g}"
-    return f"{round(value, decimals) + 0.0:.{max(decimals, 0)}f} ± {round(sigma, decimals):.{max(decimals, 0)}f}"
 
 
 def left_out(gain: Row) -> HtmlTable | None:
@@ -199,7 +196,7 @@ def sigmas(rows: Sequence[Row]) -> HtmlTable | None:
     cells = [[s["kind"], s["file"], s["sigma"], s["words"], s["source"]] for s in rows]
     note = "One sigma of each reading. A state named in several files has the pose sigmas of the first file."
     columns = ["kind", "file", "sigma", "size", "source"]
-    return HtmlTable("Sigmas of the sensors", columns, cells, note) if cells else None
+    return HtmlTable("Sigmas of the sensors", columns, cells, note, prose=frozenset({1, 2, 4})) if cells else None
 
 
 def default_sigmas(rows: Sequence[Row]) -> str:
@@ -215,13 +212,14 @@ def default_sigmas(rows: Sequence[Row]) -> str:
 def not_shown(result: Row) -> HtmlTable:
     """What these data cannot show."""
     why = [[name.replace("_", " "), reason] for name, reason in sorted(result["why_not_testable"].items())]
-    return HtmlTable("What these data cannot show", ["cause", "why"], why)
+    return HtmlTable("What these data cannot show", ["cause", "why"], why, prose=frozenset({1}))
 
 
 def detectable(result: Row) -> HtmlTable:
     """The smallest sizes that would be found."""
     sizes = [[n.replace("_", " "), f"{v['value']:.3g}", v["unit"]] for n, v in result["minimum_detectable"].items()]
-    return HtmlTable("Smallest detectable size (found in 4 of 5 cases)", ["cause", "size", "unit"], sizes)
+    title = "Smallest detectable size (found in 4 of 5 cases)"
+    return HtmlTable(title, ["cause", "size", "unit"], sizes, prose=frozenset({2}))
 
 
 def tolerances(result: Row) -> HtmlTable:
@@ -230,4 +228,5 @@ def tolerances(result: Row) -> HtmlTable:
         [n, f"{v['value']:g}", tolerance_unit(n) or "of its value", "stated" if v["stated"] else "default"]
         for n, v in result["tolerances"].items()
     ]
-    return HtmlTable("Tolerances taken into account, one sigma", ["tolerance", "size", "unit", "source"], rows)
+    columns = ["tolerance", "size", "unit", "source"]
+    return HtmlTable("Tolerances taken into account, one sigma", columns, rows, prose=frozenset({2, 3}))

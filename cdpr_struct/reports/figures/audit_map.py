@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from cdpr_struct.crosscheck.limits_poses import PARAMETERS, PoseAudit
+from cdpr_struct.reports.audit_result import WORDS
 from cdpr_struct.reports.figures.frame_plan import FramePlan, draw_plan
 from cdpr_struct.reports.figures.style import (
     BAD,
@@ -28,7 +29,6 @@ from cdpr_struct.workspace.grid import AXES, Grid
 MAP_SIZE = (9.6, 4.2)
 COURSE_SIZE = (9.6, 4.4)
 _COLOURS = dict(zip(PARAMETERS, (BLUE, PURPLE, ORANGE, GREEN, SKY), strict=True))
-_LABELS = dict(zip(PARAMETERS, ("λ²", "crossover distance", "|α|", "ε", "sag/chord"), strict=True))
 
 
 def draw_audit_map(figure: Figure, audit: PoseAudit, grid: Grid) -> None:
@@ -92,7 +92,7 @@ def draw_audit_course(figure: Figure, audit: PoseAudit, course: np.ndarray, labe
     top = float(np.nanmax(use)) if audit.held.any() else 1.0
     axes.set_yscale("log")
     for name, value in zip(PARAMETERS, use, strict=True):
-        axes.plot(course, np.maximum(value, 1e-4), color=_COLOURS[name], linewidth=1.5, label=_LABELS[name])
+        axes.plot(course, np.maximum(value, 1e-4), color=_COLOURS[name], linewidth=1.5, label=WORDS[name])
     axes.axhline(1.0, color=BLACK, linewidth=1.0, linestyle=(0, (5, 3)))
     axes.axhspan(1.0, max(2.0 * top, 2.0), color=BAD, alpha=0.07, linewidth=0)
     lowest = float(np.nanmin(np.where(use > 1e-3, use, np.nan))) if audit.held.any() else 0.1
@@ -104,23 +104,32 @@ def draw_audit_course(figure: Figure, audit: PoseAudit, course: np.ndarray, labe
     figure.legend(loc="outside upper right", ncols=5)
 
 
-def audit_map_caption(audit: PoseAudit) -> str:
-    """What to see in the map."""
-    most = int(audit.count.max())
-    clean = int(((audit.count == 0) & audit.held).sum())
-    unheld = " Hatched: poses that the cables cannot hold." if not audit.held.all() else ""
+def audit_map_caption(audit: PoseAudit, wide: bool = True) -> str:
+    """What to see in the map: in its three panels, or in the one that can be zoomed."""
+    held = int(audit.held.sum())
+    clean, most = int(((audit.count == 0) & audit.held).sum()), int(audit.count.max())
+    counted = "each cable and limit counted once"
+    spread = f"no limit is broken at any of the {held} poses" if not most else (
+        f"none at {clean} of {held} poses, the most are {most}"
+    )  # fmt: skip
+    gaps = "" if audit.held.all() else " {}: poses that the cables cannot hold."
+    if wide:
+        pale = "" if not most else "; pale blue is none"
+        return (
+            f"Broken limits: how many printed limits the cables break at each pose, {counted}{pale}: {spread}. Worst "
+            "cable: the number of the one that is nearest to a limit or farthest beyond one. In the frame: the mapped "
+            f"rectangle in blue, and the numbered anchors.{gaps.format('Hatched')}"
+        )
     return (
-        "Left: how many printed limits the cables break at each pose, each cable and limit counted once; pale blue is "
-        f"none ({clean} of {int(audit.held.sum())} poses), the most are {most}. Middle: the number of the cable "
-        "that is nearest to a limit or farthest beyond one. Right: the mapped rectangle in blue, in the frame with its "
-        f"numbered anchors.{unheld} On the screen, the slider chooses between the number of broken limits and the "
-        "largest value over its limit: above 1 the limit is broken."
+        f"How many printed limits the cables break at each pose, {counted}: {spread}. The slider changes to the "
+        f"largest value over its limit: above 1 the limit is broken.{gaps.format('Blank')} Blue line: the mapped "
+        "rectangle. The button “whole frame” shows it in the frame with its numbered anchors."
     )
 
 
 def audit_course_caption(audit: PoseAudit) -> str:
     """What to see in the curves."""
-    bad = [_LABELS[name] for name in PARAMETERS if audit.broken[name].any()]
+    bad = [WORDS[name] for name in PARAMETERS if audit.broken[name].any()]
     outcome = f"Broken: {', '.join(bad)}." if bad else "No limit is broken."
     return (
         "Each printed limit: the value of the cable that is worst off at that pose, over the limit (for the crossover "

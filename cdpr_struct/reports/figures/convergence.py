@@ -11,6 +11,7 @@ from cdpr_struct.reports.figures.style import (
     GREY,
     KIND_COLOURS,
     KIND_MARKERS,
+    KIND_WORDS,
     SKY,
     kind_group,
     plain_ticks,
@@ -39,7 +40,7 @@ def draw_convergence(figure: Figure, trial: Verification) -> None:
     plain_ticks(left.yaxis)
     quiet(left)
     quiet(right)
-    left.legend(loc="lower left")
+    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
 
 
 def log_percent(ratio: np.ndarray) -> np.ndarray:
@@ -111,9 +112,9 @@ def convergence_caption(trial: Verification) -> str:
     finest = 100.0 * float(np.median(trial.mesh_error[-1]))
     model = 100.0 * float(np.median(np.abs(trial.relative_error)))
     return (
-        f"Thin lines: one mode each, {_colours()}. Two-node elements should gain a factor of four per halving, the "
-        f"slope of the triangle; {observed}. A mesh can judge the DSM where its error lies below the DSM's "
-        f"own (blue band, points on the right): at {trial.elements[-1]} elements the median mesh error is "
+        f"Thin lines: one mode each, {_colours(trial)}. Two-node elements should gain a factor of four per halving, "
+        f"the slope of the triangle; {observed}. A mesh can judge the DSM where its error lies below the DSM's "
+        f"own (blue band, and the points of the DSM): at {trial.elements[-1]} elements the median mesh error is "
         f"{finest:.2g} %, the median DSM deviation {model:.2g} %. The DSM is compared with the extrapolated limit, "
         "not with any one mesh. Green: how far the FEM's dynamic stiffness K(ω) of the platform is from the exact "
         f"model's, entry by entry, at {len(trial.stiffness.omega_hertz)} frequencies between the modes, in shares of "
@@ -122,6 +123,7 @@ def convergence_caption(trial: Verification) -> str:
     )
 
 
-def _colours() -> str:
-    words = {"platform": "blue", "mixed": "pink", "cable": "orange"}
-    return ", ".join(f"{words[name]} for {name} modes" for name in KIND_COLOURS)
+def _colours(trial: Verification) -> str:
+    """Which colour is which kind of mode, of those that are there."""
+    there = {kind_group(kind) for kind in trial.kinds}
+    return ", ".join(f"{KIND_WORDS[name]} for {name} modes" for name in KIND_COLOURS if name in there)

@@ -20,7 +20,7 @@ def draw_determinant(figure: Figure, trial: Verification) -> None:
     grid = figure.add_gridspec(2, 2, height_ratios=[2.6, 1.0], width_ratios=[1.6, 1.0])
     whole = (0.0, float(trial.scan.hertz[-1]))
     zoom = zoom_window(trial)
-    for column, (window, title) in enumerate(((whole, "whole band"), (zoom, "densest part (shaded on the left)"))):
+    for column, (window, title) in enumerate(((whole, "whole band"), (zoom, "densest part (shaded)"))):
         top = figure.add_subplot(grid[0, column])
         bottom = figure.add_subplot(grid[1, column], sharex=top)
         top.set_title(title)

@@ -11,6 +11,7 @@ from cdpr_struct.reports.figures.style import (
     BLUE,
     GREEN,
     KIND_COLOURS,
+    KIND_WORDS,
     PURPLE,
     SKY,
     VERMILLION,
@@ -18,6 +19,7 @@ from cdpr_struct.reports.figures.style import (
     plain_ticks,
     quiet,
 )
+from cdpr_struct.reports.typeset import typeset
 
 SIZE = (9.6, 6.2)
 COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, SKY, BLACK)
@@ -28,7 +30,7 @@ def draw_frf(figure: Figure, sweep: ResponseSweep) -> None:
     """Magnitude on a log scale, the eigenfrequencies below it, then the phase."""
     upper, ticks, lower = figure.subplots(3, 1, sharex=True, height_ratios=[3.0, 0.35, 1.3])
     found = sweep.response
-    units = [response_unit(port, found.excite, found.quantity) for port in found.respond]
+    units = [typeset(response_unit(port, found.excite, found.quantity)) for port in found.respond]
     for column, (port, unit) in enumerate(zip(found.respond, units, strict=True)):
         colour = COLOURS[column % len(COLOURS)]
         if sweep.silent[column]:
@@ -85,11 +87,18 @@ def frf_caption(sweep: ResponseSweep) -> str:
     count = int((sweep.modes.hertz >= sweep.response.hertz[0]).sum())
     highest = "; ".join(filter(None, (_highest(sweep, column) for column in range(len(sweep.peaks)))))
     return (
-        f"Ticks: the {count} undamped eigenfrequencies of the robot in the band, blue for platform, pink for mixed "
-        "and orange for cable modes. A mode without a peak is not excited here, not seen there, or hidden in a cluster."
+        f"Ticks: the {count} undamped eigenfrequencies of the robot in the band{_colours(sweep.modes)}. A mode without "
+        "a peak is not excited here, not seen there, or hidden in a cluster."
         + (f" Highest peaks: {highest}." if highest else "")
         + (" Curves are cut off beside the poles." if any(np.isinf(p.magnitude).any() for p in sweep.peaks) else "")
     )
+
+
+def _colours(modes: ModesInBand) -> str:
+    """Which colour is which kind of mode, of those that are there."""
+    there = {kind_group(kind) for kind in modes.kinds}
+    said = [f"{KIND_WORDS[name]} for {name}" for name in KIND_COLOURS if name in there]
+    return f", {' and '.join(filter(None, (', '.join(said[:-1]), said[-1])))} modes" if said else ""
 
 
 def _highest(sweep: ResponseSweep, column: int) -> str:

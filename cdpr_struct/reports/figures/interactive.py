@@ -13,6 +13,7 @@ from cdpr_struct.reports.figures.mode_stacks import stack_levels
 from cdpr_struct.reports.figures.plot_parts import Plot, plot_axis, plot_layout, plot_line
 from cdpr_struct.reports.figures.robot_drawing import TENSION_LABEL, tension_range
 from cdpr_struct.reports.figures.robot_geometry import RobotGeometry, robot_geometry
+from cdpr_struct.reports.figures.solid_scene import anchor_labels, solid_scene
 from cdpr_struct.reports.figures.style import BAD, BLACK, BLUE, GOOD, GREY, LIGHT
 
 _STACKS_ACROSS = 130
@@ -36,10 +37,22 @@ def determinant_plot(trial: Verification) -> Plot:
         **plot_layout(560),
         "xaxis": {**plot_axis(FREQUENCY_LABEL), "anchor": "y2", "range": [0.0, float(scan.hertz[-1])]},
         "yaxis": {**plot_axis(DETERMINANT_LABEL), "domain": [0.34, 1.0]},
-        "yaxis2": {**plot_axis("FEM modes [count]"), "domain": [0.0, 0.26], "rangemode": "tozero", "fixedrange": True},
+        "yaxis2": {
+            **plot_axis("FEM modes [count]"), "domain": [0.0, 0.26], "rangemode": "tozero", "fixedrange": True,
+            "dtick": _whole_step(trial),
+        },
         "shapes": [_shade(*zoom_window(trial))],
-    }
+    }  # fmt: skip
     return {"data": curves + _mode_marks(trial), "layout": layout}
+
+
+def _levels(trial: Verification) -> np.ndarray:
+    return stack_levels(trial.fem_limit_hertz, float(trial.scan.hertz[-1]) / _STACKS_ACROSS)
+
+
+def _whole_step(trial: Verification) -> int:
+    """Step of the ticks of a count, some three of them."""
+    return max(1, round(float(_levels(trial).max(initial=1)) / 3.0))
 
 
 def _shade(low: float, high: float) -> Plot:
@@ -51,7 +64,7 @@ def _shade(low: float, high: float) -> Plot:
 
 def _mode_marks(trial: Verification) -> list[Plot]:
     hertz = trial.fem_limit_hertz
-    level = stack_levels(hertz, float(trial.scan.hertz[-1]) / _STACKS_ACROSS)
+    level = _levels(trial)
     missed = np.isnan(trial.determinant_hertz)
     marks = []
     for chosen, name, colour, symbol in (
@@ -83,8 +96,7 @@ def robot_plot(point: OperatingPoint) -> Plot:
     scale = {"colorscale": _TENSION_SCALE, "reversescale": True, "cmin": low, "cmax": high}
     lines = [_cable_line(point, i, curve, scale) for i, curve in enumerate(geometry.curves)]
     anchors = _frame_anchors(geometry, point.cables.tension_at_platform, scale)
-    layout = {**plot_layout(580), "margin": {"l": 0, "r": 0, "t": 10, "b": 0}, "scene": _scene(geometry.box())}
-    return {"data": [*lines, anchors, *_platform(geometry)], "layout": layout}
+    return {"data": [*lines, anchors, *_platform(geometry)], **solid_scene(geometry.box(), bar=True)}
 
 
 def _cable_line(point: OperatingPoint, i: int, curve: np.ndarray, scale: Plot) -> Plot:
@@ -107,30 +119,11 @@ def _frame_anchors(geometry: RobotGeometry, tension: np.ndarray, scale: Plot) ->
     return {
         "type": "scatter3d", "mode": "markers+text", "name": "frame anchors", "showlegend": False,
         **_xyz(geometry.frame),
-        "text": [str(i + 1) for i in range(len(tension))], "textposition": "top center",
+        "text": anchor_labels(geometry.frame, geometry.box()), "textposition": "top center",
         "marker": {"size": 4, "color": tension.tolist(), **scale, "colorbar": bar},
-        "hovertemplate": "frame anchor of cable %{text}<br>(%{x:.3f}, %{y:.3f}, %{z:.3f}) m<extra></extra>",
+        "customdata": list(range(1, len(tension) + 1)),
+        "hovertemplate": "frame anchor of cable %{customdata}<br>(%{x:.3f}, %{y:.3f}, %{z:.3f}) m<extra></extra>",
     }  # fmt: skip
-
-
-def _scene(box: np.ndarray) -> Plot:
-    size = box[1] - box[0]
-    axes = {
-        f"{name}axis": {
-            **plot_axis(f"{name} [m]"),
-            "backgroundcolor": "white",
-            "color": BLACK,
-            "range": ends,
-            "nticks": 6,
-        }
-        for name, ends in zip("xyz", box.T.tolist(), strict=True)
-    }
-    return {
-        "aspectmode": "manual",
-        "aspectratio": dict(zip("xyz", (size / size.max()).tolist(), strict=True)),
-        "camera": {"eye": {"x": 0.49, "y": -1.18, "z": 0.44}, "center": {"x": 0.0, "y": 0.0, "z": -0.07}},
-        **axes,
-    }
 
 
 def _platform(geometry: RobotGeometry) -> list[Plot]:

@@ -6,13 +6,14 @@ from cdpr_struct.dynamics.frequency_sweep import ResponseSweep
 from cdpr_struct.measurement.universal_file import response_unit
 from cdpr_struct.reports.figures.frf import COLOURS, thinned
 from cdpr_struct.reports.figures.plot_parts import Plot, plot_axis, plot_layout, plot_line, short
-from cdpr_struct.reports.figures.style import KIND_COLOURS, kind_group
+from cdpr_struct.reports.figures.style import KIND_COLOURS, kind_group, plain_number
+from cdpr_struct.reports.typeset import raised, typeset
 
 
 def frf_plot(sweep: ResponseSweep) -> Plot:
     """Magnitude on a log scale, every mode as a tick that names itself, and the phase, on one frequency axis."""
     found = sweep.response
-    units = [response_unit(port, found.excite, found.quantity) for port in found.respond]
+    units = [typeset(response_unit(port, found.excite, found.quantity)) for port in found.respond]
     curves = [
         curve
         for column, unit in enumerate(units)
@@ -26,10 +27,10 @@ def frf_plot(sweep: ResponseSweep) -> Plot:
         "xaxis": {**plot_axis("frequency [Hz]"), "anchor": "y3", "range": [low, high]},
         "yaxis": {
             **plot_axis(f"{found.quantity} under {found.excite.name} [{shared}]"), "domain": [0.42, 1.0], "type": "log",
-            "exponentformat": "power", "dtick": 1,
+            **_decades(sweep),
         },
         "yaxis2": {
-            **plot_axis("modes [-]"), "domain": [0.33, 0.39], "range": [0.0, 1.0], "showticklabels": False,
+            **plot_axis(""), "domain": [0.33, 0.38], "range": [0.0, 1.0], "tickvals": [0.5], "ticktext": ["modes"],
             "showgrid": False, "ticks": "", "fixedrange": True,
         },
         "yaxis3": {
@@ -38,6 +39,22 @@ def frf_plot(sweep: ResponseSweep) -> Plot:
         },
     }  # fmt: skip
     return {"data": [*curves, *_ticks(sweep)], "layout": layout}
+
+
+def _decades(sweep: ResponseSweep) -> Plot:
+    """Ticks of the magnitude at powers of ten, at most eight; plotly's own would have larger letters than the rest."""
+    size = np.abs(sweep.response.response)
+    size = size[np.isfinite(size) & (size > 0.0)]
+    if not size.size:
+        return {}
+    low, high = np.floor(np.log10(size.min())), np.ceil(np.log10(size.max()))
+    powers = np.arange(low, high + 1.0, max(1.0, np.ceil((high - low) / 8.0)))
+    return {"tickvals": (10.0**powers).tolist(), "ticktext": [_power(int(p)) for p in powers]}
+
+
+def _power(exponent: int) -> str:
+    """A power of ten, short enough for the margin of a phone."""
+    return plain_number(10.0**exponent) if abs(exponent) < 3 else f"10{raised(str(exponent))}"
 
 
 def _curves(sweep: ResponseSweep, column: int, unit: str) -> list[Plot]:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from itertools import cycle
 
 import numpy as np
+from contourpy import contour_generator
 
 from cdpr_struct.reports.figures.frame_plan import FramePlan
 from cdpr_struct.reports.figures.plot_parts import Plot, colour_bar, plot_axis, plot_layout, plot_line, short
@@ -16,6 +17,7 @@ from cdpr_struct.workspace.grid import AXES, Grid
 _HEIGHT = 660
 _MOST = 200
 _SHADES = 24
+_NAMED = 0.15  # length of a level line from which on it carries its value, of the map's width and height
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,7 +62,7 @@ def map_plot(grid: Grid, layers: Sequence[Layer], plan: FramePlan) -> Plot:
         for i, scene in enumerate(steps)
         for trace in (_heat(scene, across, up), _levels(scene, across, up))
     ]
-    frame = _frame(plan, across, up)
+    frame = _frame(plan, grid, across, up)
     x, y = grid.axes[across], grid.axes[up]
     layout = {
         **plot_layout(_HEIGHT),
@@ -87,33 +89,42 @@ def _heat(scene: Scene, across: int, up: int) -> Plot:
     steps = [
         [i / (_SHADES - 1), "rgb({:.0f},{:.0f},{:.0f})".format(*(255.0 * shade))] for i, shade in enumerate(shades)
     ]
+    bar = colour_bar(f"{scene.of.title} [{layer.unit}]")
+    if layer.unit == "count":
+        bar["dtick"] = max(1, round(float((scale.vmax or 0.0) - (scale.vmin or 0.0)) / 5.0))
     return {
         "type": "heatmap", "name": layer.title, "x": short(grid.axes[across]), "y": short(grid.axes[up]),
         "z": short(value), "zmin": float(scale.vmin or 0.0), "zmax": float(scale.vmax or 0.0), "colorscale": steps,
-        "colorbar": colour_bar(f"{scene.of.title} [{layer.unit}]"), "hoverongaps": False,
+        "colorbar": bar, "hoverongaps": False,
         "hovertemplate": f"{names}<br>%{{z:.5g}} {layer.unit}<extra></extra>",
     }  # fmt: skip
 
 
 def _levels(scene: Scene, across: int, up: int) -> Plot:
-    """Lines of equal value with their values, the same in all slices."""
-    grid, levels = scene.grid, shared_levels(scene.of)
+    """Lines of equal value with their values, the same in all slices; only between poses that all have one."""
+    grid = scene.grid
     value = scene.layer.values.reshape(grid.shape[across], grid.shape[up]).T
-    step = float(levels[1] - levels[0]) if len(levels) > 1 else 1.0
-    ends = (float(levels[0]), float(levels[-1])) if len(levels) > 1 else (0.0, 0.0)
+    x, y = grid.axes[across], grid.axes[up]
+    lines = contour_generator(x, y, np.ma.masked_invalid(value))
+    wide = np.array([np.ptp(x), np.ptp(y)])
+    places, words = [np.empty((0, 2))], list[str]()
+    for level in shared_levels(scene.of).tolist():
+        for line in lines.lines(level):
+            points = np.asarray(line)
+            named = float(np.linalg.norm(np.diff(points, axis=0) / wide, axis=1).sum()) > _NAMED
+            middle = len(points) // 2
+            words += [f"{level:.4g}" if named and i == middle else "" for i in range(len(points))] + [""]
+            places += [points, np.full((1, 2), np.nan)]
+    found = np.concatenate(places)
     return {
-        "type": "contour", "x": short(grid.axes[across]), "y": short(grid.axes[up]), "z": short(value),
-        "showscale": False, "hoverinfo": "skip", "line": {"width": 1 if len(levels) > 1 else 0, "smoothing": 0},
-        "colorscale": [[0, ON_MAP], [1, ON_MAP]], "opacity": 0.75,
-        "contours": {
-            "coloring": "lines", "showlabels": True, "labelfont": {"size": 11, "color": ON_MAP},
-            "start": ends[0], "end": ends[1], "size": step,
-        },
+        "type": "scatter", "mode": "lines+text", "x": short(found[:, 0]), "y": short(found[:, 1]), "text": words,
+        "textposition": "top center", "textfont": {"size": 11, "color": ON_MAP}, "hoverinfo": "skip",
+        "line": {"color": ON_MAP, "width": 1}, "opacity": 0.75, "cliponaxis": True,
     }  # fmt: skip
 
 
-def _frame(plan: FramePlan, across: int, up: int) -> list[Plot]:
-    """Frame anchors with their numbers, the outline around them, and the platform."""
+def _frame(plan: FramePlan, grid: Grid, across: int, up: int) -> list[Plot]:
+    """The mapped rectangle, frame anchors with their numbers, the outline around them, and the platform."""
     outline, platform = plan.frame_outline(across, up), plan.platform_outline(across, up)
     anchors = plan.anchors[:, (across, up)]
     frame = plot_line(outline[:, 0], outline[:, 1], "frame", {"color": GREY, "width": 1.5}, "frame")
@@ -124,7 +135,9 @@ def _frame(plan: FramePlan, across: int, up: int) -> list[Plot]:
         "marker": {"color": BLACK, "size": 7},
         "hovertemplate": "frame anchor of cable %{text}<br>(%{x:.3f}, %{y:.3f}) m<extra></extra>",
     }  # fmt: skip
-    return [frame, body, marks]
+    x, y = (grid.axes[i][[0, -1]] for i in (across, up))
+    mapped = plot_line(x[[0, 1, 1, 0, 0]], y[[0, 0, 1, 1, 0]], "mapped", {"color": BLUE, "width": 1.5}, "mapped")
+    return [mapped, frame, body, marks]
 
 
 def _reach(values: np.ndarray) -> list[float]:

@@ -32,6 +32,12 @@ def label_groups(
 
     Only those of the `chosen` (m,) are labelled; all by default.
     """
+    groups = near_groups(points, reach, chosen)
+    return [(points[group].max(axis=0), number_ranges([i + 1 for i in group])) for group in groups]
+
+
+def near_groups(points: np.ndarray, reach: tuple[float, float], chosen: np.ndarray | None = None) -> list[list[int]]:
+    """Numbers of points (m, 2), those together that lie closer than `reach` to the first of them."""
     groups: list[list[int]] = []
     for i in range(len(points)) if chosen is None else np.flatnonzero(chosen).tolist():
         near = (g for g in groups if np.all(np.abs(points[g[0]] - points[i]) <= reach))
@@ -40,7 +46,7 @@ def label_groups(
             groups.append([i])
         else:
             found.append(i)
-    return [(points[group].max(axis=0), number_ranges([i + 1 for i in group])) for group in groups]
+    return groups
 
 
 def number_ranges(numbers: list[int]) -> str:
@@ -125,8 +131,9 @@ def limits_caption(limits: ValidityLimits) -> str:
         f"Cable{'s' * (len(bad) > 1)} {number_ranges(bad)} (red crosses) outside." if bad else "All cables lie inside."
     )
     return (
-        "The closed form assumes a shallow, taut cable. Left: Irvine's λ², which must stay below the first "
-        "crossover of symmetric and antisymmetric modes. Right: ε, eight times sag over chord, which may be "
+        "The closed form assumes a shallow, taut cable. Stems: Irvine's λ², which must stay below the first "
+        "crossover of symmetric and antisymmetric modes. Points over the inclination: ε, eight times "
+        "sag over chord, which may be "
         f"{INCLINATION_EPSILON_PAIRS[0][1]:g} up to {INCLINATION_EPSILON_PAIRS[0][0]:g}° inclination and "
         f"{INCLINATION_EPSILON_PAIRS[1][1]:g} up to {INCLINATION_EPSILON_PAIRS[1][0]:g}°; "
         f"no limit is printed for steeper cables. Numbers are cables. {outcome}"

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from cdpr_struct.crosscheck.verification import Verification
 from cdpr_struct.reports.figures.style import (
@@ -19,13 +19,18 @@ from cdpr_struct.reports.figures.style import (
 from cdpr_struct.reports.verification_verdict import cause_sentence
 
 SIZE = (9.6, 3.9)
+_FAR = 8.0  # tolerances
+_NAME = 32.0  # width of a frequency above the axis [pt]
 
 
 def draw_mode_errors(figure: Figure, trial: Verification) -> None:
-    """Signed relative error per mode; linear near zero, logarithmic beyond a tenth of the tolerance."""
+    """Signed relative error per mode; far beyond the tolerance the scale is logarithmic, but linear near zero."""
     axes = figure.subplots()
     tolerance = 100.0 * trial.criteria.relative_error
-    _symmetric_scale(axes, trial, tolerance)
+    if _is_even(trial):
+        _even_scale(axes, trial, tolerance)
+    else:
+        _symmetric_scale(axes, trial, tolerance)
     axes.axhspan(-tolerance, tolerance, color="#f4f7f5", linewidth=0, zorder=0)
     for sign in (-1.0, 1.0):
         axes.axhline(sign * tolerance, color=BLACK, linewidth=0.9, linestyle=(0, (5, 3)))
@@ -36,12 +41,23 @@ def draw_mode_errors(figure: Figure, trial: Verification) -> None:
     )  # fmt: skip
     _stems(axes, trial)
     axes.set_xlim(0.2, len(trial.kinds) + 0.8)
-    axes.xaxis.set_major_locator(MaxNLocator(10, integer=True))
     axes.set_xlabel("mode number [-]")
     axes.set_ylabel("DSM / FEM limit − 1 [%]")
     quiet(axes)
-    _frequencies_on_top(axes, trial)
+    _name_modes(axes, trial, figure.get_figwidth())
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=6)
+
+
+def _is_even(trial: Verification) -> bool:
+    """Whether all errors are near enough to the tolerance to be told apart on an even scale."""
+    return float(np.abs(trial.relative_error).max()) <= _FAR * trial.criteria.relative_error
+
+
+def _even_scale(axes: Axes, trial: Verification, tolerance: float) -> None:
+    reach = 1.25 * max(100.0 * float(np.abs(trial.relative_error).max()), tolerance)
+    axes.set_ylim(-reach, reach)
+    axes.yaxis.set_major_locator(MaxNLocator(8, steps=[1, 2, 5, 10]))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:+.10g}" if value else "0"))
 
 
 def _symmetric_scale(axes: Axes, trial: Verification, tolerance: float) -> None:
@@ -78,11 +94,14 @@ def _stems(axes: Axes, trial: Verification) -> None:
         )
 
 
-def _frequencies_on_top(axes: Axes, trial: Verification) -> None:
+def _name_modes(axes: Axes, trial: Verification, width: float) -> None:
+    """Numbers of the modes below and their frequencies above, as many as the figure [inch] has room for."""
     count = len(trial.kinds)
-    picked = np.unique(np.linspace(1, count, min(count, 9)).round().astype(int))
+    step = -(-count // int(0.85 * 72.0 * width / _NAME))
+    named = list(range(1, count + 1, step))
+    axes.set_xticks(named)
     top = axes.secondary_xaxis("top")
-    top.set_xticks(picked, [f"{trial.fem_limit_hertz[i - 1]:.2f}" for i in picked])
+    top.set_xticks(named, [f"{trial.fem_limit_hertz[i - 1]:.2f}" for i in named])
     top.set_xlabel("FEM eigenfrequency [Hz]")
 
 
@@ -107,6 +126,6 @@ def mode_errors_caption(trial: Verification) -> str:
         f"{'; '.join(parts)}. Largest: mode {worst + 1} ({trial.kinds[worst]}) at "
         f"{trial.fem_limit_hertz[worst]:.3f} Hz with {error[worst]:+.3f} %. Black dashes are the exact catenary's "
         f"frequencies, at most {exact:.2g} % off: a stem is the error of the closed form. {_cause(trial)}Bars are "
-        "the uncertainty of the extrapolated FEM. The scale is linear near zero, where the grid is even, and "
-        "logarithmic farther out."
+        "the uncertainty of the extrapolated FEM."
+        + ("" if _is_even(trial) else " The scale is linear near zero, and logarithmic farther out.")
     )

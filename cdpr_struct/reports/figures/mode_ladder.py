@@ -114,6 +114,6 @@ def ladder_caption(result: Mapping[str, Any]) -> str:
     return (
         "Above: every mode at its frequency, as high as the platform's share of the kinetic energy. High stems are the "
         "modes that a sensor on the platform sees and a payload changes; in those at the bottom cables vibrate alone. "
-        f"Below: the same modes, stacked where they are close; {crowded}. Right: the tensions at rest, on which the "
+        f"Below: the same modes, stacked where they are close; {crowded}. Bars: the tensions at rest, on which the "
         "frequencies of the cables depend."
     )

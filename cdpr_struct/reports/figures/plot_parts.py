@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.reports.figures.style import BLACK, FONT_STACK, GREY, LIGHT
+from cdpr_struct.reports.typeset import typeset
 
 Plot = dict[str, Any]
 _DIGITS = 6
@@ -31,7 +32,7 @@ def plot_layout(height: int) -> Plot:
 def plot_axis(title: str) -> Plot:
     """An axis in the look of the static figures."""
     return {
-        "title": {"text": title, "font": {"size": 13}},
+        "title": {"text": typeset(title), "font": {"size": 13}},
         "gridcolor": LIGHT,
         "zeroline": False,
         "linecolor": GREY,
@@ -49,7 +50,8 @@ def plot_line(x: np.ndarray, y: np.ndarray, name: str, line: Plot, hover: str = 
 
 def colour_bar(title: str) -> Plot:
     """A slim colour bar with its title along it."""
-    return {"title": {"text": title, "side": "right", "font": {"size": 13}}, "thickness": 12, "outlinewidth": 0}
+    name = {"text": typeset(title), "side": "right", "font": {"size": 13}}
+    return {"title": name, "thickness": 12, "outlinewidth": 0}
 
 
 def short(values: np.ndarray | Sequence[float]) -> list[Any]:

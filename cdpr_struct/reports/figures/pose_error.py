@@ -94,29 +94,33 @@ def _draw_slices(figure: Figure, errors: PoseErrorMap, layers: Mapping[str, Laye
         bar.outline.set_visible(False)
 
 
-def pose_error_caption(errors: PoseErrorMap) -> str:
-    """What to see in the figure."""
+def pose_error_caption(errors: PoseErrorMap, live: bool = False) -> str:
+    """What to see in the figure; live : in the one that can be zoomed, with one map or slice at a time."""
     means = ", ".join(f"{errors.mean(part):+.2f} mm {what}" for part, what in _MEANING.items())
     worst, (x, y, z) = errors.extreme("global")
     left_out = errors.grid.size - int(errors.counts.sum())
     other = int(errors.more_stable.sum())
     where = errors.grid.fixed_text()
-    return (
+    gaps = ("Blank" if len(errors.grid.free) > 1 else "Gaps") if live else "Hatched"
+    said = (
         f"Pose error of {errors.robot} along z{', ' + where if where else ''}, {errors.mass:g} kg: cables are given "
         "the lengths of straight, inextensible ones, and the platform hangs where sag and stretch let it. Above zero "
         f"it hangs too high. Mean over {int(errors.counts.sum())} poses: {means}. Largest: {worst:+.2f} mm at "
-        f"({x:g}, {y:g}, {z:g}) m. {_layout_text(errors)}"
-        + (f" Hatched: {left_out} poses that ideal cables cannot hold or that are not stable." if left_out else "")
-        + (
-            f" Triangles: {other} poses at which the spring model has another equilibrium of lower energy; shown is "
-            "the one that is continuous with the reference pose."
-            if other
-            else ""
-        )
+        f"({x:g}, {y:g}, {z:g}) m. {_layout_text(errors, live)}"
+        + (f" {gaps}: {left_out} poses that ideal cables cannot hold or that are not stable." if left_out else "")
+    )
+    if not other or live:
+        return said
+    return (
+        f"{said} Triangles: {other} poses at which the spring model has another equilibrium of lower energy; shown is "
+        "the one that is continuous with the reference pose."
     )
 
 
-def _layout_text(errors: PoseErrorMap) -> str:
+def _layout_text(errors: PoseErrorMap, live: bool) -> str:
+    if live and len(errors.grid.free) > 1:
+        what = "the part and the slice" if len(errors.grid.free) == 3 else "the part"
+        return f"The slider changes {what}. Blue line: the mapped rectangle."
     if len(errors.grid.free) < 3:
         return "Each map has its own scale." if len(errors.grid.free) == 2 else "All curves have one scale."
     return f"{Slices.of(errors.grid, _MOST_SLICES).said()[:-1]} in each column."
@@ -159,5 +163,5 @@ def load_ladder_caption(found: SufficientLoad) -> str:
     )
     return (
         "A load straightens the cables: the sagging model tends to the spring model, whose error grows in "
-        f"proportion to the load. {limit} Right: what sag adds, on logarithmic axes."
+        f"proportion to the load. {limit} On logarithmic axes: what sag adds."
     )

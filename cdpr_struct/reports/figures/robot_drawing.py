@@ -16,7 +16,8 @@ from cdpr_struct.reports.figures.style import BLACK, GREY, LIGHT
 SIZE = (9.6, 5.6)
 COLOUR_MAP = "viridis_r"
 TENSION_LABEL = "tension at the platform [N]"
-_PANEL = (0.05, 0.09, 0.85, 0.97)
+_PANEL, _NARROW_PANEL = (0.05, 0.09, 0.85, 0.97), (0.08, 0.31, 0.88, 0.97)
+_BESIDE = 6.0  # width of a figure from which on the scale is beside the robot [inch]
 _VIEW = {"elev": 20.0, "azim": -62.0}
 
 
@@ -24,13 +25,19 @@ def draw_robot(figure: Figure, point: OperatingPoint) -> None:
     """Frame anchors, platform and cables; a cable's colour is its tension."""
     tension = point.cables.tension_at_platform
     scale = Normalize(*tension_range(tension))
+    beside = figure.get_figwidth() > _BESIDE
     draw_geometry(figure, robot_geometry(point), colormaps[COLOUR_MAP](scale(tension)))
-    bar = figure.add_axes((0.905, 0.2, 0.014, 0.6))
-    figure.colorbar(ScalarMappable(scale, COLOUR_MAP), cax=bar, label=TENSION_LABEL).outline.set_visible(False)
+    bar = figure.add_axes((0.905, 0.2, 0.014, 0.6) if beside else (0.15, 0.15, 0.7, 0.022))
+    way = "vertical" if beside else "horizontal"
+    drawn = figure.colorbar(ScalarMappable(scale, COLOUR_MAP), cax=bar, label=TENSION_LABEL, orientation=way)
+    drawn.outline.set_visible(False)
 
 
 def draw_geometry(figure: Figure, geometry: RobotGeometry, colours: np.ndarray | str) -> None:
-    """Frame anchors, platform and cables, in one colour or in colours (m, 4); right of them is room for a scale."""
+    """Frame anchors, platform and cables, in one colour or in colours (m, 4).
+
+    Right of them is room for a scale, below them in a narrow figure.
+    """
     figure.set_layout_engine("none")
     axes: Axes3D = figure.add_axes((0.0, 0.0, 1.0, 1.0), projection="3d")
     _set_view(axes, geometry)
@@ -72,9 +79,10 @@ def _fill_panel(figure: Figure, axes: Axes3D) -> None:
     axes.apply_aspect()
     place = axes.transAxes.inverted().transform(axes.transData.transform(np.column_stack([x, y])))
     low, high = place.min(axis=0), place.max(axis=0)
-    size, free = figure.get_size_inches(), np.array(_PANEL[2:]) - np.array(_PANEL[:2])
-    side = float(np.min(free * size / (high - low)))
-    left, bottom = 0.5 * (np.array(_PANEL[:2]) + np.array(_PANEL[2:])) - 0.5 * (low + high) * side / size
+    size = figure.get_size_inches()
+    start, end = np.array(_PANEL if size[0] > _BESIDE else _NARROW_PANEL).reshape(2, 2)
+    side = float(np.min((end - start) * size / (high - low)))
+    left, bottom = 0.5 * (start + end) - 0.5 * (low + high) * side / size
     axes.set_position((left, bottom, side / size[0], side / size[1]))
 
 
@@ -90,6 +98,8 @@ def _number_cables(axes: Axes3D, geometry: RobotGeometry) -> None:
     x, y, _ = proj3d.proj_transform(*geometry.frame.T, axes.get_proj())
     points = np.column_stack([x, y])
     extent = np.ptp(points, axis=0).max()
+    figure = axes.get_figure()
+    extent *= SIZE[0] / figure.get_figwidth() if isinstance(figure, Figure) else 1.0
     for place, label in label_groups(points, (0.03 * extent, 0.022 * extent)):
         axes.annotate(label, tuple(place), (4, 4), textcoords="offset points", fontsize=8, annotation_clip=False)
 

@@ -6,7 +6,6 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.generated import catenary
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot, anchors_in_world
 
@@ -66,11 +65,8 @@ def cable_curves(point: OperatingPoint, fractions: np.ndarray) -> np.ndarray:
     """(m, p, 3) the hanging cables at fractions (p,) of their unstrained lengths from the frame ends, world [m]."""
     cables = point.cables
     platform, _ = anchors_in_world(point.entered, point.position, point.rotation)
-    s = fractions[None, :] * cables.length[:, None]
-    straight = cables.weight == 0.0
-    pull, weight = np.where(straight, 1.0, cables.force_z), np.where(straight, 1.0, cables.weight)
-    five = (cables.force_x, pull, cables.length, cables.axial_stiffness, weight)
-    along, up = catenary.profile(s, *(value[:, None] for value in five))
+    straight = (cables.weight == 0.0) & ~cables.lump_weight.any(axis=-1)
+    along, up = cables.profile(fractions)
     hanging = along[..., None] * cables.heading[:, None, :] + up[..., None] * cables.up[:, None, :]
     taut = fractions[None, :, None] * cables.offset[:, None, :]
     start = (platform - cables.offset)[:, None, :]

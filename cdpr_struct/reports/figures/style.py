@@ -12,6 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator
 from matplotlib.transforms import Bbox
 
+from cdpr_struct.reports.typeset import raised
+
 # Okabe and Ito's palette, distinguishable with any colour vision.
 BLACK, GREY, LIGHT = "#222222", "#8a8f98", "#e3e6ea"
 ON_MAP = "#1a1a1a"
@@ -21,6 +23,7 @@ ORANGE, VERMILLION, PURPLE = "#E69F00", "#D55E00", "#CC79A7"
 
 GOOD, BAD = GREEN, VERMILLION
 KIND_COLOURS = {"platform": BLUE, "mixed": PURPLE, "cable": ORANGE}
+KIND_WORDS = {"platform": "blue", "mixed": "pink", "cable": "orange"}
 KIND_MARKERS = {"platform": "s", "mixed": "D", "cable": "o"}
 
 FONT_STACK = "'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
@@ -53,7 +56,6 @@ LOOK: Any = {
     "text.color": BLACK,
     "figure.facecolor": "white",
 }
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
 
 
@@ -108,7 +110,7 @@ def plain_number(value: float) -> str:
     if value == 0.0 or 1e-4 <= abs(value) * (1.0 + 1e-9) < 1e5:
         return f"{value:.10g}"
     factor, exponent = f"{value:.0e}".split("e")
-    power = "10" + str(int(exponent)).translate(_RAISED)
+    power = "10" + raised(str(int(exponent)))
     return power if factor == "1" else f"{factor}·{power}"
 
 

@@ -22,6 +22,8 @@ LINE_SIZE = (9.6, 3.8)
 UNHELD = "cannot be held, or not stable"
 OTHER = "spring model: another pose is more stable"
 _HATCH = "////"
+_EQUAL = 1e-6  # relative: values whose differences mean nothing
+_BELOW, _ABOVE = 0.8, 1.2  # of the one value of a constant map: ends of its scale
 Scale = tuple[Normalize, Colormap]
 
 
@@ -149,12 +151,19 @@ def add_legend(figure: Figure, layers: list[Layer]) -> None:
 
 
 def colour_scale(layer: Layer) -> Scale:
-    """Diverging about zero where signs mix; else from light to dark with growing size."""
+    """Diverging about zero where signs mix; else from light to dark with growing size.
+
+    One value everywhere has a range about it, or from 0 to 1 if it is zero.
+    """
     value = layer.values
     if not np.isfinite(value).any():
         return Normalize(0.0, 1.0), _light("YlGnBu")
     low, high = float(np.nanmin(value)), float(np.nanmax(value))
-    margin = 1e-6 * max(abs(low), abs(high), 1e-12)
+    if not np.any(value[np.isfinite(value)]):
+        return Normalize(0.0, 1.0), _light("YlGnBu")
+    if high - low < _EQUAL * max(abs(low), abs(high)):
+        low, high = sorted((_BELOW * low, _ABOVE * high))
+    margin = _EQUAL * max(abs(low), abs(high))
     if layer.signed and low < -margin and high > margin:
         reach = max(-low, high)
         return Normalize(-reach, reach), _light("RdBu_r", 0.1, 0.9)
@@ -171,7 +180,7 @@ def _light(name: str, low: float = 0.0, high: float = 0.7) -> Colormap:
 
 def _levels(axes: Axes, x: np.ndarray, y: np.ndarray, value: np.ndarray, levels: int | np.ndarray) -> None:
     finite = value[np.isfinite(value)]
-    if finite.size < 9 or np.ptp(finite) < 1e-6 * np.abs(finite).max() or not np.size(levels):
+    if finite.size < 9 or np.ptp(finite) < _EQUAL * np.abs(finite).max() or not np.size(levels):
         return
     field = np.ma.masked_invalid(value)
     lines = axes.contour(x, y, field, levels=levels, colors=ON_MAP, linewidths=0.5, linestyles="solid", alpha=0.7)

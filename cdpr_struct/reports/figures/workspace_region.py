@@ -8,10 +8,13 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from cdpr_struct.reports.figures.plot_parts import Plot, plot_layout, short
+from cdpr_struct.reports.figures.panels import label_ends
+from cdpr_struct.reports.figures.plot_parts import Plot, short
+from cdpr_struct.reports.figures.solid_scene import anchor_labels, solid_scene
 from cdpr_struct.reports.figures.style import BLACK, BLUE, GREY, LIGHT
 from cdpr_struct.reports.figures.workspace_map import LINE_SIZE, map_size
 from cdpr_struct.reports.figures.workspace_slices import Slices
+from cdpr_struct.reports.typeset import typeset
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import AXES, Grid
 from cdpr_struct.workspace.region import Region
@@ -20,6 +23,7 @@ _HOLDS = "#8fd0a5"
 _WHY = (LIGHT, GREY, "#f2c14e", "#e07a5f", "#7aa6d6", "#b48ead", "#9c6b4f", "#d98cb3", "#c9c25a", "#6fa8a0")
 _WIDTH, _COLUMNS, _MOST = 9.6, 3, 9
 _POINTS = 60_000  # of the surface on a page
+_MARGIN = 0.04  # around it, of the largest edge
 
 
 def region_size(grid: Grid) -> tuple[float, float]:
@@ -27,9 +31,14 @@ def region_size(grid: Grid) -> tuple[float, float]:
     if len(grid.free) < 3:
         return LINE_SIZE if len(grid.free) < 2 else map_size(grid)
     slices = Slices.of(grid, _MOST)
-    across, up = (float(np.ptp(grid.axes[i])) for i in range(3) if i != slices.axis)
-    rows = -(-len(slices.index) // _COLUMNS)
-    return _WIDTH, 1.0 + rows * (0.45 + 0.9 * _WIDTH / _COLUMNS * float(np.clip(up / across, 0.2, 2.0)))
+    return _WIDTH, _height(slices, _WIDTH, _COLUMNS)
+
+
+def _height(slices: Slices, width: float, columns: int) -> float:
+    """Of a figure so wide with so many slices beside each other [inch]."""
+    across, up = (float(np.ptp(slices.grid.axes[i])) for i in range(3) if i != slices.axis)
+    rows = -(-len(slices.index) // columns)
+    return 1.0 + rows * (0.45 + 0.9 * width / columns * float(np.clip(up / across, 0.2, 2.0)))
 
 
 def draw_region(figure: Figure, grid: Grid, why: np.ndarray, names: list[str], region: Region) -> None:
@@ -38,11 +47,14 @@ def draw_region(figure: Figure, grid: Grid, why: np.ndarray, names: list[str], r
         slices = Slices.of(grid, _MOST)
         rows = -(-len(slices.index) // _COLUMNS)
         panels = figure.subplots(rows, _COLUMNS, sharex=True, sharey=True, squeeze=False).ravel().tolist()
+        figure.set_figheight(_height(slices, figure.get_figwidth(), panels[0].get_subplotspec().get_gridspec().ncols))
         for axes in panels[len(slices.index) :]:
             axes.remove()
         for axes, index in zip(panels, slices.index.tolist(), strict=False):
             _draw_slice(axes, grid, why, region, slices.axis, index)
             axes.set_title(f"{AXES[slices.axis]} = {grid.axes[slices.axis][index]:g} m")
+        across, up = (i for i in range(3) if i != slices.axis)
+        label_ends(panels[: len(slices.index)], f"{AXES[up]} [m]", f"{AXES[across]} [m]")
     else:
         axis = next(i for i in (2, 1, 0) if i not in grid.free)
         _draw_slice(figure.subplots(), grid, why, region, axis, 0)
@@ -52,7 +64,7 @@ def draw_region(figure: Figure, grid: Grid, why: np.ndarray, names: list[str], r
 
 
 def _label(name: str) -> str:
-    return {"held": "not held", "stable": "not stable"}.get(name, name)
+    return {"held": "not held", "stable": "not stable"}.get(name, typeset(name))
 
 
 def _colour(number: int) -> str:
@@ -95,16 +107,22 @@ def surface(robot: Robot, region: Region) -> Plot:
         "surface": {"count": 1}, "showscale": False, "colorscale": [[0, BLUE], [1, BLUE]], "opacity": 0.55,
         "caps": {axis: {"show": True} for axis in AXES}, "hoverinfo": "skip", "name": "workspace",
     }  # fmt: skip
+    box = _box(np.concatenate([place, anchors]))
     marks = {
         "type": "scatter3d", "mode": "markers+text", **_xyz(anchors), "name": "frame anchors", "hoverinfo": "text",
-        "text": [str(i + 1) for i in range(len(anchors))], "marker": {"color": BLACK, "size": 3},
+        "text": anchor_labels(anchors, box), "marker": {"color": BLACK, "size": 3},
+        "hovertext": [f"frame anchor of cable {i + 1}" for i in range(len(anchors))],
     }  # fmt: skip
-    axes = {f"{axis}axis": {"title": {"text": f"{axis} [m]"}} for axis in AXES}
-    layout = {
-        **plot_layout(580), "margin": {"l": 0, "r": 0, "t": 10, "b": 0}, "showlegend": False,
-        "scene": {"aspectmode": "data", **axes},
-    }  # fmt: skip
-    return {"data": [solid, marks], "layout": layout}
+    scene = solid_scene(box)
+    scene["layout"]["showlegend"] = False
+    return {"data": [solid, marks], **scene}
+
+
+def _box(points: np.ndarray) -> np.ndarray:
+    """(2, 3) corners of what is shown, with a margin [m]."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin = _MARGIN * float((high - low).max())
+    return np.array([low - margin, high + margin])
 
 
 def _xyz(points: np.ndarray) -> dict[str, list[Any]]:

@@ -43,12 +43,10 @@
     small.margin = layout.scene ? { l: 0, r: 0, t: 10, b: 70 } : { l: 48, r: 8, t: 60, b: 44 };
     small.height = Math.min(layout.height, layout.scene ? 420 : 520);
     for (const slider of small.sliders ?? []) {  // below the colour bar
-      slider.pad = { t: 95 };
-      small.margin.b = 150;
-      small.height = 590;
+      slider.pad = { t: 120 };
+      small.margin.b = 172;
+      small.height = 560;
     }
-    const eye = small.scene?.camera?.eye;
-    for (const each of Object.keys(eye ?? {})) eye[each] *= 1.4;
     for (const [key, axis] of Object.entries(small)) if (/^[xy]axis/.test(key) && axis.title) axis.title.font = { size: 11 };
     const parts = data.map((trace) => ({ ...below(trace), ...(trace.marker && { marker: below(trace.marker) }) }));
     return { data: parts, layout: merged(small, narrow ?? {}) };
