@@ -103,10 +103,11 @@ def end_offset(force: np.ndarray, length: np.ndarray, stiff: np.ndarray, weight:
     pull, frame_pull = np.sqrt(across**2 + up**2), np.sqrt(across**2 + at_frame**2)
     mean = (up + at_frame) * length / (pull + frame_pull)  # (T - T_0) / w
     rising, falling = at_frame.real >= 0.0, up.real <= 0.0
-    grown = np.where(rising, (length + mean) / _nonzero(at_frame + frame_pull), 0.0) * weight
-    fallen = np.where(falling, (length - mean) / _nonzero(pull - up), 0.0) * weight
-    through = np.log(_nonzero(up + pull)) + np.log(_nonzero(frame_pull - at_frame)) - 2.0 * np.log(_nonzero(across))
-    bend = np.where(rising, np.log1p(grown), np.where(falling, np.log1p(fallen), through)) / weight
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # of the branches that are not taken
+        grown = np.where(rising, (length + mean) / _nonzero(at_frame + frame_pull), 0.0) * weight
+        fallen = np.where(falling, (length - mean) / _nonzero(pull - up), 0.0) * weight
+        through = np.log(_nonzero(up + pull)) + np.log(_nonzero(frame_pull - at_frame)) - 2.0 * np.log(_nonzero(across))
+        bend = np.where(rising, np.log1p(grown), np.where(falling, np.log1p(fallen), through)) / weight
     flat = force[..., :2] * (length / stiff + bend)[..., None]
     return np.concatenate([flat, ((up + at_frame) * length / (2.0 * stiff) + mean)[..., None]], axis=-1)
 
