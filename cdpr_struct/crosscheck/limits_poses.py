@@ -18,7 +18,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.taut_cables import taut_cables
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.free_orientation import ANGLES, free_orientation
+from cdpr_struct.statics.free_orientation import free_orientation, names_of
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, InverseStatus, hung_solution, inverse
 from cdpr_struct.workspace.pose_batches import PoseBatches
 from cdpr_struct.workspace.work_list import Columns
@@ -80,7 +80,7 @@ def audit_batches(
     """Columns of an audit at poses (k, 3), (k, 3, 3) or (3, 3), for `audit_of`; free : of rx, ry, rz."""
     if free is None:
         return PoseBatches("audit", _batch, robot, position, rotation, CHUNK)
-    name = f"audit free {','.join(name for name, chosen in zip(ANGLES, free, strict=True) if chosen)}"
+    name = f"audit free {','.join(names_of(free))}"
     return PoseBatches(name, partial(_hanging_batch, tuple(free)), robot, position, rotation, CHUNK)
 
 

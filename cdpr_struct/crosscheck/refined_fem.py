@@ -64,15 +64,15 @@ def refined_fem(
     mass : of the samples of shapes, see `sampling_mass`
     uncertainty : largest relative one that is asked for [-]
     """
-    meshes = []
-    for n in elements:
-        progress(f"FEM, {len(point.entered.cables)} x {n} elements")
-        meshes.append(_solved(point, n, modes))
+
+    def mesh(count: int) -> _Mesh:
+        progress(f"FEM, {len(point.entered.cables)} x {count} elements")
+        return _solved(point, count, modes)
+
+    meshes = [mesh(n) for n in elements]
     found = _followed(point, meshes, modes, mass)
     while found.uncertainty > uncertainty and 2 * found.elements[-1] <= most:
-        n = 2 * found.elements[-1]
-        progress(f"FEM, {len(point.entered.cables)} x {n} elements")
-        meshes.append(_solved(point, n, modes))
+        meshes.append(mesh(2 * found.elements[-1]))
         found = _followed(point, meshes, modes, mass)
     return found
 

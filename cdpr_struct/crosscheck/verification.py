@@ -78,7 +78,7 @@ class Verification:
     @property
     def relative_error(self) -> np.ndarray:
         """(k,) DSM against the extrapolated FEM, signed [-]."""
-        return self.dsm_hertz / self.fem_limit_hertz - 1.0
+        return self.agreement("dsm").error
 
     @property
     def mesh_error(self) -> np.ndarray:
@@ -98,7 +98,7 @@ class Verification:
     @property
     def exact_error(self) -> np.ndarray:
         """(k,) exact model against the extrapolated FEM, signed [-]."""
-        return self.exact_hertz / self.fem_limit_hertz - 1.0
+        return self.agreement("exact").error
 
     @property
     def fem_uncertainty(self) -> float:

@@ -94,7 +94,12 @@ def with_mast_mass(expansion: ModalExpansion, robot: RobotArrays) -> ModalExpans
     """Cables that carry what moves with their exits on their masts: it moves as they do when moved as a whole."""
     if not robot.mast_mass.any():
         return expansion
-    return replace(expansion, rigid_mass=expansion.rigid_mass + robot.mast_mass[..., None, None] * np.eye(3))
+    return replace(expansion, rigid_mass=expansion.rigid_mass + _heads(robot))
+
+
+def _heads(robot: RobotArrays) -> np.ndarray:
+    """(..., m, 3, 3) mass of what moves with the cables' exits on their masts [kg]."""
+    return np.asarray(robot.mast_mass[..., None, None] * np.eye(3))
 
 
 def flattened(cables: CableStates) -> CableStates:
@@ -162,8 +167,7 @@ class StaticCables:
 
     def mast_stiffness(self, omega_squared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         none = np.zeros((*np.shape(omega_squared)[:-1], *self._ends.shape))
-        heads = self.point.arrays.mast_mass[..., None, None] * np.eye(3)
-        return none, none - np.asarray(omega_squared)[..., None, None] * heads
+        return none, none - np.asarray(omega_squared)[..., None, None] * _heads(self.point.arrays)
 
     def clamped_count(self, omega: np.ndarray) -> np.ndarray:
         return np.zeros((*np.shape(omega)[:-1], self.point.arrays.cable_count), dtype=int)

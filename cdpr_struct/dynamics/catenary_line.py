@@ -19,8 +19,7 @@ def tangent_and_tension(cables: CableStates, arc: np.ndarray) -> tuple[np.ndarra
 
 def along(cables: CableStates, arc: np.ndarray) -> np.ndarray:
     """t t^T (m, q, 3, 3), local axes."""
-    tangent, _ = tangent_and_tension(cables, arc)
-    return np.asarray(tangent[..., :, None] * tangent[..., None, :])
+    return _outer(tangent_and_tension(cables, arc)[0])
 
 
 def across(cables: CableStates, arc: np.ndarray) -> np.ndarray:
@@ -39,7 +38,8 @@ def stiffness_density(
     tightened : (m,) factor on the tension across the cable, None for 1
     axial_stiffness : (m,) EA [N] in vibration of cables that are inextensible at rest, None for that of the cables
     """
-    outer, (_, tension) = along(cables, arc), tangent_and_tension(cables, arc)
+    tangent, tension = tangent_and_tension(cables, arc)
+    outer = _outer(tangent)
     stiff = np.broadcast_to(cables.axial_stiffness, cables.length.shape)[:, None]
     held = tension / (1.0 + tension / stiff)
     if axial_stiffness is not None:
@@ -47,3 +47,7 @@ def stiffness_density(
     if tightened is not None:
         held = held * tightened[:, None]
     return stiff[..., None, None] * outer + held[..., None, None] * (np.eye(3) - outer)
+
+
+def _outer(tangent: np.ndarray) -> np.ndarray:
+    return np.asarray(tangent[..., :, None] * tangent[..., None, :])

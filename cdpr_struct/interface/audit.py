@@ -206,14 +206,16 @@ def audit_question(
 def _of_many(
     machine: Robot, grid: GridLike | None, trajectory: TrajectoryLike | None, free: FreeAngles | None
 ) -> AuditQuestion:
+    def asked(position: np.ndarray, rotation: np.ndarray, angles: np.ndarray) -> tuple[PoseBatches, np.ndarray | None]:
+        hung = None if free is None else read_free(free, machine, angles)[0]
+        return audit_batches(machine, position, rotation, None if hung is None else hung.tolist()), hung
+
     if grid is not None:
         poses = read_grid(grid)
-        hung = None if free is None else read_free(free, machine, poses.angles)[0]
-        batches = audit_batches(machine, poses.positions, poses.rotation, None if hung is None else hung.tolist())
+        batches, hung = asked(poses.positions, poses.rotation, poses.angles)
         return AuditQuestion(machine, batches, poses, None, [], hung)
     given = "helix" if trajectory is None else trajectory
     own = isinstance(given, str) and (given == "helix" or given.startswith("line:"))
     path, notes = read_trajectory(given, _INSTANTS if own else None)
-    hung = None if free is None else read_free(free, machine, angles_from_rotation(path.rotation))[0]
-    batches = audit_batches(machine, path.position, path.rotation, None if hung is None else hung.tolist())
+    batches, hung = asked(path.position, path.rotation, angles_from_rotation(path.rotation))
     return AuditQuestion(machine, batches, None, path.time, notes, hung)

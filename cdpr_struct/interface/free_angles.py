@@ -12,7 +12,7 @@ from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import FREEDOMS, Robot
 from cdpr_struct.statics.even_orientation import even_orientation
-from cdpr_struct.statics.free_orientation import ANGLES, free_orientation, left_free, turn_with_guide
+from cdpr_struct.statics.free_orientation import ANGLES, free_orientation, left_free, names_of, turn_with_guide
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, hung_solution
 from cdpr_struct.workspace.margins import largest_tilt
 
@@ -55,11 +55,6 @@ class HangingPose:
         many = f"; {', '.join(self.added)} because so few cables cannot hold more" if self.added else ""
         hangs = f"the platform hangs at ({rx:.4g}, {ry:.4g}, {rz:.4g})° about x, y, z."
         return f"{_were_left_free(self.free)}{many}: {hangs}"
-
-
-def names_of(free: Sequence[bool] | np.ndarray) -> list[str]:
-    """Names of the free angles, (3,) bool."""
-    return [name for name, chosen in zip(ANGLES, free, strict=True) if chosen]
 
 
 def found_angles(columns: Mapping[str, Any]) -> np.ndarray:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -11,7 +11,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import SMALLEST, read_grid, read_robot, real, whole
-from cdpr_struct.interface.free_angles import FreeAngles, found_angles, names_of, read_free, told_in_map, where_judged
+from cdpr_struct.interface.free_angles import FreeAngles, found_angles, read_free, told_in_map, where_judged
 from cdpr_struct.interface.given import GridLike, Numbers, Progress, RobotLike
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
@@ -163,9 +163,8 @@ class MapQuestion:
             batches = single(self.compute, batches)
         if self.free is None:
             return batches
-        name = f"{batches.name} free {','.join(names_of(self.free))}"
         compute = partial(evaluate, self.quantity) if self.compute is None else self.compute
-        return replace(batches, name=name, evaluate=hanging(compute, self.quantity, self.free.tolist()))
+        return hanging(batches, self.quantity, compute, self.free.tolist())
 
     @property
     def ran(self) -> list[PoseBatches]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import read_grid, read_pose, read_robot, real
-from cdpr_struct.interface.free_angles import FreeAngles, found_angles, names_of, read_free, told_in_map, where_judged
+from cdpr_struct.interface.free_angles import FreeAngles, found_angles, read_free, told_in_map, where_judged
 from cdpr_struct.interface.given import GridLike, Numbers, PoseLike, Progress, RobotLike
 from cdpr_struct.interface.map import require_drawable
 from cdpr_struct.interface.result import Files, Result
@@ -102,8 +102,7 @@ class PoseErrorQuestion:
         batches = sweep(QUANTITY, self.robot, self.grid)
         if self.free is None:
             return batches
-        name = f"{QUANTITY} free {','.join(names_of(self.free))}"
-        return replace(batches, name=name, evaluate=hanging(batches.evaluate, QUANTITY, self.free.tolist()))
+        return hanging(batches, QUANTITY, batches.evaluate, self.free.tolist())
 
     def answered(self, values: Columns | None) -> PoseErrorResult:
         """The result, with columns over the grid if there is one.

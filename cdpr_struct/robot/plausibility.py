@@ -10,7 +10,8 @@ from cdpr_struct.robot.robot import Robot
 _FAR_OUT = 30.0  # times all other anchors, beyond which one anchor alone cannot be
 _WIDE = 5.0  # times the farthest frame anchor, beyond which no platform reaches
 _WHEEL = 0.3  # of the farthest frame anchor, beyond which no pulley is
-_STRAIN = 0.02  # near which steel ropes break; fibres near 0.035
+BREAKING_STRAIN = 0.02
+"""Elongation over length near which steel ropes break; high-modulus fibres near 0.035."""
 _SOFTEST, _STIFFEST = 1e5, 1e9  # of EA over linear density [N m/kg]: ropes of nylon have 1e6, fibres of carbon 1.4e8
 
 
@@ -62,7 +63,7 @@ def _cables(robot: Robot) -> list[str]:
     share = np.maximum(robot.platform.mass * robot.gravity / len(stiff), robot.force_min)
     strain, ratio = share / stiff, stiff / heavy
     i, low, high = int(strain.argmax()), int(ratio.argmin()), int(ratio.argmax())
-    if strain[i] > _STRAIN:
+    if strain[i] > BREAKING_STRAIN:
         by = f"{share[i]:.3g} N, its share of the weight or force_min, stretch it by {100.0 * strain[i]:.3g} %"
         return [f"axial_stiffness = {stiff[i]:g} N of cable {i + 1}: {by} (is it in kN?)."]
     usual = "ropes have 1e6 to 1e8"

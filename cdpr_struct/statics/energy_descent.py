@@ -74,8 +74,9 @@ class EnergyDescent:
         for _ in range(limit):
             if not items.size:
                 return
-            position, rotation = self._moved(items, step)
-            there = self.balance.take(items).evaluate(position, rotation)
+            part = self.balance.take(items)
+            position, rotation = part.moved(self.position[items], self.rotation[items], step / self.unit)
+            there = part.evaluate(position, rotation)
             self.iterations[items] += 1
             small = self._small(there)
             before = np.einsum("ni,ni->n", self.wrench[items] / self.unit, step)
@@ -105,8 +106,10 @@ class EnergyDescent:
             if not items.size:
                 break
             softest = np.linalg.eigh(symmetric(self._scaled(self.tangent[items])))[1][:, :, 0]
-            self.position[items], self.rotation[items] = self._moved(items, _PUSH * softest)
-            there = self.balance.take(items).evaluate(self.position[items], self.rotation[items])
+            part, push = self.balance.take(items), _PUSH * softest / self.unit
+            position, rotation = part.moved(self.position[items], self.rotation[items], push)
+            there = part.evaluate(position, rotation)
+            self.position[items], self.rotation[items] = position, rotation
             self.wrench[items], self.tangent[items] = there.wrench, there.tangent
             self.converged[items] = False
             self.run(limit)
@@ -118,9 +121,6 @@ class EnergyDescent:
 
     def _scaled(self, tangent: np.ndarray) -> np.ndarray:
         return tangent / self.unit / self.unit[:, None]
-
-    def _moved(self, items: np.ndarray, step: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        return self.balance.take(items).moved(self.position[items], self.rotation[items], step / self.unit)
 
 
 def newton_step(tangent: np.ndarray, wrench: np.ndarray, scale: float, longest: float) -> np.ndarray:

@@ -14,13 +14,12 @@ import numpy.typing as npt
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.statics.free_orientation import free_orientation
+from cdpr_struct.statics.free_orientation import free_orientation, within_largest_turn
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 
 _ROUNDS = 80
 _DIFFERENCE = 1e-5  # [rad]
 _SETTLED = 1e-8  # of a step [rad]
-_LARGEST_TURN = 0.2  # of one step [rad]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,4 +104,4 @@ class _Search:
         normal = normal + np.maximum(scale, 1e-30)[:, None, None] * np.eye(len(chosen))
         step = np.zeros_like(angles)
         step[:, chosen] = -np.linalg.solve(normal, across @ uneven[..., None])[..., 0]
-        return step * np.minimum(1.0, _LARGEST_TURN / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-300))
+        return within_largest_turn(step)

@@ -7,6 +7,7 @@ angles are begun again from the nearest one that it reached. If all three angles
 world axes: angles have poses at which two of their axes meet (ry = 90 deg), turns have none.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -80,6 +81,11 @@ def free_orientation(
     chosen = np.asarray(free, dtype=bool)
     problem = HangingProblem(arrays, cable_model(model), place, np.broadcast_to(wrench, (k, 6)), (low, high), chosen)
     return hang_freely(problem, np.array(np.broadcast_to(np.asarray(angles, dtype=float), (k, 3))))
+
+
+def names_of(free: Sequence[bool] | np.ndarray) -> list[str]:
+    """Names of the free angles, (3,) bool."""
+    return [name for name, chosen in zip(ANGLES, free, strict=True) if chosen]
 
 
 def left_free(free: npt.ArrayLike, cables: int, guided: npt.ArrayLike = (0,) * 6) -> np.ndarray:
@@ -248,6 +254,11 @@ def _step(problem: HangingProblem, ends: _Hung) -> np.ndarray:
     rates = np.moveaxis((there.reshape((-1, k, 3)) - ends.moment) / _DIFFERENCE, 0, -1)[:, free]
     step = np.zeros_like(ends.angles)
     step[:, free] = -(np.linalg.pinv(rates, rcond=1e-8) @ ends.moment[:, free, None])[..., 0]
+    return within_largest_turn(step)
+
+
+def within_largest_turn(step: np.ndarray) -> np.ndarray:
+    """Steps (k, 3) [rad], shortened where one of their turns is larger than a search may take."""
     return step * np.minimum(1.0, _LARGEST_TURN / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-300))
 
 

@@ -2,9 +2,8 @@
 
 import numpy as np
 
+from cdpr_struct.robot.plausibility import BREAKING_STRAIN
 from cdpr_struct.statics.cable_state import CableStates
-
-_BREAKS = 0.02  # steel ropes break near it, high-modulus fibres near 0.035
 
 
 def strains(cables: CableStates) -> np.ndarray:
@@ -15,7 +14,7 @@ def strains(cables: CableStates) -> np.ndarray:
 def strain_sentence(cables: CableStates) -> str | None:
     """A sentence on the cable that is stretched most, where ropes break; None if none is."""
     strain = strains(cables)
-    if not strain.max() > _BREAKS:
+    if not strain.max() > BREAKING_STRAIN:
         return None
     cable = int(strain.argmax()) + 1
     return (

@@ -1,27 +1,27 @@
 """A quantity over the workspace where angles of the platform are left free: each pose at its own orientation."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.free_orientation import ANGLES, FreeOrientation, free_orientation
+from cdpr_struct.statics.free_orientation import ANGLES, FreeOrientation, free_orientation, names_of
 from cdpr_struct.statics.inverse_kinematics import hung_solution
 from cdpr_struct.workspace.margins import stable_where_held
+from cdpr_struct.workspace.pose_batches import PoseBatches
 from cdpr_struct.workspace.quantities import pose_errors
 from cdpr_struct.workspace.work_list import Columns
 
 
-def hanging(
-    compute: Callable[..., Columns], quantity: str, free: Sequence[bool]
-) -> "HangingFreely | ReferencesHangingFreely":
-    """What computes a quantity, given by its name and its function, where some of rx, ry, rz (3 booleans) are free."""
+def hanging(batches: PoseBatches, quantity: str, compute: Callable[..., Columns], free: Sequence[bool]) -> PoseBatches:
+    """Batches of a quantity, given by its name and its function, with some of rx, ry, rz (3 booleans) left free."""
     rx, ry, rz = free
+    name = f"{batches.name} free {','.join(names_of(free))}"
     if quantity.startswith("pose-error"):
-        return ReferencesHangingFreely((rx, ry, rz))
-    return HangingFreely(compute, (rx, ry, rz))
+        return replace(batches, name=name, evaluate=ReferencesHangingFreely((rx, ry, rz)))
+    return replace(batches, name=name, evaluate=HangingFreely(compute, (rx, ry, rz)))
 
 
 @dataclass(frozen=True, slots=True)

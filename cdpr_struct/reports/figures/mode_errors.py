@@ -49,7 +49,7 @@ def draw_mode_errors(figure: Figure, trial: Verification) -> None:
 
 
 def _is_even(trial: Verification) -> bool:
-    """Whether all errors are near enough to the tolerance to be told apart on an even scale."""
+    """Whether an even scale shows every error: none is larger than eight tolerances."""
     return float(np.abs(trial.relative_error).max()) <= _FAR * trial.criteria.relative_error
 
 
