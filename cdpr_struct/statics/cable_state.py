@@ -7,7 +7,7 @@ import numpy as np
 from cdpr_struct.generated import catenary
 from cdpr_struct.generated.cable_compliance import compliance, stiffness
 
-STEEPEST = 1e-9  # cos(inclination) of a cable with point masses below this is treated as this
+STEEPEST = 1e-100  # cos(inclination) of a vertical cable: forces and their rates by the span stay finite
 _UP = np.array([0.0, 0.0, 1.0])
 VECTORS = ("offset", "heading", "up", "lump_place", "lump_weight")
 """Fields of `CableStates` with an axis of their own."""

@@ -14,10 +14,10 @@ import numpy.typing as npt
 from cdpr_struct.generated.cable_compliance import compliance
 from cdpr_struct.generated.catenary import end_point
 from cdpr_struct.generated.special_functions import tanhc
+from cdpr_struct.statics.cable_state import STEEPEST
 from cdpr_struct.statics.catenary import CableStatus
 
 MAX_ITERATIONS = 60
-STEEPEST = 1e-100  # cos(inclination) of a vertical cable: forces and their rates by the span stay finite
 SLACKEST = 6.0  # largest q = w chord / (2 tau); sinh(q)/q is then 34 times the span
 _TOLERANCE = 1e-13
 _NEAR = 0.1  # of tau: a cable nearer than this is a better start than the inextensible catenary

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cdpr_struct.statics.catenary_length import STEEPEST
+from cdpr_struct.statics.cable_state import STEEPEST
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -20,9 +20,9 @@ import numpy as np
 from cdpr_struct.statics.bounded_steps import EQUATIONS, StepProgram, least_norm
 from cdpr_struct.statics.cable_models import SaggingModel
 from cdpr_struct.statics.cable_response import let_out
-from cdpr_struct.statics.cable_state import CableStates, heading_and_span
+from cdpr_struct.statics.cable_state import STEEPEST, CableStates, heading_and_span
 from cdpr_struct.statics.catenary import CableStatus
-from cdpr_struct.statics.catenary_length import STEEPEST, force_z_curvature
+from cdpr_struct.statics.catenary_length import force_z_curvature
 from cdpr_struct.statics.closed_cables import Rates, TautGeometry, closing_step
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.pulley_exits import MovingExits, PulleyExits
