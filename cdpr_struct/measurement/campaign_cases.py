@@ -8,7 +8,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.assumed_angles import angle_note
 from cdpr_struct.measurement.campaign import SIGNALS, CableFrequencies, RobotFrequencies, Series, Sigmas, States
-from cdpr_struct.measurement.campaign_rows import POSE, Rows, length_columns
+from cdpr_struct.measurement.campaign_rows import POSE, POSITION, Rows, length_columns
 
 _SAME = 1e-9  # m, deg: two notes of the same number
 _ONE_STATE = "one case is one state: copy the digits, leave the cells empty, or give this case another name"
@@ -73,9 +73,11 @@ class Gathering:
 
     def _state(self, rows: Rows, i: int, sigmas: Sigmas) -> _State:
         name = rows.words["case"][i]
-        pose = np.array([rows.get(c, 0.0)[i] for c in POSE])
-        payload = float(rows.get("payload_kg", 0.0)[i])
+        placed = any(name in rows.numbers for name in POSITION)
+        pose = np.array([rows.get(c, 0.0 if placed else np.nan)[i] for c in POSE])
         found = self.known.get(name)
+        same = 0.0 if placed or found is None else found.payload  # a file that knows states by their names alone
+        payload = float(rows.get("payload_kg", same)[i])
         if found is None:
             found = self._new(name, rows.file, pose, payload, sigmas)
             found.temperature, found.time = float(rows.get("temperature_K")[i]), float(rows.get("time_s")[i])

@@ -15,7 +15,8 @@ from cdpr_struct.measurement.universal_rows import is_universal, universal_colum
 from cdpr_struct.measurement.wide_table import check_wide, headings, is_wide, one_row_a_cable
 from cdpr_struct.robot.robot_file import LARGEST
 
-POSE = ("x_m", "y_m", "z_m", *ANGLES)
+POSITION = ("x_m", "y_m", "z_m")
+POSE = (*POSITION, *ANGLES)
 _NEEDED: dict[str, tuple[str, ...]] = {
     "static_state": ("x_m", "y_m", "z_m", "cable"),
     "loaded_pose": ("x_m", "y_m", "z_m"),
@@ -29,7 +30,7 @@ _ALSO: dict[str, tuple[str, ...]] = {
     "static_state": ("tension_N", "length_m"),
     "cable_frequency": ("tension_N", "plane"),
 }
-_WIDE_NEEDED = ("x_m", "y_m", "z_m")  # where a row is a pose
+_WIDE_NEEDED = POSITION  # where a row is a pose
 _WIDE_ALSO = {"static_state": (), "cable_frequency": ("mode", "plane")}
 _ALWAYS = ("case", *POSE, "payload_kg", "sigma", "temperature_K", "approach", "time_s")
 _WORDS = ("case", "respond", "excite", "plane")
@@ -151,6 +152,9 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
     if how:
         raise InputError(source, "header", found, f"unknown for {kind}; {how}")
     check_wide(kind, source, columns, cables)
+    if kind in _READINGS_MAY_LACK and not {"case", *POSITION} & set(columns):
+        expected = f"a {kind} file needs {', '.join(POSITION)}, or the name of each state if no position was measured"
+        raise InputError(source, "case", "no such column", expected)
     for name in _needed(kind, columns, cables):
         if name not in columns:
             raise InputError(source, name, "no such column", _needs(kind, columns, cables))
@@ -165,9 +169,10 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
 
 
 def _needed(kind: str, columns: Sequence[str], cables: int) -> tuple[str, ...]:
-    if is_wide(kind, columns):
-        return _WIDE_NEEDED
-    return (*_NEEDED[kind], *(length_columns(cables) if kind == "loaded_pose" else ()))
+    own = _WIDE_NEEDED if is_wide(kind, columns) else _NEEDED[kind]
+    if kind in _READINGS_MAY_LACK and not set(POSITION) & set(columns):
+        own = tuple(name for name in own if name not in POSITION)  # a state without a measured position
+    return (*own, *(length_columns(cables) if kind == "loaded_pose" else ()))
 
 
 def _needs(kind: str, columns: Sequence[str], cables: int) -> str:

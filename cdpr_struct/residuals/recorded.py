@@ -11,7 +11,9 @@ from cdpr_struct.observation.circumstances import Circumstances
 from cdpr_struct.observation.readings import LEAST_TENSION, Readings, cell_reading
 from cdpr_struct.observation.rest import at_states
 from cdpr_struct.residuals.commanded_lengths import SIGMA, Commanded, commanded
+from cdpr_struct.residuals.resting_poses import Spread, at_lengths, fitted_poses
 from cdpr_struct.residuals.vibrations import Vibrations, vibrations
+from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.energy_descent import arm_scale
@@ -76,6 +78,9 @@ def recorded(campaign: Campaign) -> Recorded:
     position, read_pose = _places(campaign)
     known = Circumstances.of(campaign, turn, position)
     arrays = RobotArrays.of(campaign.robot)
+    begun = Readings(position, turn, states.tension, states.length)
+    position, turn = at_lengths(arrays, known, begun, read_pose)
+    known = Circumstances.of(campaign, turn, position)
     sent = commanded(campaign, position, turn)
     lengths = np.where(np.isfinite(states.length), states.length, sent.lengths)
     readings = _filled(campaign, arrays, known, Readings(position, turn, states.tension, lengths))
@@ -86,19 +91,47 @@ def recorded(campaign: Campaign) -> Recorded:
     tension = np.where(np.isfinite(states.tension_sigma), _rounded(states.tension, states.tension_sigma), 1.0)
     length = np.where(np.isfinite(states.length_sigma), states.length_sigma, 1e-3)
     length = np.where(np.isfinite(states.length), length, np.where(np.isfinite(lengths), SIGMA, length))
-    unread = [np.repeat([_UNREAD_POSE], len(mean), axis=0).repeat(3, axis=1), mean, np.full_like(mean, _UNREAD_LENGTH)]
+    parts = [np.repeat([_UNREAD_POSE], len(mean), axis=0).repeat(3, axis=1), mean, np.full_like(mean, _UNREAD_LENGTH)]
+    sigma, unread = np.concatenate([pose, tension, length], axis=1), np.concatenate(parts, axis=1)
+    if not _redundant(campaign, read):
+        expected = "more readings than tensions in some state, such as lengths beside tensions, or measured poses"
+        raise InputError(campaign.source, "readings", "no state where one could contradict another", expected)
+    radius = arm_scale(arrays)
+    readings = fitted_poses(arrays, known, readings, Spread(sigma, read, unread), radius)
     return Recorded(
-        campaign, arrays, readings, known, arm_scale(arrays), np.concatenate([pose, tension, length], axis=1), read,
-        np.concatenate(unread, axis=1), _blocks(states.lock), vibrations(campaign), sent,
-    )  # fmt: skip
+        campaign, arrays, readings, known, radius, sigma, read, unread, _blocks(states.lock), vibrations(campaign), sent
+    )
+
+
+def _redundant(campaign: Campaign, read: np.ndarray) -> bool:
+    """Whether anything can be contradicted: as many numbers as there are cables say where and how the robot rests.
+
+    read (S, 6 + 2 m) : which readings exist
+    """
+    m = (read.shape[1] - 6) // 2
+    if campaign.cable_frequencies.hertz.size or campaign.robot_frequencies.hertz.size or campaign.series:
+        return True
+    count = [read[own, : 6 + m].sum() + read[own[0], 6 + m :].sum() for own in _blocks(campaign.states.lock)]
+    return max(count) > m
 
 
 def _places(campaign: Campaign) -> tuple[np.ndarray, np.ndarray]:
     """Positions (S, 3), the middle of the others where none was read, and which of (S, 6) pose readings exist."""
     states = campaign.states
     read = np.isfinite(np.concatenate([states.position, states.angles], axis=1))
-    middle = np.nanmean(states.position, axis=0) if read[:, :3].any() else np.zeros(3)
+    middle = _usual_place(campaign.robot)
+    for axis in np.flatnonzero(read[:, :3].any(axis=0)):
+        middle[axis] = np.nanmean(states.position[:, axis])
     return np.where(np.isfinite(states.position), states.position, middle), read
+
+
+def _usual_place(robot: Robot) -> np.ndarray:
+    """(3,) home, or below the frame anchors by half of their distance from their middle [m]."""
+    if robot.home is not None:
+        return np.array(robot.home.position, dtype=float)
+    middle = robot.frame_anchors.mean(axis=0)
+    reach = np.linalg.norm(robot.frame_anchors - middle, axis=1).mean()
+    return np.asarray(middle - [0.0, 0.0, 0.5 * reach])
 
 
 def _rounded(tension: np.ndarray, sigma: np.ndarray) -> np.ndarray:

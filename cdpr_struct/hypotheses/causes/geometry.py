@@ -52,6 +52,10 @@ def _lengths(seen: Seen) -> str:
     return "" if seen.lengths else "needs lengths from the encoders"
 
 
+def _poses(seen: Seen) -> str:
+    return "" if seen.poses else "needs measured poses"
+
+
 CAUSES = (
     Cause(
         "frame_anchor_position",
@@ -131,6 +135,7 @@ CAUSES = (
         + tuple(Parameter(f"turn_{a}", "rad", 3e-3) for a in _XYZ),
         _tracker,
         seen_in=("CO",),
+        needs=_poses,
         sentence="the coordinate frame of the tracker is shifted or rotated by {parts}",
         separated_by="common points measured on the frame",
         shapes=(
@@ -156,6 +161,7 @@ CAUSES = (
         + tuple(Parameter(f"turn_{a}", "rad", 0.03) for a in _XYZ),
         _pose,
         seen_in=("EQ", "CO"),
+        needs=_poses,
         sentence="the pose entered for one state does not belong to its readings",
         separated_by="measuring that pose again",
         carrier="state",
