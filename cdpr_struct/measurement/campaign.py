@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 SIGNALS = ("frf", "free_decay", "platform_motion")
 """Kinds of data whose frequencies are identified in records."""
 KINDS = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency", *SIGNALS)
+UNKNOWN_ZERO = 1.0
+"""m, one sigma of a length's zero of which nothing is known."""
 MODELS = ("static", "dsm", "exact", "spring")
 
 
@@ -187,6 +189,7 @@ class Campaign:
     identified : modes found in the signals of `series`; those used are among `robot_frequencies`
     sheets : the data files, with the sigmas used
     memory : correlation of a sensor's noise in one state with that in the next, 0 for independent noise
+    relative_lengths : each encoder counts from an unknown start, the same in all states
     notes : what was assumed where the data files say nothing, in sentences for a person
     loss : what mistakes of a diagnosis cost
     """
@@ -209,6 +212,7 @@ class Campaign:
     memory: float = 0.0
     sheets: tuple[Sheet, ...] = ()
     notes: tuple[str, ...] = ()
+    relative_lengths: bool = False
     loss: Loss = Loss()  # noqa: RUF009 - frozen
 
     @property

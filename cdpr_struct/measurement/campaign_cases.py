@@ -249,6 +249,6 @@ def _locks(length: np.ndarray) -> np.ndarray:
     found: dict[tuple[float, ...], int] = {}
     locks = []
     for row in length:
-        read = tuple(np.where(np.isfinite(row), row, 0.0).tolist())  # no cable has no length
-        locks.append(found.setdefault(read, len(found)) if any(read) else -1)
+        read = tuple(np.where(np.isfinite(row), row, np.inf).tolist())
+        locks.append(found.setdefault(read, len(found)) if np.isfinite(read).any() else -1)
     return np.array(locks, dtype=int)

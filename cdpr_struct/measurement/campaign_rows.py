@@ -71,11 +71,12 @@ class Rows:
         return np.full(len(self), default) if found is None else found
 
 
-def read_rows(kind: str, path: Path, cables: int, planned: bool = False) -> Rows:
+def read_rows(kind: str, path: Path, cables: int, planned: bool = False, relative: bool = False) -> Rows:
     """Checked rows of a CSV file of the given kind, for a robot with `cables` cables.
 
     A file with one row a pose and one column a cable gives the same rows as one with one row a cable.
     planned : cells of a template hold what their columns of predictions say
+    relative : lengths count from an unknown start, so that they may have any sign
 
     Raises
     ------
@@ -90,7 +91,8 @@ def read_rows(kind: str, path: Path, cables: int, planned: bool = False) -> Rows
     _require_filled(table, names)
     wide = is_wide(kind, names)
     blank = _blank_allowed(kind, cables)
-    numbers = {c: _numbers(str(path), c, table.column(c), c in blank) for c in names if c not in _WORDS}
+    above = tuple(word for word in _POSITIVE if not (relative and word == "length"))
+    numbers = {c: _numbers(str(path), c, table.column(c), c in blank, above) for c in names if c not in _WORDS}
     words = {c: table.column(c) for c in names if c in _WORDS}
     rows = Rows(kind, str(path), numbers, words)
     _check_values(rows, cables)
@@ -215,10 +217,13 @@ def _number_wanted(text: str) -> str:
     return f"a number with a decimal point: {point}"
 
 
-def _numbers(source: str, name: str, cells: Sequence[str], blank: bool) -> np.ndarray:
-    """Numbers of a column; nan for an empty cell where `blank` ones are allowed."""
+def _numbers(source: str, name: str, cells: Sequence[str], blank: bool, above_zero: Sequence[str]) -> np.ndarray:
+    """Numbers of a column; nan for an empty cell where `blank` ones are allowed.
+
+    above_zero : first words of the columns whose numbers are
+    """
     values = np.empty(len(cells))
-    positive = name.partition("_")[0] in _POSITIVE
+    positive = name.partition("_")[0] in above_zero
     for i, text in enumerate(cells):
         place = f"row {i + 1}, column {name}"
         if not text:

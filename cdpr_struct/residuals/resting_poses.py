@@ -21,7 +21,7 @@ from cdpr_struct.statics.forward_kinematics import forward
 _BALANCE, _FIT = 0.05, 1e-4  # N, m: how exactly balance and the lengths of cables are met
 _ROUNDS = 60  # of the least-squares problem; a few are enough near the answer
 _STILL = 1e-3  # of a sigma, or of a prior's: so small is a step that matters no more
-_STEP = 1e-5  # m, rad, of differences;  of a tension, times what it is
+_STEP, _PULL = 1e-5, 1e-3  # m, rad, and N, of differences
 _FIRST, _LESS, _MORE, _LEAST, _MOST = 1e-3, 0.2, 5.0, 1e-9, 1e9  # damping, and how it goes on
 
 
@@ -139,6 +139,6 @@ class _Fit:
     def _slope(self, error: np.ndarray, r: np.ndarray) -> np.ndarray:
         """(K, 6 + m rows, 6 + m) change of the residuals with the errors."""
         n = error.shape[1]
-        size = np.concatenate([np.full(6, _STEP), np.full(self.m, _STEP * 100.0)])
+        size = np.concatenate([np.full(6, _STEP), np.full(self.m, _PULL)])
         moved = self.residuals(error + (size * np.eye(n))[:, None, :])
         return np.asarray(np.moveaxis((moved - r) / size[:, None, None], 0, -1))

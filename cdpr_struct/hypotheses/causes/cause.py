@@ -72,6 +72,7 @@ class Seen:
     """What a campaign's data hold, for causes to say whether they can show there.
 
     kinds : of rows, as in `seen_in`;  tensions, lengths, poses : whether any was read
+    relative : whether encoders count from an unknown start
     approach : whether directions are known;  hours : that the readings span
     cable_modes : how many different modes of a cable;  states : names
     highest : frequency measured of the robot [Hz], 0 without;  internal : whether the robot has an internal mass
@@ -89,6 +90,7 @@ class Seen:
     highest: float = 0.0
     internal: bool = False
     poses: bool = True
+    relative: bool = False
 
 
 def always(seen: Seen) -> str:

@@ -52,6 +52,10 @@ def _lengths(seen: Seen) -> str:
     return "" if seen.lengths else "needs lengths from the encoders"
 
 
+def _zeros(seen: Seen) -> str:
+    return "the encoders are relative: their zeros are unknown" if seen.relative else _lengths(seen)
+
+
 def _poses(seen: Seen) -> str:
     return "" if seen.poses else "needs measured poses"
 
@@ -88,7 +92,7 @@ CAUSES = (
         seen_in=("CO", "NS"),
         sentence="the zero of the cable lengths is off by {rms} m on average",
         sign="paid out = encoder length + this",
-        needs=_lengths,
+        needs=_zeros,
         separated_by="six or more spread poses; homing again",
         extension="length_offset",
     ),
