@@ -50,7 +50,8 @@ _HINTS = {
 _COMMENTS = (
     f"# Replace each {UNFILLED} by what was measured; leave a cell empty where nothing was measured.",
     "# Pose columns hold the planned pose: replace it by the measured one, and copy it to the rows of the same case in",
-    "# the other files, digit by digit. Give repeated readings a case of their own.",
+    "# the other files, digit by digit. Empty the cells of what was not measured: the planned pose is no reading.",
+    "# Give repeated readings a case of their own.",
     f"# Columns {PREDICTED}... are the simulation's, to compare with; they are not read.",
 )
 _STATIC = {"tensions": TENSION, "lengths": LENGTH}
@@ -212,6 +213,7 @@ def _campaign(robot: str, kinds: Sequence[str]) -> str:
         "# Fill the data files named below, then: cdpr-struct diagnose campaign.toml",
         f'robot = "{_quotable(robot)}"',
         'model = "exact"                              # simulation under test: static, dsm, exact, spring',
+        '# encoders = "relative"                       # if they count from an unknown start',
         "",
         "[tolerances]                                 # one sigma of what is never exactly known: yours differ",
         "# anchor_m = 0.001                           # each coordinate of each anchor",

@@ -1,4 +1,4 @@
-"""Robots with fewer cables than freedoms, poses that nobody read, encoders that begin anywhere: laws of the diagnosis."""
+"""Laws of the diagnosis: robots with fewer cables than freedoms, poses that nobody read, relative encoders."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -105,7 +105,7 @@ def test_relative_encoders_say_as_much_wherever_they_begin():
 
 def test_relative_encoders_need_one_measured_pose():
     free = replace(hung(robot_of("three"), 2), relative_lengths=True)
-    with pytest.raises(InputError, match="cable 1: got 'no such state'.*measured pose"):
+    with pytest.raises(InputError, match=r"cable 1: got 'no such state'.*measured pose"):
         recorded(unplaced(free, True))
 
 
@@ -148,7 +148,7 @@ def test_files_without_a_position_name_their_states(tmp_path):
     assert found.names == ("a", "b")
     assert np.isnan(found.position).all()
     np.testing.assert_allclose(np.degrees(found.angles), [[1.5, np.nan, np.nan], [np.nan] * 3])
-    with pytest.raises(InputError, match="case: got 'no such column'; .*x_m, y_m, z_m, or the name of each state"):
+    with pytest.raises(InputError, match=r"case: got 'no such column'; .*x_m, y_m, z_m, or the name of each state"):
         loaded(tmp_path, "tension_1_N,tension_2_N\n150,160\n")
     with pytest.raises(InputError, match="y_m: got 'no such column'"):
         loaded(tmp_path, "case,x_m,z_m,tension_1_N,tension_2_N\na,1,2,150,160\n")
@@ -167,9 +167,9 @@ def test_only_relative_encoders_may_read_below_zero(tmp_path):
     found = loaded(tmp_path, rows, 'encoders = "relative"\n')
     assert found.relative_lengths
     assert found.states.lock.tolist() == [0, 1]
-    with pytest.raises(InputError, match="column length_1_m: got '0'; a number above zero"):
+    with pytest.raises(InputError, match=r"column length_1_m: got '0'; a number above zero"):
         loaded(tmp_path, rows)
-    with pytest.raises(InputError, match="tolerances.length_m: got 0.001; .*zeros"):
+    with pytest.raises(InputError, match=r"tolerances.length_m: got 0.001; .*zeros"):
         loaded(tmp_path, rows, 'encoders = "relative"\n', "[tolerances]\nlength_m = 0.001\n")
     with pytest.raises(InputError, match="encoders"):
         loaded(tmp_path, rows, 'encoders = "incremental"\n')
