@@ -81,10 +81,8 @@ def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
     stiffness = point.end_stiffness.reshape(-1, 3, 3)
     density = np.broadcast_to(robot.linear_density, shape).reshape(-1)
     k = robot.lump_mass.shape[-1:]
-    extras = CableExtras(
-        *(np.broadcast_to(getattr(robot, name), shape).reshape(-1) for name in _EXTRAS),
-        np.broadcast_to(robot.lump_mass, shape + k).reshape((-1, *k)),
-    )
+    bodies = {name: np.broadcast_to(getattr(robot, name), shape).reshape(-1) for name in _EXTRAS}
+    extras = CableExtras(**bodies, lump_mass=np.broadcast_to(robot.lump_mass, shape + k).reshape((-1, *k)))
     flat = flattened(cables)
     found = expand_catenaries(flat, density, order, stiffness, frame_ends(point), extras).reshaped(shape)
     return with_mast_mass(found, robot)
