@@ -27,6 +27,7 @@ KINDS = {
     "robot_frequency": "robot_frequency", "loaded": "loaded_pose",
 }  # fmt: skip
 """The kind of file that each of them is read from."""
+_FREEDOMS = 6
 _PEAKS = 6  # rows of robot frequencies a pose
 _NOTHING = 1e-12  # of any number [m, deg, N, Hz]
 _SIGMAS = {
@@ -70,7 +71,7 @@ class PlannedPoses:
 
 
 def planned(robot: Robot, names: Sequence[str], poses: Sequence[Pose]) -> PlannedPoses:
-    """The robot at rest at the planned poses.
+    """The robot at rest at the planned poses; with fewer cables than freedoms, where it hangs at their lengths.
 
     Raises
     ------
@@ -78,6 +79,8 @@ def planned(robot: Robot, names: Sequence[str], poses: Sequence[Pose]) -> Planne
     """
     position = np.array([pose.position for pose in poses])
     rotation = np.array([pose.rotation for pose in poses])
+    if len(robot.cables) < _FREEDOMS:
+        return _hanging(robot, names, position, rotation)
     try:
         cables = inverse(robot, position, rotation).cables
     except CdprError as error:
@@ -85,6 +88,18 @@ def planned(robot: Robot, names: Sequence[str], poses: Sequence[Pose]) -> Planne
             _require_held(robot, name, pose)
         raise CdprError(f"not all poses can be held: {error}") from error
     return PlannedPoses(names, poses, OperatingPoint(robot, position, rotation, cables))
+
+
+def _hanging(robot: Robot, names: Sequence[str], position: np.ndarray, rotation: np.ndarray) -> PlannedPoses:
+    """At the lengths that reach to poses (p, 3), (p, 3, 3)."""
+    lengths = inverse(robot, position, rotation, allow_unheld=True).lengths
+    rest = forward(robot, lengths, position, rotation)
+    for name, place, stable in zip(names, position, rest.stable, strict=True):
+        if not stable:
+            where = ",".join(_short(value) for value in place)
+            raise UnholdablePoseError(f"{name} ({where}): the platform does not come to rest near this pose")
+    poses = [Pose(*own) for own in zip(rest.position, angles_from_rotation(rest.rotation), strict=True)]
+    return PlannedPoses(names, poses, OperatingPoint(robot, rest.position, rest.rotation, rest.cables))
 
 
 def _require_held(robot: Robot, name: str, pose: Pose) -> None:

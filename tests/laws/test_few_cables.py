@@ -14,6 +14,7 @@ from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import judged
 from cdpr_struct.measurement.campaign import UNKNOWN_ZERO, Campaign, States, Tolerances
 from cdpr_struct.measurement.campaign_file import load_campaign
+from cdpr_struct.measurement.campaign_template import planned
 from cdpr_struct.residuals.layout import layout
 from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.pose import angles_from_rotation
@@ -173,3 +174,13 @@ def test_only_relative_encoders_may_read_below_zero(tmp_path):
         loaded(tmp_path, rows, 'encoders = "relative"\n', "[tolerances]\nlength_m = 0.001\n")
     with pytest.raises(InputError, match="encoders"):
         loaded(tmp_path, rows, 'encoders = "incremental"\n')
+
+
+def test_a_template_predicts_where_a_robot_hangs():
+    """Its planned pose cannot be held; at the lengths that reach it the platform rests nearby, tilted."""
+    robot = robot_of("two")
+    plan = planned(robot, ["home"], [robot.home])
+    rest = forward(robot, plan.point.cables.total_length[0], robot.home.position)
+    np.testing.assert_allclose(plan.poses[0].position, rest.position, atol=1e-9)  # one equilibrium from both starts
+    assert np.abs(plan.poses[0].position - robot.home.position).max() < 0.1
+    assert np.abs(plan.poses[0].angles).max() > 0.01
