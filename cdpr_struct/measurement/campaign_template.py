@@ -154,10 +154,16 @@ def _cable_frequencies(plan: PlannedPoses) -> Columns:
 
 
 def _robot_frequencies(plan: PlannedPoses) -> Columns:
-    hertz = [certified_frequencies(_one(plan, i), "exact", _PEAKS).hertz for i in range(len(plan.names))]
+    hertz = [_first_peaks(_one(plan, i)) for i in range(len(plan.names))]
     columns = {name: np.repeat(cells, _PEAKS).tolist() for name, cells in _poses(plan).items()}
     open_cells = [UNFILLED] * (_PEAKS * len(plan.names))
     return columns | {"frequency_hz": open_cells, f"{PREDICTED}frequency_hz": _numbers(np.concatenate(hertz))}
+
+
+def _first_peaks(point: OperatingPoint) -> np.ndarray:
+    """(`_PEAKS`,) frequencies [Hz]; freedoms in which nothing pushes back, as a point mass turns, have none."""
+    found = certified_frequencies(point, "exact", _PEAKS + _FREEDOMS // 2).hertz
+    return np.asarray(found[found > _NOTHING][:_PEAKS])
 
 
 def _loaded(plan: PlannedPoses, payload: float, read_before: bool) -> Columns:
