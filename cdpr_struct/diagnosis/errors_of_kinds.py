@@ -25,6 +25,8 @@ def errors_of_kinds(story: Explained) -> list[ErrorOfKind]:
     table = rows_of(data, story.search.where, null, NoiseState.stated(null.model.groups))
     found = []
     for kind, values in _errors(data, null).items():
+        if not np.isfinite(values).any():
+            continue
         finite = np.where(np.isfinite(values), np.abs(values), -1.0)
         state, cable = np.unravel_index(int(finite.argmax()), values.shape)
         rows = np.isin(table.kind.astype(str), _OF_ROWS.get(kind, ("EQ", "CO"))) & _of_states(data, kind)[table.state]

@@ -15,6 +15,8 @@ from cdpr_struct.hypotheses.judge import judged
 from cdpr_struct.measurement.campaign import UNKNOWN_ZERO, Campaign, States, Tolerances
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.measurement.campaign_template import planned
+from cdpr_struct.observation.rest import rest
+from cdpr_struct.observation.vibrating import vibrating
 from cdpr_struct.residuals.layout import layout
 from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.pose import angles_from_rotation
@@ -132,6 +134,15 @@ def test_a_load_cell_is_found_without_any_pose():
     campaign = unplaced(hung(robot_of("three"), 9, noise=1.0), False)
     off = campaign.states.tension * [1.08, 1.0, 1.0]
     assert diagnosed(with_states(campaign, tension=off)).decision.classes == (("load_cell_gain",),)
+
+
+def test_sensors_lower_a_point_mass_and_do_not_turn_it():
+    """Nothing holds its angles, and a weight at its origin asks nothing of them."""
+    data = recorded(hung(robot_of("three", 0.0), 2))
+    arrays = replace(data.arrays, sensor_mass=np.asarray(1.0))
+    there = vibrating(rest(arrays, data.readings, data.known), data.known)
+    np.testing.assert_array_equal(there.rotation, data.readings.rotation)
+    assert (there.position[:, 2] < data.readings.position[:, 2]).all()
 
 
 HEAD = f'robot = "{(ROBOTS / "two-cables.toml").as_posix()}"\n'
