@@ -15,7 +15,7 @@ from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.campaign_template import KINDS
 from cdpr_struct.measurement.loss import Loss
-from cdpr_struct.measurement.missing_readings import missing_notes
+from cdpr_struct.measurement.missing_readings import check_placed, missing_notes
 from cdpr_struct.measurement.misspelt_cases import misspelt_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
@@ -128,6 +128,8 @@ def load_campaign(
     _check_poses(gathering)
     check_scale(str(path), robot, _absolute(gathering.states(), relative))
     check_robot_scale(str(path), robot, gathering.states(), gathering.tension_files())
+    vibrating = np.concatenate([gathering.cable_frequencies().state, gathering.robot_frequencies().state])
+    check_placed(str(path), gathering.states(), vibrating)
     identified = join_signals(gathering, commanding, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(

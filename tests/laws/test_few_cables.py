@@ -166,12 +166,24 @@ def test_files_without_a_position_name_their_states(tmp_path):
         loaded(tmp_path, "case,x_m,z_m,tension_1_N,tension_2_N\na,1,2,150,160\n")
 
 
-def test_a_file_that_names_a_state_takes_its_pose_and_payload_from_another(tmp_path):
+@pytest.mark.parametrize("first", [True, False])
+def test_a_file_that_names_a_state_takes_its_pose_and_payload_from_another(tmp_path, first):
     (tmp_path / "pluck.csv").write_text("case,cable,mode,frequency_hz\na,1,1,9.5\n")
-    more = '[[measurement]]\nkind = "cable_frequency"\nfile = "pluck.csv"\n'
-    found = loaded(tmp_path, "case,x_m,y_m,z_m,payload_kg,tension_1_N,tension_2_N\na,0,0.4,2,5,150,160\n", more=more)
+    (tmp_path / "states.csv").write_text("case,x_m,y_m,z_m,payload_kg,tension_1_N,tension_2_N\na,0,0.4,2,5,150,160\n")
+    pluck = '[[measurement]]\nkind = "cable_frequency"\nfile = "pluck.csv"\n'
+    (tmp_path / "campaign.toml").write_text(HEAD + (pluck + ENTRY if first else ENTRY + pluck))
+    found = load_campaign(tmp_path / "campaign.toml")
     np.testing.assert_array_equal(found.states.position, [[0.0, 0.4, 2.0]])
     assert found.states.payload.tolist() == [5.0]
+
+
+def test_frequencies_of_a_state_that_nothing_places_are_refused(tmp_path):
+    (tmp_path / "pluck.csv").write_text("case,cable,mode,frequency_hz\nb,1,1,9.5\n")
+    more = '[[measurement]]\nkind = "cable_frequency"\nfile = "pluck.csv"\n'
+    with pytest.raises(InputError, match=r"case b: got 'no pose'; .*position"):
+        loaded(tmp_path, "case,x_m,y_m,z_m,tension_1_N,tension_2_N\na,0,0.4,2,150,160\n", more=more)
+    lengths = "case,length_1_m,length_2_m\nb,3.2,3.5\n"
+    assert loaded(tmp_path, lengths, more=more).cable_frequencies.hertz.tolist() == [9.5]
 
 
 def test_only_relative_encoders_may_read_below_zero(tmp_path):
