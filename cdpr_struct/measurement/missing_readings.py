@@ -26,9 +26,9 @@ def check_placed(source: str, states: States, vibrating: np.ndarray) -> None:
 
     Raises
     ------
-    InputError : a state of them without a measured position, and without the lengths of all cables.
+    InputError : a state of them without any number of a position, and without the lengths of all cables.
     """
-    placed = np.isfinite(states.position).all(axis=1) | states.has_length
+    placed = np.isfinite(states.position).any(axis=1) | states.has_length
     for state in vibrating[~placed[vibrating]].tolist()[:1]:
         expected = (
             "frequencies of a state whose position, or whose lengths of all cables, some file of the campaign gives"
