@@ -13,6 +13,7 @@ from cdpr_struct.planning.measurements import FREQUENCIES, Measurement, Proposed
 from cdpr_struct.planning.planned_rows import PlannedRows
 from cdpr_struct.residuals.linearised import Term
 from cdpr_struct.residuals.recorded import Recorded, recorded
+from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _BEHIND_A_CLAMP = "dead_length"
@@ -30,13 +31,30 @@ def checks(data: Recorded, numbers: Numbers, known: Callable[[str], bool] = lamb
 
 def at_the_robot(data: Recorded, numbers: Numbers) -> Iterator[Informed]:
     """Measurements at the robot, without frequencies where the robot as entered has none: it is unstable there."""
-    found = proposed(data.campaign)
+    found = proposed(placed(data))
     if not found.measurements:
         return
+    found = replace(found, campaign=read_alike(data.campaign, found.campaign))
     rows = _rows(data, numbers, found)
     for measurement, states in found.measurements:
         if rows.local.vibrating is not None or measurement.kind not in FREQUENCIES:
             yield measurement, rows.information(states)
+
+
+def placed(data: Recorded) -> Campaign:
+    """The campaign; with the likeliest poses where no state has a measured one."""
+    states = data.campaign.states
+    if np.isfinite(np.hstack([states.position, states.angles])).all(axis=1).any():
+        return data.campaign
+    angles = angles_from_rotation(data.readings.rotation)
+    return replace(data.campaign, states=replace(states, position=data.readings.position, angles=angles))
+
+
+def read_alike(campaign: Campaign, new: Campaign) -> Campaign:
+    """A new campaign without the numbers of a pose that this one never has: there is no sensor for them."""
+    never = [~np.isfinite(own).any(axis=0) for own in (campaign.states.position, campaign.states.angles)]
+    position, angles = np.where(never[0], np.nan, new.states.position), np.where(never[1], np.nan, new.states.angles)
+    return replace(new, states=replace(new.states, position=position, angles=angles))
 
 
 def _rows(data: Recorded, numbers: Numbers, found: Proposed) -> PlannedRows:

@@ -17,6 +17,8 @@ from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.measurement.campaign_template import planned
 from cdpr_struct.observation.rest import rest
 from cdpr_struct.observation.vibrating import vibrating
+from cdpr_struct.planning.candidates import placed, read_alike
+from cdpr_struct.planning.places import home_of
 from cdpr_struct.residuals.layout import layout
 from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.pose import angles_from_rotation
@@ -143,6 +145,17 @@ def test_sensors_lower_a_point_mass_and_do_not_turn_it():
     there = vibrating(rest(arrays, data.readings, data.known), data.known)
     np.testing.assert_array_equal(there.rotation, data.readings.rotation)
     assert (there.position[:, 2] < data.readings.position[:, 2]).all()
+
+
+def test_what_to_measure_next_is_asked_about_the_poses_that_are_likeliest():
+    """No tracker, no measured pose: proposals lie where the robot rested, and are read by the sensors that there are."""
+    campaign = hung(robot_of("three"), 3)
+    data = recorded(unplaced(campaign, True))
+    home = home_of(placed(data))
+    assert np.linalg.norm(campaign.states.position - home.position, axis=1).min() < 1e-4  # that of a state, as fitted
+    again = read_alike(data.campaign, campaign).states
+    np.testing.assert_array_equal(np.isfinite(again.angles), [[True, True, False]] * 3)
+    assert not np.isfinite(again.position).any()
 
 
 HEAD = f'robot = "{(ROBOTS / "two-cables.toml").as_posix()}"\n'
