@@ -148,7 +148,7 @@ def test_sensors_lower_a_point_mass_and_do_not_turn_it():
 
 
 def test_what_to_measure_next_is_asked_about_the_poses_that_are_likeliest():
-    """No tracker, no measured pose: proposals lie where the robot rested, and are read by the sensors that there are."""
+    """Without a measured pose proposals lie where the robot rested, and are read by the sensors that there are."""
     campaign = hung(robot_of("three"), 3)
     data = recorded(unplaced(campaign, True))
     home = home_of(placed(data))
