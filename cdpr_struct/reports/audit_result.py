@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from cdpr_struct.crosscheck.limits_poses import PARAMETERS, PoseAudit
+from cdpr_struct.crosscheck.limits_poses import CUT_SHORT, PARAMETERS, PoseAudit
 from cdpr_struct.crosscheck.validity_limits import (
     CROSSOVER_DISTANCE,
     INCLINATION_EPSILON_PAIRS,
@@ -12,6 +12,7 @@ from cdpr_struct.crosscheck.validity_limits import (
     SAG_RATIO_LIMIT,
 )
 from cdpr_struct.reports.text import paragraphs, place, plain_table
+from cdpr_struct.reports.trust import Check
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import anchors_in_world
 from cdpr_struct.robot.robot_arrays import RobotArrays
@@ -81,7 +82,7 @@ def sentences(audit: PoseAudit) -> list[str]:
     total, held, bad = len(audit.held), int(audit.held.sum()), int((audit.count > 0).sum())
     where = "the pose" if total == 1 else f"{held} poses"
     unheld = [f"{total - held} of {total} poses cannot be held by the cables and were not checked."]
-    found = [*(unheld if held < total else []), *_slack(audit)]
+    found = unheld if held < total else []
     if not held:
         return [f"NOT CHECKED: {unheld[0]}", f"What to do: {_WHEN_UNHELD}"]
     found.append(f"What to do: {what_to_do(audit)}")
@@ -110,16 +111,25 @@ def what_to_do(audit: PoseAudit) -> str:
     )
 
 
-def _slack(audit: PoseAudit) -> list[str]:
-    """That cables pull with less than their own weight, and what tightens them; nothing if none does."""
+def audit_checks(audit: PoseAudit) -> list[Check]:
+    """Whether an audit over many poses can be trusted: searches that were cut short, and slack cables."""
+    cut = sum(reason == CUT_SHORT for reason in audit.reason)
+    lost = f"at {cut} of {len(audit.held)} poses the search for tensions ended before it had converged: not checked."
+    slack = _slack_poses(audit)
+    where = "the pose" if len(audit.held) == 1 else f"{slack} poses"
+    loose = f"At {where} cables hang slack (less tension than weight): --lower-bound N or force_min tightens them."
+    return [
+        Check.of("searches cut short", cut, 0.0, lost if cut else None),
+        Check.of("poses with slack cables", slack, 0.0, loose if slack else None),
+    ]
+
+
+def _slack_poses(audit: PoseAudit) -> int:
+    """At how many poses a cable pulls with less than its own weight."""
     robot = audit.robot
     chord = anchors_in_world(robot, audit.position, audit.rotation) - robot.frame_anchors
     weight = RobotArrays.of(robot).cable_load(chord)[0] * np.linalg.norm(chord, axis=-1)
-    poses = int((audit.held & (audit.tension < weight).any(axis=-1)).sum())
-    if not poses:
-        return []
-    where = "the pose" if len(audit.held) == 1 else f"{poses} poses"
-    return [f"At {where} cables hang slack (less tension than weight): --lower-bound N or force_min tightens them."]
+    return int((audit.held & (audit.tension < weight).any(axis=-1)).sum())
 
 
 def _whose(broken: np.ndarray) -> str:

@@ -19,11 +19,13 @@ class HeldStability:
     stable          : (...) bool: no motion of the platform is pushed on; it may be neutral
     least_stiffness : (...) of all motions, rotations as arcs at the anchors [N/m]
     motion          : (..., 6) the motion of least stiffness, the largest component 1 [m, arc in m]
+    condition       : (...) largest stiffness over the least in size, neutral freedoms left out [-]
     """
 
     stable: np.ndarray
     least_stiffness: np.ndarray
     motion: np.ndarray
+    condition: np.ndarray
 
     @property
     def direction(self) -> str:
@@ -46,8 +48,19 @@ def held_stability(
     softest = np.zeros(unit.shape)
     softest[..., free] = vectors[..., 0]
     largest = np.take_along_axis(softest, np.abs(softest).argmax(axis=-1)[..., None], axis=-1)
-    stable = ~stability(arrays, rotation, tangent).unstable
-    return HeldStability(np.asarray(stable), values[..., 0], softest / largest)
+    held = stability(arrays, rotation, tangent)
+    return HeldStability(
+        np.asarray(~held.unstable), values[..., 0], softest / largest, _condition(values, held.neutral)
+    )
+
+
+def _condition(values: np.ndarray, neutral: np.ndarray) -> np.ndarray:
+    """Of eigenvalues (..., k), the smallest `neutral` (...) in size left out; inf where nothing is stiff."""
+    size = np.sort(np.abs(values), axis=-1)
+    first = np.minimum(neutral, size.shape[-1] - 1)[..., None]
+    least = np.take_along_axis(size, first, axis=-1)[..., 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(size[..., -1] > 0.0, size[..., -1] / least, np.inf)
 
 
 def unstable_sentence(found: HeldStability) -> str | None:
