@@ -12,7 +12,8 @@ from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 from cdpr_struct.statics.tension_winches import held_at_frame, with_winches
 
 _EXIT_ITERATIONS = 30
-_EXIT_TOLERANCE = 1e-14  # of the tension, or of the unit direction
+_EXIT_TOLERANCE = 1e-14  # of the tension and EA, or of the unit direction
+_EXIT_MET = 1e-10  # of the same: above it the exit from the pulley was not found
 
 
 def hanging(
@@ -89,10 +90,11 @@ def _catenary_over_pulley(
         tension = np.linalg.norm(vector, axis=-1)
         states, near = _leaving(arrays, offset, length, vector / tension[..., None], tension, near)
         error = states.force_at_frame - vector
-        if (np.abs(error).max(axis=-1) <= _EXIT_TOLERANCE * (tension + arrays.axial_stiffness)).all():
+        off, size = np.abs(error).max(axis=-1), tension + arrays.axial_stiffness
+        if (off <= _EXIT_TOLERANCE * size).all():
             break
         vector = vector + np.linalg.solve(exit_jacobian(arrays, states), error[..., None])[..., 0]
-    return states, near
+    return states.missing(~(off <= _EXIT_MET * size)), near
 
 
 def _leaving(
@@ -148,6 +150,8 @@ def _held_over_pulley(
         states, length_rate = _catenary_at_tension(arrays, offset - exit_.point, chord_tension, wrap)
         before = direction
         direction = states.force_at_frame / states.tension_at_frame[..., None]
-        if np.abs(direction - before).max(initial=0.0) <= _EXIT_TOLERANCE:
+        turned = np.abs(direction - before).max(axis=-1)
+        if (turned <= _EXIT_TOLERANCE).all():
             break
+    states = states.missing(~(turned <= _EXIT_MET))
     return states, length_rate * (1.0 + states.wrapped_length / states.length)  # the wrapped piece stretches alike

@@ -19,8 +19,8 @@ class HeldStability:
     stable          : (...) bool: no motion of the platform is pushed on; it may be neutral
     least_stiffness : (...) of all motions, rotations as arcs at the anchors [N/m]
     motion          : (..., 6) the motion of least stiffness, the largest component 1 [m, arc in m]
-    condition       : (...) largest stiffness over the least in size, neutral freedoms left out, rotations as arcs at the
-                      platform's radius [-]
+    condition       : (...) largest stiffness over the least in size, neutral freedoms left out, rotations as arcs at
+                      the platform's radius [-]
     """
 
     stable: np.ndarray

@@ -45,8 +45,8 @@ def test_a_sound_robot_is_trusted_on_the_screen_in_json_and_on_the_page(tmp_path
     assert all(check["value"] <= check["limit"] or check["side"] == "at least" for check in told["checks"])
     (line,) = told["sentences"]
     assert line in capsys.readouterr().out
-    assert "Trust: all 7 checks hold (" in line
-    assert "Trust: all 7 checks hold (" in (tmp_path / "report.html").read_text("utf-8")
+    assert "Trust: all 8 checks hold (" in line
+    assert "Trust: all 8 checks hold (" in (tmp_path / "report.html").read_text("utf-8")
 
 
 def test_what_is_left_unbalanced_is_told():
@@ -60,7 +60,7 @@ def test_what_is_left_unbalanced_is_told():
 
 
 def test_a_pendulum_on_a_rope_nearly_rigid_is_ill_conditioned():
-    """m g over the length of the rope, 98 N/m, beside EA over it, 3e10 N/m; below 1e-9 of it a freedom counts as neutral."""
+    """m g over the length of the rope, 49 N/m, beside EA over it, 3e10 N/m; below 1e-9 a freedom counts as neutral."""
     rope = load_robot(str(EXAMPLES / "load-on-one-rope" / "robot.toml"))
     stiff = replace(rope, cables=tuple(replace(c, axial_stiffness=3e5 * c.axial_stiffness) for c in rope.cables))
     assert trust_at_rest(cs.inverse(rope).point).holds
