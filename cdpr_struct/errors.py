@@ -7,6 +7,9 @@ physics says no. They carry the numbers and the next step; the command line turn
 from collections.abc import Sequence
 from difflib import get_close_matches
 
+NOTHING = "nothing"
+"""The value of an `InputError` about what was not given."""
+
 
 class CdprError(Exception):
     """What this package raises on purpose; if it is no `InputError`, the request is well-posed but cannot be met."""
@@ -19,7 +22,7 @@ class InputError(CdprError, ValueError):
     ----------
     source : file, command-line option, or argument of a function.
     field : the name inside the source ("" if the source as a whole is meant).
-    value : what was given.
+    value : what was given; `NOTHING` where it is missing.
     expected : what would be right.
     """
 
@@ -27,7 +30,8 @@ class InputError(CdprError, ValueError):
         self.source, self.field, self.value, self.expected = source, field, value, expected
         place = f"{source}: {field}" if field else source
         plain = value.item() if type(value).__module__ == "numpy" and hasattr(value, "item") else value
-        super().__init__(f"{place}: got {plain!r}; {expected}")
+        said = " is missing" if isinstance(plain, str) and plain == NOTHING else f": got {plain!r}"
+        super().__init__(f"{place}{said}; {expected}")
 
 
 def told(error: Exception) -> CdprError | None:

@@ -160,7 +160,7 @@ def test_a_robot_without_bodies_has_no_distance_to_them(asked, capsys):
 
 def test_cables_without_a_largest_force_have_no_margin_to_it(capsys):
     assert run(["map", "thesis-3-1", "--grid=-2:2:3,-2:2:3,0.5", "--quantity", "force-margin"]) == 2
-    assert "--upper-bound: got 'nothing'; force-margin needs a finite upper bound" in capsys.readouterr().err
+    assert "--upper-bound is missing; force-margin needs a finite upper bound" in capsys.readouterr().err
 
 
 def test_smallest_stiffness_is_the_softest_direction(capsys):
