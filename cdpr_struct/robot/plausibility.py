@@ -38,7 +38,8 @@ def lengths_in_mm(robot: Robot) -> str:
     air, with all its mass in its middle, or nothing beside its cables.
     """
     body, reach = robot.platform, _reach(robot)
-    inner = np.linalg.norm(robot.platform_anchors - robot.platform_anchors.mean(axis=0), axis=1).max()
+    middle = np.median(robot.platform_anchors, axis=0)
+    inner = float(np.median(np.linalg.norm(robot.platform_anchors - middle, axis=1)))
     gyration = float(np.sqrt(np.trace(body.inertia) / (2.0 * body.mass)))
     cables = float(robot.linear_density.sum() * reach)
     far = f"The frame's anchors lie up to {reach:.4g} m away"

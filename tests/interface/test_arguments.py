@@ -118,6 +118,10 @@ BAD = {
     "millimetres": (lambda: cs.forward("thesis-3-1", [9e3] * 8), "look like mm"),
     "wrench": (lambda: cs.inverse("thesis-3-1", wrench=(1, 2)), "wrench: got .*give 6 numbers in N and N m"),
     "grid": (lambda: cs.map("thesis-3-1", 5, "tension-max"), "grid: got 5; give X0:X1:NX"),
+    "refine without a workspace": (
+        lambda: cs.map("thesis-3-1", "-1:1:2,0,0.5", "tension-max", refine=3),
+        "refine: got 3; only `quantity` workspace",
+    ),
     "no grid": (lambda: cs.map("thesis-3-1"), "grid is missing"),
     "quantity": (lambda: cs.map("thesis-3-1", "0:1:2,0,0.5", "heat"), "quantity: got 'heat'; one of: pose-error"),
     "chunk": (lambda: cs.map("thesis-3-1", "0:1:2,0,0.5", "sag-max", chunk=0), "chunk: got 0"),
