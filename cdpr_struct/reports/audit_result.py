@@ -90,7 +90,8 @@ def sentences(audit: PoseAudit) -> list[str]:
         return [f"WITHIN THE PRINTED LIMITS: every cable at {where}.", *found]
     share = "" if total == 1 else f" {bad} of {held} poses are affected."
     parts = [f"{WORDS[name]} {_whose(b)} ({_worst(audit, name)})" for name, b in audit.broken.items() if b.any()]
-    return [f"OUTSIDE THE PRINTED LIMITS: {', '.join(parts)}.{share}", *found]
+    means = "; ".join(f"{WORDS[name]}: {MEANS[name]}" for name, b in audit.broken.items() if b.any())
+    return [f"OUTSIDE THE PRINTED LIMITS: {', '.join(parts)}.{share}", f"What that means: {means}.", *found]
 
 
 def what_to_do(audit: PoseAudit) -> str:
@@ -178,6 +179,14 @@ def _extreme(audit: PoseAudit, name: str, poses: list[list[float]]) -> dict[str,
 
 WORDS = dict(zip(PARAMETERS, ("λ²", "crossover distance", "|α|", "ε", "sag/chord"), strict=True))
 """The parameters as tables and figures name them."""
+MEANS = {
+    "lambda2": "sag makes the cable much softer along its chord, and its in-plane frequencies change places",
+    "crossover_distance": "two frequencies of the cable nearly meet there, and small errors exchange their modes",
+    "alpha_deg": "the cable is so steep that its weight along the chord changes the tension along it",
+    "epsilon": "the tension changes so much along the cable that one value does not stand for it",
+    "sag_ratio": "the cable hangs deeper than the parabola that the closed form takes for it",
+}
+"""What follows from a broken limit for the closed form."""
 CABLE_COLUMNS = ["cable", "tension [N]", "λ²", "crossover distance", "|α| [°]", "ε", "ε limit", "sag/chord", "breaks"]
 
 

@@ -56,7 +56,7 @@ def _balance(point: OperatingPoint) -> list[Check]:
     lost = (np.flatnonzero(point.cables.lost) + 1).tolist()
     failed = f"the search for the state of {cables_named(lost)} had not converged." if lost else None
     return [
-        Check.of("cables not converged", len(lost), 0.0, failed),
+        Check.of("unsolved cables", len(lost), 0.0, failed),
         Check.of("unbalanced wrench", left, MOST_UNBALANCED, None if left <= MOST_UNBALANCED else torn),
         Check.of("least stiffness", least, 0.0, unstable_sentence(held), "N/m", at_least=True),
         Check.of("condition", condition, ILL_CONDITIONED, None if condition <= ILL_CONDITIONED else softest),
