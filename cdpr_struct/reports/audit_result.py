@@ -183,7 +183,7 @@ MEANS = {
     "lambda2": "sag makes the cable much softer along its chord, and its in-plane frequencies change places",
     "crossover_distance": "two frequencies of the cable nearly meet there, and small errors exchange their modes",
     "alpha_deg": "the cable is so steep that its weight along the chord changes the tension along it",
-    "epsilon": "the tension changes so much along the cable that one value does not stand for it",
+    "epsilon": "the cable's weight is not small beside its tension, so that terms left out of the closed form count",
     "sag_ratio": "the cable hangs deeper than the parabola that the closed form takes for it",
 }
 """What follows from a broken limit for the closed form."""
