@@ -10,6 +10,7 @@ from cdpr_struct.robot.plausibility import BREAKING_STRAIN
 from cdpr_struct.statics.bound_advice import outside_limits, slack_warning
 from cdpr_struct.statics.held_stability import held_stability, unstable_sentence
 from cdpr_struct.statics.locked_rest import LockedRest
+from cdpr_struct.statics.lost_cables import lost
 from cdpr_struct.statics.slack_cables import (
     DEEP,
     cables_named,
@@ -53,10 +54,10 @@ def _balance(point: OperatingPoint) -> list[Check]:
         f"the stiffest motion is {condition:.2g} times stiffer than the softest: the pose is close to a singular "
         "one, and its softest motion rests on small differences of large numbers."
     )
-    lost = (np.flatnonzero(point.cables.lost) + 1).tolist()
-    failed = f"the search for the state of {cables_named(lost)} had not converged." if lost else None
+    unsolved = (np.flatnonzero(lost(point.cables)) + 1).tolist()
+    failed = f"the search for the state of {cables_named(unsolved)} had not converged." if unsolved else None
     return [
-        Check.of("unsolved cables", len(lost), 0.0, failed),
+        Check.of("unsolved cables", len(unsolved), 0.0, failed),
         Check.of("unbalanced wrench", left, MOST_UNBALANCED, None if left <= MOST_UNBALANCED else torn),
         Check.of("least stiffness", least, 0.0, unstable_sentence(held), "N/m", at_least=True),
         Check.of("condition", condition, ILL_CONDITIONED, None if condition <= ILL_CONDITIONED else softest),

@@ -1,12 +1,11 @@
 """Static state of the cables of a robot, and how stiff each is."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from cdpr_struct.generated import catenary
 from cdpr_struct.generated.cable_compliance import compliance, stiffness
-from cdpr_struct.statics.catenary import CableStatus
 
 STEEPEST = 1e-100  # cos(inclination) of a vertical cable: forces and their rates by the span stay finite
 _UP = np.array([0.0, 0.0, 1.0])
@@ -57,15 +56,6 @@ class CableStates:
     def at(self, index: int | np.ndarray | None) -> "CableStates":
         """The states at an index of the batch: a number, an array of numbers, or None for one more axis."""
         return CableStates(*(getattr(self, name)[index] for name in CableStates.__slots__))
-
-    @property
-    def lost(self) -> np.ndarray:
-        """(..., m) bool: the search for the cable's state ended before it had converged."""
-        return np.asarray(self.status == CableStatus.NOT_CONVERGED)
-
-    def missing(self, missed: np.ndarray) -> "CableStates":
-        """The same; cables (..., m) that `missed` what they were to have count as `lost`."""
-        return replace(self, status=np.where(missed, CableStatus.NOT_CONVERGED, self.status)) if missed.any() else self
 
     @property
     def has_lumps(self) -> bool:

@@ -19,6 +19,7 @@ from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.energy_descent import EnergyDescent, arm_scale, longest_step
 from cdpr_struct.statics.equilibrium import PlatformArms, tangent_stiffness
 from cdpr_struct.statics.locked_balance import LockedBalance
+from cdpr_struct.statics.lost_cables import lost
 from cdpr_struct.statics.neutral_freedoms import stability, turned_least
 from cdpr_struct.statics.tension_winches import pulls_as_held
 
@@ -186,8 +187,8 @@ def _solution(
     position, rotation = turned_least(held, descent.position, descent.rotation, begun)
     status = np.where(held.neutral > 0, ForwardStatus.NEUTRAL, ForwardStatus.CONVERGED)
     status[held.unstable] = ForwardStatus.NOT_STABLE
-    lost = ~descent.converged | ~pulls_as_held(balance.arrays, states) | states.lost.any(axis=1)
-    status[lost] = ForwardStatus.NOT_CONVERGED
+    open_ = ~descent.converged | ~pulls_as_held(balance.arrays, states) | lost(states).any(axis=1)
+    status[open_] = ForwardStatus.NOT_CONVERGED
     return ForwardSolution(
         position=position.reshape((*shape, 3)),
         rotation=rotation.reshape((*shape, 3, 3)),

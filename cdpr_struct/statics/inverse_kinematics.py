@@ -23,6 +23,7 @@ from cdpr_struct.statics.equilibrium import cable_wrench
 from cdpr_struct.statics.free_orientation import FreeOrientation
 from cdpr_struct.statics.guides import free_part
 from cdpr_struct.statics.holding_tensions import HoldingProblem
+from cdpr_struct.statics.lost_cables import lost
 from cdpr_struct.statics.separating_wrench import separation
 from cdpr_struct.statics.taut_tensions import suits, taut_tensions
 from cdpr_struct.statics.unholdable_poses import no_length_error, unholdable, without_length
@@ -244,7 +245,7 @@ def _judged(
     inside = ((pull >= problem.low - margin) & (pull <= problem.high + margin)).all(axis=1)
     status = np.where(balanced & inside, InverseStatus.HELD, InverseStatus.UNHOLDABLE)
     cut_short = ~settled & ((status == InverseStatus.HELD) | (iterations >= holding_tensions.MAX_ITERATIONS))
-    cut_short |= (status == InverseStatus.HELD) & states.lost.any(axis=1)
+    cut_short |= (status == InverseStatus.HELD) & lost(states).any(axis=1)
     status[cut_short] = InverseStatus.NOT_CONVERGED
     lengths = problem.arrays.reading(states.total_length)
     return InverseSolution(states, lengths, residual, status, iterations)

@@ -28,6 +28,7 @@ from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.forward_kinematics import ForwardStatus, forward
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.inverse_kinematics import InverseStatus, inverse
+from cdpr_struct.statics.lost_cables import lost as lost_cables
 from cdpr_struct.statics.tensioned_cables import tensioned
 from cdpr_struct.workspace.rest_columns import rest_columns
 
@@ -68,8 +69,8 @@ def test_exits_from_pulleys_that_were_not_found_are_marked_and_their_poses_do_no
     for rounds, lost in ((30, False), (1, True)):
         monkeypatch.setattr(hanging_cables, "_EXIT_ITERATIONS", rounds)
         states = model.hold(problem.arrays, points, found.cables.tension).states
-        assert states.lost.all() == lost
-        assert model.states(problem.arrays, points, found.lengths).lost.any() == lost
+        assert lost_cables(states).all() == lost
+        assert lost_cables(model.states(problem.arrays, points, found.lengths)).any() == lost
         judged = inverse_kinematics._judged(problem, states, np.array([True]), np.array([1]))
         assert judged.held.all() == (not lost)
 
