@@ -4,6 +4,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+_ROUNDING = 1e-9  # below it digits are those of a machine
+
 
 @dataclass(frozen=True, slots=True)
 class Check:
@@ -46,7 +48,8 @@ class Check:
         unit = f" {self.unit}" if self.unit else ""
         side = "at least" if self.at_least else "at most"
         bound = "" if self.holds else f" ({side} {self.limit:.3g}{unit})"
-        return f"{self.what} {self.value:.2g}{unit}{bound}"
+        number = f"below {_ROUNDING:g}" if 0.0 < self.value < _ROUNDING else f"{self.value:.2g}"
+        return f"{self.what} {number}{unit}{bound}"
 
     def json(self) -> dict[str, Any]:
         """The check under the keys that scripts rely on."""

@@ -8,6 +8,8 @@ import numpy as np
 
 import cdpr_struct as cs
 from cdpr_struct.cli.main import run
+from cdpr_struct.interface.campaigns import with_dropped
+from cdpr_struct.measurement.campaign import RobotFrequencies
 from cdpr_struct.reports.trust import Check, Trust
 from cdpr_struct.reports.trust_at_rest import trust_at_rest
 from cdpr_struct.reports.trust_of_modes import mode_checks
@@ -36,6 +38,8 @@ def test_what_holds_says_its_number_and_what_fails_its_limit_too():
         "Trust: 1 of 2 checks hold; not: strain 3 % (at most 2 %). See the warnings."
     ]
     assert Trust().sentences == []
+    tiny = Trust((Check.of("unbalanced wrench", 8e-17, 1e-7, None),))
+    assert tiny.sentences == ["Trust: the check holds (unbalanced wrench below 1e-09)."]
 
 
 def test_a_sound_robot_is_trusted_on_the_screen_in_json_and_on_the_page(tmp_path, capsys):
@@ -107,6 +111,17 @@ def test_modes_of_equal_cables_are_told_to_be_near():
     assert failing(found)["frequencies near another"]["value"] >= 2
     assert not found.warnings
     assert "Within 1 % of each other" in str(found)
+
+
+def test_a_campaign_tells_pulleys_that_its_model_leaves_out_of_vibrations():
+    campaign = cs.load_campaign(EXAMPLES.parent / "table-4-4" / "level.toml")
+    robot = replace(campaign.robot, pulleys=(Pulley(0.05),) * len(campaign.robot.cables))
+    peak = RobotFrequencies(np.zeros(1, dtype=int), np.ones(1), np.full(1, 0.01))
+    over = replace(campaign, robot=robot, model="dsm", robot_frequencies=peak)
+    (said,) = with_dropped({}, over)["trust"].warnings
+    assert "has no pulleys" in said
+    for silent in (campaign, replace(over, model="exact"), over.with_states_only(over.states)):
+        assert with_dropped({}, silent)["trust"].holds
 
 
 def test_pulleys_that_the_closed_form_leaves_out_are_counted():
