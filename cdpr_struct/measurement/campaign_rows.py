@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from cdpr_struct.errors import InputError, known_names
+from cdpr_struct.errors import NOTHING, InputError, known_names
 from cdpr_struct.measurement.assumed_angles import ANGLES
 from cdpr_struct.measurement.cable_columns import EITHER, LENGTH, QUANTITIES
 from cdpr_struct.measurement.column_names import renaming
@@ -153,7 +153,7 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
     check_wide(kind, source, columns, cables)
     for name in _needed(kind, columns, cables):
         if name not in columns:
-            raise InputError(source, name, "no such column", _needs(kind, columns, cables))
+            raise InputError(source, f"column {name}", NOTHING, _needs(kind, columns, cables))
     for number, name in enumerate(columns, start=1):
         if not name:
             expected = "a name for each column; pandas writes a nameless one unless to_csv has index=False"
@@ -161,7 +161,7 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
         if name not in known:
             raise InputError(source, name, "a column", _unknown(kind, name, known, cables))
     if kind == "static_state" and not is_wide(kind, columns) and not {"tension_N", "length_m"} & set(columns):
-        raise InputError(source, "tension_N", "no such column", "give tension_N or length_m or both")
+        raise InputError(source, "column tension_N", NOTHING, "give tension_N or length_m or both")
 
 
 def _needed(kind: str, columns: Sequence[str], cables: int) -> tuple[str, ...]:

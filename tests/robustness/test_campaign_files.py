@@ -33,7 +33,7 @@ def complaint(tmp_path, capsys, campaign=CAMPAIGN, rows=HEAD + ROWS) -> str:
     [
         ("", ["states.csv", "an empty file", "a header line"]),
         (HEAD, ["states.csv", "no rows"]),
-        (HEAD.replace("cable,", ""), ["cable", "no such column"]),
+        (HEAD.replace("cable,", ""), ["column cable is missing"]),
         (HEAD.replace("tension_N", "tension_kN") + ROWS, ["tension_kN", "unknown"]),
         (HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,1,3,much"), ["row 3", "tension_N", "much", "a number"]),
         (HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,1,3,-5"), ["row 3", "-5", "above zero"]),
