@@ -25,9 +25,27 @@ class InputError(CdprError, ValueError):
 
     def __init__(self, source: str, field: str, value: object, expected: str) -> None:
         self.source, self.field, self.value, self.expected = source, field, value, expected
-        place = f"{source}: {field}" if field else source
+        place = f"{on_one_line(source, 400)}: {on_one_line(field, 200)}" if field else on_one_line(source, 400)
         plain = value.item() if type(value).__module__ == "numpy" and hasattr(value, "item") else value
-        super().__init__(f"{place}: got {plain!r}; {expected}")
+        super().__init__(f"{place}: got {_shown(plain)}; {on_one_line(expected, 1200)}")
+
+
+def on_one_line(text: str, longest: int) -> str:
+    """Text for a line on the screen: control signs escaped, and cut in the middle where it is longer than that."""
+    if not text.isprintable():
+        text = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+    if len(text) <= longest:
+        return text
+    half = longest // 2 - 20
+    return f"{text[:half]} ... ({len(text)} characters) ... {text[-half:]}"
+
+
+def _shown(value: object) -> str:
+    """A value as Python writes it, cut."""
+    try:
+        return on_one_line(repr(value), 200)
+    except (ValueError, RecursionError):  # an integer of thousands of digits, lists within lists without end
+        return f"a {type(value).__name__} that is too long to be shown"
 
 
 def told(error: Exception) -> CdprError | None:

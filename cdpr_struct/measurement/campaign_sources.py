@@ -1,7 +1,8 @@
 """The files that a campaign is made of."""
 
-import tomllib
 from pathlib import Path
+
+from cdpr_struct.robot.toml_text import toml_table
 
 
 def campaign_bytes(path: str | Path) -> bytes:
@@ -22,9 +23,9 @@ def campaign_files(path: str | Path) -> list[Path]:
 def _named(source: Path) -> list[Path]:
     """Paths that a campaign file names; none of a file that is no campaign, of which its reader says what is wrong."""
     try:
-        table = tomllib.loads(_content(source).decode("utf-8-sig"))
+        table = toml_table(_content(source).decode("utf-8-sig"), str(source))
         names = [table.get("robot"), *(entry.get("file") for entry in table.get("measurement", ()))]
-    except (ValueError, AttributeError, RecursionError):
+    except (ValueError, AttributeError):
         return []
     return [source.parent / name for name in names if isinstance(name, str)]
 

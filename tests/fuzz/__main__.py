@@ -33,14 +33,15 @@ def main() -> None:
         judge(data)
         if judge.seconds() > asked.seconds:
             print(judge.summary(), flush=True)
-            (findings.parent / "summary.json").write_text(judge.summary())
+            (findings.parent / f"summary-{asked.seed}.json").write_text(judge.summary())
             shutil.rmtree(place)
             sys.stderr.flush()
             os._exit(1 if judge.findings else 0)  # libFuzzer knows no other end of a run
 
     def mutate(data: bytes, longest: int, seed: int) -> bytes:
         rng = random.Random(seed)
-        made = atheris.Mutate(data, longest) if rng.random() < 0.3 else changed(data, rng)
+        begun = rng.choice(judge.loaded) if judge.loaded and rng.random() < 0.5 else data
+        made = atheris.Mutate(begun, longest) if rng.random() < 0.2 else changed(begun, rng)
         return bytes(made)[:longest]
 
     options = ["-max_len=%d" % LONGEST_INPUT, "-timeout=%d" % SLOWEST_EVER, "-rss_limit_mb=3000", f"-seed={asked.seed}"]

@@ -12,6 +12,7 @@ from pathlib import Path
 from cdpr_struct.errors import told
 
 LONGEST = 2000  # characters of a sentence, the name of the file and what would be right included
+_REMEMBERED = 300  # inputs that were loaded, as a start for others
 SLOWEST = 5.0  # s of processor time for one input
 
 Reader = Callable[[bytes], None]
@@ -24,6 +25,7 @@ class Judge:
         self.reader, self.directory = reader, directory
         self.outcomes: Counter[str] = Counter()
         self.findings: dict[str, str] = {}
+        self.loaded: list[bytes] = []
         self.slowest = 0.0
         self.started = time.process_time()
         directory.mkdir(parents=True, exist_ok=True)
@@ -40,6 +42,8 @@ class Judge:
         elif why:
             self._keep(why.partition("\n")[0][:200], why, data)
         self.outcomes[outcome] += 1
+        if outcome == "loaded":
+            self.loaded = [data, *self.loaded[: _REMEMBERED - 1]]
 
     def seconds(self) -> float:
         """Processor time since the start."""

@@ -23,7 +23,9 @@ def _token(data: bytes, rng: random.Random) -> bytes:
         return data + rng.choice(WORDS)
     place = rng.choice(found)
     other = rng.choice(found)[0] if rng.random() < 0.3 else rng.choice(WORDS)
-    word = rng.choice((other, other, place[0] + other, b"-" + place[0], place[0] * 2))
+    word = rng.choice((other, place[0] + other, b"-" + place[0], place[0] * 2))
+    if rng.random() < 0.6 and place[0].isdigit():
+        word = b"%d" % max(0, int(place[0][:9]) + rng.randint(-3, 3))  # still what is asked for, more often than not
     if rng.random() < 0.01:
         word = word * (_LONG // max(1, len(word)))
     return data[: place.start()] + word + data[place.end() :]
