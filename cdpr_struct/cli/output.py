@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 from cdpr_struct.cli.progress import Begin, silent, steps
 from cdpr_struct.cli.run_record import RUN, run_record
 from cdpr_struct.cli.written_files import RESULT, Content, refuse_foreign, replace_files
+from cdpr_struct.errors import InputError
 from cdpr_struct.reports.plain_json import json_text
 from cdpr_struct.reports.remarks import extensions_of, remarks, rest_of, warnings_of
 
@@ -132,9 +133,17 @@ _FLAGS, _WITH_VALUE = ("--json", "--quiet", "-q", "--overwrite"), ("--out", "--s
 
 
 def _print(text: str, stream: Any) -> None:
-    """Write to a stream whose reader may be gone."""
+    """Write to a stream whose reader may be gone; signs that its encoding lacks are escaped.
+
+    Raises
+    ------
+    InputError : it takes nothing, as on a full disk.
+    """
+    encoding = getattr(stream, "encoding", None) or "utf-8"
     try:
-        stream.write(text)
+        stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
         stream.flush()
-    except BrokenPipeError:
+    except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())  # what Python flushes at its end
+        if not isinstance(error, BrokenPipeError):
+            raise InputError("standard output", "", error.strerror, "a place that can be written") from error

@@ -12,6 +12,7 @@ from cdpr_struct.measurement.assumed_angles import angle_note
 from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
+from cdpr_struct.measurement.campaign_sources import is_there
 from cdpr_struct.measurement.campaign_template import KINDS
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.measurement.missing_readings import missing_notes
@@ -185,7 +186,7 @@ def _kind_error(source: Path, error: ValidationError) -> InputError | None:
 def _robot(name: str, source: Path) -> Robot:
     if name in builtin_names():
         return load_robot(name)
-    if not (source.parent / name).is_file():
+    if not is_there(source.parent / name):
         known = ", ".join(builtin_names())
         raise InputError(str(source), "robot", name, f"a robot file, its path as seen from here, or one of: {known}")
     return load_robot(source.parent / name)
@@ -226,7 +227,7 @@ def _loss(table: LossTable, source: Path) -> Loss:
 
 def _rows(entry: MeasurementTable, source: Path, number: int, cables: int, planned: bool) -> Rows:
     path = source.parent / entry.file
-    if not path.is_file():
+    if not is_there(path):
         expected = "no such data file; give its path as seen from the campaign file"
         raise InputError(str(source), f"measurement[{number}].file", entry.file, expected)
     return read_rows(entry.kind, path, cables, planned)

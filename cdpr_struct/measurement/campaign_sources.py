@@ -5,6 +5,14 @@ from pathlib import Path
 from cdpr_struct.robot.toml_text import toml_table
 
 
+def is_there(path: Path) -> bool:
+    """Whether a path is that of a file; no file has a name that the system refuses."""
+    try:
+        return path.is_file()
+    except OSError:  # too long
+        return False
+
+
 def campaign_bytes(path: str | Path) -> bytes:
     """Contents of the campaign file and of the robot and data files that it names, as far as they can be read."""
     source = Path(path)
@@ -17,7 +25,7 @@ def campaign_bytes(path: str | Path) -> bytes:
 def campaign_files(path: str | Path) -> list[Path]:
     """The campaign file, and those of the robot and data files it names that are there; another file stands alone."""
     source = Path(path)
-    return [source, *(named for named in _named(source) if named.is_file())]
+    return [source, *(named for named in _named(source) if is_there(named))]
 
 
 def _named(source: Path) -> list[Path]:
