@@ -6,10 +6,22 @@ physics says no. They carry the numbers and the next step; the command line turn
 
 from collections.abc import Sequence
 from difflib import get_close_matches
+from typing import Any
 
 
 class CdprError(Exception):
     """What this package raises on purpose; if it is no `InputError`, the request is well-posed but cannot be met."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """As it is: the arguments of a kind's `__init__` are not those of an exception, and workers send errors home."""
+        return _as_it_was, (type(self), self.args, self.__dict__)
+
+
+def _as_it_was(kind: type[CdprError], said: tuple[Any, ...], state: dict[str, Any]) -> CdprError:
+    error = kind.__new__(kind, *said)
+    error.args = said
+    error.__dict__.update(state)
+    return error
 
 
 class InputError(CdprError, ValueError):

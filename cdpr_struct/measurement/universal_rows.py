@@ -55,9 +55,10 @@ def _one(path: Path, number: int, one: dict[str, Any]) -> tuple[dict[str, np.nda
         raise InputError(
             str(path), f"FRF {number}, ordinate type", kind, "8 (displacement), 11 (velocity) or 12 (acceleration)"
         )
-    if hertz.shape != value.shape:
-        given = f"{value.size} responses, {hertz.size} frequencies"
-        raise InputError(str(path), f"FRF {number}", given, "as many values as its header declares")
+    declared = int(one.get("num_pts", value.size))
+    if not declared == value.size == hertz.size > 0:
+        given = f"{value.size} responses at {hertz.size} frequencies"
+        raise InputError(str(path), f"FRF {number}", given, f"as many as the header declares, {declared}, and one at least")
     if not ((np.abs(hertz) <= LARGEST).all() and (np.abs(value) <= LARGEST).all()):
         given, expected = "values that are not numbers", f"finite frequencies and responses, of at most {LARGEST:g}"
         raise InputError(str(path), f"FRF {number}", given, expected)

@@ -8,7 +8,7 @@ from cdpr_struct.errors import InputError
 
 _DEEPEST = 64  # keys in a row, a.b.c; the standard library's parser takes minutes for thousands
 _PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
-_TOO_DEEP = re.compile(rf"""(?<![\w"'-])(?:{_PART}){{{_DEEPEST}}}""")
+_TOO_DEEP = re.compile(rf"""(?<![\w."'-])(?:{_PART}){{{_DEEPEST}}}""")
 
 
 def toml_table(text: str, source: str) -> dict[str, Any]:
