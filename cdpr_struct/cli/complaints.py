@@ -35,4 +35,5 @@ def _words(error: TyperException) -> str:
     """What is wrong with the words of the command line, in one line."""
     if isinstance(error, BadParameter) and error.param is not None and error.message.startswith("got "):
         return f"{error.param.opts[0]}: {error.message}"
-    return f"{error.format_message().replace(chr(10), ' ').rstrip('.')}. See cdpr-struct --help."
+    said = error.format_message().replace("\n", " ").rstrip(".")
+    return f"{on_one_line(said, 600)}. See cdpr-struct --help."

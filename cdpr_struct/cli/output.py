@@ -1,6 +1,7 @@
 """Where a command's results go: files first, then the screen, or JSON on stdout."""
 
 import os
+import re
 import shlex
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -80,7 +81,8 @@ class Output:
         if self.json:
             _print(json_text(result), sys.stdout)
         elif not self.quiet:
-            _print("\n\n".join([text(), *remarks(result)]) + "\n", sys.stdout)
+            said = "\n\n".join([text(), *remarks(result)]) + "\n"
+            _print(_STEERING.sub(lambda found: repr(found[0])[1:-1], said), sys.stdout)
 
     def write(self, result: Mapping[str, Any], files: Files) -> None:
         """Write the files, if --out is given; result.json says under `run` which command on which files made it."""
@@ -129,6 +131,8 @@ def repeating(typed: Sequence[str]) -> tuple[str, ...]:
     return ("cdpr-struct", *kept, "--out=DIR")
 
 
+_STEERING = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
+"""Signs in names that would steer a terminal, or turn the direction of its text."""
 _FLAGS, _WITH_VALUE = ("--json", "--quiet", "-q", "--overwrite"), ("--out", "--scheduler")
 
 
