@@ -41,6 +41,8 @@ def check_workers(workers: int, scheduler: str | None) -> None:
 def executor(workers: int, scheduler: str | None) -> Iterator[Executor]:
     """The executor that the options name; pending work is dropped when the block is left by an error.
 
+    An interrupt ends workers at once, with what they are at; it leaves a thread behind, which ends with the program.
+
     Raises
     ------
     InputError : dask.distributed is not installed, or the scheduler does not answer.
@@ -52,10 +54,16 @@ def executor(workers: int, scheduler: str | None) -> Iterator[Executor]:
     pool: Executor = ThreadPoolExecutor(1)
     if workers > 1:
         pool = ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), _end_with_the_parent)
+    waits = True
     try:
         yield pool
+    except KeyboardInterrupt:
+        waits = workers > 1
+        for worker in multiprocessing.active_children():
+            worker.terminate()
+        raise
     finally:
-        pool.shutdown(wait=True, cancel_futures=True)
+        pool.shutdown(wait=waits, cancel_futures=True)
 
 
 def _end_with_the_parent() -> None:
