@@ -58,7 +58,9 @@ def _one(path: Path, number: int, one: dict[str, Any]) -> tuple[dict[str, np.nda
     declared = int(one.get("num_pts", value.size))
     if not declared == value.size == hertz.size > 0:
         given = f"{value.size} responses at {hertz.size} frequencies"
-        raise InputError(str(path), f"FRF {number}", given, f"as many as the header declares, {declared}, and one at least")
+        raise InputError(
+            str(path), f"FRF {number}", given, f"as many as the header declares, {declared}, and one at least"
+        )
     if not ((np.abs(hertz) <= LARGEST).all() and (np.abs(value) <= LARGEST).all()):
         given, expected = "values that are not numbers", f"finite frequencies and responses, of at most {LARGEST:g}"
         raise InputError(str(path), f"FRF {number}", given, expected)

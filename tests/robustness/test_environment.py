@@ -233,7 +233,14 @@ def test_a_robots_name_is_neither_markup_nor_a_path(words, strange, tmp_path, ca
 
 def test_the_program_needs_no_home_no_locale_no_terminal_and_no_assertions(tmp_path):
     words = ["modes", "six-cable-8mm", "--count", "3", "--model", "static"]
-    bare = {"HOME": "/nowhere/at/all", "LC_ALL": "C", "TERM": "dumb", "PYTHONIOENCODING": "ascii", "PYTHONPATH": str(ROOT), "PATH": os.defpath}
+    bare = {
+        "HOME": "/nowhere/at/all",
+        "LC_ALL": "C",
+        "TERM": "dumb",
+        "PYTHONIOENCODING": "ascii",
+        "PYTHONPATH": str(ROOT),
+        "PATH": os.defpath,
+    }
     program = [sys.executable, "-O", "-c", "from cdpr_struct.cli.main import main; main()", *words]
     asked = subprocess.run(
         [*program, "--out", str(tmp_path / "out")], env=bare, cwd=tmp_path, capture_output=True, text=True

@@ -7,10 +7,11 @@ import numpy as np
 import pyuff
 import pytest
 
-from cdpr_struct.errors import InputError
+from cdpr_struct.errors import ConvergenceError, InputError
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.measurement.campaign_rows import read_rows
 from cdpr_struct.measurement.data_table import read_table
+from cdpr_struct.measurement.separable_fit import separable_fit
 from cdpr_struct.measurement.trajectory_file import read_trajectory
 from cdpr_struct.measurement.universal_rows import universal_columns
 from cdpr_struct.robot.caspr_xml import numbers, parse
@@ -149,3 +150,38 @@ def test_a_complaint_reaches_the_parent_of_a_worker():
     """An exception that cannot be pickled breaks the pool, and the sentence is lost."""
     error = InputError("robot.toml", "mass", -1.0, "above zero")
     assert str(pickle.loads(pickle.dumps(error))) == str(error)
+
+
+def test_readings_far_off_are_no_words_of_lapack(tmp_path, capfd):
+    """A trial of growing poles overflowed; LAPACK printed its complaint where JSON goes, and the record was refused."""
+    rows = np.zeros((70, 7))
+    rows[:, 0], rows[:, 3] = 0.01 * np.arange(70), 1.2
+    rows[:, 6] = rows[:, 0]
+    rows[[1, 21, 23, 31, 35, 37, 43], [6, 1, 5, 3, 3, 3, 3]] = [0.02, 3.0, 2.0, 1.6, 0.0, -1.2, -1.2]
+    lines = [",".join(f"{value:.2f}" for value in row) for row in rows]
+    (tmp_path / "motion.csv").write_text("\n".join(["time_s,x_m,y_m,z_m,rx_deg,ry_deg,rz_deg", *lines]))
+    (tmp_path / "states.csv").write_text(HEAD + ROWS)
+    (tmp_path / "campaign.toml").write_text(
+        CAMPAIGN + '[[measurement]]\nkind = "platform_motion"\nfile = "motion.csv"\n'
+    )
+    load_campaign(tmp_path / "campaign.toml")
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("finite", [True, False])
+def test_a_search_for_poles_turns_back_where_they_grow_beyond_all_numbers(finite):
+    time, calls, start = np.arange(40.0), [], np.array([-0.01 + 1.1j])
+
+    def basis(poles):
+        calls.append(poles)
+        wave = np.exp(poles[0] * time) if finite and np.allclose(poles, start) else np.full(40, np.inf + 0j)
+        columns = np.stack([wave.real, -wave.imag], axis=1)
+        return columns, np.stack([columns * time[:, None], columns[:, ::-1] * time[:, None]])
+
+    signal = np.cos(time)[:, None]
+    if not finite:
+        with pytest.raises(ConvergenceError, match="far off all others"):
+            separable_fit(basis, signal, np.ones((1, 1)), start)
+        return
+    np.testing.assert_array_equal(separable_fit(basis, signal, np.ones((1, 1)), start).poles, start)
+    assert len(calls) > 1, "the search took a step, and came back"

@@ -26,7 +26,12 @@ COMMANDS = {
     "audit-limits": ["audit", "--limits", "--workers", "2"],
     "distribute": ["distribute", "thesis-3-1", *LINES, "--instants", "3001", "--workers", "2"],
     "diagnose": ["diagnose", "examples/soft-masts/campaign.toml"],
-    "diagnose-many": ["diagnose", "examples/soft-masts/campaign.toml", "examples/table-4-4/campaign.toml", "--workers=2"],
+    "diagnose-many": [
+        "diagnose",
+        "examples/soft-masts/campaign.toml",
+        "examples/table-4-4/campaign.toml",
+        "--workers=2",
+    ],
     "one-worker": ["distribute", "thesis-3-1", *LINES, "--instants", "3001"],
     "plan": ["plan", "examples/soft-masts/campaign.toml"],
     "verify": ["verify", "thesis-3-1"],
@@ -115,6 +120,8 @@ def test_numbers_do_not_depend_on_the_threads_of_blas(tmp_path):
 def test_a_time_to_be_computed_is_bounded(tmp_path):
     """A robot with hundreds of modes in the band is refused, or answered, within a minute of processor time."""
     begun = time.process_time()
-    code = run(["transient", "thesis-5", "--initial-velocity=0.1,0,0", "--duration", "60", "--highest", "100", "--quiet"])
+    code = run(
+        ["transient", "thesis-5", "--initial-velocity=0.1,0,0", "--duration", "60", "--highest", "100", "--quiet"]
+    )
     assert code in (0, 1, 2)
     assert time.process_time() - begun < 60.0
