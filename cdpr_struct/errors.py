@@ -13,7 +13,7 @@ class CdprError(Exception):
     """What this package raises on purpose; if it is no `InputError`, the request is well-posed but cannot be met."""
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """As it is: the arguments of a kind's `__init__` are not those of an exception, and workers send errors home."""
+        """As it is: what a kind's `__init__` takes is not what it says, and workers send errors home."""
         return _as_it_was, (type(self), self.args, self.__dict__)
 
 

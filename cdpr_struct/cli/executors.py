@@ -20,6 +20,7 @@ Workers = Annotated[
 Scheduler = Annotated[
     str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Dask scheduler that takes the work, like tcp://host:8786.")
 ]  # fmt: skip
+_SPAWN = multiprocessing.get_context("spawn")
 Where = tuple[int, str | None]
 """Values of --workers and --scheduler."""
 
@@ -51,19 +52,17 @@ def executor(workers: int, scheduler: str | None) -> Iterator[Executor]:
         with _cluster(scheduler) as pool:
             yield pool
         return
-    pool: Executor = ThreadPoolExecutor(1)
-    if workers > 1:
-        pool = ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), _end_with_the_parent)
-    waits = True
+    here, waits = workers == 1, True
+    own = ThreadPoolExecutor(1) if here else ProcessPoolExecutor(workers, _SPAWN, _end_with_the_parent)
     try:
-        yield pool
+        yield own
     except KeyboardInterrupt:
-        waits = workers > 1
+        waits = not here
         for worker in multiprocessing.active_children():
             worker.terminate()
         raise
     finally:
-        pool.shutdown(wait=waits, cancel_futures=True)
+        own.shutdown(wait=waits, cancel_futures=True)
 
 
 def _end_with_the_parent() -> None:

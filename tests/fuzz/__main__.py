@@ -16,9 +16,9 @@ SLOWEST_EVER = 1200  # s of the clock, after which libFuzzer calls an input a ha
 
 with atheris.instrument_imports(include=["cdpr_struct.robot", "cdpr_struct.measurement", "tomllib", "pyuff"]):
     from tests.fuzz import targets
-from tests.fuzz.judging import Judge
-from tests.fuzz.mutating import changed
-from tests.fuzz.seeds import seeds
+    from tests.fuzz.judging import Judge
+    from tests.fuzz.mutating import changed
+    from tests.fuzz.seeds import seeds
 
 
 def main() -> int:

@@ -160,13 +160,15 @@ def _universal(binary: int, kind: int) -> bytes:
 
 
 WORDS = (
-    b"nan", b"inf", b"-inf", b"1e308", b"-1e308", b"1e-320", b"0", b"-0.0", b"-1", b"1e12", b"1.0000001e12", b"1e-13",
-    b"999999999999999999999", b"0x7fffffffffffffff", b"1_000", b"2026-11-25", b"07:32:00", b"true", b'""', b"[]", b"{}",
-    b"[[]]", b"[nan, inf, 0]", b"'''", b'"""', b"\\u0000", b"\\ud800", b"\xff\xfe", b"\xc3\x28", b"\0", b"\r", b"\x1b[31m",
-    b"\xe2\x80\xae", b"a.b.c", b'"a\\nb"', b"=cmd|'/C calc'!A0", b"../../etc/passwd", b"<script>", b"$\\foo$", b"%s{0}",
-    b"[[cables]]", b"[[bodies]]", b"[[lumps]]", b"[[measurement]]", b"[platform]", b"[extensions]", b"[nominal]", b"[loss]",
-    b"case", b"x_m", b"tension_N", b"tension_1_N", b"length_1_m", b"frequency_hz", b"payload_kg", b"sigma", b"approach",
-    b"time_s", b"temperature_K", b"cable", b"mode", b"plane", b"respond", b"excite", b"predicted_x_m", b"?", b"kN", b"#",
-    b"<!ENTITY", b"<!DOCTYPE a>", b"<![CDATA[", b"&#0;", b"&lt;", b"    -1\n", b"    58\n", b"    58b\n", b"   151\n", b";",
+    b"nan", b"inf", b"-inf", b"1e308", b"-1e308", b"1e-320", b"0", b"-0.0", b"-1", b"1e12", b"1.0000001e12",
+    b"1e-13", b"999999999999999999999", b"0x7fffffffffffffff", b"1_000", b"2026-11-25", b"07:32:00", b"true",
+    b'""', b"[]", b"{}", b"[[]]", b"[nan, inf, 0]", b"'''", b'"""', b"\\u0000", b"\\ud800", b"\xff\xfe",
+    b"\xc3\x28", b"\0", b"\r", b"\x1b[31m", b"\xe2\x80\xae", b"a.b.c", b'"a\\nb"', b"=cmd|'/C calc'!A0",
+    b"../../etc/passwd", b"<script>", b"$\\foo$", b"%s{0}", b"[[cables]]", b"[[bodies]]", b"[[lumps]]",
+    b"[[measurement]]", b"[platform]", b"[extensions]", b"[nominal]", b"[loss]", b"case", b"x_m", b"tension_N",
+    b"tension_1_N", b"length_1_m", b"frequency_hz", b"payload_kg", b"sigma", b"approach", b"time_s",
+    b"temperature_K", b"cable", b"mode", b"plane", b"respond", b"excite", b"predicted_x_m", b"?", b"kN", b"#",
+    b"<!ENTITY", b"<!DOCTYPE a>", b"<![CDATA[", b"&#0;", b"&lt;", b"    -1\n", b"    58\n", b"    58b\n",
+    b"   151\n", b";",
 )  # fmt: skip
 """Words that are spliced in: edges of numbers, of texts and of the formats."""

@@ -1,11 +1,11 @@
-"""Files that fuzzing found (`python -m tests.fuzz`): each is refused in one printable line of limited length, at once."""
+"""Files that fuzzing found (`python -m tests.fuzz`): each is refused in one short printable line, at once."""
 
 import pickle
 import time
 
 import numpy as np
-import pyuff
 import pytest
+import pyuff
 
 from cdpr_struct.errors import ConvergenceError, InputError
 from cdpr_struct.measurement.campaign_file import load_campaign

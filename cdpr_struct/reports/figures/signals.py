@@ -8,7 +8,18 @@ from scipy.signal import find_peaks
 from cdpr_struct.diagnosis.damping_rows import DampingRows
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.signal_states import VISIBLE
-from cdpr_struct.reports.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILLION, plain_ticks, quiet
+from cdpr_struct.reports.figures.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILLION,
+    plain_ticks,
+    quiet,
+)
 
 SPECTRUM_SIZE, DAMPING_SIZE = (9.6, 3.4), (9.6, 3.6)
 _STANDS_OUT, _ABOVE = 3.0, 10.0  # factor between a peak and the dips beside it; times the noise
