@@ -1,7 +1,6 @@
 """Robot files (TOML): read, check with messages that name the field, write."""
 
 import math
-import tomllib
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,12 +12,13 @@ from cdpr_struct.errors import InputError, known_names
 from cdpr_struct.robot.body_table import BodyTable, body_of
 from cdpr_struct.robot.cable import LARGEST_EXPANSION, Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions, divided_mast
-from cdpr_struct.robot.file_complaints import input_error, not_toml
+from cdpr_struct.robot.file_complaints import input_error
 from cdpr_struct.robot.lump import LumpTable, lumps_fault
 from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import FREEDOMS, Robot, cable_drag_fault, internal_mass_fault
+from cdpr_struct.robot.toml_text import toml_table
 
 LARGEST, SMALLEST = 1e12, 1e-12  # of any number; beyond them squares and products leave what can be computed
 Number = Annotated[float, Field(strict=True, ge=-LARGEST, le=LARGEST)]
@@ -101,9 +101,7 @@ def robot_of_text(text: str, source: str) -> Robot:
     InputError : as `load_robot`.
     """
     try:
-        table = RobotTable.model_validate(tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
-        raise not_toml(source, text, error) from error
+        table = RobotTable.model_validate(toml_table(text, source))
     except ValidationError as error:
         raise input_error(source, error, RobotTable) from error
     return _build(table, source)
