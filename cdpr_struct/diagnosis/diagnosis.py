@@ -6,6 +6,7 @@ import numpy as np
 
 from cdpr_struct.diagnosis.damped import Damped
 from cdpr_struct.diagnosis.decision import Decision
+from cdpr_struct.diagnosis.internal_forces import InternalForces
 from cdpr_struct.diagnosis.left_out import LeftOut
 from cdpr_struct.diagnosis.recommended import Recommendation
 from cdpr_struct.diagnosis.sensor_sigmas import Doubt, NoiseOfKind, Used
@@ -21,6 +22,8 @@ from cdpr_struct.robot.robot import Robot
 
 DAMPING = "DA"
 """Rows of damping ratios."""
+NULL_SPACE = "NS"
+"""Internal forces, which are in no row: they do no work on the platform."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +59,7 @@ class ErrorOfKind:
 
 @dataclass(frozen=True, slots=True)
 class Location:
-    """Where the error sits: kind of rows ("EQ", "CO", "CF", "RF", or `DAMPING`), case, cable from 0 (-1: none)."""
+    """Where the error sits: kind of rows ("EQ", "CO", "CF", "RF", `DAMPING`, `NULL_SPACE`), case, cable from 0, -1: none."""
 
     rows: str
     case: str
@@ -144,6 +147,8 @@ class Diagnosis:
     confirmed : whether no chosen cause hangs on one state, or on the only one
     extended : the robot with the chosen causes, None where none is chosen
     damped : what signals say of the damping, None without signals
+    forces : internal force beside what the simulation commands, None without tensions of a redundant robot
+    fitted : the decision without what internal forces say beside encoders
     minimum_detectable : by cause, parameter's name to the size found in four of five campaigns
     """
 
@@ -174,6 +179,8 @@ class Diagnosis:
     confirmed: bool
     extended: Robot | None
     damped: Damped | None
+    forces: InternalForces | None
+    fitted: Decision
     recommendations: tuple[Recommendation, ...]
     sigmas: tuple[Used, ...]
     doubts: tuple[Doubt, ...]
@@ -184,6 +191,11 @@ class Diagnosis:
     def by_damping(self) -> bool:
         """Whether the decision is that of the damping alone."""
         return self.location is not None and self.location.rows == DAMPING
+
+    @property
+    def by_forces(self) -> bool:
+        """Whether the decision speaks of internal forces that encoders and load cells show together."""
+        return self.fitted is not self.decision and not self.by_damping
 
     @property
     def outside(self) -> tuple[str, float]:

@@ -132,6 +132,7 @@ def _facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
 def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
     shown = (
         tables.errors(result),
+        tables.internal_forces(result),
         tables.candidates(result["candidates"], 20, 3),
         tables.left_out(result["gain"]),
         tables.next_steps(result["next_measurements"]),

@@ -17,19 +17,33 @@ _FAR = 30.0  # times its stated sigma from which the scatter of a sensor means a
 
 def sentence(found: Diagnosis) -> str:
     """What was found, for a person."""
-    status = found.decision.status
+    status = found.fitted.status
     if found.by_damping:
-        parts = [_damping(found), "No other error is significant."]
+        parts = [_damping(found), _forces(found) or "No other error is significant."]
     elif status == "adequate":
-        parts = [agreement(found)]
+        parts = [_forces(found) or agreement(found)]
     elif status == UNKNOWN:
         parts = _unknown(found)
     else:
         parts = _named(found)
     parts += [_peaks(found), _line(found), _aside(found), _drift(found)]
     if not found.by_damping:
-        parts.append(_damping(found))
+        parts += [_forces(found) if status != "adequate" else "", _damping(found)]
     return " ".join(filter(None, parts))
+
+
+def _forces(found: Diagnosis) -> str:
+    """Internal forces that lengths and load cells show together."""
+    forces = found.forces
+    if forces is None or not forces.found or not found.by_forces:
+        return ""
+    share = 100.0 * forces.split.share
+    lead = "The forces balance; the" if found.fitted.status == "adequate" else "In addition, the"
+    return (
+        f"{lead} robot holds other internal forces than the simulation commands: {forces.size:.2g} N rms over the "
+        f"cables and states. Of the squared difference between measured and simulated tensions, {share.min():.0f} to "
+        f"{share.max():.0f} % is internal force."
+    )
 
 
 def _line(found: Diagnosis) -> str:
@@ -66,19 +80,19 @@ def agreement(found: Diagnosis) -> str:
 def _named(found: Diagnosis) -> list[str]:
     """Corrections and causes with their sizes, what is not told apart, what they explain."""
     parts = [] if found.correction is None else [corrected(found.campaign, found.correction)]
-    own = [names for names in found.decision.classes if not _of_correction(found, names)]
+    own = [names for names in found.fitted.classes if not _of_correction(found, names)]
     if any(len(names) > LARGEST_CLASS for names in own):
         lead = [f"{said[:1].upper()}{said[1:]}." for said in parts]
         left = " and, in addition, ".join(_many(names) for names in own)
         return [*lead, f"There is a significant error in {place(found.location)}. Possible causes: {left}."]
     for size in found.sizes:
         names = next((n for n in own if size.part.cause.name in n), ())
-        doubted = found.decision.doubted or not found.confirmed
+        doubted = found.fitted.doubted or not found.confirmed
         lead_of = "best candidate of its class: " if len(names) > 1 else "best candidate: " if doubted else ""
         parts.append(lead_of + described(size))
     text = "; ".join(parts)
     said = [f"{text[:1].upper()}{text[1:]}."]
-    said += [f"These data do not distinguish {listed(names)}." for names in found.decision.classes if len(names) > 1]
+    said += [f"These data do not distinguish {listed(names)}." for names in found.fitted.classes if len(names) > 1]
     return [*said, _other_corrections(found), _standing(found)]
 
 
@@ -153,7 +167,7 @@ def _unknown(found: Diagnosis) -> list[str]:
 def _peaks(found: Diagnosis) -> str:
     """Peaks that are no mode of the chosen model, where something is wrong."""
     none = [peak for peak in found.peaks.uncertain if peak.none > 0.5]
-    if found.decision.status == "adequate" or not none:
+    if found.fitted.status == "adequate" or not none:
         return ""
     some = ", ".join(f"{peak.hertz:g}" for peak in none[:_MOST]) + (", ..." if len(none) > _MOST else "")
     return f"{len(none)} of {found.peaks.count} robot frequencies match no mode of the model ({some} Hz)."

@@ -183,6 +183,24 @@ def set_aside(rows: Sequence[Row]) -> HtmlTable | None:
     return HtmlTable("Readings that contradict all others", columns, cells, note) if cells else None
 
 
+def internal_forces(result: Row, most: int | None = None) -> HtmlTable | None:
+    """Measured against simulated tensions, state by state; on a screen the `most` that differ most."""
+    own = result["internal_force"]
+    if own is None:
+        return None
+    ranked = sorted(own["states"], key=lambda row: -row["rms_N"])
+    cells = [
+        [row["case"], *(f"{row[key]:.3g}" for key in ("rms_N", "internal_rms_N", "balance_rms_N")),
+         f"{row['internal_percent']:.0f}"]
+        for row in ranked[:most]
+    ]  # fmt: skip
+    more = len(ranked) - len(cells)
+    note = "Internal force does no work on the platform; the rest has to balance. Share of the squared difference."
+    note = f"{more} more states differ by {ranked[-1]['rms_N']:.3g} N or more. {note}" if more > 0 else note
+    columns = ["case", "rms [N]", "internal force [N]", "rest [N]", "internal share [%]"]
+    return HtmlTable("Measured against simulated tensions", columns, cells, note)
+
+
 def next_steps(steps: Sequence[str]) -> HtmlTable | None:
     """What to measure next, one proposal a row."""
     rows = [[f"{i}. {step}"] for i, step in enumerate(steps, start=1)]

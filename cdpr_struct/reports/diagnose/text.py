@@ -13,6 +13,7 @@ def result_text(result: Mapping[str, Any]) -> str:
     said = result["verdict"]
     blocks = [said["sentence"], "\n".join(tables.standing(result)), _shown(tables.errors(result))]
     rest = (
+        tables.internal_forces(result, 5),
         tables.candidates(result["candidates"], 8, 2),
         tables.left_out(result["gain"]),
         tables.noise(result["noise"], all_of_them=False),
