@@ -25,6 +25,7 @@ from cdpr_struct.diagnosis.extended import extended_robot
 from cdpr_struct.diagnosis.generic_fit import generic_ratio
 from cdpr_struct.diagnosis.internal_forces import InternalForces, internal_forces
 from cdpr_struct.diagnosis.left_out import LeftOut, left_out, rows_of
+from cdpr_struct.diagnosis.peaks_apart import PeaksApart, peaks_apart
 from cdpr_struct.diagnosis.piled_up import piled_up
 from cdpr_struct.diagnosis.recommended import Recommendation, recommended
 from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind, doubts, noise_of_kinds, sigmas_used
@@ -114,6 +115,7 @@ class _Said:
     robot: Robot | None
     damped: Damped | None
     forces: InternalForces | None
+    apart: PeaksApart | None
 
     @classmethod
     def of(cls, campaign: Campaign, story: Explained, decision: Decision, loss: Loss) -> "_Said":
@@ -128,11 +130,16 @@ class _Said:
         by_signals = damped(campaign, robot, loss)
         said = decision if confirmed else doubtful
         forces = internal_forces(data, where, chosen, noise_of_kinds(chosen))
-        return cls(campaign, story, said, null, chosen, sizes, left, added, confirmed, robot, by_signals, forces)
+        apart = peaks_apart(story.search)
+        return cls(
+            campaign, story, said, null, chosen, sizes, left, added, confirmed, robot, by_signals, forces, apart
+        )  # fmt: skip
 
     @property
     def fitted(self) -> Decision:
-        """The decision on what was fitted; where nothing else is wrong, that on the damping."""
+        """The decision on what was fitted; where nothing is wrong there, on peaks far from modes, or the damping."""
+        if self.decision.status == "adequate" and self.apart is not None and self.apart.found:
+            return Decision("class", (self.apart.names,), 1.0 - self.apart.p)
         return self.damped.decision if self.damped is not None and self._by_damping else self.decision
 
     @property
@@ -152,6 +159,8 @@ class _Said:
         """Where the error sits."""
         if self.decision.status != "adequate":
             return located(self.story, self.null, self.chosen)
+        if self.apart is not None and self.fitted.classes == (self.apart.names,):
+            return Location("RF", self.apart.lists[0].case, -1)
         if self._by_damping:
             return Location(DAMPING, "", -1)
         if self.forces is None or self.whole is self.fitted:
@@ -184,10 +193,11 @@ def _assembled(
     decision = said.whole if said.whole != fitted else fitted
     if said.forces is not None and decision is not fitted:
         by_forces = float(np.exp(-(said.forces.gain or 0.0)))
-    advice = recommended(said.decision, said.confirmed, _likeliest(rows))
+    by_peaks = 1.0 if said.apart is None or not said.apart.found else said.apart.p
+    advice = recommended(fitted if by_peaks < 1.0 else said.decision, said.confirmed, _likeliest(rows))
     return Diagnosis(
         campaign=campaign, decision=decision, beliefs=tuple(sorted(beliefs, key=lambda one: -one.probability)),
-        p_value=min(stories.p_value(found), by_forces, 1.0 if pile is None else pile.p), piled_up=pile,
+        p_value=min(stories.p_value(found), by_forces, by_peaks, 1.0 if pile is None else pile.p), piled_up=pile,
         p_adequate=_p_adequate(noise), explained=story, correction=story.correction,
         chosen=chosen, null=null, sizes=said.sizes, drift=stories.drift_of(story, chosen), candidates=tuple(rows),
         tried=tuple(stories.tried(found, story)), set_aside=aside,
@@ -195,8 +205,8 @@ def _assembled(
         errors=tuple(errors_of_kinds(recorded)), location=said.location,
         recorded=_rows(recorded, stories.null_of(recorded).best), residuals=_rows(story, chosen), left_out=said.left,
         generic=None if said.left is None else generic_ratio(search, null, chosen), added=said.added,
-        confirmed=said.confirmed, extended=said.robot, damped=said.damped, forces=said.forces, fitted=fitted,
-        recommendations=(*advice, *_again(aside)),
+        confirmed=said.confirmed, extended=said.robot, damped=said.damped, forces=said.forces, apart=said.apart,
+        fitted=fitted, recommendations=(*advice, *_again(aside)),
         sigmas=tuple(sigmas_used(campaign)), doubts=tuple(doubts(campaign, noise)),
         not_testable=search.hidden | unseen | ({} if campaign.identified else NEEDS_SIGNALS), minimum_detectable=least,
     )  # fmt: skip

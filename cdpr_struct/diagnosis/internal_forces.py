@@ -185,9 +185,7 @@ def _none(data: Recorded) -> _Deviation:
     return _Deviation(np.zeros((0, q)), np.zeros((0, q, q)))
 
 
-def _moved(
-    place: np.ndarray, turn: np.ndarray, index: np.ndarray, step: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def _moved(place: np.ndarray, turn: np.ndarray, index: np.ndarray, step: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Poses with those of some states moved by (k, 6) [m, rad] in world axes."""
     place, turn = place.copy(), turn.copy()
     place[index] += step[:, :3]

@@ -18,9 +18,9 @@ from cdpr_struct.hypotheses.causes.library import testable
 from cdpr_struct.hypotheses.hypothesis import PRICE, Hypothesis, drift_term
 from cdpr_struct.hypotheses.judge import NEAR, SETTLED, Judged, again, begun, converged, extended, judged, settled
 from cdpr_struct.hypotheses.laws import UNKNOWN
-from cdpr_struct.hypotheses.scan import Beginning, beginnings
+from cdpr_struct.hypotheses.scan import Beginning, beginnings, carriers
 from cdpr_struct.hypotheses.seen import seen_in
-from cdpr_struct.hypotheses.significant import p_of_null
+from cdpr_struct.hypotheses.significant import SIGNIFICANT, p_of_null
 from cdpr_struct.inference.evidence import bound_at, fit
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.residuals.assembled import stacked
@@ -51,9 +51,10 @@ class Budget:
     pairs: int = 3
     sure: float = 8.0
     converged: int = 8
+    alone: int = 6
 
 
-BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 60.0, 5, 6, 14.0, 24)}
+BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 60.0, 5, 6, 14.0, 24, 16)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,6 +106,8 @@ class Search:
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
         large = beginnings(self.data, menu, base, self.budget.beginnings + 1)
         self._begin(large, base)
+        if self.p_value < SIGNIFICANT:
+            self._begin_alone(carriers(self.data, menu, base), base)
         self._transfer()
         singles = self._singles()
         if singles[0].score > base.score:
@@ -188,6 +191,12 @@ class Search:
             if one.part.cause.name not in present:
                 more = Hypothesis((*base.hypothesis.parts, one.part), base.hypothesis.drift)
                 self.keep(begun(self.data, self.where, base, more, one.z))
+
+    def _begin_alone(self, alone: Sequence[Beginning], base: Judged) -> None:
+        """Fits of changes of one cable, mast or axis: those that may come near the best, the likeliest first."""
+        for one in alone[: self.budget.alone]:
+            if one.gain > alone[0].gain - self.budget.near:
+                self._begin([one], base)
 
     def _ranked(self, causes: int | None = None) -> list[Judged]:
         own = [one for one in self.found.values() if causes is None or len(one.hypothesis.parts) == causes]

@@ -74,6 +74,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "warnings": _warnings(found),
         "not_used": _not_used(found),
         "signals": [signals.signal_json(item) for item in found.campaign.identified],
+        "peaks_apart": _apart(found),
         "internal_force": _forces(found),
         "damping": None if found.damped is None else signals.damping_json(found.damped),
     }  # fmt: skip
@@ -101,6 +102,21 @@ def _forces(found: Diagnosis) -> dict[str, Any] | None:
             {"case": names[k], "rms_N": float(rms), "internal_rms_N": float(own),
              "balance_rms_N": float(np.sqrt(max(rms**2 - own**2, 0.0))), "internal_percent": 100.0 * float(share)}
             for k, rms, own, share in rows
+        ],
+    }  # fmt: skip
+
+
+def _apart(found: Diagnosis) -> dict[str, Any] | None:
+    """The common factor between peaks and the modes that a sensor on the platform can see."""
+    apart = found.apart
+    if apart is None:
+        return None
+    return {
+        "found": apart.found, "factor": apart.factor, "stiffness_per_mass": apart.stiffness_per_mass,
+        "p_value": apart.p, "causes": list(apart.names),
+        "states": [
+            {"case": one.case, "measured_Hz": one.measured.tolist(), "predicted_Hz": one.predicted.tolist()}
+            for one in apart.lists
         ],
     }  # fmt: skip
 
@@ -164,7 +180,7 @@ def _left_open(found: Diagnosis, one: Candidate) -> bool:
     """Whether the verdict speaks of just these causes."""
     own = None if found.correction is None else found.correction.cause
     classes = tuple(names for names in found.fitted.classes if own not in names)
-    return bool(classes) and len(one.names) == len(classes) and fits(classes, one.names)
+    return bool(classes) and not found.by_peaks and len(one.names) == len(classes) and fits(classes, one.names)
 
 
 def _of_correction(found: Diagnosis, one: Tried) -> dict[str, Any]:

@@ -3,12 +3,15 @@
 import numpy as np
 
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
+from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.signals import damping_sentence
 from cdpr_struct.reports.diagnose.words import described, listed, place, plain, reading
 
 LARGEST_CLASS = 4  # causes beyond which a sentence leads with none of them
+_NULL_SPACE = internal_force.CAUSE.name
+_LISTS = 2  # of peaks that one sentence shows
 _MOST = 4  # readings that one sentence lists
 _NEAR = 3.0  # nats, a factor of twenty in probability
 _BETTER = 1.05  # times smaller error from which a prediction is better
@@ -20,13 +23,15 @@ def sentence(found: Diagnosis) -> str:
     status = found.fitted.status
     if found.by_damping:
         parts = [_damping(found), _forces(found) or "No other error is significant."]
+    elif found.by_peaks:
+        parts = [_apart(found)]
     elif status == "adequate":
         parts = [_forces(found) or agreement(found)]
     elif status == UNKNOWN:
         parts = _unknown(found)
     else:
         parts = _named(found)
-    parts += [_peaks(found), _line(found), _aside(found), _drift(found)]
+    parts += ["" if found.by_peaks else _peaks(found), _line(found), _aside(found), _drift(found)]
     if not found.by_damping:
         parts += [_forces(found) if status != "adequate" else "", _damping(found)]
     return " ".join(filter(None, parts))
@@ -35,7 +40,7 @@ def sentence(found: Diagnosis) -> str:
 def _forces(found: Diagnosis) -> str:
     """Internal forces that lengths and load cells show together."""
     forces = found.forces
-    if forces is None or not forces.found or not found.by_forces:
+    if forces is None or not forces.found or _NULL_SPACE in sum(found.fitted.classes, ()):
         return ""
     share = 100.0 * forces.split.share
     lead = "The forces balance; the" if found.fitted.status == "adequate" else "In addition, the"
@@ -43,6 +48,27 @@ def _forces(found: Diagnosis) -> str:
         f"{lead} robot holds other internal forces than the simulation commands: {forces.size:.2g} N rms over the "
         f"cables and states. Of the squared difference between measured and simulated tensions, {share.min():.0f} to "
         f"{share.max():.0f} % is internal force."
+    )
+
+
+def _apart(found: Diagnosis) -> str:
+    """Peaks far from all modes: measured, predicted, the factor, and what would do it."""
+    apart = found.apart
+    if apart is None:
+        return ""
+    lists = [
+        f"{' '.join(f'{f:.3g}' for f in one.measured)} Hz are measured in case {one.case}, where the modes that move "
+        f"the platform are predicted at {' '.join(f'{f:.3g}' for f in one.predicted)} Hz"
+        for one in apart.lists[:_LISTS]
+    ]
+    shares = {"axial_stiffness": apart.stiffness_per_mass, "platform_mass": 1.0 / apart.stiffness_per_mass}
+    could = [plain(n) + (f" (about {shares[n]:.2g} times as entered)" if n in shares else "") for n in apart.names]
+    side = "above" if apart.factor > 1.0 else "below"
+    return (
+        f"The measured robot frequencies lie far {side} those of the simulation, by a factor of about "
+        f"{apart.factor:.2f} (p = {apart.p:.2g}): {'; '.join(lists)}. That is {apart.stiffness_per_mass:.2g} times the "
+        f"stiffness per mass. Possible causes: {', '.join(could)}. Which peak is which mode is not certain, so none of "
+        "them is fitted."
     )
 
 
