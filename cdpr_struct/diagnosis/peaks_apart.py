@@ -3,7 +3,7 @@
 Where peaks are far from every mode the likelihood counts them as belonging to none, and no cause gains from them. Here
 all modes are moved by one factor, and what that brings is held against what it brings by chance: in lists drawn from
 the robot as entered, with its tolerances, missing modes, and peaks of other origin. A mode counts by its share of the
-platform's energy; those of the cables alone, which no such sensor shows, do not count.
+platform's energy; those of the cables alone, which such a sensor hardly shows, stay where they are.
 """
 
 from collections.abc import Sequence
@@ -118,7 +118,7 @@ def _seen(data: Recorded, where: Layout) -> list[_List]:
         return []
     robot, measured, found = local.vibrating.robot, lists.association.peaks, []
     for k, state in enumerate(local.vibrating.measured.states.tolist()):
-        own, picked = robot.mask[k] & (robot.share[k] > SHARE_INVISIBLE), measured.present[k]
+        own, picked = robot.mask[k], measured.present[k]
         if own.any() and picked.any():
             peaks = np.stack([measured.ln_frequency[k][picked], measured.sd[k][picked]], axis=1)
             modes, share = local.vibrating.log_hertz[k][own], robot.share[k][own]
@@ -141,7 +141,7 @@ def _likelihood(one: _List, peaks: np.ndarray, shifts: np.ndarray, shape: float)
     """(a,) log likelihood of peaks (J, 2), each mode leaving peaks independently, with modes shifted by (a,)."""
     low, high = _band(one, peaks)
     variance = (one.columns**2).sum(axis=-1) + peaks[:, 1:] ** 2 + shape**2
-    modes = one.modes + shifts[:, None]
+    modes = one.modes + shifts[:, None] * (one.share > SHARE_INVISIBLE)
     seen = one.detection * (modes < high)
     off = peaks[:, :1] - modes[:, None]
     density = np.exp(-0.5 * off**2 / variance) / np.sqrt(2.0 * np.pi * variance)
