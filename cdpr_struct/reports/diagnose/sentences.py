@@ -1,13 +1,17 @@
 """The verdict in plain sentences."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from cdpr_struct.diagnosis.decision import fits
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
 from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.signals import damping_sentence
 from cdpr_struct.reports.diagnose.words import described, listed, place, plain, reading
+from cdpr_struct.reports.text import with_sigma
 
 LARGEST_CLASS = 4  # causes beyond which a sentence leads with none of them
 _NULL_SPACE = internal_force.CAUSE.name
@@ -119,7 +123,26 @@ def _named(found: Diagnosis) -> list[str]:
     text = "; ".join(parts)
     said = [f"{text[:1].upper()}{text[1:]}."]
     said += [f"These data do not distinguish {listed(names)}." for names in found.fitted.classes if len(names) > 1]
+    said += _without_change(found, own)
     return [*said, _other_corrections(found), _standing(found)]
+
+
+def _without_change(found: Diagnosis, classes: Sequence[tuple[str, ...]]) -> list[str]:
+    """Causes that the verdict speaks of although their fitted size is none."""
+    none: dict[str, str] = {}
+    for one in found.candidates:
+        if len(one.names) == len(classes) and fits(classes, one.names):
+            for size in one.sizes:
+                if not size.is_change:
+                    (name, first), *_ = size.parameters.items()
+                    value = with_sigma(float(first["value"]), float(first["sigma"]))
+                    none.setdefault(
+                        size.part.cause.name, f"{plain(size.part.cause.name)} ({name} {value} {first['unit']})"
+                    )
+    if not none:
+        return []
+    told = ", ".join(none.values())
+    return [f"Fitted without a change, and possible only since these data hardly show it: {told}."]
 
 
 def _other_corrections(found: Diagnosis) -> str:
