@@ -129,20 +129,14 @@ def _named(found: Diagnosis) -> list[str]:
 
 def _without_change(found: Diagnosis, classes: Sequence[tuple[str, ...]]) -> list[str]:
     """Causes that the verdict speaks of although their fitted size is none."""
+    fitted = [one for one in found.candidates if len(one.names) == len(classes) and fits(tuple(classes), one.names)]
     none: dict[str, str] = {}
-    for one in found.candidates:
-        if len(one.names) == len(classes) and fits(classes, one.names):
-            for size in one.sizes:
-                if not size.is_change:
-                    (name, first), *_ = size.parameters.items()
-                    value = with_sigma(float(first["value"]), float(first["sigma"]))
-                    none.setdefault(
-                        size.part.cause.name, f"{plain(size.part.cause.name)} ({name} {value} {first['unit']})"
-                    )
-    if not none:
-        return []
+    for size in (size for one in fitted for size in one.sizes if not size.is_change):
+        cause, (name, first) = size.part.cause.name, next(iter(size.parameters.items()))
+        value = with_sigma(float(first["value"]), float(first["sigma"]))
+        none.setdefault(cause, f"{plain(cause)} ({name} {value} {first['unit']})")
     told = ", ".join(none.values())
-    return [f"Fitted without a change, and possible only since these data hardly show it: {told}."]
+    return [f"Fitted without a change, and possible only since these data hardly show it: {told}."] if none else []
 
 
 def _other_corrections(found: Diagnosis) -> str:
