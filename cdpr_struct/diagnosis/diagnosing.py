@@ -9,7 +9,7 @@ from cdpr_struct.diagnosis import stories
 from cdpr_struct.diagnosis.added_modes import least_evidence
 from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
 from cdpr_struct.diagnosis.decision import Decision, decided
-from cdpr_struct.diagnosis.detectable_sizes import minimum_detectable
+from cdpr_struct.diagnosis.detectable_sizes import detectable_by_pattern, minimum_detectable
 from cdpr_struct.diagnosis.diagnosis import (
     DAMPING,
     NULL_SPACE,
@@ -209,6 +209,7 @@ def _assembled(
         fitted=fitted, recommendations=(*advice, *_again(aside)),
         sigmas=tuple(sigmas_used(campaign)), doubts=tuple(doubts(campaign, noise)),
         not_testable=search.hidden | unseen | ({} if campaign.identified else NEEDS_SIGNALS), minimum_detectable=least,
+        detectable_by_pattern=detectable_by_pattern(search, null),
     )  # fmt: skip
 
 

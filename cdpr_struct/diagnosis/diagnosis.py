@@ -152,6 +152,7 @@ class Diagnosis:
     apart : peaks of the robot beside the modes that a sensor on the platform can see, None without peaks
     fitted : the decision without what internal forces say beside encoders
     minimum_detectable : by cause, parameter's name to the size found in four of five campaigns
+    detectable_by_pattern : the same of every pattern
     """
 
     campaign: Campaign
@@ -189,6 +190,7 @@ class Diagnosis:
     doubts: tuple[Doubt, ...]
     not_testable: dict[str, str]
     minimum_detectable: dict[str, dict[str, float | str]]
+    detectable_by_pattern: dict[str, list[dict[str, float | str]]]
 
     @property
     def by_damping(self) -> bool:

@@ -15,6 +15,7 @@ from cdpr_struct.planning.recommendations import Recommendation
 from cdpr_struct.reports.diagnose import signals
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.sentences import finite, sentence
+from cdpr_struct.reports.diagnose.state_errors import state_errors
 from cdpr_struct.reports.diagnose.words import doubt, place, recommendation
 from cdpr_struct.reports.plan.measurements import recommendation_text
 
@@ -39,6 +40,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "robot": found.campaign.robot_name,
         "model": found.campaign.model,
         "simulation_error": [_error(found, i) for i in range(len(found.errors))],
+        "errors_by_state": state_errors(found),
         "significant": found.decision.status != "adequate",
         "p_value": found.p_value,
         "p_value_of": "evidence",
@@ -65,6 +67,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "not_testable": sorted(hidden),
         "why_not_testable": hidden,
         "minimum_detectable": found.minimum_detectable,
+        "detectable_by_pattern": found.detectable_by_pattern,
         "tolerances": {
             name: {"value": getattr(found.campaign.tolerances, name), "stated": name in found.campaign.stated}
             for name in found.campaign.tolerances.__slots__
