@@ -73,7 +73,7 @@ def test_the_screen_says_what_was_assumed_and_what_could_be_seen(level):
     assert "Tolerances not given, defaults used: length_m 0.0005 m" in text
     assert "each its own" in text
     sizes = {row["pattern"]: row["value"] for row in level[0]["detectable_by_pattern"]["load_cell_bias"]}
-    assert sizes["all alike"] == level[0]["minimum_detectable"]["load_cell_bias"]["value"]
+    assert sizes["all alike"] == pytest.approx(level[0]["minimum_detectable"]["load_cell_bias"]["value"])
 
 
 def test_a_cause_without_a_change_is_said_to_be_none():
