@@ -95,4 +95,4 @@ def test_one_state_alone_is_no_finding():
 def test_no_tensions_or_no_redundancy_say_nothing():
     campaign = held()
     assert force_split(recorded(with_states(campaign, tension=np.full_like(campaign.states.tension, np.nan)))) is None
-    assert found_in(with_states(few, length=np.full_like(campaign.states.length, np.nan))).gain is None
+    assert found_in(with_states(campaign, length=np.full_like(campaign.states.length, np.nan))).gain is None
