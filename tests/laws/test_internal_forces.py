@@ -3,7 +3,6 @@
 Readings of the entered robot itself, its lengths and tensions moved as controllers would (crime=True).
 """
 
-
 import numpy as np
 import pytest
 
