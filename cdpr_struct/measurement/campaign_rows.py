@@ -28,11 +28,12 @@ _NEEDED: dict[str, tuple[str, ...]] = {
 _ALSO: dict[str, tuple[str, ...]] = {
     "static_state": ("tension_N", "length_m"),
     "cable_frequency": ("tension_N", "plane"),
+    "robot_frequency": ("body", "mode"),
 }
 _WIDE_NEEDED = ("x_m", "y_m", "z_m")  # where a row is a pose
 _WIDE_ALSO = {"static_state": (), "cable_frequency": ("mode", "plane")}
 _ALWAYS = ("case", *POSE, "payload_kg", "sigma", "temperature_K", "approach", "time_s")
-_WORDS = ("case", "respond", "excite", "plane")
+_WORDS = ("case", "respond", "excite", "plane", "body")
 _POSITIVE = ("tension", "length", "frequency", "sigma", "temperature", "mode", "cable")  # first words of columns
 COMMENTS = ("comment", "note", "remark")  # columns for people, not read
 PREDICTED = "predicted_"  # begins the names of others
@@ -190,6 +191,8 @@ def _blank_allowed(kind: str, cables: int) -> set[str]:
     """Columns in which a cell may be empty: any reading of a pose or a cable, but of signals the pose is needed."""
     if kind not in _READINGS_MAY_LACK:
         return set(_BLANK_ALLOWED)
+    if kind == "robot_frequency":
+        return {*_BLANK_ALLOWED, *POSE, "mode"}
     return {*_BLANK_ALLOWED, *POSE, *(name for q in QUANTITIES.get(kind, ()) for name in q.columns(cables))}
 
 
@@ -257,13 +260,14 @@ def _check_values(rows: Rows, cables: int) -> None:
     _check_approach(rows)
     for name, last in (("cable", cables), ("mode", 50)):
         for i, value in enumerate(rows.numbers.get(name, ())):
-            if value != int(value) or not 1 <= value <= last:
+            blank = np.isnan(value) and rows.kind == "robot_frequency"  # a label, which a peak may lack
+            if not blank and (value != np.floor(value) or not 1 <= value <= last):
                 raise InputError(rows.file, f"row {i + 1}, column {name}", value, f"a whole number from 1 to {last}")
     for i, plane in enumerate(rows.words.get("plane", ())):
         if plane not in ("in", "out", ""):
             raise InputError(rows.file, f"row {i + 1}, column plane", plane, "in or out")
     for name, words in rows.words.items():
-        if name != "plane" and "" in words:
+        if name not in ("plane", "body") and "" in words:
             raise InputError(rows.file, f"row {words.index('') + 1}, column {name}", "nothing", "a name")
 
 

@@ -9,12 +9,14 @@ import numpy as np
 from cdpr_struct.diagnosis.decision import fits
 from cdpr_struct.diagnosis.diagnosis import Candidate, Diagnosis, Tried
 from cdpr_struct.diagnosis.left_out import LeftOut
+from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.judge import NEAR
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.planning.recommendations import Recommendation
 from cdpr_struct.reports.diagnose import signals
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.sentences import finite, sentence
+from cdpr_struct.reports.diagnose.state_errors import state_errors
 from cdpr_struct.reports.diagnose.words import doubt, place, recommendation
 from cdpr_struct.reports.plan.measurements import recommendation_text
 from cdpr_struct.reports.trust import Check, Trust
@@ -40,6 +42,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "robot": found.campaign.robot_name,
         "model": found.campaign.model,
         "simulation_error": [_error(found, i) for i in range(len(found.errors))],
+        "errors_by_state": state_errors(found),
         "significant": found.decision.status != "adequate",
         "p_value": found.p_value,
         "p_value_of": "evidence",
@@ -66,6 +69,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "not_testable": sorted(hidden),
         "why_not_testable": hidden,
         "minimum_detectable": found.minimum_detectable,
+        "detectable_by_pattern": found.detectable_by_pattern,
         "tolerances": {
             name: {"value": getattr(found.campaign.tolerances, name), "stated": name in found.campaign.stated}
             for name in found.campaign.tolerances.__slots__
@@ -76,6 +80,8 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "warnings": _warnings(found),
         "not_used": _not_used(found),
         "signals": [signals.signal_json(item) for item in found.campaign.identified],
+        "peaks_apart": _apart(found),
+        "internal_force": _forces(found),
         "damping": None if found.damped is None else signals.damping_json(found.damped),
     }  # fmt: skip
 
@@ -86,6 +92,38 @@ def _verdict(found: Diagnosis, steps: Sequence[str]) -> dict[str, Any]:
         "status": decision.status, "causes": likeliest(found), "class": [list(names) for names in decision.classes],
         "probability": float(decision.probability), "location": place(found.location),
         "next_measurement": "; ".join(steps), "sentence": sentence(found),
+    }  # fmt: skip
+
+
+def _forces(found: Diagnosis) -> dict[str, Any] | None:
+    """Measured against simulated tensions, split into internal force and what has to balance."""
+    forces = found.forces
+    if forces is None:
+        return None
+    split, names = forces.split, found.campaign.states.names
+    rows = zip(split.state.tolist(), split.rms, split.internal_rms, split.share, strict=True)
+    return {
+        "found": forces.found, "log_evidence_gain": forces.gain, "rms_N": forces.size,
+        "states": [
+            {"case": names[k], "rms_N": float(rms), "internal_rms_N": float(own),
+             "balance_rms_N": float(np.sqrt(max(rms**2 - own**2, 0.0))), "internal_percent": 100.0 * float(share)}
+            for k, rms, own, share in rows
+        ],
+    }  # fmt: skip
+
+
+def _apart(found: Diagnosis) -> dict[str, Any] | None:
+    """The common factor between peaks and the modes that a sensor on the platform can see."""
+    apart = found.apart
+    if apart is None:
+        return None
+    return {
+        "found": apart.found, "factor": apart.factor, "stiffness_per_mass": apart.stiffness_per_mass,
+        "p_value": apart.p, "causes": list(apart.names),
+        "states": [
+            {"case": one.case, "measured_Hz": one.measured.tolist(), "predicted_Hz": one.predicted.tolist()}
+            for one in apart.lists
+        ],
     }  # fmt: skip
 
 
@@ -106,7 +144,8 @@ def _is_among(step: str, simulated: Sequence[str]) -> bool:
 def likeliest(found: Diagnosis) -> list[str]:
     """Of each class the cause that was chosen, in the order of the classes."""
     if found.by_damping:
-        return list(found.damped.finding.causes) if found.damped is not None else []
+        more = [internal_force.CAUSE.name] if found.decision is not found.fitted else []
+        return [*(found.damped.finding.causes if found.damped is not None else ()), *more]
     own = [] if found.correction is None else [found.correction.cause]
     names = [*own, *found.chosen.hypothesis.names]
     order = []
@@ -146,8 +185,8 @@ def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
 def _left_open(found: Diagnosis, one: Candidate) -> bool:
     """Whether the verdict speaks of just these causes."""
     own = None if found.correction is None else found.correction.cause
-    classes = tuple(names for names in found.decision.classes if own not in names)
-    return bool(classes) and len(one.names) == len(classes) and fits(classes, one.names)
+    classes = tuple(names for names in found.fitted.classes if own not in names)
+    return bool(classes) and not found.by_peaks and len(one.names) == len(classes) and fits(classes, one.names)
 
 
 def _of_correction(found: Diagnosis, one: Tried) -> dict[str, Any]:
