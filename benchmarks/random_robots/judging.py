@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 import cdpr_struct as cs
-from benchmarks.random_robots.drawing import Case
+from benchmarks.random_robots.case import Case
 from benchmarks.random_robots.own_mechanics import OwnRest
 from benchmarks.random_robots.refusals import holdable
 

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 import cdpr_struct as cs
-from benchmarks.random_robots.drawing import Case, drawn
+from benchmarks.random_robots.case import Case
+from benchmarks.random_robots.drawing import drawn
 from benchmarks.random_robots.judging import (
     mode_faults,
     not_numbers,

@@ -10,7 +10,8 @@ import cdpr_struct as cs
 from benchmarks.random_robots import running
 from benchmarks.random_robots.drawing import KINDS, drawn
 from benchmarks.random_robots.judging import mode_faults, not_numbers, refusal_faults, rest_faults, static_faults
-from benchmarks.random_robots.own_mechanics import compliance, end_offset, own_rest
+from benchmarks.random_robots.own_cables import compliance, end_offset
+from benchmarks.random_robots.own_mechanics import own_rest
 from benchmarks.random_robots.refusals import holdable
 from benchmarks.random_robots.summary import summary
 from benchmarks.random_robots.trying import tried
