@@ -39,13 +39,15 @@ class Wheels:
         return cls(radius, np.array([[0.0, 0.0, 1.0] if p is None else p.axis for p in robot.pulleys]))
 
     def left(self, pull: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Where cables that pull (..., m, 3) at the frame end leave, beyond the anchor (..., m, 3), and R p (..., m)."""
+        """Where cables that pull (..., m, 3) at the frame end leave, from the anchor on (..., m, 3), and R p (..., m)."""
         along = pull / np.sqrt((pull**2).sum(axis=-1))[..., None]
         cos = (along * self.axis).sum(axis=-1)
         across = along - cos[..., None] * self.axis
         sin = np.sqrt((across**2).sum(axis=-1) + 1e-300)
         point = (1.0 - cos)[..., None] * across / sin[..., None] + sin[..., None] * self.axis
-        return self.radius[:, None] * point, self.radius * 2.0 * np.arctan(sin / (1.0 + cos))
+        back = cos.real < 0.0
+        angle = 2.0 * np.arctan(sin / np.where(back, 1.0 - cos, 1.0 + cos))
+        return self.radius[:, None] * point, self.radius * np.where(back, np.pi - angle, angle)
 
 
 def end_offset(

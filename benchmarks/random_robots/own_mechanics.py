@@ -1,7 +1,6 @@
-"""Balance and stability of a platform on its cables, written down a second time; nothing here is taken from the program.
+"""Balance and stability of a platform, written down a second time; nothing here is taken from the program.
 
-Moments and turns are about the middle of the cables' platform ends, so
-that cables that meet in a point have no arms.
+Moments and turns are about the middle of the cables' platform ends, so that cables that meet in a point have no arms.
 """
 
 from dataclasses import dataclass
