@@ -39,7 +39,7 @@ class Wheels:
         return cls(radius, np.array([[0.0, 0.0, 1.0] if p is None else p.axis for p in robot.pulleys]))
 
     def left(self, pull: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Where cables that pull (..., m, 3) at the frame end leave, from the anchor on (..., m, 3), and R p (..., m)."""
+        """Where cables leave that pull (..., m, 3) at the frame end, from the anchor on (..., m, 3); R p (..., m)."""
         along = pull / np.sqrt((pull**2).sum(axis=-1))[..., None]
         cos = (along * self.axis).sum(axis=-1)
         across = along - cos[..., None] * self.axis
