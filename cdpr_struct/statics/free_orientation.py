@@ -222,11 +222,10 @@ def _begun_again(
 
 
 def _tilted_starts(problem: HangingProblem, ends: _Hung, angles: np.ndarray) -> None:
-    """A single pose, which has no neighbours to begin from, begun again from beside its angles (1, 3), until found."""
+    """A single pose, which has no neighbours, begun again from beside its angles (1, 3), where tensions carry it."""
     for shift in _TILT * np.concatenate([np.eye(3), -np.eye(3)])[np.tile(problem.free, 2)]:
-        if ends.found[0]:
-            return
-        _begun_again(problem, ends, np.zeros(1, dtype=int), angles + shift)
+        if not ends.found[0] and problem.at(angles + shift).carried[0]:
+            _begun_again(problem, ends, np.zeros(1, dtype=int), angles + shift)
 
 
 def _checked(problem: HangingProblem, ends: _Hung) -> FreeOrientation:
