@@ -12,7 +12,10 @@ from benchmarks.mutation.mutants import ROOMS, Mutant, drawn
 from benchmarks.mutation.summary import results, survivors, table
 from benchmarks.mutation.trying import Budget, Trying, tried_keys
 
-PYTEST = ("-q", "-s", "-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:faulthandler")
+PYTEST = (
+    *("-q", "-s", "-W", "ignore::pytest.PytestAssertRewriteWarning"),
+    *("-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:faulthandler"),
+)
 
 
 def parser() -> argparse.ArgumentParser:
