@@ -31,6 +31,17 @@ class CoverageMap:
         }
         path.write_text(json.dumps({"tests": names, "seconds": self.seconds, "lines": lines}))
 
+    def beside(self, other: "CoverageMap") -> "CoverageMap":
+        """Both maps in one; where both have a test, the lines of either."""
+        lines = {
+            file: {
+                line: sorted({*self.tests(file, line), *other.tests(file, line)})
+                for line in self.lines.get(file, {}).keys() | other.lines.get(file, {}).keys()
+            }
+            for file in self.lines.keys() | other.lines.keys()
+        }
+        return CoverageMap(lines, self.seconds | other.seconds)
+
     @staticmethod
     def read(path: Path) -> "CoverageMap":
         told = json.loads(path.read_text())
@@ -64,7 +75,8 @@ class Mapping:
 
     def pytest_sessionfinish(self) -> None:
         self.coverage.stop()
-        mapped(self.coverage.get_data(), self.seconds).write(self.out)
+        found = mapped(self.coverage.get_data(), self.seconds)
+        (CoverageMap.read(self.out).beside(found) if self.out.exists() else found).write(self.out)
 
 
 def mapped(data: object, seconds: dict[str, float]) -> CoverageMap:
