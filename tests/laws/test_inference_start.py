@@ -14,8 +14,15 @@ from cdpr_struct.inference.scale_mixture import KAPPA, NoiseGroups, NoiseState, 
 from tests.laws.inference_cases import NO_ROWS, campaign, changed, dense_log_density
 
 
-def test_likelihood_of_a_scale_is_the_ratio_of_dense_densities():
-    model = campaign(3)
+def interleaved():
+    """Three groups of two readings each in every block, their readings in turns."""
+    stack = campaign(3).stacks[0]
+    index = np.tile(np.arange(3), 2) + 3 * np.arange(3)[:, None]
+    return LinearModel((replace(stack, index=index),), NoiseGroups(np.arange(9) % 2, np.full(9, np.nan)))
+
+
+@pytest.mark.parametrize("model", [campaign(3), interleaved()], ids=["one joint group a block", "three"])
+def test_likelihood_of_a_scale_is_the_ratio_of_dense_densities(model):
     groups, rng = model.groups, np.random.default_rng(3)
     readings = model.readings
     state = NoiseState.of(groups, rng.dirichlet(np.ones(len(KAPPA)), len(groups.kind)), np.array([1.3, 0.8]))
