@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 Change = tuple[str, Callable[[], ast.AST]]
 """Name of an operator, and what makes the changed node; the node itself stays as it is."""
 
+TOLERANCE = 1e-5  # smaller numbers are tolerances and guards against a division by zero, not part of a formula
 COMPARISONS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
     ast.Lt: (ast.LtE, ast.GtE),
     ast.LtE: (ast.Lt, ast.Gt),
@@ -83,7 +84,7 @@ def _constant(node: ast.Constant) -> Iterator[Change]:
         yield "constant", lambda: like(node, value=not value)
     elif isinstance(value, int):
         yield "constant", lambda: like(node, value=value + 1)
-    elif isinstance(value, float):
+    elif isinstance(value, float) and not 0.0 < value < TOLERANCE:
         yield "constant", lambda: like(node, value=2.0 * value if value else 1.0)
 
 
