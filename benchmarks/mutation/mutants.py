@@ -10,6 +10,7 @@ import hashlib
 import random
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from benchmarks.mutation.operators import Change, changes
@@ -112,6 +113,7 @@ def changed_tree(mutant: Mutant) -> ast.Module:
     raise ValueError(f"{mutant.file} has no change number {mutant.number}")
 
 
+@cache
 def of_room(room: str) -> dict[str, list[Mutant]]:
     """Mutants by file."""
     paths = sorted((ROOT / ROOMS[room]).glob("*.py"))

@@ -7,6 +7,7 @@ import ast
 import gc
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from types import CodeType, FunctionType
 
@@ -24,16 +25,22 @@ def code_of(code: CodeType, file: str) -> Iterator[tuple[Place, CodeType]]:
             yield from code_of(part, file)
 
 
+@cache
+def file_of(name: str) -> str | None:
+    """Name beneath the root, links followed; None for files that are not of this project."""
+    path = Path(name)
+    real = path.resolve()
+    return real.relative_to(ROOT).as_posix() if path.is_absolute() and real.is_relative_to(ROOT) else None
+
+
 def loaded_functions() -> dict[Place, list[FunctionType]]:
     """Functions of this project that exist now, by place."""
     found: dict[Place, list[FunctionType]] = {}
     for one in gc.get_objects():
         if isinstance(one, FunctionType):
-            path = Path(one.__code__.co_filename)
-            if path.is_absolute() and (real := path.resolve()).is_relative_to(ROOT):
-                code = one.__code__
-                place = (real.relative_to(ROOT).as_posix(), code.co_qualname, code.co_firstlineno)
-                found.setdefault(place, []).append(one)
+            code = one.__code__
+            if (file := file_of(code.co_filename)) is not None:
+                found.setdefault((file, code.co_qualname, code.co_firstlineno), []).append(one)
     return found
 
 
