@@ -24,7 +24,7 @@ from benchmarks.mutation.coverage_map import CoverageMap
 from benchmarks.mutation.mutants import ROOMS, ROOT, Mutant
 from benchmarks.mutation.patching import forget_results, loaded_functions, put_in
 
-LONGER, AT_LEAST = 10.0, 5.0  # a test that takes ten times as long and five seconds more runs without end
+LONGER, AT_LEAST = 5.0, 3.0  # a test that takes five times as long and three seconds more runs without end
 HYPOTHESIS = {"derandomize": True, "database": None, "deadline": None, "phases": (Phase.explicit, Phase.generate)}
 MEMORY = 4 * 2**30  # bytes
 
