@@ -8,12 +8,13 @@ Numbers below 1e-5 within functions are tolerances, too.
 import ast
 import hashlib
 import random
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from benchmarks.mutation.operators import Change, changes
+from benchmarks.mutation.operators import IDLE, Change, changes
 
 ROOT = Path(__file__).parents[2]
 ROOMS = {
@@ -33,6 +34,7 @@ class Mutant:
     file : beneath the root; line : where the changed node begins; number : among the changes of the file
     function : qualified name of the outermost function, or method, that has it
     before, after : the expression or statement
+    before_it : equal changes of the function that come before it
     """
 
     room: str
@@ -43,11 +45,13 @@ class Mutant:
     operator: str
     before: str
     after: str
+    before_it: int = 0
 
     @property
     def key(self) -> str:
         """Short name that outlasts changes in other functions."""
-        told = (self.file, self.function, self.operator, self.before, self.after)
+        told = [self.file, self.function, self.operator, self.before, self.after]
+        told += [str(self.before_it)] if self.before_it else []
         return hashlib.sha1("\n".join(told).encode(), usedforsecurity=False).hexdigest()[:10]
 
 
@@ -57,11 +61,9 @@ def nodes(tree: ast.AST) -> Iterator[tuple[ast.AST, str, int | None, ast.AST]]:
         if (field in HIDDEN and isinstance(tree, ast.stmt | ast.arg)) or isinstance(value, str):
             continue
         for place, node in enumerate(value) if isinstance(value, list) else [(None, value)]:
-            if (
-                isinstance(node, ast.JoinedStr)
-                or not isinstance(node, ast.AST)
-                or getattr(node, "arg", None) == "strict"
-            ):
+            if not isinstance(node, ast.AST) or isinstance(node, ast.JoinedStr):
+                continue
+            if isinstance(node, ast.keyword) and node.arg in IDLE:
                 continue
             yield tree, field, place, node
             if not isinstance(node, ast.Raise):
@@ -86,12 +88,13 @@ def all_changes(tree: ast.Module) -> Iterator[tuple[str, tuple[ast.AST, str, int
 
 def mutants_of(room: str, path: Path) -> list[Mutant]:
     file = path.relative_to(ROOT).as_posix()
-    return [
-        Mutant(room, file, node.lineno, number, function, operator, _told(node), _told(make()))  # type: ignore[attr-defined]
-        for number, (function, (*_, node), (operator, make)) in enumerate(
-            all_changes(ast.parse(path.read_text("utf-8")))
-        )
-    ]
+    seen: Counter[tuple[str, ...]] = Counter()
+    found = []
+    for number, (function, (*_, node), (operator, make)) in enumerate(all_changes(ast.parse(path.read_text("utf-8")))):
+        change = (function, operator, _told(node), _told(make()))
+        found.append(Mutant(room, file, node.lineno, number, *change, seen[change]))  # type: ignore[attr-defined]
+        seen[change] += 1
+    return found
 
 
 def _told(node: ast.AST) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 Change = tuple[str, Callable[[], ast.AST]]
 """Name of an operator, and what makes the changed node; the node itself stays as it is."""
 
+IDLE = {"strict", "optimize", "overwrite_a", "overwrite_b", "check_finite"}  # keywords that change speed or checks only
 TOLERANCE = 1e-5  # smaller numbers are tolerances and guards against a division by zero, not part of a formula
 COMPARISONS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
     ast.Lt: (ast.LtE, ast.GtE),
@@ -96,7 +97,7 @@ def _condition(node: ast.If | ast.IfExp | ast.While) -> Iterator[Change]:
 
 def _call(node: ast.Call) -> Iterator[Change]:
     for place, keyword in enumerate(node.keywords):
-        if keyword.arg == "strict":  # of zip: a check of the program's own lists
+        if keyword.arg in IDLE:
             continue
         rest = [*node.keywords[:place], *node.keywords[place + 1 :]]
         yield "argument left out", lambda rest=rest: like(node, keywords=rest)
