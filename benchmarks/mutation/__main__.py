@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from benchmarks.mutation.coverage_map import CoverageMap, Mapping
-from benchmarks.mutation.mutants import ROOMS, Mutant, drawn
-from benchmarks.mutation.summary import results, survivors, table
+from benchmarks.mutation.mutants import ROOMS, Mutant, drawn, of_room
+from benchmarks.mutation.summary import SURVIVED, results, survivors, table
 from benchmarks.mutation.trying import Budget, Trying, tried_keys
 
 PYTEST = (
@@ -42,17 +42,14 @@ def parser() -> argparse.ArgumentParser:
 
 def sample(given: argparse.Namespace) -> list[Mutant]:
     """The mutants to try that have no result yet, rooms in turn."""
-    rooms = [drawn(room, given.each, given.seed) for room in given.rooms]
-    turns = [room[place] for place in range(given.each) for room in rooms if place < len(room)]
-    if given.again is not None:
-        left = {(one["file"], one["line"], one["operator"], one["before"], one["after"]) for one in survivors_of(given)}
-        turns = [one for one in turns if (one.file, one.line, one.operator, one.before, one.after) in left]
+    if given.again is None:
+        rooms = [drawn(room, given.each, given.seed) for room in given.rooms]
+        turns = [room[place] for place in range(given.each) for room in rooms if place < len(room)]
+    else:
+        left = {one["key"] for one in results(given.again) if one["status"] in SURVIVED}
+        turns = [one for room in given.rooms for file in of_room(room).values() for one in file if one.key in left]
     done = set(tried_keys(given.out))
     return [mutant for mutant in turns if (mutant.file, mutant.number) not in done]
-
-
-def survivors_of(given: argparse.Namespace) -> list[dict]:
-    return [one for one in results(given.again) if one["status"] in {"survived", "budget", "uncovered"}]
 
 
 def run(given: argparse.Namespace) -> int:

@@ -70,6 +70,15 @@ def test_what_just_fits_together_is_taken():
     assert (nothing.value.shape, nothing.precision.any(), nothing.constant) == ((3, 2), np.False_, 0.0)
 
 
+def test_padding_has_no_variance_and_noise_of_no_group_has_one():
+    index = MODEL.stacks[0].index.copy()
+    index[0, :2] = PADDING, UNIT
+    A = MODEL.stacks[0].A.copy()
+    A[0, :, 0] = 0.0
+    (found,) = changed(MODEL, index=index, A=A).readings.spread(np.arange(15.0) + 3.0)
+    assert found[0, :3].tolist() == [0.0, 1.0, index[0, 2] + 3.0]
+
+
 def test_hypotheses_in_rows_have_probabilities_in_rows():
     """Along the last axis; names come with the most probable first."""
     log_evidence, weight = np.log([[1.0, 3.0], [4.0, 1.0]]), np.log([2.0, 6.0])

@@ -149,8 +149,14 @@ def test_more_noise_of_no_effect_changes_nothing_and_explains_what_is_there():
 
 
 def test_sums_of_a_block_are_those_of_its_dense_covariance():
-    """Every block has noise of its own: c' S^-1 c, c' S^-1 r, and the spread of each row by noise and by z."""
+    """Every block has noise of its own: c' S^-1 c, c' S^-1 r, and the spread of each row by noise and by z.
+
+    One row has no reading and one parameter only.
+    """
     model, known = unequal(7), 2
+    A, X = model.stacks[0].A.copy(), model.stacks[0].X.copy()
+    A[1, 2], X[1, 2, 1:] = 0.0, 0.0
+    model = replace(model, stacks=(replace(model.stacks[0], A=A, X=X), *model.stacks[1:]))
     state = NoiseState.of(
         model.groups,
         np.random.default_rng(7).dirichlet(np.ones(len(KAPPA)), len(model.groups.kind)),
