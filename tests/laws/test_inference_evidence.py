@@ -30,6 +30,8 @@ def test_gaussian_evidence_is_that_of_the_dense_normal_density(given, floor):
     )
     assert found.iterations == 2
     assert found.converged
+    assert found.soft is None
+    assert found.soft_mean.shape == found.soft_variance.shape == (0, 0)
 
 
 def test_a_model_without_parameters_has_evidence():
