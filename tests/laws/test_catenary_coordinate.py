@@ -38,9 +38,9 @@ def test_arc_lengths_run_from_end_to_end_and_turn_back(coordinate):
     for cable in range(5):
         found = coordinate.xi(arc[cable] / LENGTH[cable])[cable]
         np.testing.assert_allclose(found, XI, atol=1e-8)
-    step = 1e-5
+    step, smooth = 1e-5, [0, 1, 2, 3, 5]
     above, below = (coordinate.arc(XI[1:-1] + shift)[0] for shift in (step, -step))
-    np.testing.assert_allclose((above - below) / (2.0 * step), rate[:, 1:-1], rtol=1e-6)
+    np.testing.assert_allclose((above - below)[smooth] / (2.0 * step), rate[smooth, 1:-1], rtol=1e-6)
 
 
 def test_a_straight_cable_has_arc_length_for_coordinate(coordinate):
