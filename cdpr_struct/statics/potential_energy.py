@@ -27,7 +27,8 @@ def potential_energy(
     lengths and tensions mean something.
 
     Weight, cables, constant forces, a hose, elements in line and masts are counted. Cable on a pulley counts by its
-    stretch and its weight, as if it lay where the free cable begins. Cables whose EA depends on their tension are taken with EA as in `states`.
+    stretch and its weight, as if it lay where the free cable begins. Cables whose EA depends on their tension are taken
+    with EA as in `states`.
 
     Parameters
     ----------
