@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from cdpr_struct.fem_reference import CableData, PlatformData, RobotData
+from cdpr_struct.fem_reference.bar_element import internal_forces
 from cdpr_struct.fem_reference.cable_statics import solve_cable
 from cdpr_struct.fem_reference.cable_wind import pressure
 from cdpr_struct.fem_reference.masts import beam_flexibility
@@ -108,6 +109,10 @@ def test_held_ends_carry_the_cable_and_every_mass_on_it():
     state = solve_cable(cable, [0.0, 0.0, 4.0], [3.0, 3.0, 4.5], 8)
     mass = 0.06 * 5.2 + sum(own for _, own in lumps)
     assert state.start_force + state.end_force == pytest.approx([0.0, 0.0, 9.81 * mass], abs=1e-9)
+    missing = internal_forces(state.nodes, 0.65, 1e5)[1:-1] + 9.81 * np.outer(
+        cable.node_lumps(8)[1:-1] + 0.039, [0, 0, 1]
+    )
+    assert state.residual_norm == pytest.approx(np.linalg.norm(missing, axis=1).max(), abs=1e-12)
     nodes = cable.node_lumps(8)
     assert nodes.sum() == pytest.approx(2.3)
     arcs = np.linspace(5.2, 0.0, 9)  # from the end
