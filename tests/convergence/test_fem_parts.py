@@ -118,6 +118,11 @@ def test_held_ends_carry_the_cable_and_every_mass_on_it():
     arcs = np.linspace(5.2, 0.0, 9)  # from the end
     assert nodes @ arcs == pytest.approx(1.23 * 0.7 + 5.2 * 1.1)  # as on a lever
     assert np.flatnonzero(nodes).tolist() == [0, 6, 7, 8]
+    matrices, at_nodes = state.element_mass(), 0.039 * np.array([0.5, *[1.0] * 7, 0.5]) + nodes
+    assembled = np.zeros((9, 3, 3))
+    assembled[:-1] += matrices[:, :3, :3]
+    assembled[1:] += matrices[:, 3:, 3:]
+    np.testing.assert_allclose(assembled, at_nodes[:, None, None] * np.eye(3), atol=1e-14)
 
 
 def test_wind_presses_across_the_cables_by_the_square_of_its_speed_across():

@@ -161,6 +161,14 @@ def test_large_motion_is_of_order_two_in_the_step():
     assert order == pytest.approx(2.0, abs=0.15)
 
 
+def test_a_body_that_is_held_off_its_rest_stays_there():
+    """The holding wrench acts on in the motion; without it the body springs back."""
+    state = solve_robot(robot_of(), PLACE + np.array([0.0, 0.0, -0.002]), np.eye(3), 3, hold_pose=True)
+    assert np.abs(state.residual_wrench).max() > 10.0
+    history = integrate(state, 0.02, 1e-3, linear=False)
+    assert np.abs(history.platform).max() < 1e-9
+
+
 def test_a_pendulum_swings_as_slowly_as_the_elliptic_integral_says():
     """Light stiff cable, body hung at its centre of mass, up to 35 degrees, so always taut."""
     length, top = 2.0, np.radians(35.0)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from cdpr_struct.dynamics.piecewise_basis import PiecewiseBasis, PiecewiseCoordinate
+from cdpr_struct.dynamics.polynomial_basis import gauss_rule
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import cable_model
 from tests.laws.test_lumps import LUMPS, loaded
@@ -44,6 +45,10 @@ def test_arc_and_coordinate_turn_each_other_back(cables):
     slope = (found.arc(inner + step)[0] - found.arc(inner - step)[0]) / (2.0 * step)
     np.testing.assert_allclose(slope, found.arc(inner)[1], rtol=1e-6)
     assert (rate > 0.0).all()
+
+
+def test_a_rule_that_is_kept_cannot_be_changed():
+    assert not any(part.flags.writeable for part in gauss_rule(7))
 
 
 @pytest.mark.parametrize("elements", [1, 2, 3])
