@@ -99,9 +99,7 @@ def test_shared_anchor_counts_from_its_zone_on():
 def test_anchors_are_shared_by_the_cables_of_one_pose_only():
     """Level cables a metre apart; then the first and the third from one anchor, as above, the second 3 m higher."""
     angle = np.radians(30.0)
-    start = np.array(
-        [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 2.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0, 3.0], [0.0, 1.0, 0.0]]
-    )
+    start = np.array([[0, 5, 0], [0, 6, 0], [0, 7, 0], [0, 1, 0], [0, 1, 3], [0, 1, 0]], dtype=float)
     heading = np.tile([1.0, 0.0, 0.0], (6, 1))
     heading[5] = np.cos(angle), np.sin(angle), 0.0
     one = np.ones(6)
