@@ -12,9 +12,7 @@ from cdpr_struct.statics.free_orientation import left_free
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.sufficient_load import sufficient_load
 from cdpr_struct.statics.tension_cost import Centre, EuclideanNorm, Middle, PowerNorm
-from cdpr_struct.statics.tension_distribution import holding_problem
 from cdpr_struct.statics.trajectory import Trajectory, straight_line, through_samples
-from cdpr_struct.statics.unholdable_poses import unholdable
 
 CABLE = {"x": 3.0, "z": -1.0, "length": 3.3, "axial_stiffness": 1e5, "weight": 0.7}
 ROBOT = load_robot("thesis-3-1")
@@ -126,16 +124,3 @@ def test_totals_of_costs_by_hand():
     assert Middle().total(tension, low, high) == pytest.approx(np.hypot(1.0, 0.5))
     assert Centre().total(tension, low, high) == pytest.approx((2.0 * 3.0 * 4.0 * 2.0) ** -0.25)
     assert [cost.name for cost in (EuclideanNorm(), EuclideanNorm(np.ones(1)))] == ["norm", "weighted-norm"]
-
-
-def test_of_several_poses_the_one_that_is_worst_off_is_told():
-    """A moment counts by the force that makes it at the platform's radius."""
-    places = np.array([[40.0, 0.0, 0.5], [0.0, 50.0, 0.5]])
-    problem = holding_problem(ROBOT, places, np.eye(3), np.zeros((2, 6)))
-    radius, tension = problem.unit[1, 3], np.ones((2, 8))
-    assert radius < 0.8
-    residual = np.zeros((2, 6))
-    residual[0, 0], residual[1, 3] = 1.0, 1.5 * radius
-    alone = unholdable(problem.take(np.array([1])), np.zeros(1, bool), residual[1:], tension[1:], np.ones(1, bool))
-    both = unholdable(problem, np.zeros(2, bool), residual, tension, np.ones(2, bool))
-    assert str(both) == str(alone).replace("this pose", "2 of 2 poses")
