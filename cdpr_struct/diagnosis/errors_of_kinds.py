@@ -4,17 +4,16 @@ import numpy as np
 
 from cdpr_struct.association.detection import SHARE_INVISIBLE
 from cdpr_struct.diagnosis.diagnosis import ErrorOfKind, Location
+from cdpr_struct.diagnosis.internal_forces import simulated_tensions
 from cdpr_struct.diagnosis.left_out import KINDS, rows_of
 from cdpr_struct.hypotheses.explain import Explained
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.scale_mixture import NoiseState
-from cdpr_struct.observation.readings import cell_reading
 from cdpr_struct.observation.rest import at_states
 from cdpr_struct.observation.vibrating import of_states
 from cdpr_struct.residuals.linearised import Local, Point
 from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.statics.forward_kinematics import forward
-from cdpr_struct.statics.inverse_kinematics import inverse
 
 _OF_ROWS = {"static_state": ("EQ", "CO"), "cable_frequency": ("CF",), "robot_frequency": ("RF",)}
 
@@ -69,14 +68,8 @@ def _errors(data: Recorded, null: Judged) -> dict[str, np.ndarray]:
 
 def _tensions(data: Recorded) -> np.ndarray:
     """(S, m) measured tensions less those of the simulation's distribution at the measured pose [N]."""
-    campaign, states = data.campaign, data.campaign.states
-    there = at_states(data.arrays, data.known)
-    held = inverse(
-        there, data.readings.position, data.readings.rotation, data.known.model,
-        lower_bound=campaign.lower_bound, allow_unheld=True,
-    )  # fmt: skip
-    said = cell_reading(data.arrays, held.tensions, data.known.approach, data.known.wrap)
-    return np.where(states.static[:, None], states.tension - said, np.nan)
+    states = data.campaign.states
+    return np.where(states.static[:, None], states.tension - simulated_tensions(data), np.nan)
 
 
 def _poses(data: Recorded) -> np.ndarray:

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 SIGNALS = ("frf", "free_decay", "platform_motion")
 """Kinds of data whose frequencies are identified in records."""
+NOT_SAID, PLATFORM = -1, -2
+"""Labels of a peak of the robot: of nothing that is known, and of the platform."""
 KINDS = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency", *SIGNALS)
 UNKNOWN_ZERO = 1.0
 """m, one sigma of a length's zero of which nothing is known."""
@@ -136,8 +138,10 @@ class CableFrequencies:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotFrequencies:
-    """Natural frequencies of the robot, unlabelled: state, [Hz], sigma [Hz].
+    """Natural frequencies of the robot: state, [Hz], sigma [Hz].
 
+    body : (r,) which body moves most: `PLATFORM`, the number of a cable from 0, or `NOT_SAID`; or (0,)
+    mode : (r,) number of the mode among those of the platform from 1, or `NOT_SAID`; or (0,)
     shape : (r, 6) complex, motion of the platform that signals show in each mode, any scale [m, rad], nan where not
             seen; or (0, 6)
     origin : (r, 2) number of the record in `identified` and of its mode, -1 for peaks of a list; or (0, 2)
@@ -148,6 +152,8 @@ class RobotFrequencies:
     sigma: np.ndarray
     shape: np.ndarray = field(default_factory=lambda: np.zeros((0, 6), dtype=complex))
     origin: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), dtype=int))
+    body: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))
+    mode: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))
 
     def unlike(self, rows: np.ndarray, model: np.ndarray, radius: float) -> np.ndarray:
         """(r, k) 1 - modal assurance of rows against the model's platform shapes (k, 6); nan without a measured shape.

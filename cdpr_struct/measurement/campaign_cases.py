@@ -7,8 +7,17 @@ import numpy as np
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.assumed_angles import angle_note
-from cdpr_struct.measurement.campaign import SIGNALS, CableFrequencies, RobotFrequencies, Series, Sigmas, States
+from cdpr_struct.measurement.campaign import (
+    NOT_SAID,
+    SIGNALS,
+    CableFrequencies,
+    RobotFrequencies,
+    Series,
+    Sigmas,
+    States,
+)
 from cdpr_struct.measurement.campaign_rows import POSE, POSITION, Rows, length_columns
+from cdpr_struct.measurement.peak_labels import peak_label
 
 _SAME = 1e-9  # m, deg: two notes of the same number
 _ONE_STATE = "one case is one state: copy the digits, leave the cells empty, or give this case another name"
@@ -44,7 +53,7 @@ class Gathering:
     m: int
     known: dict[str, _State] = field(default_factory=dict)
     cable_rows: list[tuple[int, int, int, bool, float, float]] = field(default_factory=list)
-    robot_rows: list[tuple[int, float, float]] = field(default_factory=list)
+    robot_rows: list[tuple[int, float, float, int, int]] = field(default_factory=list)
     series: list[tuple[Series, Sigmas]] = field(default_factory=list)
     shapes: dict[int, np.ndarray] = field(default_factory=dict)
     origins: dict[int, tuple[int, int]] = field(default_factory=dict)
@@ -119,7 +128,7 @@ class Gathering:
         for hertz, sigma, shape, origin in frequencies:
             self.origins[len(self.robot_rows)] = origin
             self.shapes[len(self.robot_rows)] = shape
-            self.robot_rows.append((place, hertz, sigma))
+            self.robot_rows.append((place, hertz, sigma, NOT_SAID, NOT_SAID))
 
     def _static(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         own = rows.get("sigma")
@@ -170,7 +179,7 @@ class Gathering:
         for i, state in enumerate(states):
             hertz = rows.numbers["frequency_hz"][i]
             sigma = own[i] if np.isfinite(own[i]) else float(sigmas.frequency(np.array(hertz)))
-            self.robot_rows.append((order[state.name], hertz, sigma))
+            self.robot_rows.append((order[state.name], hertz, sigma, *peak_label(rows, i, self.m)))
 
     def tension_files(self) -> dict[str, str]:
         """The file that gave the tensions of each case."""
@@ -207,14 +216,15 @@ class Gathering:
 
     def robot_frequencies(self) -> RobotFrequencies:
         """All frequencies of the robot."""
-        table = np.array(self.robot_rows, dtype=float).reshape((-1, 3))
+        table = np.array(self.robot_rows, dtype=float).reshape((-1, 5))
         shape = np.full((len(table), 6), np.nan, dtype=complex)
         for row, seen in self.shapes.items():
             shape[row] = seen
         origin = np.full((len(table), 2), -1)
         for row, made in self.origins.items():
             origin[row] = made
-        return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2], shape, origin)
+        body, mode = table[:, 3:].astype(int).T
+        return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2], shape, origin, body, mode)
 
 
 def _other_length(rows: Rows, i: int, state: _State, length: np.ndarray) -> InputError:

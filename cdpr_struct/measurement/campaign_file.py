@@ -1,6 +1,5 @@
 """Campaign files: a TOML table naming the simulation under test, the tolerances and the measured data files."""
 
-import tomllib
 from dataclasses import fields, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -13,6 +12,7 @@ from cdpr_struct.measurement.assumed_angles import angle_note
 from cdpr_struct.measurement.campaign import UNKNOWN_ZERO, Campaign, Sheet, Sigmas, States, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
+from cdpr_struct.measurement.campaign_sources import is_there
 from cdpr_struct.measurement.campaign_template import KINDS
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.measurement.missing_readings import check_placed, missing_notes
@@ -20,7 +20,7 @@ from cdpr_struct.measurement.misspelt_cases import misspelt_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
 from cdpr_struct.measurement.unit_scale import check_scale
-from cdpr_struct.robot.file_complaints import input_error, not_toml
+from cdpr_struct.robot.file_complaints import input_error
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import (
     Matrix,
@@ -30,6 +30,7 @@ from cdpr_struct.robot.robot_file import (
     builtin_names,
     load_robot,
 )
+from cdpr_struct.robot.toml_text import toml_table
 
 Kind = Literal[
     "static_state", "loaded_pose", "cable_frequency", "robot_frequency", "frf", "free_decay", "platform_motion"
@@ -180,12 +181,10 @@ def _table(source: Path) -> CampaignTable:
     except (OSError, ValueError) as error:
         raise InputError("CAMPAIGN", "", str(source), "a campaign file (TOML) that can be read") from error
     try:
-        table = tomllib.loads(text)
+        table = toml_table(text, str(source))
         if isinstance(table.get("measurement"), dict):
             raise InputError(str(source), "[measurement]", "single brackets", "[[measurement]], one for each file")
         return CampaignTable.model_validate(table)
-    except tomllib.TOMLDecodeError as error:
-        raise not_toml(str(source), text, error) from error
     except ValidationError as error:
         raise _kind_error(source, error) or input_error(str(source), error, CampaignTable) from error
 
@@ -193,17 +192,18 @@ def _table(source: Path) -> CampaignTable:
 def _kind_error(source: Path, error: ValidationError) -> InputError | None:
     """What to say of a kind that `new-campaign` calls by another name; None if it is not that."""
     first = error.errors()[0]
-    meant = KINDS.get(str(first["input"])) if first["loc"][-1] == "kind" else None
-    if meant is None:
+    place = first["loc"]
+    meant = KINDS.get(str(first["input"])) if place[0] == "measurement" and place[-1] == "kind" else None
+    if meant is None or len(place) != 3:
         return None
     said = f"{first['input']} is a word of new-campaign: its readings are in files of the kind {meant}"
-    return InputError(str(source), f"measurement[{int(first['loc'][1]) + 1}].kind", first["input"], said)
+    return InputError(str(source), f"measurement[{int(place[1]) + 1}].kind", first["input"], said)
 
 
 def _robot(name: str, source: Path) -> Robot:
     if name in builtin_names():
         return load_robot(name)
-    if not (source.parent / name).is_file():
+    if not is_there(source.parent / name):
         known = ", ".join(builtin_names())
         raise InputError(str(source), "robot", name, f"a robot file, its path as seen from here, or one of: {known}")
     return load_robot(source.parent / name)
@@ -244,7 +244,7 @@ def _loss(table: LossTable, source: Path) -> Loss:
 
 def _rows(entry: MeasurementTable, source: Path, number: int, cables: int, planned: bool, relative: bool) -> Rows:
     path = source.parent / entry.file
-    if not path.is_file():
+    if not is_there(path):
         expected = "no such data file; give its path as seen from the campaign file"
         raise InputError(str(source), f"measurement[{number}].file", entry.file, expected)
     return read_rows(entry.kind, path, cables, planned, relative)

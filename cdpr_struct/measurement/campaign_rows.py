@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from cdpr_struct.errors import InputError, known_names
+from cdpr_struct.errors import NOTHING, InputError, known_names
 from cdpr_struct.measurement.assumed_angles import ANGLES
 from cdpr_struct.measurement.cable_columns import EITHER, LENGTH, QUANTITIES
 from cdpr_struct.measurement.column_names import renaming
@@ -29,11 +29,12 @@ _NEEDED: dict[str, tuple[str, ...]] = {
 _ALSO: dict[str, tuple[str, ...]] = {
     "static_state": ("tension_N", "length_m"),
     "cable_frequency": ("tension_N", "plane"),
+    "robot_frequency": ("body", "mode"),
 }
 _WIDE_NEEDED = POSITION  # where a row is a pose
 _WIDE_ALSO = {"static_state": (), "cable_frequency": ("mode", "plane")}
 _ALWAYS = ("case", *POSE, "payload_kg", "sigma", "temperature_K", "approach", "time_s")
-_WORDS = ("case", "respond", "excite", "plane")
+_WORDS = ("case", "respond", "excite", "plane", "body")
 _POSITIVE = ("tension", "length", "frequency", "sigma", "temperature", "mode", "cable")  # first words of columns
 COMMENTS = ("comment", "note", "remark")  # columns for people, not read
 PREDICTED = "predicted_"  # begins the names of others
@@ -159,7 +160,7 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
         raise InputError(source, "case", "no such column", expected)
     for name in _needed(kind, columns, cables):
         if name not in columns:
-            raise InputError(source, name, "no such column", _needs(kind, columns, cables))
+            raise InputError(source, f"column {name}", NOTHING, _needs(kind, columns, cables))
     for number, name in enumerate(columns, start=1):
         if not name:
             expected = "a name for each column; pandas writes a nameless one unless to_csv has index=False"
@@ -167,7 +168,7 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
         if name not in known:
             raise InputError(source, name, "a column", _unknown(kind, name, known, cables))
     if kind == "static_state" and not is_wide(kind, columns) and not {"tension_N", "length_m"} & set(columns):
-        raise InputError(source, "tension_N", "no such column", "give tension_N or length_m or both")
+        raise InputError(source, "column tension_N", NOTHING, "give tension_N or length_m or both")
 
 
 def _needed(kind: str, columns: Sequence[str], cables: int) -> tuple[str, ...]:
@@ -197,6 +198,8 @@ def _blank_allowed(kind: str, cables: int) -> set[str]:
     """Columns in which a cell may be empty: any reading of a pose or a cable, but of signals the pose is needed."""
     if kind not in _READINGS_MAY_LACK:
         return set(_BLANK_ALLOWED)
+    if kind == "robot_frequency":
+        return {*_BLANK_ALLOWED, *POSE, "mode"}
     return {*_BLANK_ALLOWED, *POSE, *(name for q in QUANTITIES.get(kind, ()) for name in q.columns(cables))}
 
 
@@ -267,13 +270,14 @@ def _check_values(rows: Rows, cables: int) -> None:
     _check_approach(rows)
     for name, last in (("cable", cables), ("mode", 50)):
         for i, value in enumerate(rows.numbers.get(name, ())):
-            if value != int(value) or not 1 <= value <= last:
+            blank = np.isnan(value) and rows.kind == "robot_frequency"  # a label, which a peak may lack
+            if not blank and (value != np.floor(value) or not 1 <= value <= last):
                 raise InputError(rows.file, f"row {i + 1}, column {name}", value, f"a whole number from 1 to {last}")
     for i, plane in enumerate(rows.words.get("plane", ())):
         if plane not in ("in", "out", ""):
             raise InputError(rows.file, f"row {i + 1}, column plane", plane, "in or out")
     for name, words in rows.words.items():
-        if name != "plane" and "" in words:
+        if name not in ("plane", "body") and "" in words:
             raise InputError(rows.file, f"row {words.index('') + 1}, column {name}", "nothing", "a name")
 
 
