@@ -19,10 +19,13 @@ from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.energy_descent import EnergyDescent, arm_scale, longest_step
 from cdpr_struct.statics.equilibrium import PlatformArms, tangent_stiffness
 from cdpr_struct.statics.locked_balance import LockedBalance
+from cdpr_struct.statics.lost_cables import lost
 from cdpr_struct.statics.neutral_freedoms import stability, turned_least
 from cdpr_struct.statics.tension_winches import pulls_as_held
 
 MAX_ITERATIONS = 500  # stiff cables, far from rest: of 10 000 random robots, eleven take more than 200, none 360
+_MOST_STIFFENINGS = 50
+_UNLIKE_STIFFNESS = 1e-8  # relative change of EA from which on that at the tension has not been found
 _PUSHES = 3  # off saddles, of a pose
 _SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
 
@@ -145,14 +148,16 @@ def _stiffening(
 ) -> tuple[LockedBalance, EnergyDescent]:
     """Descents with the stiffness that the cables have at their tension, until it stays."""
     entered = balance.arrays
-    for _ in range(MAX_ITERATIONS):
+    for _ in range(_MOST_STIFFENINGS):
         tension = balance.states(descent.position, descent.rotation).tension_at_platform
         stiffness, before = entered.stiffness_at(tension), balance.arrays.axial_stiffness
-        if np.abs(stiffness / before - 1.0).max() <= _SAME_STIFFNESS:
+        change = np.abs(stiffness / before - 1.0)
+        if change.max() <= _SAME_STIFFNESS:
             break
         balance = replace(balance, arrays=replace(entered, axial_stiffness=stiffness))
         descent = EnergyDescent(balance, descent.position, descent.rotation, *sizes)
         descent.run(MAX_ITERATIONS)
+    descent.converged &= ~(change > _UNLIKE_STIFFNESS).any(axis=-1)
     return balance, descent
 
 
@@ -187,7 +192,8 @@ def _solution(
     position, rotation = turned_least(held, descent.position, descent.rotation, begun)
     status = np.where(held.neutral > 0, ForwardStatus.NEUTRAL, ForwardStatus.CONVERGED)
     status[held.unstable] = ForwardStatus.NOT_STABLE
-    status[~descent.converged | ~pulls_as_held(balance.arrays, states)] = ForwardStatus.NOT_CONVERGED
+    open_ = ~descent.converged | ~pulls_as_held(balance.arrays, states) | lost(states).any(axis=1)
+    status[open_] = ForwardStatus.NOT_CONVERGED
     return ForwardSolution(
         position=position.reshape((*shape, 3)),
         rotation=rotation.reshape((*shape, 3, 3)),

@@ -112,6 +112,7 @@ CHANGES = {
     "as entered": {},
     "slack": {"length_scale": np.asarray(1.1)},
     "masts": {"frame_compliance": np.full(8, 5e-5)},
+    "pulleys": {"pulley_radius": np.full(8, 0.1)},
     "in line": {"series_compliance": np.full(8, 5e-5)},
     "loads": {
         "hose": np.asarray(100.0), "hose_center": np.ones(3), "force": np.array([1.0, 2.0, 3.0]),
