@@ -208,7 +208,7 @@ def test_a_lump_is_written_and_read_again():
         ("cable = 9\nfrom_platform = 1.0\nmass = 1.0", "lumps: .*there is no cable 9: cables are numbered from 1 to 8"),
         ("cable = 1\nfrom_platform = 1.0\nmass = -1.0", r"lumps\[1\]\.mass: got -1\.0"),
         ("cable = 1\nfrom_platform = 0.0\nmass = 1.0", r"lumps\[1\]\.from_platform: got 0\.0"),
-        ("cable = 1\nmass = 1.0", r"lumps\[1\]\.from_platform: .*required"),
+        ("cable = 1\nmass = 1.0", r"lumps\[1\]\.from_platform is missing; .*required"),
     ],
 )
 def test_an_unusable_lump_is_refused_by_its_field(table, said):
