@@ -157,7 +157,7 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
     check_wide(kind, source, columns, cables)
     if kind in _READINGS_MAY_LACK and not {"case", *POSITION} & set(columns):
         expected = f"a {kind} file needs {', '.join(POSITION)}, or the name of each state if no position was measured"
-        raise InputError(source, "case", "no such column", expected)
+        raise InputError(source, "column case", NOTHING, expected)
     for name in _needed(kind, columns, cables):
         if name not in columns:
             raise InputError(source, f"column {name}", NOTHING, _needs(kind, columns, cables))

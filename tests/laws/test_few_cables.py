@@ -173,9 +173,9 @@ def test_files_without_a_position_name_their_states(tmp_path):
     assert found.names == ("a", "b")
     assert np.isnan(found.position).all()
     np.testing.assert_allclose(np.degrees(found.angles), [[1.5, np.nan, np.nan], [np.nan] * 3])
-    with pytest.raises(InputError, match=r"case: got 'no such column'; .*x_m, y_m, z_m, or the name of each state"):
+    with pytest.raises(InputError, match=r"column case is missing; .*x_m, y_m, z_m, or the name of each state"):
         loaded(tmp_path, "tension_1_N,tension_2_N\n150,160\n")
-    with pytest.raises(InputError, match="y_m: got 'no such column'"):
+    with pytest.raises(InputError, match="column y_m is missing"):
         loaded(tmp_path, "case,x_m,z_m,tension_1_N,tension_2_N\na,1,2,150,160\n")
 
 
