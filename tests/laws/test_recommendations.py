@@ -50,6 +50,7 @@ def diagnosis(campaign, classes):
     status = "named" if all(len(names) == 1 for names in classes) else "class"
     return SimpleNamespace(
         decision=Decision(status, classes, 0.9),
+        fitted=Decision(status, classes, 0.9),
         explained=SimpleNamespace(search=search, answers=tuple(answers)),
         chosen=next(a.best for a in answers if a.names == (classes[0][0],)),
     )
