@@ -24,6 +24,8 @@ def errors_of_kinds(story: Explained) -> list[ErrorOfKind]:
     table = rows_of(data, story.search.where, null, NoiseState.stated(null.model.groups))
     found = []
     for kind, values in _errors(data, null).items():
+        if not np.isfinite(values).any():
+            continue
         finite = np.where(np.isfinite(values), np.abs(values), -1.0)
         state, cable = np.unravel_index(int(finite.argmax()), values.shape)
         rows = np.isin(table.kind.astype(str), _OF_ROWS.get(kind, ("EQ", "CO"))) & _of_states(data, kind)[table.state]
@@ -55,7 +57,7 @@ def _errors(data: Recorded, null: Judged) -> dict[str, np.ndarray]:
     states, found = data.campaign.states, {}
     if (states.static[:, None] & np.isfinite(states.tension)).any():
         found["static_state"] = _tensions(data)
-    if (states.loaded & states.has_length).any():
+    if (states.loaded & states.has_length & np.isfinite(states.position).all(axis=1)).any():
         found["loaded_pose"] = _poses(data)
     if data.vibrations is not None and len(data.vibrations.log_hertz):
         found["cable_frequency"] = _cable_frequencies(data, null)
@@ -72,7 +74,9 @@ def _tensions(data: Recorded) -> np.ndarray:
 
 def _poses(data: Recorded) -> np.ndarray:
     """(S, 1) distance between the measured position and that computed at the encoders' lengths [mm]."""
-    index = np.flatnonzero(data.campaign.states.loaded & np.isfinite(data.campaign.states.length).all(axis=1))
+    states = data.campaign.states
+    known = np.isfinite(states.length).all(axis=1) & np.isfinite(states.position).all(axis=1)
+    index = np.flatnonzero(states.loaded & known)
     there = of_states(at_states(data.arrays, data.known), index, data.states)
     place, turn = data.readings.position[index], data.readings.rotation[index]
     found = forward(there, data.readings.length[index], place, turn, data.known.model)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
+from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.hypotheses.alternatives import Gains, Offered, gains, offered
 from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.drift import AMPLITUDES
@@ -194,7 +195,10 @@ class Search:
         for one in large:
             if one.part.cause.name not in present:
                 more = Hypothesis((*base.hypothesis.parts, one.part), base.hypothesis.drift)
-                self.keep(begun(self.data, self.where, base, more, one.z))
+                try:
+                    self.keep(begun(self.data, self.where, base, more, one.z))
+                except UnstableEquilibriumError:  # nor is a robot with so large a change one that was measured
+                    continue
 
     def _begin_alone(self, alone: Sequence[Beginning], base: Judged) -> None:
         """Fits of changes of one cable, mast or axis: those that may come near the best, the likeliest first."""

@@ -17,6 +17,8 @@ SIGNALS = ("frf", "free_decay", "platform_motion")
 NOT_SAID, PLATFORM = -1, -2
 """Labels of a peak of the robot: of nothing that is known, and of the platform."""
 KINDS = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency", *SIGNALS)
+UNKNOWN_ZERO = 1.0
+"""m, one sigma of a length's zero of which nothing is known."""
 MODELS = ("static", "dsm", "exact", "spring")
 
 
@@ -193,6 +195,7 @@ class Campaign:
     identified : modes found in the signals of `series`; those used are among `robot_frequencies`
     sheets : the data files, with the sigmas used
     memory : correlation of a sensor's noise in one state with that in the next, 0 for independent noise
+    relative_lengths : each encoder counts from an unknown start, the same in all states
     notes : what was assumed where the data files say nothing, in sentences for a person
     loss : what mistakes of a diagnosis cost
     """
@@ -215,6 +218,7 @@ class Campaign:
     memory: float = 0.0
     sheets: tuple[Sheet, ...] = ()
     notes: tuple[str, ...] = ()
+    relative_lengths: bool = False
     loss: Loss = Loss()  # noqa: RUF009 - frozen
 
     @property

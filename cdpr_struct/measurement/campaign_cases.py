@@ -16,7 +16,7 @@ from cdpr_struct.measurement.campaign import (
     Sigmas,
     States,
 )
-from cdpr_struct.measurement.campaign_rows import POSE, Rows, length_columns
+from cdpr_struct.measurement.campaign_rows import POSE, POSITION, Rows, length_columns
 from cdpr_struct.measurement.peak_labels import peak_label
 
 _SAME = 1e-9  # m, deg: two notes of the same number
@@ -82,13 +82,16 @@ class Gathering:
 
     def _state(self, rows: Rows, i: int, sigmas: Sigmas) -> _State:
         name = rows.words["case"][i]
-        pose = np.array([rows.get(c, 0.0)[i] for c in POSE])
-        payload = float(rows.get("payload_kg", 0.0)[i])
+        placed = any(name in rows.numbers for name in POSITION)
+        pose = np.array([rows.get(c, 0.0 if placed else np.nan)[i] for c in POSE])
+        payload = float(
+            rows.get("payload_kg", 0.0 if placed else np.nan)[i]
+        )  # nan: known by the name of the state alone
         found = self.known.get(name)
         if found is None:
             found = self._new(name, rows.file, pose, payload, sigmas)
             found.temperature, found.time = float(rows.get("temperature_K")[i]), float(rows.get("time_s")[i])
-        elif _differ(found.pose, pose) or found.payload != payload:
+        elif _differ(np.append(found.pose, found.payload), np.append(pose, payload)):
             before = [*found.pose.tolist(), found.payload]
             expected = f"the pose and payload given before for this case in {Path(found.file).name}, {before}"
             expected += f": {_ONE_STATE}"
@@ -98,6 +101,7 @@ class Gathering:
                 expected += f" ({note.removesuffix('.')})"
             raise InputError(rows.file, f"{rows.place(i)}, case {name}", [*pose.tolist(), payload], expected)
         found.pose = np.where(np.isfinite(found.pose), found.pose, pose)
+        found.payload = found.payload if np.isfinite(found.payload) else payload
         return found
 
     def _new(self, name: str, file: str, pose: np.ndarray, payload: float, sigmas: Sigmas) -> _State:
@@ -191,7 +195,7 @@ class Gathering:
             angles=np.radians(np.array([s.pose[3:] for s in found]).reshape((-1, 3))),
             sigma_position=np.array([s.sigma_position for s in found]),
             sigma_rotation=np.array([s.sigma_rotation for s in found]),
-            payload=np.array([s.payload for s in found]),
+            payload=np.nan_to_num([s.payload for s in found]),
             tension=np.array([s.tension for s in found]).reshape((-1, self.m)),
             tension_sigma=np.array([s.tension_sigma for s in found]).reshape((-1, self.m)),
             length=length,
@@ -257,6 +261,6 @@ def _locks(length: np.ndarray) -> np.ndarray:
     found: dict[tuple[float, ...], int] = {}
     locks = []
     for row in length:
-        read = tuple(np.where(np.isfinite(row), row, 0.0).tolist())  # no cable has no length
-        locks.append(found.setdefault(read, len(found)) if any(read) else -1)
+        read = tuple(np.where(np.isfinite(row), row, np.inf).tolist())
+        locks.append(found.setdefault(read, len(found)) if np.isfinite(read).any() else -1)
     return np.array(locks, dtype=int)

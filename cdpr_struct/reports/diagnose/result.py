@@ -10,6 +10,7 @@ from cdpr_struct.diagnosis.decision import fits
 from cdpr_struct.diagnosis.diagnosis import Candidate, Diagnosis, Tried
 from cdpr_struct.diagnosis.left_out import LeftOut
 from cdpr_struct.hypotheses.causes import internal_force
+from cdpr_struct.hypotheses.judge import NEAR
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.planning.recommendations import Recommendation
 from cdpr_struct.reports.diagnose import signals
@@ -18,6 +19,7 @@ from cdpr_struct.reports.diagnose.sentences import finite, sentence
 from cdpr_struct.reports.diagnose.state_errors import state_errors
 from cdpr_struct.reports.diagnose.words import doubt, place, recommendation
 from cdpr_struct.reports.plan.measurements import recommendation_text
+from cdpr_struct.reports.trust import Check, Trust
 
 KINDS = {
     "EQ": ("static_state (wrench balance)", 1.0, "N"), "CO": ("static_state (cable lengths)", 1e3, "mm"),
@@ -74,6 +76,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         },
         "loss": asdict(found.campaign.loss),
         "sigmas": [asdict(used) for used in found.sigmas],
+        "trust": Trust((_sigmas(found), *_settled(found))),
         "warnings": _warnings(found),
         "not_used": _not_used(found),
         "signals": [signals.signal_json(item) for item in found.campaign.identified],
@@ -249,7 +252,26 @@ def _hidden(found: Diagnosis) -> dict[str, str]:
 
 def _warnings(found: Diagnosis) -> list[str]:
     silent = [signals.silent(item) for item in found.campaign.identified if not item.used.any()]
-    return [*_unique([doubt(one) for one in found.doubts]), *found.campaign.notes, *silent]
+    return [*found.campaign.notes, *silent]
+
+
+def _settled(found: Diagnosis) -> list[Check]:
+    """Whether the fit of the likeliest hypothesis has converged, in its numbers and in its evidence."""
+    moved, open_ = float(found.chosen.moved), not found.chosen.fit.converged
+    far = (
+        f"the likeliest fit had not settled when it ended: its numbers still move by {moved:.2g} sigma when it is "
+        "linearised about them. Sizes and evidence of the cause are rough."
+    )
+    loose = "the evidence of the likeliest fit had not settled when its search ended: probabilities are rough."
+    return [
+        Check.of("distance of the fit from its linearisation", moved, NEAR, far if moved > NEAR else None, "sigma"),
+        Check.of("evidences not settled", open_, 0.0, loose if open_ else None),
+    ]
+
+
+def _sigmas(found: Diagnosis) -> Check:
+    said = _unique([doubt(one) for one in found.doubts])
+    return Check.of("improbable sigmas and tolerances", len(said), 0.0, said)
 
 
 def _not_used(found: Diagnosis) -> list[str]:
