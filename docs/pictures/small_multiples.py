@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from typical import SHOWN, Effect
 
-from cdpr_struct.reports.figures.style import BLUE, GREY, VERMILLION, svg
+from cdpr_struct.reports.figures.style import BLUE, GREY, VERMILLION, plain_ticks, svg
 
 SIZE = (9.6, 3.3)
 _LEAST = {"tension": 2.0, "balance": 2.0, "length": 0.5, "cable": 0.5, "robot": 0.5}
@@ -75,6 +75,7 @@ def _response(axes: Axes, effect: Effect) -> None:
         axes.semilogy(
             answer.hertz[shown][::2], np.abs(answer.response[shown][::2]), color=colour, linewidth=width, label=label
         )
+    plain_ticks(axes.yaxis)
     axes.set_xlim(0.0, SHOWN)
     axes.legend(loc="lower right", fontsize=7.5)
 
