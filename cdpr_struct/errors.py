@@ -8,6 +8,9 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 from typing import Any
 
+NOTHING = "nothing"
+"""The value of an `InputError` about what was not given."""
+
 
 class CdprError(Exception):
     """What this package raises on purpose; if it is no `InputError`, the request is well-posed but cannot be met."""
@@ -31,7 +34,7 @@ class InputError(CdprError, ValueError):
     ----------
     source : file, command-line option, or argument of a function.
     field : the name inside the source ("" if the source as a whole is meant).
-    value : what was given.
+    value : what was given; `NOTHING` where it is missing.
     expected : what would be right.
     """
 
@@ -39,7 +42,8 @@ class InputError(CdprError, ValueError):
         self.source, self.field, self.value, self.expected = source, field, value, expected
         place = f"{on_one_line(source, 400)}: {on_one_line(field, 200)}" if field else on_one_line(source, 400)
         plain = value.item() if type(value).__module__ == "numpy" and hasattr(value, "item") else value
-        super().__init__(f"{place}: got {_shown(plain)}; {on_one_line(expected, 1200)}")
+        said = " is missing" if isinstance(plain, str) and plain == NOTHING else f": got {_shown(plain)}"
+        super().__init__(f"{place}{said}; {on_one_line(expected, 1200)}")
 
 
 def on_one_line(text: str, longest: int) -> str:

@@ -10,8 +10,9 @@ from typing import Any
 from cdpr_struct.cli.run_record import RUN
 from cdpr_struct.cli.written_files import RESULT
 from cdpr_struct.errors import InputError
+from cdpr_struct.reports.plain_json import SCHEMA
 
-_OF_THE_RUN = {"files", RUN, "command", "seconds"}  # not of the result
+_OF_THE_RUN = {"files", RUN, "command", "seconds", SCHEMA}  # not of the result
 _ZERO = 1e-12  # sizes that are rounding in SI units
 
 

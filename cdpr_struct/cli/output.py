@@ -14,7 +14,7 @@ from cdpr_struct.cli.progress import Begin, silent, steps
 from cdpr_struct.cli.run_record import RUN, run_record
 from cdpr_struct.cli.written_files import RESULT, Content, refuse_foreign, replace_files
 from cdpr_struct.errors import InputError
-from cdpr_struct.reports.plain_json import json_text
+from cdpr_struct.reports.plain_json import result_text
 from cdpr_struct.reports.remarks import extensions_of, remarks, rest_of, warnings_of
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ class Output:
         if self.directory is not None:
             self.write(result, files())
         if self.json:
-            _print(json_text(result), sys.stdout)
+            _print(result_text(result), sys.stdout)
         elif not self.quiet:
             said = "\n\n".join([text(), *remarks(result)]) + "\n"
             _print(_STEERING.sub(lambda found: repr(found[0])[1:-1], said), sys.stdout)

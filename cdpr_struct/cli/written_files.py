@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from cdpr_struct.errors import InputError
-from cdpr_struct.reports.plain_json import json_text
+from cdpr_struct.reports.plain_json import json_text, result_text
 
 Content = str | bytes | Iterable[bytes]
 """What a file holds; a long one in parts."""
@@ -44,8 +44,8 @@ def _replace(directory: Path, result: Mapping[str, Any], files: Mapping[str, Con
     earlier = _listed(directory)
     with _renamed_at_the_end(directory) as write:
         digests = {name: write(name, content) for name, content in files.items()}
-        digests[RESULT] = _digest(json_text(result))
-        wanted = {**digests, RESULT: write(RESULT, json_text({**result, "files": digests}))}
+        digests[RESULT] = _digest(result_text(result))
+        wanted = {**digests, RESULT: write(RESULT, result_text({**result, "files": digests}))}
         if not overwrite:
             _refuse(directory, {**dict.fromkeys(earlier, _NOTHING), **wanted}, earlier)
     for name in earlier.keys() - wanted.keys():

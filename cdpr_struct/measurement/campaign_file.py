@@ -9,13 +9,13 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError, not_utf8
 from cdpr_struct.measurement.assumed_angles import angle_note
-from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
+from cdpr_struct.measurement.campaign import UNKNOWN_ZERO, Campaign, Sheet, Sigmas, States, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.campaign_sources import is_there
 from cdpr_struct.measurement.campaign_template import KINDS
 from cdpr_struct.measurement.loss import Loss
-from cdpr_struct.measurement.missing_readings import missing_notes
+from cdpr_struct.measurement.missing_readings import check_placed, missing_notes
 from cdpr_struct.measurement.misspelt_cases import misspelt_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
@@ -93,6 +93,7 @@ class CampaignTable(_Table):
     model: Literal["static", "dsm", "exact", "spring"] = "dsm"
     tension_distribution: Literal["minimum_norm"] = "minimum_norm"
     lower_bound_N: NotNegative | None = None
+    encoders: Literal["absolute", "relative"] = "absolute"
     nominal: NominalTable = NominalTable()
     tolerances: TolerancesTable = TolerancesTable()
     checked: dict[str, Positive] = {}
@@ -117,17 +118,19 @@ def load_campaign(
     robot = _nominal(_robot(table.robot, source), table.nominal, source)
     robot = robot if upper_bound is None else _below(robot, upper_bound, source)
     lowest = table.lower_bound_N if lower_bound is None else lower_bound
-    commanding = _commanding(robot, lowest, source)
+    commanding, relative = _commanding(robot, lowest, source), table.encoders == "relative"
     gathering = Gathering(len(robot.cables))
     sheets, cases = [], {}
     for number, entry in enumerate(table.measurement, start=1):
-        rows, sigmas = _rows(entry, source, number, len(robot.cables), planned), _sigmas(entry)
+        rows, sigmas = _rows(entry, source, number, len(robot.cables), planned, relative), _sigmas(entry)
         gathering.add(rows, sigmas)
         cases[entry.file] = rows.words.get("case", [])
         sheets.append(_sheet(entry, rows, sigmas))
     _check_poses(gathering)
-    check_scale(str(path), robot, gathering.states())
+    check_scale(str(path), robot, _absolute(gathering.states(), relative))
     check_robot_scale(str(path), robot, gathering.states(), gathering.tension_files())
+    vibrating = np.concatenate([gathering.cable_frequencies().state, gathering.robot_frequencies().state])
+    check_placed(str(path), gathering.states(), vibrating)
     identified = join_signals(gathering, commanding, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(
@@ -135,7 +138,7 @@ def load_campaign(
         robot=robot,
         robot_name=table.robot,
         model=table.model,
-        tolerances=Tolerances(**given),
+        tolerances=_tolerances(given, relative, source),
         stated=frozenset(given),
         states=gathering.states(),
         cable_frequencies=gathering.cable_frequencies(),
@@ -146,6 +149,7 @@ def load_campaign(
         tension_distribution=table.tension_distribution,
         lower_bound=lowest,
         checked=table.checked,
+        relative_lengths=relative,
         loss=_loss(table.loss, source),
         sheets=tuple(sheets),
         notes=(
@@ -154,6 +158,19 @@ def load_campaign(
             *missing_notes(gathering.states()),
         ),
     )
+
+
+def _absolute(states: States, relative: bool) -> States:
+    """The states with lengths that can be held against the robot's size."""
+    return replace(states, length=np.full_like(states.length, np.nan)) if relative else states
+
+
+def _tolerances(given: dict[str, float], relative: bool, source: Path) -> Tolerances:
+    """Those stated, and the defaults of the others; where encoders begin anywhere, their zeros are not known at all."""
+    if relative and "length_m" in given:
+        expected = 'no tolerance of the zeros beside encoders = "relative": these are unknown'
+        raise InputError(str(source), "tolerances.length_m", given["length_m"], expected)
+    return Tolerances(**(given | ({"length_m": UNKNOWN_ZERO} if relative else {})))
 
 
 def _table(source: Path) -> CampaignTable:
@@ -225,12 +242,12 @@ def _loss(table: LossTable, source: Path) -> Loss:
         raise InputError(str(source), "loss", said, expected) from error
 
 
-def _rows(entry: MeasurementTable, source: Path, number: int, cables: int, planned: bool) -> Rows:
+def _rows(entry: MeasurementTable, source: Path, number: int, cables: int, planned: bool, relative: bool) -> Rows:
     path = source.parent / entry.file
     if not is_there(path):
         expected = "no such data file; give its path as seen from the campaign file"
         raise InputError(str(source), f"measurement[{number}].file", entry.file, expected)
-    return read_rows(entry.kind, path, cables, planned)
+    return read_rows(entry.kind, path, cables, planned, relative)
 
 
 def _sigmas(entry: MeasurementTable) -> Sigmas:
