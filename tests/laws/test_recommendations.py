@@ -50,6 +50,7 @@ def diagnosis(campaign, classes):
     status = "named" if all(len(names) == 1 for names in classes) else "class"
     return SimpleNamespace(
         decision=Decision(status, classes, 0.9),
+        fitted=Decision(status, classes, 0.9),
         explained=SimpleNamespace(search=search, answers=tuple(answers)),
         chosen=next(a.best for a in answers if a.names == (classes[0][0],)),
     )
@@ -80,7 +81,7 @@ def test_the_scales_are_recommended_for_a_class_of_masses(found):
 def test_a_named_cause_is_held_against_its_next_rival(found):
     named = diagnosis(heavier(0.03), (("platform_mass",),))
     assert [q.pairs for q in questions(named)] == [[MASSES]]
-    adequate = SimpleNamespace(**{**vars(found), "decision": Decision("adequate", (), 0.9)})
+    adequate = SimpleNamespace(**{**vars(found), "fitted": Decision("adequate", (), 0.9)})
     assert recommendations(adequate) == ()
 
 
