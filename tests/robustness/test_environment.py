@@ -15,11 +15,12 @@ from threading import Thread
 import numpy as np
 import pytest
 
+from cdpr_struct.cli import checkpoint
 from cdpr_struct.cli.checkpoint import Checkpoint
 from cdpr_struct.cli.main import run
 from cdpr_struct.cli.many_inputs import short_names
 from cdpr_struct.cli.output import _print
-from cdpr_struct.cli.written_files import RESULT, replace_files
+from cdpr_struct.cli.written_files import RESULT, replace_files, write_whole
 from cdpr_struct.errors import InputError
 from cdpr_struct.reports.csv_table import LongTable, csv_text
 from cdpr_struct.reports.figures.style import plain_ticks, svg
@@ -137,10 +138,17 @@ def test_two_results_written_at_once_are_never_mixed(tmp_path):
     assert found["report.html"].decode() == result["by"]
 
 
-def test_a_run_goes_on_where_the_same_one_beside_it_has_ended(tmp_path):
+def test_a_run_goes_on_where_the_same_one_beside_it_has_ended(tmp_path, monkeypatch):
     one, other = Checkpoint(tmp_path, "abc"), Checkpoint(tmp_path, "abc")
     one.keep("000000", {"a": np.arange(3.0)})
-    other.clear()
+    ends = [other.clear]  # between the making of the folder and the writing into it
+
+    def write(*given) -> None:
+        while ends:
+            ends.pop()()
+        write_whole(*given)
+
+    monkeypatch.setattr(checkpoint, "write_whole", write)
     one.keep("000001", {"a": np.arange(3.0)})
     assert list(one.parts(["000000", "000001"])) == [1]
     other.clear()

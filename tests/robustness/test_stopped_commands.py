@@ -54,10 +54,14 @@ def processor_time(process: int) -> float:
 def test_a_stopped_command_ends_in_order(name, number, tmp_path, monkeypatch):
     monkeypatch.chdir(ROOT)
     process = started("--out", str(tmp_path / "out"), command=COMMANDS[name])
-    wait_for(lambda: processor_time(process.pid) > BEGUN or process.poll() is not None)
-    workers = workers_of(process.pid)
-    process.send_signal(number)
-    told = process.communicate(timeout=60)[1]
+    try:
+        while processor_time(process.pid) < BEGUN and process.poll() is None:  # however busy the machine is
+            time.sleep(0.05)
+        workers = workers_of(process.pid)
+        process.send_signal(number)
+        told = process.communicate(timeout=60)[1]
+    finally:
+        process.kill()
     assert process.returncode == 130, told
     assert "Traceback" not in told
     assert "interrupted" in told.strip().splitlines()[-1]
@@ -79,7 +83,7 @@ def test_workers_end_where_their_parent_is_killed(tmp_path):
 def test_the_same_map_twice_at_once_in_one_directory(tmp_path):
     words = ["map", "six-cable-8mm", "--grid=-2:2:9,-2:2:9,0.5", "--quantity", "tension-max", "--chunk", "4"]
     pair = [started("--quiet", "--out", str(tmp_path / "out"), command=words) for _ in range(2)]
-    ends = [(process.communicate(timeout=120)[1], process.returncode) for process in pair]
+    ends = [(process.communicate(timeout=600)[1], process.returncode) for process in pair]
     assert ends == [("", 0), ("", 0)]
     assert run([*words, "--quiet", "--out", str(tmp_path / "alone")]) == 0
     assert (tmp_path / "out" / "map.csv").read_text() == (tmp_path / "alone" / "map.csv").read_text()
@@ -90,7 +94,7 @@ def test_two_different_maps_at_once_in_one_directory(tmp_path):
     """One result stands, whole; which one is not said."""
     words = ["map", "six-cable-8mm", "--grid=-2:2:9,-2:2:9,0.5", "--chunk", "4", "--quiet", "--out", str(tmp_path)]
     pair = [started("--quantity", name, command=words) for name in ("tension-max", "tension-min")]
-    ends = [(process.communicate(timeout=120)[1], process.returncode) for process in pair]
+    ends = [(process.communicate(timeout=600)[1], process.returncode) for process in pair]
     assert ends == [("", 0), ("", 0)]
     result = json.loads((tmp_path / "result.json").read_text())
     assert {p.name for p in tmp_path.iterdir()} == set(result["files"])
