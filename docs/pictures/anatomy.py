@@ -33,14 +33,14 @@ def draw_robot(figure: Figure) -> None:
     axes.quiver(*np.zeros(3), *origin, color=BLUE, arrow_length_ratio=0.1, linewidth=1.2)
     axes.text(*(0.6 * origin + [0.1, 0.0, 0.0]), "r", color=BLUE, fontweight="bold")
     for number, place in enumerate(geometry.frame, start=1):
-        axes.text(*(place + 0.1), f"$B_{number}$", color=VERMILLION)
+        axes.text(*(place + 0.1), f"$B_{number}$", color=VERMILLION, parse_math=True)
     _pulley(figure.add_subplot(grid[0, 2]))
     close: Any = figure.add_subplot(grid[1, 2], projection="3d")
     _scene(close, geometry, reach=0.5)
     _axes_of(close, origin, 0.32, "P: platform frame", BLUE)
     close.scatter(*geometry.platform.T, s=14, color=GREEN, depthshade=False)
     for number, place in enumerate(geometry.platform, start=1):
-        close.text(*(place + 0.02), f"$A_{number}$", color=GREEN)
+        close.text(*(place + 0.02), f"$A_{number}$", color=GREEN, parse_math=True)
 
 
 def _scene(
@@ -99,7 +99,8 @@ def _pulley(axes: Axes) -> None:
         ("from the winch", (0.12, -1.9), ORANGE), ("to $A$", (leaves[1, 0] - 0.2, leaves[1, 1] + 0.2), ORANGE),
         ("φ", (0.72, 0.22), GREY), ("radius", (0.2, -0.35), GREY),
     ):  # fmt: skip
-        axes.text(*place, text, color=colour, ha="right" if place[0] < 0.0 else "left", fontsize=8.5)
+        side = "right" if place[0] < 0.0 else "left"
+        axes.text(*place, text, color=colour, ha=side, fontsize=8.5, parse_math=True)
     axes.set_xlim(-3.0, 3.9)
     axes.set_ylim(-2.6, 2.3)
     axes.set_aspect("equal")
@@ -130,8 +131,8 @@ def draw_cable(figure: Figure) -> None:
     axes.plot(*places.T, color=ORANGE, linewidth=2.4)
     axes.plot(*np.array([[0.0, 0.0], end]).T, color=GREY, linestyle="--", linewidth=1.0)
     _sag(axes, places, along, across)
-    axes.text(*(0.62 * end + 0.2 * across), "$l_c$", color=GREY)
-    axes.text(*(places[165] + [0.35, -0.3]), "$l_{us}$ unstrained, $l_s$ strained", color=ORANGE)
+    axes.text(*(0.62 * end + 0.2 * across), "$l_c$", color=GREY, parse_math=True)
+    axes.text(*(places[165] + [0.35, -0.3]), "$l_{us}$ unstrained, $l_s$ strained", color=ORANGE, parse_math=True)
     angle = np.linspace(0.0, np.arctan2(end[1], end[0]), 30)
     axes.plot(2.4 * np.cos(angle), 2.4 * np.sin(angle), color=GREY, linewidth=0.9)
     axes.text(2.5, 0.22, "α", color=GREY)
@@ -167,7 +168,7 @@ def _arrow(
     axes: Axes, start: np.ndarray, end: np.ndarray, text: str, colour: str, shift: tuple[float, float] = (0.08, 0.05)
 ) -> None:
     axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": colour, "shrinkA": 0.0, "shrinkB": 0.0})
-    axes.text(end[0] + shift[0], end[1] + shift[1], text, color=colour)
+    axes.text(end[0] + shift[0], end[1] + shift[1], text, color=colour, parse_math=True)
 
 
 def draw_modes(figure: Figure) -> None:
