@@ -82,7 +82,10 @@ def _values(path: Path) -> Mapping[str, list[Any]]:
         return {}
     import pandas as pd
 
-    table = pd.read_csv(path)
+    try:
+        table = pd.read_csv(path)
+    except (OSError, ValueError) as error:
+        raise InputError(str(path), "", "no table that can be read", "a CSV file as the command wrote it") from error
     return {str(name): table[name].tolist() for name in table}
 
 
