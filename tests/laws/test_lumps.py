@@ -163,7 +163,7 @@ def test_a_mass_at_mid_cable_slows_a_taut_string():
     """
     density, mass = 0.05, 0.4
     cables = SAGGING.states(one_cable(density, [(5.0, mass)]), np.array([[10.02, 0.0, 0.0]]), np.array([10.0]))
-    extras = CableExtras(np.zeros(1), np.zeros(1), np.array([[mass]]))
+    extras = CableExtras(*np.zeros((4, 1)), np.array([[mass]]))
     found = expand_catenaries(cables, np.array([density]), 20, cable_stiffness(cables), None, extras)
     first = np.sqrt(found.omega_squared[0, 0])
     tension, length = cables.tension_at_platform[0], cables.chord[0]
