@@ -125,6 +125,13 @@ def recordings() -> Figure:
     return Figure(f"{found} of {of} modes, {off} % in the median, {most} % at most", float(off) < 1.0)
 
 
+def mutation() -> Figure:
+    """Scores of the latest sample of mutants: of all rooms, and of the weakest."""
+    scores = {row[0]: row[5] for row in table("mutation_testing.md", "room", "mutants")}
+    weakest = min(scores, key=lambda room: number(scores[room]))
+    return Figure(f"{scores['all']}; weakest: {weakest}, {scores[weakest]}", number(scores["all"]) >= 0.9)
+
+
 def pythons() -> Figure:
     """Versions of Python on which tests were run."""
     rows = table("install.md", "Python", "packages")
