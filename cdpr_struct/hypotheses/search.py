@@ -15,6 +15,7 @@ from cdpr_struct.hypotheses.alternatives import Gains, Offered, gains, offered
 from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.drift import AMPLITUDES
 from cdpr_struct.hypotheses.causes.library import testable
+from cdpr_struct.hypotheses.choices import bent, with_choices
 from cdpr_struct.hypotheses.hypothesis import PRICE, Hypothesis, drift_term
 from cdpr_struct.hypotheses.judge import NEAR, SETTLED, Judged, again, begun, converged, extended, judged, settled
 from cdpr_struct.hypotheses.laws import UNKNOWN
@@ -101,8 +102,11 @@ class Search:
         base = max(nulls, key=lambda one: one.score)
         menu = offered(self.data, self.where, self.seen, self.causes, base)
         self.p_value = p_of_null(menu, base)
-        rows = self._screened(menu, nulls, self._rich(menu, base))
+        rich = self._rich(menu, base)
+        menu = with_choices(menu, base, [base.fit.noise, rich], self.seen)
+        rows = self._screened(menu, nulls, rich)
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
+        self._bend(base)
         large = beginnings(self.data, menu, base, self.budget.beginnings + 1)
         self._begin(large, base)
         self._transfer()
@@ -181,6 +185,15 @@ class Search:
         worth = self.budget.hopeless if found.moved > NEAR else PRICE
         return settled(self.data, self.where, found) if found.score > self._ranked()[0].score - worth else found
 
+    def _bend(self, base: Judged) -> None:
+        """Causes whose carriers have one of several ways, fitted so that these ways may bend."""
+        best = {one.hypothesis.parts[0].cause.name: one for one in reversed(self._ranked(1))}
+        for one in [one for one in best.values() if one.hypothesis.parts[0].cause.one_of]:
+            more = Hypothesis((bent(one.hypothesis.parts[0], self.seen),), one.hypothesis.drift)
+            z = np.append(one.sizes[0], np.zeros(len(more.parts[0].pattern.prior) - len(one.sizes[0])))
+            self.spread[more.key] = self.spread.get(one.hypothesis.key, 0.0)
+            self.keep(begun(self.data, self.where, base, more, z))
+
     def _begin(self, large: Sequence[Beginning], base: Judged) -> None:
         """Fits of large changes that would put peaks right, beside what is known by then."""
         present = {part.cause.name for part in base.hypothesis.parts}
@@ -235,6 +248,7 @@ class Search:
         present = {part.cause.name for part in first.hypothesis.parts}
         left = [cause for cause in self.causes if cause.name not in present]
         menu = offered(self.data, self.where, self.seen, left, first)
+        menu = with_choices(menu, first, [first.fit.noise], self.seen)
         rows = self._screened(menu, [first], None)[: self.budget.pairs]
         self._fit_best(menu, rows, 0, self._ranked()[0].score - self.budget.pair_near)
 

@@ -28,6 +28,8 @@ def seen_in(data: Recorded) -> Seen:
         states=states.names,
         highest=float(campaign.robot_frequencies.hertz.max(initial=0.0)),
         internal=data.arrays.has_internal_mass,
+        wheels=data.arrays.has_pulleys,
+        bare=bool((data.arrays.pulley_radius == 0.0).any()),
         groups={
             "cable": {str(i): f"cable {i}" for i in range(1, m + 1)},
             "mast": _masts(campaign.robot.frame_anchors),

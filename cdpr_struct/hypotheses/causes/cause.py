@@ -1,6 +1,6 @@
 """What a cause is: named parameters with priors, one change of the robot, and patterns of occurrence."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -9,6 +9,8 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 
 A_MINUTE = 1.0 / 60.0
 """[h] Readings of a shorter time show nothing that grows with time: creep counts its decades after the first minute."""
+ALIKE_IN = "all alike, axes "
+"""How the label of a pattern begins in which all carriers are of one size, each in one of several ways."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +76,7 @@ class Seen:
     kinds : of rows, as in `seen_in`;  tensions, lengths : whether any was read;  approach : whether directions are
     known;  hours : that the readings span;  cable_modes : how many different modes of a cable;  states : names
     highest : frequency measured of the robot [Hz], 0 without;  internal : whether the robot has an internal mass
+    wheels, bare : whether some cables have pulleys in the robot file, and whether some have none
     groups : endings and words of what carries parameters of its own, by carrier ("cable", "mast", "axis", "state")
     """
 
@@ -87,6 +90,8 @@ class Seen:
     groups: Mapping[str, Mapping[str, str]]
     highest: float = 0.0
     internal: bool = False
+    wheels: bool = False
+    bare: bool = True
 
 
 def always(seen: Seen) -> str:
@@ -103,6 +108,8 @@ class Cause:
     alike     : probability that all carriers have the same, 0 if that cannot be
     shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
     laws      : (words, which of its parameters, probability) where a carrier may follow one of several laws
+    one_of    : words of the first parameters of each carrier, if these are ways to occur of which it has one; those
+                after them bend that way, and are in no pattern to begin with (see `choices.py`)
     seen_in   : kinds of rows it shows in;  needs : why these data cannot show it, or ""
     outside   : whether it sits in the data alone: the extended robot does not have it
     becomes   : causes that it is where some of its parameters are zero
@@ -118,6 +125,7 @@ class Cause:
     alike: float = 0.4
     shapes: tuple[tuple[str, slice | list[int], float], ...] = ()
     laws: tuple[tuple[str, list[int], float], ...] = ()
+    one_of: tuple[str, ...] = ()
     seen_in: tuple[str, ...] = ()
     needs: Callable[[Seen], str] = always
     outside: bool = False
@@ -146,10 +154,24 @@ class Cause:
         every = np.eye(len(basic))
         if self.shapes:
             return [_of_some(label, every, basic, own, weight) for label, own, weight in self.shapes]
+        if self.one_of:
+            return [p for k in range(len(self.one_of)) for p in self.in_one_way(seen, [k] * (len(basic) // axes))]
         if len(basic) < 2 * axes:
             return [Pattern("", every, self.parameters, 1.0)]
         laws = self.laws or (("", list(range(axes)), 1.0),)
         return [found for words, own, share in laws for found in self._of_law(seen, words, own, share)]
+
+    def in_one_way(self, seen: Seen, ways: Sequence[int]) -> list[Pattern]:
+        """Each carrier in one of its ways, all of one size or each of its own; equally likely among uniform ones."""
+        basic, endings, count = self.basic(seen), list(seen.groups[self.carrier]), len(self.one_of)
+        places = [len(self.parameters) * i + k for i, k in enumerate(ways)]
+        words = self.one_of[ways[0]] if len(set(ways)) == 1 else ", ".join(self.one_of[k] for k in ways)
+        each = np.eye(len(basic))[:, places]
+        own = tuple(replace(self.parameters[0], name=f"{self.parameters[0].name}_{e}") for e in endings)
+        return [
+            Pattern(f"{ALIKE_IN}{words}", each.sum(axis=1, keepdims=True), self.parameters[:1], self.alike / count),
+            Pattern(f"each its own, axes {words}", each, own, (1.0 - self.alike) / count),
+        ]
 
     def _of_law(self, seen: Seen, law: str, own: list[int], share: float) -> list[Pattern]:
         """Patterns in which some of the parameters `own` of each carrier act, with a probability `share` together."""

@@ -1,0 +1,90 @@
+"""Which way has each carrier, where a cause has several of which each carrier has one?
+
+K ways of m carriers are K^m patterns. Of one common size, what each adds follows in closed form from gram and score of
+the ways; the best pattern is found by changing one carrier at a time, from each uniform pattern on.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from cdpr_struct.hypotheses.alternatives import Offered
+from cdpr_struct.hypotheses.causes.cause import Pattern, Seen
+from cdpr_struct.hypotheses.hypothesis import SCALES, Part
+from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.inference.scale_mixture import NoiseState
+from cdpr_struct.inference.screening import Screen
+
+_MIXED = 0.4  # probability that carriers differ in their ways
+_ROUNDS = 20  # changes of every carrier's way; each round that changes one adds to a bounded sum
+
+
+def with_choices(menu: Sequence[Offered], about: Judged, noises: Sequence[NoiseState], seen: Seen) -> list[Offered]:
+    """The causes with one more way to occur for those whose carriers have one of several: the best mix of ways."""
+    if not any(one.cause.one_of for one in menu):
+        return list(menu)
+    screens = [Screen.of(about.model, noise, about.fit.soft) for noise in noises]
+    return [_mixed(one, screens, seen) if one.cause.one_of else one for one in menu]
+
+
+def _mixed(offered: Offered, screens: Sequence[Screen], seen: Seen) -> Offered:
+    """With the best mix at each noise."""
+    cause, ways = offered.cause, len(offered.cause.one_of)
+    stride = len(cause.parameters)
+    carriers = offered.columns[0].shape[-1] // stride
+    mixes: dict[tuple[int, ...], None] = {}
+    for screen in screens:
+        said = screen.screened(offered.columns)
+        place = (stride * np.arange(carriers)[:, None] + np.arange(ways)).ravel()
+        gram = said.gram[np.ix_(place, place)].reshape((carriers, ways, carriers, ways))
+        score, prior = said.score[place].reshape((carriers, ways)), cause.parameters[0].prior
+        mixes[best_mix(gram * prior**2, score * prior)] = None
+    found = [mix for mix in mixes if len(set(mix)) > 1]
+    if not found:
+        return offered
+    share = _MIXED * ways / (float(ways) ** carriers - ways)  # of one mix; `in_one_way` divides by the ways itself
+    patterns = [replace(pattern, weight=(1.0 - _MIXED) * pattern.weight) for pattern in offered.patterns]
+    patterns += [replace(p, weight=share * p.weight) for mix in found for p in cause.in_one_way(seen, mix)]
+    return replace(offered, patterns=tuple(patterns))
+
+
+def best_mix(gram: np.ndarray, score: np.ndarray) -> tuple[int, ...]:
+    """Way of each carrier that together add most, all of one size that cannot be negative.
+
+    gram (m, K, m, K), score (m, K) : of columns in prior sigmas
+    """
+    carriers, ways = score.shape
+    best, most = (0,) * carriers, -np.inf
+    for start in range(ways):
+        mix = np.full(carriers, start)
+        for _ in range(_ROUNDS):
+            before = mix.copy()
+            for i in range(carriers):
+                mix[i] = int(np.argmax(_added(gram, score, mix, i)))
+            if (mix == before).all():
+                break
+        value = float(_added(gram, score, mix, 0)[mix[0]])
+        if value > most:
+            best, most = tuple(mix.tolist()), value
+    return best
+
+
+def _added(gram: np.ndarray, score: np.ndarray, mix: np.ndarray, i: int) -> np.ndarray:
+    """(K,) what the mix adds with each way of carrier i, at the largest scale."""
+    others = np.delete(np.arange(len(mix)), i)
+    chosen = gram[others, mix[others]]
+    inner = chosen[:, others, mix[others]].sum()
+    g = inner + 2.0 * chosen[:, i].sum(axis=0) + np.diagonal(gram[i, :, i])
+    s = np.maximum(score[others, mix[others]].sum() + score[i], 0.0)
+    return np.asarray(0.5 * s**2 / (g + SCALES[-1] ** -2) - 0.5 * np.log1p(SCALES[-1] ** 2 * g))
+
+
+def bent(part: Part, seen: Seen) -> Part:
+    """A part with the numbers besides by which each carrier's way may bend."""
+    cause = part.cause
+    basic, ways = cause.basic(seen), len(cause.one_of)
+    free = [i for i in range(len(basic)) if i % len(cause.parameters) >= ways]
+    basis = np.concatenate([part.pattern.basis, np.eye(len(basic))[:, free]], axis=1)
+    parameters = (*part.pattern.parameters, *(basic[i] for i in free))
+    return replace(part, pattern=Pattern(f"{part.pattern.label}, bent", basis, parameters, part.pattern.weight))
