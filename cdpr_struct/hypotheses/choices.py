@@ -29,24 +29,35 @@ def with_choices(menu: Sequence[Offered], about: Judged, noises: Sequence[NoiseS
 
 
 def _mixed(offered: Offered, screens: Sequence[Screen], seen: Seen) -> Offered:
-    """With the best mix at each noise."""
+    """With the best mixes at each noise."""
     cause, ways = offered.cause, len(offered.cause.one_of)
-    stride = len(cause.parameters)
-    carriers = offered.columns[0].shape[-1] // stride
-    mixes: dict[tuple[int, ...], None] = {}
-    for screen in screens:
-        said = screen.screened(offered.columns)
-        place = (stride * np.arange(carriers)[:, None] + np.arange(ways)).ravel()
-        gram = said.gram[np.ix_(place, place)].reshape((carriers, ways, carriers, ways))
-        score, prior = said.score[place].reshape((carriers, ways)), cause.parameters[0].prior
-        mixes[best_mix(gram * prior**2, score * prior)] = None
-    found = [mix for mix in mixes if len(set(mix)) > 1]
-    if not found:
+    carriers = offered.columns[0].shape[-1] // len(cause.parameters)
+    mixes = {mix: None for screen in screens for mix in _best_mixes(offered, screen) if len(set(mix)) > 1}
+    if not mixes:
         return offered
     share = _MIXED * ways / (float(ways) ** carriers - ways)  # of one mix; `in_one_way` divides by the ways itself
     patterns = [replace(pattern, weight=(1.0 - _MIXED) * pattern.weight) for pattern in offered.patterns]
-    patterns += [replace(p, weight=share * p.weight) for mix in found for p in cause.in_one_way(seen, mix)]
+    patterns += [replace(p, weight=share * p.weight) for mix in mixes for p in cause.in_one_way(seen, mix)]
     return replace(offered, patterns=tuple(patterns))
+
+
+def _best_mixes(offered: Offered, screen: Screen) -> list[tuple[int, ...]]:
+    """The best mix, and the best beside what may go along."""
+    cause, ways, stride = offered.cause, len(offered.cause.one_of), len(offered.cause.parameters)
+    said = screen.screened(offered.columns)
+    starts = stride * np.arange(len(said.score) // stride)
+    place = (starts[:, None] + np.arange(ways)).ravel()
+    prior, shape = cause.parameters[0].prior, (len(starts), ways)
+    gram, score = said.gram[np.ix_(place, place)] * prior**2, said.score[place] * prior
+    found = [best_mix(gram.reshape(shape * 2), score.reshape(shape))]
+    if cause.along:
+        along, size = starts + ways, cause.parameters[ways].prior
+        cross = said.gram[np.ix_(place, along)] * prior * size
+        inner = said.gram[np.ix_(along, along)] * size**2 + np.eye(len(along)) / SCALES[-1] ** 2
+        taken = np.linalg.solve(inner, np.column_stack([cross.T, said.score[along] * size]))
+        gram, score = gram - cross @ taken[:, :-1], score - cross @ taken[:, -1]
+        found.append(best_mix(gram.reshape(shape * 2), score.reshape(shape)))
+    return found
 
 
 def best_mix(gram: np.ndarray, score: np.ndarray) -> tuple[int, ...]:
@@ -84,7 +95,7 @@ def bent(part: Part, seen: Seen) -> Part:
     """A part with the numbers besides by which each carrier's way may bend."""
     cause = part.cause
     basic, ways = cause.basic(seen), len(cause.one_of)
-    free = [i for i in range(len(basic)) if i % len(cause.parameters) >= ways]
+    free = [i for i in range(len(basic)) if i % len(cause.parameters) >= ways + bool(cause.along)]
     basis = np.concatenate([part.pattern.basis, np.eye(len(basic))[:, free]], axis=1)
     parameters = (*part.pattern.parameters, *(basic[i] for i in free))
     return replace(part, pattern=Pattern(f"{part.pattern.label}, bent", basis, parameters, part.pattern.weight))

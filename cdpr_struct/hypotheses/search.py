@@ -106,7 +106,7 @@ class Search:
         menu = with_choices(menu, base, [base.fit.noise, rich], self.seen)
         rows = self._screened(menu, nulls, rich)
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
-        self._bend(base)
+        self._bend(nulls)
         large = beginnings(self.data, menu, base, self.budget.beginnings + 1)
         self._begin(large, base)
         self._transfer()
@@ -185,13 +185,14 @@ class Search:
         worth = self.budget.hopeless if found.moved > NEAR else PRICE
         return settled(self.data, self.where, found) if found.score > self._ranked()[0].score - worth else found
 
-    def _bend(self, base: Judged) -> None:
+    def _bend(self, nulls: Sequence[Judged]) -> None:
         """Causes whose carriers have one of several ways, fitted so that these ways may bend."""
         best = {one.hypothesis.parts[0].cause.name: one for one in reversed(self._ranked(1))}
         for one in [one for one in best.values() if one.hypothesis.parts[0].cause.one_of]:
             more = Hypothesis((bent(one.hypothesis.parts[0], self.seen),), one.hypothesis.drift)
             z = np.append(one.sizes[0], np.zeros(len(more.parts[0].pattern.prior) - len(one.sizes[0])))
             self.spread[more.key] = self.spread.get(one.hypothesis.key, 0.0)
+            base = next(null for null in nulls if null.hypothesis.drift == more.drift)
             self.keep(begun(self.data, self.where, base, more, z))
 
     def _begin(self, large: Sequence[Beginning], base: Judged) -> None:

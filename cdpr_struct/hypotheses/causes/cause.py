@@ -108,8 +108,9 @@ class Cause:
     alike     : probability that all carriers have the same, 0 if that cannot be
     shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
     laws      : (words, which of its parameters, probability) where a carrier may follow one of several laws
-    one_of    : words of the first parameters of each carrier, if these are ways to occur of which it has one; those
-                after them bend that way, and are in no pattern to begin with (see `choices.py`)
+    one_of    : words of the first parameters of each carrier, if these are ways to occur of which it has one; the last
+                ones bend that way, and are in no pattern to begin with (see `choices.py`)
+    along     : words, if the parameter after the ways goes along in half of the patterns
     seen_in   : kinds of rows it shows in;  needs : why these data cannot show it, or ""
     outside   : whether it sits in the data alone: the extended robot does not have it
     becomes   : causes that it is where some of its parameters are zero
@@ -126,6 +127,7 @@ class Cause:
     shapes: tuple[tuple[str, slice | list[int], float], ...] = ()
     laws: tuple[tuple[str, list[int], float], ...] = ()
     one_of: tuple[str, ...] = ()
+    along: str = ""
     seen_in: tuple[str, ...] = ()
     needs: Callable[[Seen], str] = always
     outside: bool = False
@@ -162,15 +164,24 @@ class Cause:
         return [found for words, own, share in laws for found in self._of_law(seen, words, own, share)]
 
     def in_one_way(self, seen: Seen, ways: Sequence[int]) -> list[Pattern]:
-        """Each carrier in one of its ways, all of one size or each of its own; equally likely among uniform ones."""
-        basic, endings, count = self.basic(seen), list(seen.groups[self.carrier]), len(self.one_of)
-        places = [len(self.parameters) * i + k for i, k in enumerate(ways)]
+        """Each carrier in one of its ways, all of one size or each of its own, with what may go along and without."""
+        basic, axes, endings = self.basic(seen), len(self.parameters), list(seen.groups[self.carrier])
+        every, count = np.eye(len(basic)), len(self.one_of)
+        starts = axes * np.arange(len(endings))
         words = self.one_of[ways[0]] if len(set(ways)) == 1 else ", ".join(self.one_of[k] for k in ways)
-        each = np.eye(len(basic))[:, places]
+        each = every[:, starts + np.asarray(ways)]
         own = tuple(replace(self.parameters[0], name=f"{self.parameters[0].name}_{e}") for e in endings)
-        return [
-            Pattern(f"{ALIKE_IN}{words}", each.sum(axis=1, keepdims=True), self.parameters[:1], self.alike / count),
-            Pattern(f"each its own, axes {words}", each, own, (1.0 - self.alike) / count),
+        sizes = (
+            (f"{ALIKE_IN}{words}", each.sum(axis=1, keepdims=True), self.parameters[:1], self.alike / count),
+            (f"each its own, axes {words}", each, own, (1.0 - self.alike) / count),
+        )
+        if not self.along:
+            return [Pattern(*size) for size in sizes]
+        more, free = every[:, starts + count], tuple(basic[i] for i in starts + count)
+        found = [Pattern(label, basis, named, 0.5 * weight) for label, basis, named, weight in sizes]
+        return found + [
+            Pattern(f"{p.label}; {self.along}", np.concatenate([p.basis, more], axis=1), (*p.parameters, *free), p.weight)
+            for p in found
         ]
 
     def _of_law(self, seen: Seen, law: str, own: list[int], share: float) -> list[Pattern]:

@@ -1,7 +1,8 @@
 """Pulleys that nobody entered: a radius, and the axis about which each swivels.
 
 The effect of a small pulley is proportional to its radius, but not linear in the vector radius times axis: each axis is a
-column of its own, and a cable has one of them. `choices.py` finds out which.
+column of its own, and a cable has one of them. `choices.py` finds out which. Winches that were homed by a robot without
+pulleys have another zero besides: the cable on the pulley at home counts as none.
 """
 
 from dataclasses import replace
@@ -15,6 +16,7 @@ AXES = ("up", "down", "+x", "-x", "+y", "-y", "outwards", "inwards", "left", "ri
 """Along which the cable comes to its pulley, world; outwards of the middle of the frame anchors, left of one who looks
 outwards."""
 _SIZE = 0.01  # m, one sigma of the radius at the scale 1
+_HOMED = 0.01  # m, one sigma of the zero that homing without pulleys leaves, at the same scale
 _LEAN = 0.1  # rad, one sigma of each of two angles between an axis and the nearest of `AXES`, at a radius of `_SIZE`
 _FLAT = 1e-3  # m, radius below which an axis cannot be seen to lean
 _OWN = 2  # numbers of a leaning axis
@@ -22,9 +24,10 @@ _XYZ = np.array([[0, 0, 1], [0, 0, -1], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1
 
 
 def _with_pulleys(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
-    """The robot with a pulley on each cable that has none: radii along each of `AXES`, and twice radius times lean."""
-    each = by_carrier(theta, len(AXES) + _OWN)
-    radii, lean = each[..., : len(AXES)], each[..., len(AXES) :]
+    """The robot with a pulley on each cable that has none: radii along each of `AXES`, a length, twice radius times lean."""
+    ways = len(AXES)
+    each = by_carrier(theta, ways + 1 + _OWN)
+    radii, zero, lean = each[..., :ways], each[..., ways], each[..., ways + 1 :]
     size, axis = radii.sum(axis=-1), (radii[..., None] * axes(arrays)).sum(axis=-2)
     length = np.linalg.norm(axis, axis=-1, keepdims=True)
     axis = np.where(length > 0.0, axis / np.maximum(length, 1e-300), arrays.pulley_axis)
@@ -36,6 +39,7 @@ def _with_pulleys(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
         arrays,
         pulley_radius=np.where(bare, np.maximum(size, 0.0), arrays.pulley_radius),
         pulley_axis=np.where(bare[..., None], axis, arrays.pulley_axis),
+        length_offset=arrays.length_offset + np.where(bare, zero, 0.0),
     )
 
 
@@ -68,12 +72,14 @@ CAUSES = (
         "pulleys that the robot file does not have",
         (
             *(Parameter("pulley_radius", "m", _SIZE, positive=True) for _ in AXES),
+            Parameter("length_offset", "m", _HOMED),
             *(Parameter(f"pulley_lean_{i}", "m", _LEAN * _SIZE) for i in range(1, _OWN + 1)),
         ),
         _with_pulleys,
         carrier="cable",
         alike=0.8,
         one_of=AXES,
+        along="lengths homed without them",
         seen_in=("CO", "NS"),
         sentence="the robot file has no pulleys, and the cables run over pulleys of {value} m radius",
         needs=_needs,
