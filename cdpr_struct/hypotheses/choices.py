@@ -1,7 +1,7 @@
 """Which way has each carrier, where a cause has several of which each carrier has one?
 
 K ways of m carriers are K^m patterns. Of one common size, what each adds follows in closed form from gram and score of
-the ways; the best pattern is found by changing one carrier at a time, from each uniform pattern on.
+the ways; the best one is found by changing one carrier at a time, from many patterns on.
 """
 
 from collections.abc import Sequence
@@ -16,7 +16,10 @@ from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.inference.screening import Screen
 
+_STRAIGHT = 0.5  # probability that ways do not bend; half of the rest that they bend a little
 _MIXED = 0.4  # probability that carriers differ in their ways
+_LITTLE = 0.2  # of the prior by which ways bend, where they bend a little
+_SEED, _STARTS = 20251125, 200  # of mixes that are improved, beside the uniform ones
 _ROUNDS = 20  # changes of every carrier's way; each round that changes one adds to a bounded sum
 
 
@@ -24,7 +27,8 @@ def with_choices(menu: Sequence[Offered], about: Judged, noises: Sequence[NoiseS
     """The causes with one more way to occur for those whose carriers have one of several: the best mix of ways."""
     if not any(one.cause.one_of for one in menu):
         return list(menu)
-    screens = [Screen.of(about.model, noise, about.fit.soft) for noise in noises]
+    each = [*noises, NoiseState.stated(about.model.groups)]
+    screens = [Screen.of(about.model, noise, about.fit.soft) for noise in each]
     return [_mixed(one, screens, seen) if one.cause.one_of else one for one in menu]
 
 
@@ -33,11 +37,9 @@ def _mixed(offered: Offered, screens: Sequence[Screen], seen: Seen) -> Offered:
     cause, ways = offered.cause, len(offered.cause.one_of)
     carriers = offered.columns[0].shape[-1] // len(cause.parameters)
     mixes = {mix: None for screen in screens for mix in _best_mixes(offered, screen) if len(set(mix)) > 1}
-    if not mixes:
-        return offered
     share = _MIXED * ways / (float(ways) ** carriers - ways)  # of one mix; `in_one_way` divides by the ways itself
-    patterns = [replace(pattern, weight=(1.0 - _MIXED) * pattern.weight) for pattern in offered.patterns]
-    patterns += [replace(p, weight=share * p.weight) for mix in mixes for p in cause.in_one_way(seen, mix)]
+    patterns = [replace(p, weight=_STRAIGHT * (1.0 - _MIXED) * p.weight) for p in offered.patterns]
+    patterns += [replace(p, weight=_STRAIGHT * share * p.weight) for mix in mixes for p in cause.in_one_way(seen, mix)]
     return replace(offered, patterns=tuple(patterns))
 
 
@@ -66,36 +68,40 @@ def best_mix(gram: np.ndarray, score: np.ndarray) -> tuple[int, ...]:
     gram (m, K, m, K), score (m, K) : of columns in prior sigmas
     """
     carriers, ways = score.shape
-    best, most = (0,) * carriers, -np.inf
-    for start in range(ways):
-        mix = np.full(carriers, start)
-        for _ in range(_ROUNDS):
-            before = mix.copy()
-            for i in range(carriers):
-                mix[i] = int(np.argmax(_added(gram, score, mix, i)))
-            if (mix == before).all():
-                break
-        value = float(_added(gram, score, mix, 0)[mix[0]])
-        if value > most:
-            best, most = tuple(mix.tolist()), value
-    return best
+    uniform = np.repeat(np.arange(ways)[:, None], carriers, axis=1)
+    mixes = np.concatenate([uniform, np.random.default_rng(_SEED).integers(0, ways, (_STARTS, carriers))])
+    for _ in range(_ROUNDS):
+        before = mixes.copy()
+        for i in range(carriers):
+            mixes[:, i] = _added(gram, score, mixes, i).argmax(axis=1)
+        if (mixes == before).all():
+            break
+    values = _added(gram, score, mixes, 0).max(axis=1)
+    return tuple(mixes[values.argmax()].tolist())
 
 
-def _added(gram: np.ndarray, score: np.ndarray, mix: np.ndarray, i: int) -> np.ndarray:
-    """(K,) what the mix adds with each way of carrier i, at the largest scale."""
-    others = np.delete(np.arange(len(mix)), i)
-    chosen = gram[others, mix[others]]
-    inner = chosen[:, others, mix[others]].sum()
-    g = inner + 2.0 * chosen[:, i].sum(axis=0) + np.diagonal(gram[i, :, i])
-    s = np.maximum(score[others, mix[others]].sum() + score[i], 0.0)
+def _added(gram: np.ndarray, score: np.ndarray, mixes: np.ndarray, i: int) -> np.ndarray:
+    """(N, K) what mixes (N, m) add with each way of carrier i, at the largest scale."""
+    others = np.delete(np.arange(mixes.shape[1]), i)
+    own = mixes[:, others]
+    inner = gram[others[:, None], own[:, :, None], others, own[:, None, :]].sum(axis=(1, 2))
+    cross = gram[others, own, i].sum(axis=1)
+    g = inner[:, None] + 2.0 * cross + np.diagonal(gram[i, :, i])
+    s = np.maximum(score[others, own].sum(axis=1)[:, None] + score[i], 0.0)
     return np.asarray(0.5 * s**2 / (g + SCALES[-1] ** -2) - 0.5 * np.log1p(SCALES[-1] ** 2 * g))
 
 
-def bent(part: Part, seen: Seen) -> Part:
-    """A part with the numbers besides by which each carrier's way may bend."""
+def bent(part: Part, seen: Seen) -> list[Part]:
+    """A part with the numbers besides by which each carrier's way may bend, by as much as their prior says or little."""
+    return [_bent(part, seen, size) for size in (1.0, _LITTLE)]
+
+
+def _bent(part: Part, seen: Seen, size: float) -> Part:
     cause = part.cause
     basic, ways = cause.basic(seen), len(cause.one_of)
     free = [i for i in range(len(basic)) if i % len(cause.parameters) >= ways + bool(cause.along)]
     basis = np.concatenate([part.pattern.basis, np.eye(len(basic))[:, free]], axis=1)
-    parameters = (*part.pattern.parameters, *(basic[i] for i in free))
-    return replace(part, pattern=Pattern(f"{part.pattern.label}, bent", basis, parameters, part.pattern.weight))
+    more = (replace(basic[i], prior=size * basic[i].prior) for i in free)
+    label = f"{part.pattern.label}, bent" + ("" if size == 1.0 else " a little")
+    pattern = Pattern(label, basis, (*part.pattern.parameters, *more), 0.5 * part.pattern.weight)
+    return replace(part, pattern=pattern)

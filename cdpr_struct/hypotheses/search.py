@@ -189,11 +189,12 @@ class Search:
         """Causes whose carriers have one of several ways, fitted so that these ways may bend."""
         best = {one.hypothesis.parts[0].cause.name: one for one in reversed(self._ranked(1))}
         for one in [one for one in best.values() if one.hypothesis.parts[0].cause.one_of]:
-            more = Hypothesis((bent(one.hypothesis.parts[0], self.seen),), one.hypothesis.drift)
-            z = np.append(one.sizes[0], np.zeros(len(more.parts[0].pattern.prior) - len(one.sizes[0])))
-            self.spread[more.key] = self.spread.get(one.hypothesis.key, 0.0)
-            base = next(null for null in nulls if null.hypothesis.drift == more.drift)
-            self.keep(begun(self.data, self.where, base, more, z))
+            base = next(null for null in nulls if null.hypothesis.drift == one.hypothesis.drift)
+            for part in bent(one.hypothesis.parts[0], self.seen):
+                more = Hypothesis((part,), one.hypothesis.drift)
+                self.spread[more.key] = self.spread.get(one.hypothesis.key, 0.0)
+                z = np.append(one.sizes[0], np.zeros(len(part.pattern.prior) - len(one.sizes[0])))
+                self.keep(begun(self.data, self.where, base, more, z))
 
     def _begin(self, large: Sequence[Beginning], base: Judged) -> None:
         """Fits of large changes that would put peaks right, beside what is known by then."""

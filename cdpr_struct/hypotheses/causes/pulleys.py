@@ -16,7 +16,7 @@ AXES = ("up", "down", "+x", "-x", "+y", "-y", "outwards", "inwards", "left", "ri
 """Along which the cable comes to its pulley, world; outwards of the middle of the frame anchors, left of one who looks
 outwards."""
 _SIZE = 0.01  # m, one sigma of the radius at the scale 1
-_HOMED = 0.01  # m, one sigma of the zero that homing without pulleys leaves, at the same scale
+_HOMED = 0.02  # m, one sigma of the zero that homing without pulleys leaves, at the same scale
 _LEAN = 0.1  # rad, one sigma of each of two angles between an axis and the nearest of `AXES`, at a radius of `_SIZE`
 _FLAT = 1e-3  # m, radius below which an axis cannot be seen to lean
 _OWN = 2  # numbers of a leaning axis
