@@ -13,6 +13,7 @@ from scipy.special import logsumexp
 
 from cdpr_struct.hypotheses.alternatives import Gains, Offered, gains, offered
 from cdpr_struct.hypotheses.causes import internal_force
+from cdpr_struct.hypotheses.causes.cause import Cause
 from cdpr_struct.hypotheses.causes.drift import AMPLITUDES
 from cdpr_struct.hypotheses.causes.library import testable
 from cdpr_struct.hypotheses.choices import bent, with_choices
@@ -248,7 +249,8 @@ class Search:
     def _pairs(self, first: Judged) -> None:
         """A second cause beside one, where that may come near the best."""
         present = {part.cause.name for part in first.hypothesis.parts}
-        left = [cause for cause in self.causes if cause.name not in present]
+        known = [part.cause for part in first.hypothesis.parts]
+        left = [c for c in self.causes if c.name not in present and not any(_same(c, one) for one in known)]
         menu = offered(self.data, self.where, self.seen, left, first)
         menu = with_choices(menu, first, [first.fit.noise], self.seen)
         rows = self._screened(menu, [first], None)[: self.budget.pairs]
@@ -260,3 +262,8 @@ class Search:
             return
         menu = [one for one in offered(self.data, self.where, self.seen, [], best) if one.cause.name == UNKNOWN]
         self._fit_best(menu, self._screened(menu, [best], None), 0, best.score - self.budget.pair_near)
+
+
+def _same(one: Cause, other: Cause) -> bool:
+    """Whether one of two causes has the numbers of the other, in half of its patterns: both say no more than it alone."""
+    return any(a.along and b.name in a.becomes for a, b in ((one, other), (other, one)))

@@ -80,6 +80,7 @@ CAUSES = (
         alike=0.8,
         one_of=AXES,
         along="lengths homed without them",
+        becomes=("unstrained_length_offset",),
         seen_in=("CO", "NS"),
         sentence="the robot file has no pulleys, and the cables run over pulleys of {value} m radius",
         needs=_needs,
