@@ -37,6 +37,8 @@ def _mixed(offered: Offered, screens: Sequence[Screen], seen: Seen) -> Offered:
     cause, ways = offered.cause, len(offered.cause.one_of)
     carriers = offered.columns[0].shape[-1] // len(cause.parameters)
     mixes = {mix: None for screen in screens for mix in _best_mixes(offered, screen) if len(set(mix)) > 1}
+    if not mixes:
+        return offered
     share = _MIXED * ways / (float(ways) ** carriers - ways)  # of one mix; `in_one_way` divides by the ways itself
     patterns = [replace(p, weight=_STRAIGHT * (1.0 - _MIXED) * p.weight) for p in offered.patterns]
     patterns += [replace(p, weight=_STRAIGHT * share * p.weight) for mix in mixes for p in cause.in_one_way(seen, mix)]
@@ -92,7 +94,7 @@ def _added(gram: np.ndarray, score: np.ndarray, mixes: np.ndarray, i: int) -> np
 
 
 def bent(part: Part, seen: Seen) -> list[Part]:
-    """A part with the numbers besides by which each carrier's way may bend, by as much as their prior says or little."""
+    """A part with the numbers by which each carrier's way may bend: by as much as their prior says, or little."""
     return [_bent(part, seen, size) for size in (1.0, _LITTLE)]
 
 

@@ -265,5 +265,5 @@ class Search:
 
 
 def _same(one: Cause, other: Cause) -> bool:
-    """Whether one of two causes has the numbers of the other, in half of its patterns: both say no more than it alone."""
+    """Whether one of two causes has the numbers of the other in half of its patterns: both say no more than it alone."""
     return any(a.along and b.name in a.becomes for a, b in ((one, other), (other, one)))

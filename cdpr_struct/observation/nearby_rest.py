@@ -1,9 +1,9 @@
 """States at rest near known ones, to first order: residuals of many slightly different robots without any catenary.
 
 A cable that carries a given tension depends on where its ends are, its tension, stiffness, weight and what is in line
-with it: seven numbers. Their slopes are taken once; what a robot or a reading changes of them is geometry. So is a pulley
-of another radius or axis: with the cable's direction held its exit moves as if the frame anchor did, and the cable on it
-is longer. What the exit does as the cable turns after that, the slopes know.
+with it: seven numbers. Their slopes are taken once; what a robot or a reading changes of them is geometry. So is a
+pulley of another radius or axis: with the cable's direction held, its exit moves as if the frame anchor did, and the
+cable on it is longer. What the exit does as the cable turns after that, the slopes know.
 """
 
 from dataclasses import dataclass, replace
@@ -32,7 +32,7 @@ class NearbyRest:
     inputs (S, m, 7) : frame to platform anchor with rigid masts (3) [m], tension, EA, weight, compliance
     outputs (S, m, 7) : force on the platform, pull at the frame (3 each) [N], length from the frame anchor on [m]
     slopes (S, m, 7, 7)
-    wound (S or 1, m or 1, 4) : exit less frame anchor (3) [m], unstrained length on the pulley [m], of cables as they pull
+    wound (S or 1, m or 1, 4) : exit less frame anchor (3) [m], unstrained length on the pulley [m], at these pulls
     stretch (S, m) : strained over unstrained length where cables leave the pulleys
     """
 
@@ -109,13 +109,11 @@ def _mast_shift(arrays: RobotArrays, outputs: np.ndarray) -> np.ndarray:
 
 
 def _wound(arrays: RobotArrays, outputs: np.ndarray, stretch: np.ndarray) -> np.ndarray:
-    """(..., m, 4) exit less frame anchor (3) and unstrained length on the pulley [m], of cables that pull as they do."""
+    """(..., m, 4) exit less frame anchor (3) and unstrained length on the pulley [m], of cables with these pulls."""
     if not arrays.has_pulleys:
         return np.zeros((1, 1, 4))
     pull = outputs[..., 3:6]
-    there = pulley_exit(
-        pull / np.linalg.norm(pull, axis=-1, keepdims=True), arrays.pulley_axis, arrays.pulley_radius
-    )
+    there = pulley_exit(pull / np.linalg.norm(pull, axis=-1, keepdims=True), arrays.pulley_axis, arrays.pulley_radius)
     length = arrays.pulley_radius * there.wrap_angle / stretch
     return np.concatenate([there.point, length[..., None]], axis=-1)
 

@@ -180,7 +180,9 @@ class Cause:
         more, free = every[:, starts + count], tuple(basic[i] for i in starts + count)
         found = [Pattern(label, basis, named, 0.5 * weight) for label, basis, named, weight in sizes]
         return found + [
-            Pattern(f"{p.label}; {self.along}", np.concatenate([p.basis, more], axis=1), (*p.parameters, *free), p.weight)
+            Pattern(
+                f"{p.label}; {self.along}", np.concatenate([p.basis, more], axis=1), (*p.parameters, *free), p.weight
+            )
             for p in found
         ]
 

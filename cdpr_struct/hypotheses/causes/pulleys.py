@@ -1,7 +1,7 @@
 """Pulleys that nobody entered: a radius, and the axis about which each swivels.
 
-The effect of a small pulley is proportional to its radius, but not linear in the vector radius times axis: each axis is a
-column of its own, and a cable has one of them. `choices.py` finds out which. Winches that were homed by a robot without
+The effect of a small pulley is proportional to its radius, but not linear in the vector radius times axis: each axis is
+a column of its own, and a cable has one of them. `choices.py` finds out which. Winches that were homed by a robot without
 pulleys have another zero besides: the cable on the pulley at home counts as none.
 """
 
@@ -24,7 +24,7 @@ _XYZ = np.array([[0, 0, 1], [0, 0, -1], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1
 
 
 def _with_pulleys(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
-    """The robot with a pulley on each cable that has none: radii along each of `AXES`, a length, twice radius times lean."""
+    """The robot with a pulley on each cable that has none: radii along `AXES`, zero of the length, radius times leans."""
     ways = len(AXES)
     each = by_carrier(theta, ways + 1 + _OWN)
     radii, zero, lean = each[..., :ways], each[..., ways], each[..., ways + 1 :]
