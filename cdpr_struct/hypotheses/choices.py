@@ -19,6 +19,7 @@ from cdpr_struct.inference.screening import Screen
 _STRAIGHT = 0.5  # probability that ways do not bend; half of the rest that they bend a little
 _MIXED = 0.4  # probability that carriers differ in their ways
 _LITTLE = 0.2  # of the prior by which ways bend, where they bend a little
+_CLEAR = 3.0  # sigmas by which a size differs from none
 _SEED, _STARTS = 20251125, 200  # of mixes that are improved, beside the uniform ones
 _ROUNDS = 20  # changes of every carrier's way; each round that changes one adds to a bounded sum
 
@@ -37,9 +38,8 @@ def _mixed(offered: Offered, screens: Sequence[Screen], seen: Seen) -> Offered:
     cause, ways = offered.cause, len(offered.cause.one_of)
     carriers = offered.columns[0].shape[-1] // len(cause.parameters)
     mixes = {mix: None for screen in screens for mix in _best_mixes(offered, screen) if len(set(mix)) > 1}
-    if not mixes:
-        return offered
-    share = _MIXED * ways / (float(ways) ** carriers - ways)  # of one mix; `in_one_way` divides by the ways itself
+    others = max(float(ways) ** carriers - ways, 1.0)
+    share = _MIXED * ways / others  # of one mix; `in_one_way` divides by the ways itself
     patterns = [replace(p, weight=_STRAIGHT * (1.0 - _MIXED) * p.weight) for p in offered.patterns]
     patterns += [replace(p, weight=_STRAIGHT * share * p.weight) for mix in mixes for p in cause.in_one_way(seen, mix)]
     return replace(offered, patterns=tuple(patterns))
@@ -91,6 +91,24 @@ def _added(gram: np.ndarray, score: np.ndarray, mixes: np.ndarray, i: int) -> np
     g = inner[:, None] + 2.0 * cross + np.diagonal(gram[i, :, i])
     s = np.maximum(score[others, own].sum(axis=1)[:, None] + score[i], 0.0)
     return np.asarray(0.5 * s**2 / (g + SCALES[-1] ** -2) - 0.5 * np.log1p(SCALES[-1] ** 2 * g))
+
+
+def occurs(found: Judged) -> bool:
+    """Whether the mean size of each cause in one of several ways is clearly more than none, and none too small to exist.
+
+    What goes along may act alone: then another cause says the same without it.
+    """
+    return all(_occurs(found, i) for i, part in enumerate(found.hypothesis.parts) if part.cause.one_of)
+
+
+def _occurs(found: Judged, i: int) -> bool:
+    part, parts = found.hypothesis.parts[i], found.hypothesis.parts
+    start = len(found.fit.z_mean) - sum(len(p.pattern.prior) for p in parts[i:])
+    sizes = [k for k, p in enumerate(part.pattern.parameters) if p.least > 0.0]
+    own, factor = start + np.array(sizes), part.scale * part.pattern.prior[sizes] / len(sizes)
+    mean = float(factor @ found.fit.z_mean[own])
+    sigma = float(np.sqrt(factor @ found.fit.z_covariance[np.ix_(own, own)] @ factor))
+    return mean > max(part.pattern.parameters[sizes[0]].least, _CLEAR * sigma)
 
 
 def bent(part: Part, seen: Seen) -> list[Part]:

@@ -16,7 +16,7 @@ from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.cause import Cause
 from cdpr_struct.hypotheses.causes.drift import AMPLITUDES
 from cdpr_struct.hypotheses.causes.library import testable
-from cdpr_struct.hypotheses.choices import bent, with_choices
+from cdpr_struct.hypotheses.choices import bent, occurs, with_choices
 from cdpr_struct.hypotheses.hypothesis import PRICE, Hypothesis, drift_term
 from cdpr_struct.hypotheses.judge import NEAR, SETTLED, Judged, again, begun, converged, extended, judged, settled
 from cdpr_struct.hypotheses.laws import UNKNOWN
@@ -125,7 +125,7 @@ class Search:
     def answers(self) -> list[Answer]:
         """Sets of causes, best first."""
         groups: dict[tuple[str, ...], list[Judged]] = {}
-        for one in self.found.values():
+        for one in [one for one in self.found.values() if occurs(one)]:
             groups.setdefault(tuple(sorted(one.hypothesis.names)), []).append(one)
         rows = []
         for names, own in groups.items():
@@ -265,5 +265,5 @@ class Search:
 
 
 def _same(one: Cause, other: Cause) -> bool:
-    """Whether one of two causes has the numbers of the other in half of its patterns: both say no more than it alone."""
+    """Whether one of two causes has the numbers of the other in half of its patterns: with it, both say no more."""
     return any(a.along and b.name in a.becomes for a, b in ((one, other), (other, one)))

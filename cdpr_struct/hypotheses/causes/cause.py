@@ -21,6 +21,7 @@ class Parameter:
     squared : theta is the root of what is reported
     positive : theta below zero means nothing
     prior   : one sigma of theta
+    least   : smallest size that occurs, of those of a cause in one of several ways
     in_band : a frequency, its prior in the highest one that was measured of the robot; no check bounds it
     """
 
@@ -31,6 +32,7 @@ class Parameter:
     squared: bool = False
     positive: bool = False
     in_band: bool = False
+    least: float = 0.0
 
     def shown(self, theta: float, sigma: float) -> dict[str, float | str]:
         """Value, sigma and unit as they are reported."""

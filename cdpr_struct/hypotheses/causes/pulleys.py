@@ -1,8 +1,8 @@
 """Pulleys that nobody entered: a radius, and the axis about which each swivels.
 
 The effect of a small pulley is proportional to its radius, but not linear in the vector radius times axis: each axis is
-a column of its own, and a cable has one of them. `choices.py` finds out which. Winches that were homed by a robot without
-pulleys have another zero besides: the cable on the pulley at home counts as none.
+a column of its own, and a cable has one of them. `choices.py` finds out which. Winches that were homed by a robot
+without pulleys have another zero besides: the cable on the pulley at home counts as none.
 """
 
 from dataclasses import replace
@@ -16,6 +16,7 @@ AXES = ("up", "down", "+x", "-x", "+y", "-y", "outwards", "inwards", "left", "ri
 """Along which the cable comes to its pulley, world; outwards of the middle of the frame anchors, left of one who looks
 outwards."""
 _SIZE = 0.01  # m, one sigma of the radius at the scale 1
+_LEAST = 2e-3  # m, radius of the smallest pulley that a cable runs over
 _HOMED = 0.02  # m, one sigma of the zero that homing without pulleys leaves, at the same scale
 _LEAN = 0.1  # rad, one sigma of each of two angles between an axis and the nearest of `AXES`, at a radius of `_SIZE`
 _FLAT = 1e-3  # m, radius below which an axis cannot be seen to lean
@@ -24,7 +25,7 @@ _XYZ = np.array([[0, 0, 1], [0, 0, -1], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1
 
 
 def _with_pulleys(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
-    """The robot with a pulley on each cable that has none: radii along `AXES`, zero of the length, radius times leans."""
+    """The robot with a pulley on each cable that has none: radii along `AXES`, zero of lengths, radius times leans."""
     ways = len(AXES)
     each = by_carrier(theta, ways + 1 + _OWN)
     radii, zero, lean = each[..., :ways], each[..., ways], each[..., ways + 1 :]
@@ -71,7 +72,7 @@ CAUSES = (
         "missing_pulleys",
         "pulleys that the robot file does not have",
         (
-            *(Parameter("pulley_radius", "m", _SIZE, positive=True) for _ in AXES),
+            *(Parameter("pulley_radius", "m", _SIZE, positive=True, least=_LEAST) for _ in AXES),
             Parameter("length_offset", "m", _HOMED),
             *(Parameter(f"pulley_lean_{i}", "m", _LEAN * _SIZE) for i in range(1, _OWN + 1)),
         ),
