@@ -94,7 +94,7 @@ def _added(gram: np.ndarray, score: np.ndarray, mixes: np.ndarray, i: int) -> np
 
 
 def occurs(found: Judged) -> bool:
-    """Whether the mean size of each cause in one of several ways is clearly more than none, and none too small to exist.
+    """Whether the mean size of each cause in one of several ways is clearly more than none, and large enough.
 
     What goes along may act alone: then another cause says the same without it.
     """

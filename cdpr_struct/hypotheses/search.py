@@ -188,8 +188,7 @@ class Search:
 
     def _bend(self, nulls: Sequence[Judged]) -> None:
         """Causes whose carriers have one of several ways, fitted so that these ways may bend."""
-        best = {one.hypothesis.parts[0].cause.name: one for one in reversed(self._ranked(1))}
-        for one in [one for one in best.values() if one.hypothesis.parts[0].cause.one_of]:
+        for one in [one for one in self._ranked(1) if one.hypothesis.parts[0].cause.one_of]:
             base = next(null for null in nulls if null.hypothesis.drift == one.hypothesis.drift)
             for part in bent(one.hypothesis.parts[0], self.seen):
                 more = Hypothesis((part,), one.hypothesis.drift)
