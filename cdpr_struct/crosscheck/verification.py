@@ -36,6 +36,7 @@ class Verification:
     exact_hertz       : (k,) the paired frequency with the exact catenary's dynamic stiffness
     dsm_hertz         : (k,) the paired DSM frequency
     exact_assurance, assurance : (k,) share of the FEM shape in the cluster of the exact model's, of the DSM's mode
+    exact_mac, dsm_mac : (k, k) modal assurance criterion of FEM modes (rows) and the model's paired ones
     causes            : which effects the failing modes of a judged model lack
     static_hertz      : (k,) frequency on massless cables where this is the platform mode it stands for, else nan
     determinant_hertz : (k,) the minimum of the thesis's scan that stands for this mode, else nan
@@ -61,6 +62,8 @@ class Verification:
     exact_certified: bool
     exact_assurance: np.ndarray
     assurance: np.ndarray
+    exact_mac: np.ndarray
+    dsm_mac: np.ndarray
     causes: dict[Judged, tuple[Cause, ...]]
     kinds: tuple[str, ...]
     static_hertz: np.ndarray
@@ -121,6 +124,10 @@ class Verification:
             self.fem_neutral,
         )
 
+    def mac(self, model: Judged) -> np.ndarray:
+        """(k, k) modal assurance criterion of FEM modes (rows) and the modes of the model that are their partners."""
+        return self.exact_mac if model == "exact" else self.dsm_mac
+
     def objections(self, model: Judged | None = None) -> list[str]:
         """One sentence per criterion that the model does not meet; None: the first of `judged`."""
         return self.agreement(model or self.judged[0]).objections
@@ -153,8 +160,8 @@ def verify(
     sweep = refined_fem(point, elements, most_elements, modes, mass, certain, progress)
     progress("closed-form DSM and exact catenary")
     first = model_modes(point, "exact", modes, assembly, stations)
-    exact, exact_assurance = _paired(sweep, first, mass)
-    dsm, assurance = _paired(sweep, model_modes(point, "dsm", modes, assembly, stations), mass)
+    exact, exact_assurance, exact_mac = _paired(sweep, first, mass)
+    dsm, assurance, dsm_mac = _paired(sweep, model_modes(point, "dsm", modes, assembly, stations), mass)
     progress("determinant scan")
     scans = _scans(point, assembly, dsm.hertz.max())
     matched = {
@@ -176,6 +183,8 @@ def verify(
         exact_certified=exact.certified,
         exact_assurance=exact_assurance,
         assurance=assurance,
+        exact_mac=exact_mac,
+        dsm_mac=dsm_mac,
         causes={},
         kinds=tuple(exact.kinds),
         static_hertz=static_partners(point, assembly, sweep.platform_shapes, platform_mass),
@@ -193,13 +202,14 @@ def verify(
     return replace(found, causes=_causes(found, {"exact": exact, "dsm": dsm}, mass, stations))
 
 
-def _paired(sweep: RefinedFem, modes: ComparedModes, mass: np.ndarray) -> tuple[ComparedModes, np.ndarray]:
-    """The model's modes that stand for those of the FEM, and how much of each shape (k,) they share."""
+def _paired(sweep: RefinedFem, modes: ComparedModes, mass: np.ndarray) -> tuple[ComparedModes, np.ndarray, np.ndarray]:
+    """The model's modes that stand for those of the FEM, how much of each shape (k,) they share, and the MAC (k, k)."""
     assurance = modal_assurance(sweep.shapes, modes.shapes, mass)
     partner = pair_modes(assurance, sweep.hertz[-1], modes.hertz)
     shared = shared_subspace(assurance, modes.hertz, partner)
     kinds = [modes.kinds[j] for j in partner]
-    return replace(modes, hertz=modes.hertz[partner], shapes=modes.shapes[partner], kinds=kinds), shared
+    found = replace(modes, hertz=modes.hertz[partner], shapes=modes.shapes[partner], kinds=kinds)
+    return found, shared, assurance[:, partner]
 
 
 def _causes(

@@ -25,6 +25,7 @@ CableModel = Literal["static", "dsm", "exact"]
 CABLE_MODELS: tuple[CableModel, ...] = get_args(CableModel)
 _MAST_MODES = 4.0  # pairs of modes a half wave below the frequency, in the series of moving masts
 _TAUT = 0.2  # w L / T below which tension and tangent vary so little that fewer polynomials have the same digits
+_EXTRAS = ("bending_stiffness", "bending_fixity", "added_mass", "added_mass_place")
 _FEWEST, _FEW, _MANY, _KINKED = (6.0, 10.0), (10.0, 14.0), (16.0, 22.0), (24.0, 32.0)  # beyond the half waves, at least
 
 
@@ -80,11 +81,8 @@ def expand_catenaries_at(point: OperatingPoint, order: int) -> ModalExpansion:
     stiffness = point.end_stiffness.reshape(-1, 3, 3)
     density = np.broadcast_to(robot.linear_density, shape).reshape(-1)
     k = robot.lump_mass.shape[-1:]
-    extras = CableExtras(
-        np.broadcast_to(robot.bending_stiffness, shape).reshape(-1),
-        np.broadcast_to(robot.added_mass, shape).reshape(-1),
-        np.broadcast_to(robot.lump_mass, shape + k).reshape((-1, *k)),
-    )
+    bodies = {name: np.broadcast_to(getattr(robot, name), shape).reshape(-1) for name in _EXTRAS}
+    extras = CableExtras(**bodies, lump_mass=np.broadcast_to(robot.lump_mass, shape + k).reshape((-1, *k)))
     flat = flattened(cables)
     found = expand_catenaries(flat, density, order, stiffness, frame_ends(point), extras).reshaped(shape)
     return with_mast_mass(found, robot)

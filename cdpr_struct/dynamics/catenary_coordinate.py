@@ -46,7 +46,7 @@ class CatenaryCoordinate:
         return np.where(straight, middle * (1.0 + xi), curved), np.where(straight, middle, rate)
 
     def xi(self, stations: np.ndarray) -> np.ndarray:
-        """xi (m, s) of fractions (s,) of the unstrained length."""
+        """xi (m, s) of fractions (s,) or (m, s) of the unstrained length."""
         rise = self.weight[:, None] * self.length[:, None] * stations
         vertical = self.frame_vertical[:, None] + rise
         horizontal = np.sqrt(np.maximum(self.frame_tension**2 - self.frame_vertical**2, 0.0))[:, None]

@@ -18,7 +18,7 @@ from cdpr_struct.dynamics.catenary_line import across, along, stiffness_density
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.piecewise_basis import PiecewiseBasis, PiecewiseCoordinate
 from cdpr_struct.dynamics.polynomial_basis import curvatures, on_gauss_nodes, polynomial_basis
-from cdpr_struct.dynamics.stiff_cable import slenderness
+from cdpr_struct.dynamics.stiff_cable import shortening, slenderness
 from cdpr_struct.statics.cable_state import CableStates, cable_frame
 
 
@@ -36,11 +36,17 @@ class FrameEnds:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CableExtras:
-    """Bending stiffness EI (m,) [N m^2] of taut cables clamped at both ends, masses (m,) at mid-cable, and those of
-    the point masses (m, k) that hang where `CableStates.lump_place` says [kg]."""
+    """What cables are beside strings.
+
+    bending_stiffness, bending_fixity : (m,) EI [N m^2] of taut cables, and how far their ends are clamped (0 to 1)
+    added_mass, added_mass_place      : (m,) [kg] at a share of the unstrained length from the platform end
+    lump_mass                         : (m, k) of the point masses that hang where `CableStates.lump_place` says [kg]
+    """
 
     bending_stiffness: np.ndarray
+    bending_fixity: np.ndarray
     added_mass: np.ndarray
+    added_mass_place: np.ndarray
     lump_mass: np.ndarray
 
 
@@ -112,14 +118,14 @@ def expand_catenaries(
     mass = _products(values, inertia)
     bending = None
     if extras is not None and extras.added_mass.any():
-        middle, _ = polynomial_basis(coordinate.xi(np.array([0.5]))[:, 0], order)
-        mass = mass + extras.added_mass[:, None, None] * middle.T[:, :, None] * middle.T[:, None, :]
+        there, _ = polynomial_basis(coordinate.xi(1.0 - extras.added_mass_place[:, None])[:, 0], order)
+        mass = mass + extras.added_mass[:, None, None] * there.T[:, :, None] * there.T[:, None, :]
     if extras is not None and lumped:
         there, _ = basis.values(coordinate.xi(1.0 - cables.lump_place / cables.length[:, None]))
         mass = mass + np.einsum("imk,jmk,mk->mij", there, there, extras.lump_mass, optimize=True)
     if extras is not None and extras.bending_stiffness.any():
-        ends = 2.0 * slenderness(extras.bending_stiffness, cables.tension, cables.chord)
-        density = stiffness_density(cables, arc, (1.0 + ends + ends**2) ** 2)
+        slender = slenderness(extras.bending_stiffness, cables.tension, cables.chord)
+        density = stiffness_density(cables, arc, (1.0 + shortening(slender, extras.bending_fixity)) ** 2)
         bending = curvatures(nodes, order), extras.bending_stiffness[:, None] * weights / rate**3
         sideways = across(cables, arc)
     directions = None if frame_ends is None else to_local @ frame_ends.directions

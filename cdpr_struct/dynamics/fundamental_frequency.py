@@ -45,7 +45,7 @@ def fundamental_frequency(
     ----------
     cables : CableStates (..., m), all pulling
     linear_density : (m,) or (..., m) mu [kg/m]
-    extensions : of the robot; bending stiffness and masses at mid-cable act, as on a taut string
+    extensions : of the robot; bending stiffness and added masses act, as on a taut string
 
     Returns
     -------
@@ -58,8 +58,8 @@ def _extra_factor(cables: CableStates, density: np.ndarray, extensions: Extensio
     if extensions is None or not {"bending_stiffness", "added_mass"} & set(extensions.active):
         return 1.0
     slender = slenderness(extensions.bending_stiffness, cables.tension, cables.chord)
-    load = load_factor(extensions.added_mass, density * cables.length, 1)
-    return np.asarray(bending_factor(slender, 1) / np.sqrt(load))
+    load = load_factor(extensions.added_mass, density * cables.length, 1, extensions.added_mass_place)
+    return np.asarray(bending_factor(slender, 1, extensions.bending_fixity) / np.sqrt(load))
 
 
 def chord_tension_at_frequency(

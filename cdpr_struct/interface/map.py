@@ -6,8 +6,6 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import SMALLEST, read_grid, read_robot, real, whole
@@ -40,6 +38,7 @@ from cdpr_struct.workspace.work_list import Columns
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
 
+Three: TypeAlias = tuple[bool, bool, bool]
 More: TypeAlias = tuple[str | Iterable[str] | None, WrenchesLike | None, int, float]
 
 
@@ -144,7 +143,7 @@ def map(
 class MapQuestion:
     """Which quantity is asked for, over which grid.
 
-    chunk : poses a batch, None for what suits the quantity;  free : (3,) bool, which of rx, ry, rz hang freely, or None
+    chunk : poses a batch, None for what suits the quantity;  free : which of rx, ry, rz hang freely, or None
     compute : the quantity under a set of wrenches or with an anchor zone of its own, or None
     """
 
@@ -152,7 +151,7 @@ class MapQuestion:
     grid: Grid
     quantity: str
     chunk: int | None
-    free: np.ndarray | None = None
+    free: Three | None = None
     compute: ManyQuantities | None = None
 
     @property
@@ -164,7 +163,7 @@ class MapQuestion:
         if self.free is None:
             return batches
         compute = partial(evaluate, self.quantity) if self.compute is None else self.compute
-        return hanging(batches, self.quantity, compute, self.free.tolist())
+        return hanging(batches, self.quantity, compute, self.free)
 
     @property
     def ran(self) -> list[PoseBatches]:
@@ -173,11 +172,10 @@ class MapQuestion:
 
     def answered_by(self, run: Callable[[PoseBatches], Columns]) -> MapResult:
         """The result; `run` gives the columns of batches of poses."""
-        values = quantity_of(self.quantity).finished(self.robot, self.grid, run(self.batches))
+        values = quantity_of(self.quantity, self.free).finished(self.robot, self.grid, run(self.batches))
         told = statics_map.map_json(self.robot, self.quantity, self.grid, values) | {"resumed_chunks": 0}
         if self.free is not None:
-            free, angles = self.free.tolist(), found_angles(values)
-            told = told_in_map(told, self.robot, free, angles, where_judged(self.quantity))
+            told = told_in_map(told, self.robot, self.free, found_angles(values), where_judged(self.quantity))
         answer = with_extensions(told, self.robot, _kin(self.quantity))
         return MapResult(answer, self.robot, self.quantity, self.grid, values)
 
@@ -222,11 +220,14 @@ def map_question(
         raise InputError("grid", "", f"{poses.size} poses", right)
     require_entered(machine, (name,))
     compute = _own(name, what.evaluate, more)
+    return MapQuestion(machine, poses, name, chunk, _three(free, machine, poses), compute)
+
+
+def _three(free: FreeAngles | None, robot: Robot, grid: Grid) -> Three | None:
     if free is None:
-        return MapQuestion(machine, poses, name, chunk, None, compute)
-    if name.startswith("mode-"):
-        raise InputError("free", "", free, f"{name} is computed at the orientation of the grid; leave it out")
-    return MapQuestion(machine, poses, name, chunk, read_free(free, machine, poses.angles)[0], compute)
+        return None
+    rx, ry, rz = read_free(free, robot, grid.angles)[0].tolist()
+    return rx, ry, rz
 
 
 def _own(name: str, evaluates: Callable[..., Columns], more: More) -> ManyQuantities | None:
@@ -259,9 +260,8 @@ def _workspace_question(
     if free is not None and errors:
         raise InputError("free", "", free, "pose errors are computed at the orientation of the grid; leave it out")
     compute = ManyQuantities(names, NO_WRENCH if asked is None else asked, _zone(zone))
-    rx, ry, rz = (False,) * 3 if free is None else read_free(free, robot, grid.angles)[0].tolist()
-    hanging = None if free is None else (rx, ry, rz)
-    return WorkspaceQuestion(robot, grid, required, compute, whole(refine, "refine", 0, 6), chunk, hanging)
+    times = whole(refine, "refine", 0, 6)
+    return WorkspaceQuestion(robot, grid, required, compute, times, chunk, _three(free, robot, grid))
 
 
 def _zone(given: float) -> float:

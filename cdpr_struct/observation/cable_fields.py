@@ -8,6 +8,7 @@ from cdpr_struct.dynamics.cable_dynamics import flattened
 from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.robot.added_masses import PLACES, asked_places
 
 _SPARE = (
     8  # Gauss points beyond the order of the polynomials: products of slopes with tension and density come out whole
@@ -39,26 +40,35 @@ class CableFields:
 
     motion    : (..., m, k, s, 3) displacement, of the mast too
     slope     : (..., m, k, s, 3) its derivative by the fraction of the cable
-    curvature : (..., m, k, s, 3) its second derivative; no stations where cables do not resist bending
-    middle    : (..., m, k, 3) displacement at mid-cable
+    curvature : (..., m, k, s, 3) its second derivative; no stations where it is not asked for
+    loaded    : (..., m, k, 2, p, 3) displacement and slope where the cable may carry an added mass (`asked_places`)
     """
 
     stations: Stations
     motion: np.ndarray
     slope: np.ndarray
     curvature: np.ndarray
-    middle: np.ndarray
+    loaded: np.ndarray
 
     @property
     def at_rest(self) -> "CableFields":
         """The same shapes without inertia."""
-        return replace(self, motion=np.zeros_like(self.motion), middle=np.zeros_like(self.middle))
+        return replace(self, motion=np.zeros_like(self.motion), loaded=np.zeros_like(self.loaded))
 
 
 def fields_of_expansion(
-    point: OperatingPoint, order: int, expansion: ModalExpansion, end: np.ndarray, modal: np.ndarray, mast: np.ndarray
+    point: OperatingPoint,
+    order: int,
+    expansion: ModalExpansion,
+    end: np.ndarray,
+    modal: np.ndarray,
+    mast: np.ndarray,
+    bent: bool = False,
 ) -> CableFields:
-    """Fields of modes with coordinates end, mast (..., k, m, 3) and modal (..., k, m, p) of an exact expansion."""
+    """Fields of modes with coordinates end, mast (..., k, m, 3) and modal (..., k, m, p) of an exact expansion.
+
+    bent : with curvatures, also where cables do not resist bending: to know what they would do
+    """
     stations = Stations.on(point, order)
     flat = stations.share.reshape((-1, stations.share.shape[-1]))
     ends, own = np.swapaxes(end, -3, -2), np.swapaxes(modal, -3, -2)
@@ -71,8 +81,11 @@ def fields_of_expansion(
         moved = held + swing.reshape((*swing.shape[:-1], -1, 3)) + (0.0 if derivative else masts)
         return np.asarray((whole @ moved[..., None])[..., 0])
 
-    bent = of(flat if point.arrays.bending_stiffness.any() else flat[:, :0], 2)
-    return CableFields(stations, of(flat, 0), of(flat, 1), bent, of(np.array([0.5]), 0)[..., 0, :])
+    curved = of(flat if bent or point.arrays.bending_stiffness.any() else flat[:, :0], 2)
+    places = asked_places(point.arrays)
+    there = 1.0 - np.broadcast_to(places, point.cables.length.shape + places.shape[-1:]).reshape(-1, places.shape[-1])
+    loaded = np.stack([of(there, 0), of(there, 1)], axis=-3)
+    return CableFields(stations, of(flat, 0), of(flat, 1), curved, loaded)
 
 
 def massless_fields(point: OperatingPoint, order: int, force: np.ndarray) -> CableFields:
@@ -90,4 +103,4 @@ def massless_fields(point: OperatingPoint, order: int, force: np.ndarray) -> Cab
     length = cables.length[..., None, None, None]
     slope = length * (along * tangent / stiff[..., None, :, None] + across * (pull - along * tangent))
     nothing = slope[..., :0, :]
-    return CableFields(stations, np.zeros_like(slope), slope, nothing, np.zeros_like(slope[..., 0, :]))
+    return CableFields(stations, np.zeros_like(slope), slope, nothing, np.zeros((*slope.shape[:-2], 2, len(PLACES), 3)))

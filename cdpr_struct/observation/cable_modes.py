@@ -67,7 +67,7 @@ def cable_modes_at(point: OperatingPoint, rows: CableRows) -> CableModes:
     own[place, rank, 0, number] = 1.0
     still = np.zeros((*squared.shape, 1, 3))
     now = cable_dependence(one)
-    moved = cable_gradient(now, fields_of_expansion(one, order, expansion, still, own, still), squared)
+    moved = cable_gradient(now, fields_of_expansion(one, order, expansion, still, own, still, bent=True), squared)
     mine = squared[place, rank]
     gradient = moved.columns[place, 0, rank] / (2.0 * mine[:, None])
     return CableModes(rows, np.log(np.sqrt(mine) / (2.0 * np.pi)), now[place, 0], gradient)

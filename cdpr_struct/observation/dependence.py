@@ -14,13 +14,14 @@ from cdpr_struct.dynamics.frame_give import frame_give
 from cdpr_struct.dynamics.internal_mass import internal_coupling, internal_omega
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly, geometric_stiffness, platform_mass_matrix
-from cdpr_struct.dynamics.stiff_cable import slenderness
+from cdpr_struct.dynamics.stiff_cable import shortening, slenderness
+from cdpr_struct.robot.added_masses import nearest_place
 from cdpr_struct.statics.masts import MastShapes
 
-PULL, WEIGHT, EA, LENGTH, DENSITY, TIGHTENED, BENDING, MIDDLE, GIVE, ARM = (
-    slice(0, 3), 3, 4, 5, 6, 7, 8, 9, slice(10, 19), slice(19, 22),
+PULL, WEIGHT, EA, LENGTH, DENSITY, TIGHTENED, BENDING, PLACE, ADDED, GIVE, ARM = (
+    slice(0, 3), 3, 4, 5, 6, 7, 8, 9, slice(10, 14), slice(14, 23), slice(23, 26),
 )  # fmt: skip
-CABLE_COLUMNS = 22
+CABLE_COLUMNS = 26
 """Columns of one cable in the vector."""
 
 
@@ -66,14 +67,17 @@ def cable_dependence(point: OperatingPoint) -> np.ndarray:
     arrays, cables = point.arrays, point.cables
     bends, tightened = arrays.bending_stiffness, np.ones(1)
     if bends.any():
-        ends = 2.0 * slenderness(bends, cables.tension, cables.chord)
-        tightened = (1.0 + ends + ends**2) ** 2
+        slender = slenderness(bends, cables.tension, cables.chord)
+        tightened = (1.0 + shortening(slender, arrays.bending_fixity)) ** 2
     singles = (
         cables.weight * cables.length, cables.axial_stiffness, cables.length, arrays.linear_density, tightened, bends,
-        arrays.added_mass,
+        arrays.added_mass_place,
     )  # fmt: skip
+    added = arrays.added_mass[..., None] * nearest_place(arrays)
     arms = arrays.platform_anchors @ np.swapaxes(point.rotation, -1, -2)
-    return _joined(cables.force_at_frame, *(value[..., None] for value in singles), frame_compliance(point), arms)
+    return _joined(
+        cables.force_at_frame, *(value[..., None] for value in singles), added, frame_compliance(point), arms
+    )
 
 
 def _joined(*parts: np.ndarray) -> np.ndarray:

@@ -13,6 +13,7 @@ import numpy as np
 from cdpr_struct.dynamics.ritz_modes import RitzModes
 from cdpr_struct.observation.cable_fields import CableFields
 from cdpr_struct.observation.dependence import (
+    ADDED,
     ARM,
     BENDING,
     CABLE_COLUMNS,
@@ -20,7 +21,7 @@ from cdpr_struct.observation.dependence import (
     EA,
     GIVE,
     LENGTH,
-    MIDDLE,
+    PLACE,
     PULL,
     TIGHTENED,
     WEIGHT,
@@ -54,17 +55,20 @@ def cable_gradient(
     result = np.zeros((*fields.slope.shape[:-2], CABLE_COLUMNS))
     _elastic(result, state, fields)
     square = state.integral((fields.motion**2).sum(axis=-1))
-    density, length, middle = (cables[..., None, i] for i in (DENSITY, LENGTH, MIDDLE))
+    density, length, place = (cables[..., None, i] for i in (DENSITY, LENGTH, PLACE))
+    added = cables[..., None, ADDED]
     result[..., DENSITY] = -inertia * length * square
     result[..., LENGTH] -= inertia * density * square
-    result[..., MIDDLE] = -inertia * (fields.middle**2).sum(axis=-1)
     pull, share = state.force(fields.slope), fields.stations.share[..., None, :, None]
     hurled = (inertia * density * length)[..., None, None] * fields.motion
-    lumped = 0.5 * (inertia * middle)[..., None] * fields.middle
-    reaction = -state.integral(pull + (1.0 - share) * hurled) - lumped
+    there, slope = fields.loaded[..., 0, :, :], fields.loaded[..., 1, :, :]
+    result[..., ADDED] = -inertia[..., None] * (there**2).sum(axis=-1)
+    result[..., PLACE] = 2.0 * inertia * (added * (there * slope).sum(axis=-1)).sum(axis=-1)
+    lumped = inertia[..., None] * (added[..., None] * there).sum(axis=-2)
+    reaction = -state.integral(pull + (1.0 - share) * hurled) - place[..., None] * lumped
     result[..., GIVE] = -(reaction[..., :, None] * reaction[..., None, :]).reshape((*reaction.shape[:-1], 9))
     if turn is not None:
-        end = state.integral(pull - share * hurled) - lumped
+        end = state.integral(pull - share * hurled) - (1.0 - place)[..., None] * lumped
         result[..., ARM] = 2.0 * np.cross(end, turn[..., None, :, :])
     return CableGradient(result, reaction)
 

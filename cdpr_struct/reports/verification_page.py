@@ -4,11 +4,11 @@ import numpy as np
 
 from cdpr_struct.crosscheck.verification import Verification
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.figures import convergence, determinant, interactive, limits, mode_errors, robot_drawing
+from cdpr_struct.reports.figures import convergence, determinant, interactive, limits, mac, mode_errors, robot_drawing
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.html import Page, Plate, page_files
 from cdpr_struct.reports.verification_notes import verification_notes
-from cdpr_struct.reports.verification_result import eigenfrequency_columns
+from cdpr_struct.reports.verification_result import eigenfrequency_columns, mac_columns
 from cdpr_struct.reports.verification_tables import verification_tables
 from cdpr_struct.reports.verification_verdict import percent, verdict_lines
 
@@ -18,6 +18,7 @@ def verification_files(trial: Verification) -> dict[str, str | bytes]:
     plates = verification_plates(trial)
     return {
         "eigenfrequencies.csv": csv_text(eigenfrequency_columns(trial)),
+        "mac.csv": csv_text(mac_columns(trial)),
         "convergence.csv": _convergence_csv(trial),
         "cables.csv": _cables_csv(trial),
         "determinant_scan.csv": _determinant_csv(trial),
@@ -46,7 +47,7 @@ def verification_page(trial: Verification, plates: list[Plate]) -> Page:
 
 def verification_plates(trial: Verification) -> list[Plate]:
     """The figures, in the order of the page."""
-    return [_determinant(trial), _convergence(trial), _mode_errors(trial), _limits(trial), _robot(trial)]
+    return [_determinant(trial), _convergence(trial), _mode_errors(trial), _mac(trial), _limits(trial), _robot(trial)]
 
 
 def _determinant(trial: Verification) -> Plate:
@@ -65,6 +66,11 @@ def _mode_errors(trial: Verification) -> Plate:
     picture = Drawing("mode_errors", mode_errors.SIZE, lambda f: mode_errors.draw_mode_errors(f, trial))
     caption = mode_errors.mode_errors_caption(trial)
     return Plate("mode_errors", "Models against FEM, mode by mode", picture, caption)
+
+
+def _mac(trial: Verification) -> Plate:
+    picture = Drawing("mac", mac.SIZE, lambda f: mac.draw_mac(f, trial))
+    return Plate("mac", "Which shapes are alike?", picture, mac.mac_caption(trial))
 
 
 def _limits(trial: Verification) -> Plate:

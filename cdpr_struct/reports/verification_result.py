@@ -51,6 +51,7 @@ def verification_json(v: Verification, pose: list[float]) -> dict[str, Any]:
         "verdict": {"holds": not v.objections(), "objections": v.objections(), "model": v.judged[0]},
         "verdicts": {model: _verdict(v, model) for model in v.judged},
         "what_to_do": what_to_do(v),
+        "mac": {"exact": v.exact_mac, "dsm": v.dsm_mac},
     }
 
 
@@ -113,6 +114,17 @@ def _row(v: Verification, i: int) -> dict[str, Any]:
         "shape_share": v.assurance[i],
         "exact_shape_share": v.exact_assurance[i],
         "kind": v.kinds[i],
+    }
+
+
+def mac_columns(trial: Verification) -> dict[str, Any]:
+    """Columns of mac.csv: each FEM mode beside each model's mode, numbered by its FEM partner."""
+    number = np.arange(1, len(trial.kinds) + 1)
+    return {
+        "fem_mode": np.repeat(number, len(number)),
+        "model_mode": np.tile(number, len(number)),
+        "mac_exact": trial.exact_mac.ravel(),
+        "mac_dsm": trial.dsm_mac.ravel(),
     }
 
 

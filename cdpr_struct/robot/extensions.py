@@ -44,7 +44,9 @@ class Extensions:
     length_scale: np.ndarray
     temperature_change: float
     bending_stiffness: np.ndarray
+    bending_fixity: np.ndarray
     added_mass: np.ndarray
+    added_mass_place: np.ndarray
     cell_gain: np.ndarray
     cell_bias: np.ndarray
     friction: np.ndarray

@@ -140,8 +140,12 @@ EXTENSIONS: dict[str, Parameter] = {
     "length_scale": _extra(_EACH, 1.0, "1", "see length_offset", above=0.0),
     "temperature_change": _extra((), 0.0, "K", "of the cables, above that at which their lengths are entered",
                                  least=-300.0, most=300.0),
-    "bending_stiffness": _extra(_EACH, 0.0, "N m^2", "EI of the cable, both ends clamped", least=0.0),
-    "added_mass": _extra(_EACH, 0.0, "kg", "at mid-cable, for vibration only", least=0.0),
+    "bending_stiffness": _extra(_EACH, 0.0, "N m^2", "EI of the cable", least=0.0),
+    "bending_fixity": _extra(_EACH, 1.0, "1", "of the ends of a cable that resists bending: 0 pinned, 1 clamped",
+                             least=0.0, most=1.0),
+    "added_mass": _extra(_EACH, 0.0, "kg", "on the free cable, for vibration only", least=0.0),
+    "added_mass_place": _extra(_EACH, 0.5, "1", "of added_mass, share of the unstrained length from the platform end",
+                               least=0.0, most=1.0),
     "cell_gain": _extra(_EACH, 1.0, "1", "load cell reading = cell_gain * tension + cell_bias", above=0.0),
     "cell_bias": _extra(_EACH, 0.0, "N", "see cell_gain"),
     "friction": _extra(_EACH, 0.0, "1", "load cell = tension * exp(friction * last direction * turn at the exit)"),
@@ -161,6 +165,8 @@ PARAMETERS: dict[str, Parameter] = {**_RULES, **EXTENSIONS}
 SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain", "sensor_mass")
 """Act only where readings are compared: they describe sensors, or need the time of a reading."""
 AUXILIARY = {
+    "bending_fixity": ("bending_stiffness",),
+    "added_mass_place": ("added_mass",),
     "mast_foot": ("mast_bending",),
     "wind": ("drag_area", "drag_width"),
     "air_density": ("drag_area", "drag_width"),

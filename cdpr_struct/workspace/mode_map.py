@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.statics.free_orientation import free_orientation
+from cdpr_struct.statics.inverse_kinematics import InverseSolution, hung_solution
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.inserted_poses import InsertedPoses
 from cdpr_struct.workspace.mode_following import Following
@@ -24,9 +26,13 @@ _HERTZ, _SHAPES = "hertz", "shapes"
 
 @dataclass(frozen=True, slots=True)
 class ModeMap:
-    """Mode `number` (1 is the first) at the reference pose, and what becomes of it."""
+    """Mode `number` (1 is the first) at the reference pose, and what becomes of it.
+
+    free : of rx, ry, rz, the angles at which the platform hangs freely at each pose; None: none
+    """
 
     number: int
+    free: tuple[bool, bool, bool] | None = None
 
     @property
     def count(self) -> int:
@@ -37,9 +43,11 @@ class ModeMap:
         """Poses of the largest grid whose shapes are held in memory."""
         return _MEMORY // bytes_of_pose(robot, self.count)
 
-    def evaluate(self, robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Columns:
+    def evaluate(
+        self, robot: Robot, positions: np.ndarray, rotation: np.ndarray, found: InverseSolution | None = None
+    ) -> Columns:
         """Columns of the first modes, records of k frequencies and of k shapes a pose; `held`, `slack_cables`."""
-        modes, columns = shaped_modes(robot, positions, rotation, self.count, harmonics(self.count))
+        modes, columns = shaped_modes(robot, positions, rotation, self.count, harmonics(self.count), found)
         return {_HERTZ: as_records(modes.hertz), _SHAPES: as_records(modes.shapes), **columns}
 
     def finish(self, robot: Robot, grid: Grid, columns: Columns) -> Columns:
@@ -54,7 +62,10 @@ class ModeMap:
         parts = harmonics(self.count)
 
         def compute(positions: np.ndarray, count: int) -> ShapedModes:
-            return shaped_modes(robot, positions, grid.rotation, count, parts)[0]
+            if self.free is None:
+                return shaped_modes(robot, positions, grid.rotation, count, parts)[0]
+            hung = free_orientation(robot, positions, grid.angles, self.free)
+            return shaped_modes(robot, positions, hung.rotation, count, parts, hung_solution(robot, hung))[0]
 
         between = InsertedPoses(grid.positions, compute, max(_INSERTED * grid.size, _AT_LEAST))
         widest = min(_WIDEST, 2 * self.count)

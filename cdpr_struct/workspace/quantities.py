@@ -58,8 +58,10 @@ class Quantity:
         return columns if self.finish is None else self.finish(robot, grid, columns)
 
 
-def quantity_of(name: str) -> Quantity:
+def quantity_of(name: str, free: tuple[bool, bool, bool] | None = None) -> Quantity:
     """The quantity of a name: one of `QUANTITIES`, or `mode-K`.
+
+    free : of rx, ry, rz, what hangs freely at the poses that are inserted to follow a mode
 
     Raises
     ------
@@ -69,16 +71,15 @@ def quantity_of(name: str) -> Quantity:
         return QUANTITIES[name]
     kind, _, number = name.partition("-")
     if kind == "mode" and number.isdecimal() and number == str(int(number)) and 1 <= int(number) <= MOST_MODES:
-        return _followed(int(number))
+        return _followed(ModeMap(int(number), free))
     raise KeyError(f"one of: {', '.join(QUANTITIES)}, mode-K with K from 1 to {MOST_MODES}")
 
 
-def _followed(number: int) -> Quantity:
-    own = ModeMap(number)
+def _followed(own: ModeMap) -> Quantity:
     return Quantity(
-        f"mode {number}",
+        f"mode {own.number}",
         "Hz",
-        f"frequency of mode {number} at the reference pose, followed by its shape from pose to pose",
+        f"frequency of mode {own.number} at the reference pose, followed by its shape from pose to pose",
         "mode_Hz",
         own.evaluate,
         chunk=1024,
@@ -92,7 +93,7 @@ def evaluate(
 ) -> Columns:
     """Columns of a quantity at poses; a plain function of plain things, so that any worker can run it.
 
-    found : the tensions that hold the poses, where they are known; pose errors and followed modes take none
+    found : the tensions that hold the poses, where they are known; pose errors take none
     """
     quantity = quantity_of(name)
     if found is None:

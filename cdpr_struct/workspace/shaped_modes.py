@@ -12,7 +12,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import stability_at
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.workspace.mode_records import unit_shapes
 from cdpr_struct.workspace.work_list import Columns
@@ -50,28 +50,34 @@ def bytes_of_pose(robot: Robot, count: int) -> int:
 
 
 def shaped_modes(
-    robot: Robot, positions: np.ndarray, rotation: np.ndarray, count: int, parts: int
+    robot: Robot,
+    positions: np.ndarray,
+    rotation: np.ndarray,
+    count: int,
+    parts: int,
+    found: InverseSolution | None = None,
 ) -> tuple[ShapedModes, Columns]:
-    """First `count` modes at positions (n, 3) and one rotation, and columns `held`, `slack_cables`; exact catenaries.
+    """First `count` modes at positions (n, 3) and one rotation or (n, 3, 3), and columns `held`, `slack_cables`.
 
-    Minimum-norm tensions within the robot's force limits.
+    Exact catenaries, minimum-norm tensions within the robot's force limits.
 
-    parts : harmonics of each cable in the shapes
+    parts : harmonics of each cable in the shapes;  found : the tensions that hold the poses, where they are known
     """
     n = len(positions)
     hertz = np.full((n, count), np.nan)
     shapes = np.zeros((n, count, shape_size(len(robot.cables), parts)), dtype=np.float16)
-    solution = inverse(robot, positions, rotation, allow_unheld=True)
+    solution = inverse(robot, positions, rotation, allow_unheld=True) if found is None else found
     held = np.flatnonzero(solution.held)
     if held.size:
         states = solution.cables if held.size == n else solution.cables.at(held)
-        point = OperatingPoint(robot, positions[held], np.broadcast_to(rotation, (held.size, 3, 3)), states)
+        turned = np.broadcast_to(rotation, (n, 3, 3))[held]
+        point = OperatingPoint(robot, positions[held], turned, states)
         how = stability_at(point)
         chosen = np.flatnonzero(~how.unstable)
         for start in range(0, chosen.size, _CHUNK):
             own = chosen[start : start + _CHUNK]
-            squared, found = _at_rest(poses_of(point, own), how.neutral[own], count, parts)
-            hertz[held[own]], shapes[held[own]] = np.sqrt(squared) / (2.0 * np.pi), unit_shapes(found)
+            squared, moved = _at_rest(poses_of(point, own), how.neutral[own], count, parts)
+            hertz[held[own]], shapes[held[own]] = np.sqrt(squared) / (2.0 * np.pi), unit_shapes(moved)
     return ShapedModes(hertz, shapes), {
         "held": solution.held,
         "slack_cables": slack_count(solution.cables, solution.held),

@@ -32,6 +32,18 @@ def test_every_fem_frequency_below_8_hz_has_its_dsm_partner_within_one_percent(t
     assert len(set(trial.dsm_hertz)) == len(trial.dsm_hertz), "two FEM modes share one DSM mode"
 
 
+def test_shapes_of_single_modes_are_those_of_the_fem_and_unlike_all_others(trial):
+    """Rows of the MAC are FEM modes; a mode farther than 2 % from its neighbours does not mix with them."""
+    hertz = trial.fem_limit_hertz
+    gap = np.abs(hertz[:, None] / hertz - 1.0) + np.eye(len(hertz))
+    single = gap.min(axis=1) > 0.02
+    single[-1] = False  # its neighbour above is not among the modes
+    assert single.sum() >= 5
+    assert np.diag(trial.exact_mac)[single] == pytest.approx(1.0, abs=1e-3)
+    assert (trial.exact_mac - np.diag(np.diag(trial.exact_mac)))[single].max() < 0.01
+    assert trial.exact_mac.shape == trial.dsm_mac.shape == (54, 54)
+
+
 def test_exact_catenary_meets_the_fem_limit_far_closer(trial):
     """The FEM's own uncertainty bounds the agreement: below 6e-5 for modes of up to three half waves."""
     below = trial.fem_limit_hertz < 8.2

@@ -109,6 +109,29 @@ def test_bending_stiffness_raises_frequencies_as_of_a_clamped_stiff_string(mode)
     assert gain.min() > 1.005
 
 
+@pytest.mark.parametrize("mode", [1, 2, 3, 4])
+def test_pinned_ends_leave_the_stiffness_of_the_half_waves_alone(mode):
+    """f = n f0 sqrt(1 + (n pi)^2 EI / (tau l^2)), exact for a string of constant tension (Fletcher and Rossing)."""
+    stiff, cables = 0.5, at_rest({}).cables
+    slender = slenderness(np.full(8, stiff), cables.tension, cables.chord)
+    pinned = {"bending_stiffness": stiff, "bending_fixity": 0.0}
+    gain = _out_of_plane(at_rest(pinned), mode) / _out_of_plane(at_rest({}), mode)
+    exact = np.sqrt(1.0 + (mode * np.pi * slender) ** 2)
+    assert (np.abs(gain - exact) < 4e-3 * (exact - 1.0)).all()  # cables stretch by 0.1 %, tensions vary along them
+    between = _out_of_plane(at_rest({**pinned, "bending_fixity": 0.4}), mode) / _out_of_plane(at_rest({}), mode)
+    assert (np.abs(between - bending_factor(slender, mode, 0.4)) < 1.5 * slender**3 * (mode * np.pi) ** 2).all()
+
+
+@pytest.mark.parametrize(("mode", "place"), [(1, 0.25), (2, 0.25), (3, 1.0 / 3.0), (4, 0.9)])
+def test_a_mass_anywhere_lowers_the_modes_that_move_there(mode, place):
+    mass, point = 1e-4, at_rest({"added_mass": 1e-4, "added_mass_place": place})
+    cable_mass = point.robot.linear_density * point.cables.length
+    ratio = _out_of_plane(point, mode) / _out_of_plane(at_rest({}), mode)
+    wanted = 1.0 / np.sqrt(load_factor(mass, cable_mass, mode, place))
+    np.testing.assert_allclose(ratio, wanted, rtol=7e-7)  # tensions vary along the cable, and so do half waves
+    assert (ratio < 1.0 - 1e-5).all() == (mode != 3)  # a third from the end is a node of the third mode
+
+
 @pytest.mark.parametrize("mode", [1, 2, 3])
 def test_mass_at_mid_cable_lowers_odd_modes(mode):
     """Against the first-order formula; a small mass, so that its square hardly matters."""

@@ -21,6 +21,7 @@ AXIS_LABELS = {
         "kind of mode [-]",
     ],
     "mode_errors.svg": ["mode number [-]", "DSM / FEM limit − 1 [%]", "FEM eigenfrequency [Hz]"],
+    "mac.svg": ["FEM mode [-]", "mode of the exact catenary [-]", "mode of the closed form (DSM) [-]", "MAC [-]"],
     "limits.svg": ["cable number [-]", "λ² [-]", "inclination of the chord |α| [deg]", "ε [-]"],
     "robot.svg": ["x [m]", "y [m]", "z [m]", "tension at the platform [N]"],
     "profile.svg": ["x [m]", "z, up [m]", "along the chord, from B to C [m]", "below the chord [mm]"],

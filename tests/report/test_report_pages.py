@@ -19,11 +19,11 @@ from cdpr_struct.reports.typeset import typeset
 from cdpr_struct.reports.verification_page import verification_files, verification_page
 from cdpr_struct.reports.verification_verdict import verdict_lines
 
-FIGURES = ["determinant", "convergence", "mode_errors", "limits", "robot"]
+FIGURES = ["determinant", "convergence", "mode_errors", "mac", "limits", "robot"]
 
 
 def test_files_are_those_promised(files, cable_report):
-    tables = {"eigenfrequencies.csv", "convergence.csv", "cables.csv", "determinant_scan.csv"}
+    tables = {"eigenfrequencies.csv", "convergence.csv", "cables.csv", "determinant_scan.csv", "mac.csv"}
     assert set(files) == tables | {f"{name}.{form}" for name in FIGURES for form in ("svg", "pdf")} | {"report.html"}
     assert set(cable_report) == {
         "profile.csv", "stiffness_trace.csv", "profile.svg", "stiffness_trace.svg", "profile.pdf",

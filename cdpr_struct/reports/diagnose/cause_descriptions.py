@@ -183,15 +183,17 @@ DESCRIPTIONS = {
         "Taut string, and [the closed form](../formulas/cable_dsm.md)",
     ),
     "bending_stiffness": Description(
-        "the cable resists bending with EI; ends are clamped in direction",
+        "the cable resists bending with EI; ends are clamped in direction, or pinned (parameter _pinned), or "
+        "between: two sizes, whose sum is EI and whose first share is the fixity of the ends (0 pinned, 1 clamped)",
         "never negative: frequencies rise",
         "Cable frequencies rise, the higher modes more. Short and loose cables show it most",
         "Fletcher and Rossing, *The Physics of Musical Instruments*, 2nd edition, 1998, stiff string",
     ),
     "cable_added_mass": Description(
-        "a point mass sits at the middle of the cable",
+        "a point mass sits on the cable, near 0.1, 0.22, 0.35 or 0.5 of its length from the platform, and how far from "
+        "there is fitted; the mirror place of the other half fits nearly as well",
         "never negative: frequencies fall",
-        "Odd modes of that cable fall, even ones, whose node is at the middle, do not",
+        "Modes of that cable fall, the more the farther they swing where the mass is; one with a node there does not",
     ),
     "load_cell_gain": Description(
         "load cell reading = gain times tension",

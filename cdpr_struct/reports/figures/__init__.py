@@ -8,6 +8,7 @@
 | mode_stacks.py      | which frequencies sit so close that a plot must stack them             |
 | determinant.py      | what the thesis's scan sees of the eigenfrequencies, and what it misses |
 | convergence.py      | how fine the FEM mesh must be to judge the model                       |
+| mac.py              | which mode of the FEM has the shape of which mode of a model           |
 | mode_errors.py      | how far each DSM frequency is from the FEM's                           |
 | limits.py           | cable parameters against the printed validity limits                   |
 | robot_geometry.py   | points, curves and faces of the robot's picture                        |
