@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from cdpr_struct.diagnosis.diagnosing import diagnosed
-from cdpr_struct.hypotheses.causes.library import LIBRARY, testable
+from cdpr_struct.hypotheses.causes import library
+from cdpr_struct.hypotheses.causes.library import LIBRARY
 from cdpr_struct.hypotheses.causes.pulleys import AXES, axes
 from cdpr_struct.hypotheses.choices import best_mix
 from cdpr_struct.hypotheses.hypothesis import SCALES
@@ -149,6 +150,6 @@ def test_wrong_zeros_alone_are_no_pulleys():
 def test_a_robot_whose_cables_all_have_pulleys_lacks_none():
     robot, bare = on_pulleys("cogiro", 0.05), load_robot("cogiro")
     for one, name, other in ((robot, "pulley_radius", CAUSE.name), (bare, CAUSE.name, "pulley_radius")):
-        found, hidden = testable(seen_in(recorded(written(one, plan_of(one, 2)))), {})
+        found, hidden = library.testable(seen_in(recorded(written(one, plan_of(one, 2)))), {})
         assert name in {cause.name for cause in found}
         assert "pulley" in hidden[other]
