@@ -11,6 +11,7 @@ import numpy as np
 
 from cdpr_struct.hypotheses.alternatives import Offered
 from cdpr_struct.hypotheses.causes.cause import Pattern, Seen
+from cdpr_struct.hypotheses.detectable import noncentrality
 from cdpr_struct.hypotheses.hypothesis import SCALES, Part
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.scale_mixture import NoiseState
@@ -19,7 +20,6 @@ from cdpr_struct.inference.screening import Screen
 _STRAIGHT = 0.5  # probability that ways do not bend; half of the rest that they bend a little
 _MIXED = 0.4  # probability that carriers differ in their ways
 _LITTLE = 0.2  # of the prior by which ways bend, where they bend a little
-_CLEAR = 3.0  # sigmas by which a size differs from none
 _SEED, _STARTS = 20251125, 200  # of mixes that are improved, beside the uniform ones
 _ROUNDS = 20  # changes of every carrier's way; each round that changes one adds to a bounded sum
 
@@ -94,7 +94,7 @@ def _added(gram: np.ndarray, score: np.ndarray, mixes: np.ndarray, i: int) -> np
 
 
 def occurs(found: Judged) -> bool:
-    """Whether the mean size of each cause in one of several ways is clearly more than none, and large enough.
+    """Whether the mean size of each cause in one of several ways would be found alone, and is not too small.
 
     What goes along may act alone: then another cause says the same without it.
     """
@@ -108,7 +108,7 @@ def _occurs(found: Judged, i: int) -> bool:
     own, factor = start + np.array(sizes), part.scale * part.pattern.prior[sizes] / len(sizes)
     mean = float(factor @ found.fit.z_mean[own])
     sigma = float(np.sqrt(factor @ found.fit.z_covariance[np.ix_(own, own)] @ factor))
-    return mean > max(part.pattern.parameters[sizes[0]].least, _CLEAR * sigma)
+    return mean > max(part.pattern.parameters[sizes[0]].least, np.sqrt(noncentrality(1)) * sigma)
 
 
 def bent(part: Part, seen: Seen) -> list[Part]:

@@ -21,6 +21,8 @@ _HOMED = 0.02  # m, one sigma of the zero that homing without pulleys leaves, at
 _LEAN = 0.1  # rad, one sigma of each of two angles between an axis and the nearest of `AXES`, at a radius of `_SIZE`
 _FLAT = 1e-3  # m, radius below which an axis cannot be seen to lean
 _OWN = 2  # numbers of a leaning axis
+_UPRIGHT = 0.9  # part along z from which an axis leans from the vertical, not sideways and up
+_NOTHING = 1e-300  # of a length that is divided by
 _XYZ = np.array([[0, 0, 1], [0, 0, -1], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]], dtype=float)
 
 
@@ -31,7 +33,7 @@ def _with_pulleys(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
     radii, zero, lean = each[..., :ways], each[..., ways], each[..., ways + 1 :]
     size, axis = radii.sum(axis=-1), (radii[..., None] * axes(arrays)).sum(axis=-2)
     length = np.linalg.norm(axis, axis=-1, keepdims=True)
-    axis = np.where(length > 0.0, axis / np.maximum(length, 1e-300), arrays.pulley_axis)
+    axis = np.where(length > 0.0, axis / np.maximum(length, _NOTHING), arrays.pulley_axis)
     angle = lean * (size / (size**2 + _FLAT**2))[..., None]
     axis = axis + (angle[..., None] * _beside(axis)).sum(axis=-2)
     axis = axis / np.linalg.norm(axis, axis=-1, keepdims=True)
@@ -49,7 +51,7 @@ def axes(arrays: RobotArrays) -> np.ndarray:
     out = arrays.frame_anchors - arrays.frame_anchors.mean(axis=-2, keepdims=True)
     out = out * [1.0, 1.0, 0.0]
     length = np.linalg.norm(out, axis=-1, keepdims=True)
-    out = np.where(length > 0.0, out / np.maximum(length, 1e-300), [1.0, 0.0, 0.0])
+    out = np.where(length > 0.0, out / np.maximum(length, _NOTHING), [1.0, 0.0, 0.0])
     left = np.stack([-out[..., 1], out[..., 0], np.zeros(out.shape[:-1])], axis=-1)
     own = np.stack([out, -out, left, -left], axis=-2)
     return np.concatenate([np.broadcast_to(_XYZ, (*own.shape[:-2], *_XYZ.shape)), own], axis=-2)
@@ -57,7 +59,7 @@ def axes(arrays: RobotArrays) -> np.ndarray:
 
 def _beside(axis: np.ndarray) -> np.ndarray:
     """(..., 2, 3) two unit vectors across each axis (..., 3): level, and across both."""
-    upright = np.abs(axis[..., 2:]) > 0.9
+    upright = np.abs(axis[..., 2:]) > _UPRIGHT
     level = np.cross(np.where(upright, [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]), axis)
     level = level / np.linalg.norm(level, axis=-1, keepdims=True)
     return np.stack([level, np.cross(axis, level)], axis=-2)
