@@ -125,7 +125,7 @@ class Search:
     def answers(self) -> list[Answer]:
         """Sets of causes, best first."""
         groups: dict[tuple[str, ...], list[Judged]] = {}
-        for one in [one for one in self.found.values() if occurs(one)]:
+        for one in self._ranked():
             groups.setdefault(tuple(sorted(one.hypothesis.names)), []).append(one)
         rows = []
         for names, own in groups.items():
@@ -205,7 +205,8 @@ class Search:
                 self.keep(begun(self.data, self.where, base, more, one.z))
 
     def _ranked(self, causes: int | None = None) -> list[Judged]:
-        own = [one for one in self.found.values() if causes is None or len(one.hypothesis.parts) == causes]
+        """All fits, or those of so many causes, best first, that say what may occur."""
+        own = [one for one in self.found.values() if causes in (None, len(one.hypothesis.parts)) and occurs(one)]
         return sorted(own, key=lambda one: -one.score)
 
     def _singles(self) -> list[Judged]:
