@@ -122,6 +122,6 @@ def _bent(part: Part, seen: Seen, size: float) -> Part:
     free = [i for i in range(len(basic)) if i % len(cause.parameters) >= ways + bool(cause.along)]
     basis = np.concatenate([part.pattern.basis, np.eye(len(basic))[:, free]], axis=1)
     more = (replace(basic[i], prior=size * basic[i].prior) for i in free)
-    label = f"{part.pattern.label}, bent" + ("" if size == 1.0 else " a little")
+    label = f"{part.pattern.label}, leaning" + ("" if size == 1.0 else " a little")
     pattern = Pattern(label, basis, (*part.pattern.parameters, *more), 0.5 * part.pattern.weight)
     return replace(part, pattern=pattern)
