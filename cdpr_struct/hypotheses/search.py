@@ -144,8 +144,8 @@ class Search:
         return [first, *found]
 
     def _rich(self, menu: Sequence[Offered], base: Judged) -> NoiseState:
-        """Sizes of the noise where every cause may act at once: what none of them explains."""
-        known = [cause for cause in menu if cause.cause.name != UNKNOWN]
+        """Sizes of the noise where all causes act at once, but those of several ways: what none of them explains."""
+        known = [cause for cause in menu if cause.cause.name != UNKNOWN and not cause.cause.one_of]
         columns = [[part * cause.patterns[0].prior.max() for part in cause.columns] for cause in known]
         everything = base.model.with_columns([np.concatenate(parts, axis=-1) for parts in zip(*columns, strict=True)])
         lists = None if base.lists is None else base.lists.copy()
