@@ -6,10 +6,25 @@ physics says no. They carry the numbers and the next step; the command line turn
 
 from collections.abc import Sequence
 from difflib import get_close_matches
+from typing import Any
+
+NOTHING = "nothing"
+"""The value of an `InputError` about what was not given."""
 
 
 class CdprError(Exception):
     """What this package raises on purpose; if it is no `InputError`, the request is well-posed but cannot be met."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """As it is: what a kind's `__init__` takes is not what it says, and workers send errors home."""
+        return _as_it_was, (type(self), self.args, self.__dict__)
+
+
+def _as_it_was(kind: type[CdprError], said: tuple[Any, ...], state: dict[str, Any]) -> CdprError:
+    error = kind.__new__(kind, *said)
+    error.args = said
+    error.__dict__.update(state)
+    return error
 
 
 class InputError(CdprError, ValueError):
@@ -19,15 +34,34 @@ class InputError(CdprError, ValueError):
     ----------
     source : file, command-line option, or argument of a function.
     field : the name inside the source ("" if the source as a whole is meant).
-    value : what was given.
+    value : what was given; `NOTHING` where it is missing.
     expected : what would be right.
     """
 
     def __init__(self, source: str, field: str, value: object, expected: str) -> None:
         self.source, self.field, self.value, self.expected = source, field, value, expected
-        place = f"{source}: {field}" if field else source
+        place = f"{on_one_line(source, 400)}: {on_one_line(field, 200)}" if field else on_one_line(source, 400)
         plain = value.item() if type(value).__module__ == "numpy" and hasattr(value, "item") else value
-        super().__init__(f"{place}: got {plain!r}; {expected}")
+        said = " is missing" if isinstance(plain, str) and plain == NOTHING else f": got {_shown(plain)}"
+        super().__init__(f"{place}{said}; {on_one_line(expected, 1200)}")
+
+
+def on_one_line(text: str, longest: int) -> str:
+    """Text for a line on the screen: control signs escaped, and cut in the middle where it is longer than that."""
+    if not text.isprintable():
+        text = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+    if len(text) <= longest:
+        return text
+    half = longest // 2 - 20
+    return f"{text[:half]} ... ({len(text)} characters) ... {text[-half:]}"
+
+
+def _shown(value: object) -> str:
+    """A value as Python writes it, cut."""
+    try:
+        return on_one_line(repr(value), 200)
+    except (ValueError, RecursionError):  # an integer of thousands of digits, lists within lists without end
+        return f"a {type(value).__name__} that is too long to be shown"
 
 
 def told(error: Exception) -> CdprError | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -33,6 +34,7 @@ SHEETS: dict[str, ModuleType] = {
 }
 GENERATED = "cdpr_struct/generated"
 FORMULA_SHEET = "cdpr_struct/derivations/latex/formula_sheet.tex"
+_VERSION = re.compile(r"^Made with  : sympy [^;\n]+", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,13 +63,18 @@ def render(progress: Callable[[str], None] = lambda name: None) -> Rendering:
     return Rendering(formulas, functions, texts)
 
 
+def same(committed: str, fresh: str) -> bool:
+    """Whether two texts say the same; which SymPy printed it does not matter."""
+    return _VERSION.sub("", committed) == _VERSION.sub("", fresh)
+
+
 def drift(texts: dict[str, str], root: Path) -> str:
     """Unified diff of the files under root against the fresh texts."""
     parts: list[str] = []
     for name, fresh in sorted(texts.items()):
         path = root / name
         committed = path.read_text(encoding="utf-8") if path.exists() else ""
-        if committed != fresh:
+        if not same(committed, fresh):
             parts += difflib.unified_diff(
                 committed.splitlines(True), fresh.splitlines(True), f"committed/{name}", f"fresh/{name}"
             )
@@ -79,7 +86,7 @@ def write(texts: dict[str, str], root: Path) -> tuple[str, ...]:
     changed = []
     for name, text in sorted(texts.items()):
         path = root / name
-        if path.exists() and path.read_text(encoding="utf-8") == text:
+        if path.exists() and same(path.read_text(encoding="utf-8"), text):
             continue
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")

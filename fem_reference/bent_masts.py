@@ -7,9 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.fem_reference.cable_statics import EPS, CableBatch, ChainState, solve_chains
+from cdpr_struct.fem_reference.errors import MastsNotSettledError
 from cdpr_struct.fem_reference.masts import Mast, unknowns
 
 MAX_ITERATIONS = 60
+MET = 1e-10  # step over the size of the frame up to which masts count as standing still
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,8 +50,11 @@ def bend(
             starts[list(mast.cables)] += mast.motion @ moved[number]
         chains, more = solve_chains(batch, starts, ends, chains.mid_force)
         steps += more
-        if largest <= 16.0 * EPS * float(np.abs(anchors).max()):
+        size = float(np.abs(anchors).max())
+        if largest <= 16.0 * EPS * size:
             break
+    if not largest <= MET * size:
+        raise MastsNotSettledError(largest, MAX_ITERATIONS)
     return BentMasts(starts, energy, chains, steps)
 
 

@@ -113,6 +113,17 @@ class PulleysNotSettledError(FemError):
         )
 
 
+class MastsNotSettledError(FemError):
+    """The heads of the masts kept moving under their cables."""
+
+    def __init__(self, moved: float, iterations: int) -> None:
+        self.moved, self.iterations = moved, iterations
+        super().__init__(
+            f"heads of masts still move by {moved:.3g} m after {iterations} rounds of statics. "
+            "The masts give way too much for these cables: check their compliance [m/N]."
+        )
+
+
 class WindNotSettledError(FemError):
     """The wind on the cables kept changing with the pose."""
 

@@ -1,28 +1,17 @@
-"""Robots and poses drawn from a seed: kinds of robots, 3 to 16 cables, 1 m to 1 km, gravity or none."""
+"""Robots and poses drawn from a seed: kinds of robots, 3 to 16 cables, 1 m to 1 km, gravity or none, or altered."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from benchmarks.random_robots.altering import ALTERATIONS, altered
+from benchmarks.random_robots.case import GRAVITY, Case
 from cdpr_struct import Cable, Platform, Pose, Robot
 
-GRAVITY = 9.81
 _WEIGHTLESS = 0.08  # share of robots without gravity
 _LEVEL = 0.35  # share of poses that are not turned
 CORNERS = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Case:
-    """What is asked: the cables that hold a robot at a pose, `free` angles left to hang; `start` of the way back."""
-
-    seed: int
-    kind: str
-    robot: Robot
-    pose: Pose
-    free: str | None
-    start: Pose | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,7 +27,12 @@ class _Anchors:
 
 
 def drawn(seed: int) -> Case:
-    """The case of a seed."""
+    """The case of a seed: of half of them as the first study drew it, of the others altered."""
+    return altered(plain(seed))
+
+
+def plain(seed: int) -> Case:
+    """The case of a seed as the first study drew it."""
     rng = np.random.default_rng(seed)
     kind = str(rng.choice(list(_KINDS), p=[0.3, 0.25, 0.2, 0.125, 0.125]))
     size = 10.0 ** rng.uniform(0.0, 3.0)
@@ -183,4 +177,4 @@ _KINDS: dict[str, Callable[[np.random.Generator, float, float], _Anchors]] = {
     "one-point": _one_point,
     "guided planar": _planar,
 }
-KINDS = tuple(_KINDS)
+KINDS = (*_KINDS, *ALTERATIONS)

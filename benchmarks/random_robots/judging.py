@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 import cdpr_struct as cs
-from benchmarks.random_robots.drawing import Case
+from benchmarks.random_robots.case import Case
 from benchmarks.random_robots.own_mechanics import OwnRest
 from benchmarks.random_robots.refusals import holdable
 
@@ -29,17 +29,22 @@ def not_numbers(answer: Mapping[str, Any], name: str = "") -> Iterator[str]:
 
 def rest_faults(own: OwnRest, forces: np.ndarray, answer: Mapping[str, Any]) -> Iterator[str]:
     """What is wrong with a rest that is answered: forces (m, 3) that the program prints [N]."""
+    yield from rest_balance_faults(own, forces)
+    verdict, neutral = own.verdict(_SHARP), len(answer["neutral_freedoms"])
+    if (answer["stable"] and verdict == "unstable") or (not answer["stable"] and verdict == "stable"):
+        yield f"stability: {verdict} (least eigenvalue {own.eigenvalues[0]:.1e}), told stable = {answer['stable']}"
+    if answer["stable"] and neutral and verdict == "stable":
+        yield f"neutral: {neutral} told, the least eigenvalue is {own.eigenvalues[0]:.1e}"
+
+
+def rest_balance_faults(own: OwnRest, forces: np.ndarray) -> Iterator[str]:
+    """What is wrong with the balance of a rest: forces (m, 3) that the program prints [N]."""
     if own.misfit > _FITS:
         yield f"lengths: the cables' ends are missed by {own.misfit:.1e} of the chord"
     elif np.abs(forces - own.forces).max() > _SAME_FORCE * own.scale:
         yield f"forces: off by {np.abs(forces - own.forces).max() / own.scale:.1e}"
     if own.unbalanced > BALANCED:
         yield f"balance: {own.unbalanced:.1e} is left"
-    verdict, neutral = own.verdict(_SHARP), len(answer["neutral_freedoms"])
-    if (answer["stable"] and verdict == "unstable") or (not answer["stable"] and verdict == "stable"):
-        yield f"stability: {verdict} (least eigenvalue {own.eigenvalues[0]:.1e}), told stable = {answer['stable']}"
-    if answer["stable"] and neutral and verdict == "stable":
-        yield f"neutral: {neutral} told, the least eigenvalue is {own.eigenvalues[0]:.1e}"
 
 
 def way_back_faults(case: Case, held: "cs.Result", back: "cs.Result") -> Iterator[str]:
@@ -99,6 +104,8 @@ def refusal_faults(case: Case, step: str, error: Exception, own: OwnRest | None)
             yield f"{step} refused: {said}"
         elif case.free is None and holdable(case.robot, case.pose) == "yes":
             yield f"refused though taut cables hold it: {said}"
+    elif step == "pose_error" and isinstance(error, cs.UnholdablePoseError):
+        return  # ideal cables, or springs, hold less
     elif not _true_of_rest(error, said, own):
         yield f"{step} refused (least eigenvalue {own.eigenvalues[0]:.1e}): {said}"
 

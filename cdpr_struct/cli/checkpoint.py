@@ -1,6 +1,7 @@
 """Finished parts of long work on disk, so that an interrupted run continues where it stopped."""
 
 import io
+import shutil
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -38,19 +39,26 @@ class Checkpoint:
         buffer = io.BytesIO()
         np.savez(buffer, **columns)  # type: ignore[arg-type]
         try:
-            self.folder.mkdir(parents=True, exist_ok=True)
-            write_whole(self._path(name), buffer.getvalue())
+            self._write(name, buffer.getvalue())
         except OSError as error:
             raise InputError(
                 "--out", "", str(self.folder.parent), f"a directory that can be written ({error.strerror})"
             ) from error
 
     def clear(self) -> None:
-        """Remove the parts; the finished result stands for them."""
-        if self.folder.is_dir():
-            for path in self.folder.iterdir():
-                path.unlink()
-            self.folder.rmdir()
+        """Remove the parts; the finished result stands for them. What another run removed already is no matter."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def _write(self, name: str, content: bytes) -> None:
+        """Write a part; once more where the same command, run beside this one, ended and removed the folder."""
+        for last in (False, True):
+            try:
+                self.folder.mkdir(parents=True, exist_ok=True)
+                return write_whole(self._path(name), content)
+            except FileNotFoundError:
+                if last:
+                    raise
+        return None
 
     def _path(self, name: str) -> Path:
         return self.folder / f"chunk-{name}.npz"

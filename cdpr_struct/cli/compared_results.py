@@ -10,8 +10,9 @@ from typing import Any
 from cdpr_struct.cli.run_record import RUN
 from cdpr_struct.cli.written_files import RESULT
 from cdpr_struct.errors import InputError
+from cdpr_struct.reports.plain_json import SCHEMA
 
-_OF_THE_RUN = {"files", RUN, "command", "seconds"}  # not of the result
+_OF_THE_RUN = {"files", RUN, "command", "seconds", SCHEMA}  # not of the result
 _ZERO = 1e-12  # sizes that are rounding in SI units
 
 
@@ -81,7 +82,10 @@ def _values(path: Path) -> Mapping[str, list[Any]]:
         return {}
     import pandas as pd
 
-    table = pd.read_csv(path)
+    try:
+        table = pd.read_csv(path)
+    except (OSError, ValueError) as error:
+        raise InputError(str(path), "", "no table that can be read", "a CSV file as the command wrote it") from error
     return {str(name): table[name].tolist() for name in table}
 
 

@@ -1,9 +1,12 @@
 """Where the batches of a sweep are computed: this process, several, or a cluster."""
 
 import multiprocessing
+import os
 from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
+from multiprocessing.connection import wait
+from threading import Thread
 from typing import Annotated
 
 import typer
@@ -17,6 +20,7 @@ Workers = Annotated[
 Scheduler = Annotated[
     str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Dask scheduler that takes the work, like tcp://host:8786.")
 ]  # fmt: skip
+_SPAWN = multiprocessing.get_context("spawn")
 Where = tuple[int, str | None]
 """Values of --workers and --scheduler."""
 
@@ -38,6 +42,8 @@ def check_workers(workers: int, scheduler: str | None) -> None:
 def executor(workers: int, scheduler: str | None) -> Iterator[Executor]:
     """The executor that the options name; pending work is dropped when the block is left by an error.
 
+    An interrupt ends workers at once, with what they are at; it leaves a thread behind, which ends with the program.
+
     Raises
     ------
     InputError : dask.distributed is not installed, or the scheduler does not answer.
@@ -46,11 +52,29 @@ def executor(workers: int, scheduler: str | None) -> Iterator[Executor]:
         with _cluster(scheduler) as pool:
             yield pool
         return
-    pool = ThreadPoolExecutor(1) if workers == 1 else ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"))
+    here, waits = workers == 1, True
+    own = ThreadPoolExecutor(1) if here else ProcessPoolExecutor(workers, _SPAWN, _end_with_the_parent)
     try:
-        yield pool
+        yield own
+    except KeyboardInterrupt:
+        waits = not here
+        for worker in multiprocessing.active_children():
+            worker.terminate()
+        raise
     finally:
-        pool.shutdown(wait=True, cancel_futures=True)
+        own.shutdown(wait=waits, cancel_futures=True)
+
+
+def _end_with_the_parent() -> None:
+    """A worker whose parent was killed would wait for work for ever."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        Thread(target=_end_after, args=(parent.sentinel,), daemon=True).start()
+
+
+def _end_after(sentinel: int) -> None:
+    wait([sentinel])
+    os._exit(1)
 
 
 @contextmanager

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from types import FrameType
 
 CODE = 130  # of a program ended by an interrupt
+_ENDS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 
 
 class Interrupted(Exception):
@@ -15,7 +16,7 @@ class Interrupted(Exception):
 
 @contextmanager
 def stopped_in_order() -> Iterator[None]:
-    """A request to end (SIGTERM) stops the work like an interrupt: finished parts are kept, workers are ended."""
+    """A request to end, or the end of the terminal, stops the work like an interrupt: finished parts are kept."""
     if threading.current_thread() is not threading.main_thread():
         yield  # Python lets the main thread alone handle signals
         return
@@ -23,8 +24,12 @@ def stopped_in_order() -> Iterator[None]:
     def stop(number: int, frame: FrameType | None) -> None:
         raise KeyboardInterrupt
 
-    before = signal.signal(signal.SIGTERM, stop)
+    before = {number: signal.getsignal(number) for number in _ENDS}
+    for number, handler in before.items():
+        if handler is not signal.SIG_IGN:  # as under nohup
+            signal.signal(number, stop)
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)

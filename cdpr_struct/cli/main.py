@@ -1,5 +1,7 @@
 """The program `cdpr-struct`: one subcommand a file, and the one place that turns errors into exit codes."""
 
+import logging
+import os
 import sys
 from importlib.metadata import version as installed
 from typing import Annotated
@@ -91,13 +93,18 @@ for command in COMMANDS:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and exit: 0 done, 1 done but it does not hold, 2 unusable input."""
-    sys.exit(run(arguments))
+    code = run(arguments)
+    if code == interruption.CODE:
+        sys.stdout.flush()
+        os._exit(code)  # without waiting for a thread that computes a part
+    sys.exit(code)
 
 
 def run(arguments: list[str] | None) -> int:
     """Run one command and return its exit code."""
     try:
         typed = sys.argv[1:] if arguments is None else arguments
+        logging.getLogger("matplotlib").setLevel(logging.ERROR)  # which tells where it finds no home directory
         with interruption.stopped_in_order():
             code = int(app(args=typed, prog_name="cdpr-struct", standalone_mode=False, obj=tuple(typed)) or 0)
         return _fail(code, "interrupted; nothing was written") if code == interruption.CODE else code

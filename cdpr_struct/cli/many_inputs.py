@@ -1,6 +1,7 @@
 """One command for many inputs: each is answered by itself, on any worker, and one table says what came of them all."""
 
 import json
+import unicodedata
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -129,11 +130,16 @@ def short_names(inputs: Sequence[str]) -> list[str]:
     if len({w[-1] for w in words}) == 1:
         words = [w[:-1] or w for w in words]
     names = [_safe(w[-1]) for w in words]
-    if len(set(names)) < len(names):
+    if not _all_differ(names):
         names = [_safe("-".join(w[-2:])) for w in words]
-    if len(set(names)) < len(names):
+    if not _all_differ(names):
         names = [f"{number:04d}-{name}" for number, name in enumerate(names, start=1)]
     return names
+
+
+def _all_differ(names: Sequence[str]) -> bool:
+    """Whether they name different files on every system: some take A for a, and both codings of an umlaut as one."""
+    return len({unicodedata.normalize("NFC", name).casefold() for name in names}) == len(names)
 
 
 def _safe(name: str) -> str:

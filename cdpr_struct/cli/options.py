@@ -41,7 +41,10 @@ def whole_number(text: str) -> int:
 
 def directory(text: str) -> Path:
     """The directory of --out; the complaint comes before any work is done."""
-    found = next((p for p in (Path(text), *Path(text).absolute().parents) if p.exists()), Path("/"))
+    try:
+        found = next((p for p in (Path(text), *Path(text).absolute().parents) if p.exists()), Path("/"))
+    except OSError as error:  # a name that is too long
+        raise typer.BadParameter(f"got {text!r}; give a directory that can be written ({error.strerror})") from error
     if not text.strip() or not found.is_dir() or not os.access(found, os.W_OK | os.X_OK):
         raise typer.BadParameter(f"got {text!r}; give a directory that can be written")
     try:

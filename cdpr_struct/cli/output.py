@@ -1,6 +1,7 @@
 """Where a command's results go: files first, then the screen, or JSON on stdout."""
 
 import os
+import re
 import shlex
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -12,7 +13,8 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 from cdpr_struct.cli.progress import Begin, silent, steps
 from cdpr_struct.cli.run_record import RUN, run_record
 from cdpr_struct.cli.written_files import RESULT, Content, refuse_foreign, replace_files
-from cdpr_struct.reports.plain_json import json_text
+from cdpr_struct.errors import InputError
+from cdpr_struct.reports.plain_json import result_text
 from cdpr_struct.reports.remarks import extensions_of, remarks, rest_of, warnings_of
 
 if TYPE_CHECKING:
@@ -77,9 +79,10 @@ class Output:
         if self.directory is not None:
             self.write(result, files())
         if self.json:
-            _print(json_text(result), sys.stdout)
+            _print(result_text(result), sys.stdout)
         elif not self.quiet:
-            _print("\n\n".join([text(), *remarks(result)]) + "\n", sys.stdout)
+            said = "\n\n".join([text(), *remarks(result)]) + "\n"
+            _print(_STEERING.sub(lambda found: repr(found[0])[1:-1], said), sys.stdout)
 
     def write(self, result: Mapping[str, Any], files: Files) -> None:
         """Write the files, if --out is given; result.json says under `run` which command on which files made it."""
@@ -128,13 +131,23 @@ def repeating(typed: Sequence[str]) -> tuple[str, ...]:
     return ("cdpr-struct", *kept, "--out=DIR")
 
 
+_STEERING = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
+"""Signs in names that would steer a terminal, or turn the direction of its text."""
 _FLAGS, _WITH_VALUE = ("--json", "--quiet", "-q", "--overwrite"), ("--out", "--scheduler")
 
 
 def _print(text: str, stream: Any) -> None:
-    """Write to a stream whose reader may be gone."""
+    """Write to a stream whose reader may be gone; signs that its encoding lacks are escaped.
+
+    Raises
+    ------
+    InputError : it takes nothing, as on a full disk.
+    """
+    encoding = getattr(stream, "encoding", None) or "utf-8"
     try:
-        stream.write(text)
+        stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
         stream.flush()
-    except BrokenPipeError:
+    except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())  # what Python flushes at its end
+        if not isinstance(error, BrokenPipeError):
+            raise InputError("standard output", "", error.strerror, "a place that can be written") from error

@@ -14,6 +14,7 @@ from cdpr_struct.cli.output import Output
 from cdpr_struct.cli.run_record import RUN, digests
 from cdpr_struct.cli.written_files import RESULT
 from cdpr_struct.errors import InputError
+from cdpr_struct.reports.plain_json import SCHEMA, SCHEMA_VERSION
 
 NAME = "rerun"
 EXAMPLES = (
@@ -45,10 +46,10 @@ def run(
     if not 0.0 <= tolerance < 1.0:
         raise InputError("--tolerance", "", tolerance, "a share from 0 to 1, like 1e-9")
     was = Path(result).parent if Path(result).name == RESULT else Path(result)
-    words, inputs = _recorded(was)
+    words, inputs, schema = _recorded(was)
     if out is not None and out.resolve() == was.resolve():
         raise InputError("--out", "", str(out), "another directory than that of the earlier result")
-    changed = _changed(inputs, words)
+    changed = [*_changed(inputs, words), *schema]
     with tempfile.TemporaryDirectory() as scratch:
         now = Path(scratch) / "again" if out is None else out
         _run_again(words, now, overwrite)
@@ -65,9 +66,10 @@ def run(
     return 1 if differences else 0
 
 
-def _recorded(was: Path) -> tuple[tuple[str, ...], Mapping[str, str]]:
-    """The command of a result, and the digests of the files it read."""
-    found = read_result(was).get(RUN)
+def _recorded(was: Path) -> tuple[tuple[str, ...], Mapping[str, str], list[str]]:
+    """The command of a result, the digests of the files it read, and a sentence if its keys mean something else."""
+    whole = read_result(was)
+    found = whole.get(RUN)
     record = found if isinstance(found, dict) else {}
     words = record.get("command")
     if not isinstance(words, list) or len(words) < 3 or not all(isinstance(word, str) for word in words):
@@ -76,7 +78,14 @@ def _recorded(was: Path) -> tuple[tuple[str, ...], Mapping[str, str]]:
     if words[1] == NAME:
         raise InputError(str(was / RESULT), RUN, NAME, "the result of another command")
     inputs = record.get("inputs")
-    return tuple(words), inputs if isinstance(inputs, dict) else {}
+    return tuple(words), inputs if isinstance(inputs, dict) else {}, _other_schema(whole.get(SCHEMA, 1))
+
+
+def _other_schema(earlier: Any) -> list[str]:
+    """A sentence if a result has another schema than this program writes."""
+    if earlier == SCHEMA_VERSION:
+        return []
+    return [f"The earlier result has {SCHEMA} {earlier}, this one {SCHEMA_VERSION}: keys may differ in meaning."]
 
 
 def _changed(inputs: Mapping[str, str], words: Sequence[str]) -> list[str]:

@@ -9,12 +9,12 @@ import json
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 from cdpr_struct.errors import InputError
-from cdpr_struct.reports.plain_json import json_text
+from cdpr_struct.reports.plain_json import json_text, result_text
 
 Content = str | bytes | Iterable[bytes]
 """What a file holds; a long one in parts."""
@@ -34,17 +34,36 @@ def replace_files(directory: Path, result: Mapping[str, Any], files: Mapping[str
     """
     try:
         directory.mkdir(parents=True, exist_ok=True)
-        earlier = _listed(directory)
-        with _renamed_at_the_end(directory) as write:
-            digests = {name: write(name, content) for name, content in files.items()}
-            digests[RESULT] = _digest(json_text(result))
-            wanted = {**digests, RESULT: write(RESULT, json_text({**result, "files": digests}))}
-            if not overwrite:
-                _refuse(directory, {**dict.fromkeys(earlier, _NOTHING), **wanted}, earlier)
-        for name in earlier.keys() - wanted.keys():
-            (directory / name).unlink(missing_ok=True)
+        with _alone_in(directory):
+            _replace(directory, result, files, overwrite)
     except OSError as error:
         raise InputError("--out", "", str(directory), f"a directory that can be written ({error.strerror})") from error
+
+
+def _replace(directory: Path, result: Mapping[str, Any], files: Mapping[str, Content], overwrite: bool) -> None:
+    earlier = _listed(directory)
+    with _renamed_at_the_end(directory) as write:
+        digests = {name: write(name, content) for name, content in files.items()}
+        digests[RESULT] = _digest(result_text(result))
+        wanted = {**digests, RESULT: write(RESULT, result_text({**result, "files": digests}))}
+        if not overwrite:
+            _refuse(directory, {**dict.fromkeys(earlier, _NOTHING), **wanted}, earlier)
+    for name in earlier.keys() - wanted.keys():
+        (directory / name).unlink(missing_ok=True)
+
+
+@contextmanager
+def _alone_in(directory: Path) -> Iterator[None]:
+    """Wait until no other run writes its result here, so that the files of two are never mixed."""
+    handle = os.open(directory, os.O_RDONLY)
+    try:
+        with suppress(ImportError, OSError):  # some systems and network disks have no locks
+            import fcntl
+
+            fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(handle)
 
 
 def refuse_foreign(directory: Path, names: Iterable[str]) -> None:

@@ -24,6 +24,7 @@ from cdpr_struct.workspace.pose_batches import PoseBatches
 from cdpr_struct.workspace.work_list import Columns
 
 CHUNK = 512
+CUT_SHORT = "the search for tensions did not converge"
 PARAMETERS = ("lambda2", "crossover_distance", "alpha_deg", "epsilon", "sag_ratio")
 _DIRECTIONS = ("force x [N]", "force y [N]", "force z [N]", "moment x [N m]", "moment y [N m]", "moment z [N m]")
 
@@ -161,7 +162,7 @@ def _against_limits(value: dict[str, np.ndarray]) -> tuple[dict[str, np.ndarray]
 
 def _reason(solution: InverseSolution, pose: int) -> str:
     if solution.status[pose] == InverseStatus.NOT_CONVERGED:
-        return "the search for tensions did not converge"
+        return CUT_SHORT
     if solution.held[pose]:
         return f"cable {int(solution.tensions[pose].argmin()) + 1} would go slack"
     residual = solution.residual_wrench[pose]

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cdpr_struct.hypotheses.alternatives import offered
+from cdpr_struct.hypotheses.alternatives import of_pattern, offered
 from cdpr_struct.hypotheses.causes.cause import ALIKE_IN, Pattern
 from cdpr_struct.hypotheses.detectable import noncentrality
 from cdpr_struct.hypotheses.hypothesis import SCALES
@@ -26,6 +26,20 @@ def minimum_detectable(search: Search, null: Judged) -> dict[str, dict[str, floa
         gram = screen.screened([part @ pattern.basis * pattern.prior for part in cause.columns]).gram
         if np.trace(gram) * SCALES[-1] ** 2 > noncentrality(len(gram)):
             table[cause.cause.name] = smallest(pattern, gram)
+    return table
+
+
+def detectable_by_pattern(search: Search, null: Judged) -> dict[str, list[dict[str, float | str]]]:
+    """The same for every pattern of every cause that would show."""
+    menu = [one for one in offered(search.data, search.where, search.seen, search.causes, null) if not one.laws]
+    screen = Screen.of(null.model, null.fit.noise, null.fit.soft)
+    table: dict[str, list[dict[str, float | str]]] = {}
+    for cause in menu:
+        said = screen.screened(cause.columns)
+        grams = [(p, of_pattern(p, said.gram, said.score)[0]) for p in cause.patterns]
+        shown = [(p, g) for p, g in grams if np.trace(g) * SCALES[-1] ** 2 > noncentrality(len(g))]
+        if shown and not cause.cause.tuned:
+            table[cause.cause.name] = [smallest(p, g) for p, g in shown]
     return table
 
 

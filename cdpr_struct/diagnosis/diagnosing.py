@@ -3,22 +3,36 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from cdpr_struct.diagnosis import stories
 from cdpr_struct.diagnosis.added_modes import least_evidence
 from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
 from cdpr_struct.diagnosis.decision import Decision, decided
-from cdpr_struct.diagnosis.detectable_sizes import minimum_detectable
-from cdpr_struct.diagnosis.diagnosis import DAMPING, Candidate, Diagnosis, Location, Peaks, Pile, SetAside
+from cdpr_struct.diagnosis.detectable_sizes import detectable_by_pattern, minimum_detectable
+from cdpr_struct.diagnosis.diagnosis import (
+    DAMPING,
+    NULL_SPACE,
+    Candidate,
+    Diagnosis,
+    Location,
+    Peaks,
+    Pile,
+    SetAside,
+)
 from cdpr_struct.diagnosis.errors_of_kinds import errors_of_kinds, located
 from cdpr_struct.diagnosis.extended import extended_robot
 from cdpr_struct.diagnosis.generic_fit import generic_ratio
+from cdpr_struct.diagnosis.internal_forces import InternalForces, internal_forces
 from cdpr_struct.diagnosis.left_out import LeftOut, left_out, rows_of
+from cdpr_struct.diagnosis.peaks_apart import PeaksApart, peaks_apart
 from cdpr_struct.diagnosis.piled_up import piled_up
 from cdpr_struct.diagnosis.recommended import Recommendation, recommended
 from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind, doubts, noise_of_kinds, sigmas_used
 from cdpr_struct.diagnosis.set_aside import set_aside
 from cdpr_struct.diagnosis.unassigned import peak_count, uncertain_peaks
 from cdpr_struct.diagnosis.whole_sizes import WholeSize, whole_sizes
+from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.library import require_known
 from cdpr_struct.hypotheses.explain import Belief, Explained, believed, explained
 from cdpr_struct.hypotheses.judge import Judged
@@ -100,6 +114,8 @@ class _Said:
     confirmed: bool
     robot: Robot | None
     damped: Damped | None
+    forces: InternalForces | None
+    apart: PeaksApart | None
 
     @classmethod
     def of(cls, campaign: Campaign, story: Explained, decision: Decision, loss: Loss) -> "_Said":
@@ -113,19 +129,44 @@ class _Said:
         doubtful = Decision("class", decision.classes, min(decision.probability, loss.least_said))
         by_signals = damped(campaign, robot, loss)
         said = decision if confirmed else doubtful
-        return cls(campaign, story, said, null, chosen, sizes, left, added, confirmed, robot, by_signals)
+        forces = internal_forces(data, where, chosen, noise_of_kinds(chosen))
+        apart = peaks_apart(story.search)
+        return cls(
+            campaign, story, said, null, chosen, sizes, left, added, confirmed, robot, by_signals, forces, apart
+        )  # fmt: skip
+
+    @property
+    def fitted(self) -> Decision:
+        """The decision on what was fitted; where nothing is wrong there, on peaks far from modes, or the damping."""
+        if self.decision.status == "adequate" and self.apart is not None and self.apart.found:
+            return Decision("class", (self.apart.names,), 1.0 - self.apart.p)
+        return self.damped.decision if self.damped is not None and self._by_damping else self.decision
 
     @property
     def whole(self) -> Decision:
-        """The decision; where nothing else is wrong, that on the damping."""
-        return self.damped.decision if self.damped is not None and self._by_damping else self.decision
+        """The same with what encoders and load cells together say of the internal forces."""
+        fitted, forces = self.fitted, self.forces
+        known = {name for names in fitted.classes for name in names}
+        if forces is None or not forces.found or internal_force.CAUSE.name in known or fitted.status == UNKNOWN:
+            return fitted
+        own = ((internal_force.CAUSE.name,),)
+        if fitted.status == "adequate":
+            return Decision("named", own, forces.probability)
+        return Decision(fitted.status, (*fitted.classes, *own), min(fitted.probability, forces.probability))
 
     @property
     def location(self) -> Location | None:
         """Where the error sits."""
         if self.decision.status != "adequate":
             return located(self.story, self.null, self.chosen)
-        return Location(DAMPING, "", -1) if self._by_damping else None
+        if self.apart is not None and self.fitted.classes == (self.apart.names,):
+            return Location("RF", self.apart.lists[0].case, -1)
+        if self._by_damping:
+            return Location(DAMPING, "", -1)
+        if self.forces is None or self.whole is self.fitted:
+            return None
+        split, names = self.forces.split, self.campaign.states.names
+        return Location(NULL_SPACE, names[int(split.state[split.internal_rms.argmax()])], -1)
 
     @property
     def _by_damping(self) -> bool:
@@ -148,10 +189,15 @@ def _assembled(
     least = minimum_detectable(search, null)
     unseen = {cause.name: TOO_SMALL for cause in search.causes if not (cause.name in least or cause.tuned)}
     noise, aside = noise_of_kinds(chosen), tuple(set_aside(data, search.where, chosen))
-    advice = recommended(said.decision, said.confirmed, _likeliest(rows))
+    fitted, by_forces = said.fitted, 1.0
+    decision = said.whole if said.whole != fitted else fitted
+    if said.forces is not None and decision is not fitted:
+        by_forces = float(np.exp(-(said.forces.gain or 0.0)))
+    by_peaks = 1.0 if said.apart is None or not said.apart.found else said.apart.p
+    advice = recommended(fitted if by_peaks < 1.0 else said.decision, said.confirmed, _likeliest(rows))
     return Diagnosis(
-        campaign=campaign, decision=said.whole, beliefs=tuple(sorted(beliefs, key=lambda one: -one.probability)),
-        p_value=min(stories.p_value(found), 1.0 if pile is None else pile.p), piled_up=pile,
+        campaign=campaign, decision=decision, beliefs=tuple(sorted(beliefs, key=lambda one: -one.probability)),
+        p_value=min(stories.p_value(found), by_forces, by_peaks, 1.0 if pile is None else pile.p), piled_up=pile,
         p_adequate=_p_adequate(noise), explained=story, correction=story.correction,
         chosen=chosen, null=null, sizes=said.sizes, drift=stories.drift_of(story, chosen), candidates=tuple(rows),
         tried=tuple(stories.tried(found, story)), set_aside=aside,
@@ -159,9 +205,11 @@ def _assembled(
         errors=tuple(errors_of_kinds(recorded)), location=said.location,
         recorded=_rows(recorded, stories.null_of(recorded).best), residuals=_rows(story, chosen), left_out=said.left,
         generic=None if said.left is None else generic_ratio(search, null, chosen), added=said.added,
-        confirmed=said.confirmed, extended=said.robot, damped=said.damped, recommendations=(*advice, *_again(aside)),
+        confirmed=said.confirmed, extended=said.robot, damped=said.damped, forces=said.forces, apart=said.apart,
+        fitted=fitted, recommendations=(*advice, *_again(aside)),
         sigmas=tuple(sigmas_used(campaign)), doubts=tuple(doubts(campaign, noise)),
         not_testable=search.hidden | unseen | ({} if campaign.identified else NEEDS_SIGNALS), minimum_detectable=least,
+        detectable_by_pattern=detectable_by_pattern(search, null),
     )  # fmt: skip
 
 

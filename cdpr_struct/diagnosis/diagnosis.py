@@ -6,7 +6,9 @@ import numpy as np
 
 from cdpr_struct.diagnosis.damped import Damped
 from cdpr_struct.diagnosis.decision import Decision
+from cdpr_struct.diagnosis.internal_forces import InternalForces
 from cdpr_struct.diagnosis.left_out import LeftOut
+from cdpr_struct.diagnosis.peaks_apart import PeaksApart
 from cdpr_struct.diagnosis.recommended import Recommendation
 from cdpr_struct.diagnosis.sensor_sigmas import Doubt, NoiseOfKind, Used
 from cdpr_struct.diagnosis.unassigned import UncertainPeak
@@ -21,6 +23,8 @@ from cdpr_struct.robot.robot import Robot
 
 DAMPING = "DA"
 """Rows of damping ratios."""
+NULL_SPACE = "NS"
+"""Internal forces, which are in no row: they do no work on the platform."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +60,7 @@ class ErrorOfKind:
 
 @dataclass(frozen=True, slots=True)
 class Location:
-    """Where the error sits: kind of rows ("EQ", "CO", "CF", "RF", or `DAMPING`), case, cable from 0 (-1: none)."""
+    """Where the error sits: rows ("EQ", "CO", "CF", "RF", `DAMPING`, `NULL_SPACE`), case, cable from 0 (-1: none)."""
 
     rows: str
     case: str
@@ -144,7 +148,11 @@ class Diagnosis:
     confirmed : whether no chosen cause hangs on one state, or on the only one
     extended : the robot with the chosen causes, None where none is chosen
     damped : what signals say of the damping, None without signals
+    forces : internal force beside what the simulation commands, None without tensions of a redundant robot
+    apart : peaks of the robot beside the modes that a sensor on the platform can see, None without peaks
+    fitted : the decision without what internal forces say beside encoders
     minimum_detectable : by cause, parameter's name to the size found in four of five campaigns
+    detectable_by_pattern : the same of every pattern
     """
 
     campaign: Campaign
@@ -174,16 +182,30 @@ class Diagnosis:
     confirmed: bool
     extended: Robot | None
     damped: Damped | None
+    forces: InternalForces | None
+    apart: PeaksApart | None
+    fitted: Decision
     recommendations: tuple[Recommendation, ...]
     sigmas: tuple[Used, ...]
     doubts: tuple[Doubt, ...]
     not_testable: dict[str, str]
     minimum_detectable: dict[str, dict[str, float | str]]
+    detectable_by_pattern: dict[str, list[dict[str, float | str]]]
 
     @property
     def by_damping(self) -> bool:
         """Whether the decision is that of the damping alone."""
         return self.location is not None and self.location.rows == DAMPING
+
+    @property
+    def by_peaks(self) -> bool:
+        """Whether the decision speaks of peaks that lie by a common factor from all modes."""
+        return self.apart is not None and self.apart.found and self.fitted.classes == (self.apart.names,)
+
+    @property
+    def by_forces(self) -> bool:
+        """Whether the decision speaks of internal forces that encoders and load cells show together."""
+        return self.fitted is not self.decision and not self.by_damping
 
     @property
     def outside(self) -> tuple[str, float]:

@@ -4,17 +4,16 @@ import numpy as np
 
 from cdpr_struct.association.detection import SHARE_INVISIBLE
 from cdpr_struct.diagnosis.diagnosis import ErrorOfKind, Location
+from cdpr_struct.diagnosis.internal_forces import simulated_tensions
 from cdpr_struct.diagnosis.left_out import KINDS, rows_of
 from cdpr_struct.hypotheses.explain import Explained
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.scale_mixture import NoiseState
-from cdpr_struct.observation.readings import cell_reading
 from cdpr_struct.observation.rest import at_states
 from cdpr_struct.observation.vibrating import of_states
 from cdpr_struct.residuals.linearised import Local, Point
 from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.statics.forward_kinematics import forward
-from cdpr_struct.statics.inverse_kinematics import inverse
 
 _OF_ROWS = {"static_state": ("EQ", "CO"), "cable_frequency": ("CF",), "robot_frequency": ("RF",)}
 
@@ -25,6 +24,8 @@ def errors_of_kinds(story: Explained) -> list[ErrorOfKind]:
     table = rows_of(data, story.search.where, null, NoiseState.stated(null.model.groups))
     found = []
     for kind, values in _errors(data, null).items():
+        if not np.isfinite(values).any():
+            continue
         finite = np.where(np.isfinite(values), np.abs(values), -1.0)
         state, cable = np.unravel_index(int(finite.argmax()), values.shape)
         rows = np.isin(table.kind.astype(str), _OF_ROWS.get(kind, ("EQ", "CO"))) & _of_states(data, kind)[table.state]
@@ -56,7 +57,7 @@ def _errors(data: Recorded, null: Judged) -> dict[str, np.ndarray]:
     states, found = data.campaign.states, {}
     if (states.static[:, None] & np.isfinite(states.tension)).any():
         found["static_state"] = _tensions(data)
-    if (states.loaded & states.has_length).any():
+    if (states.loaded & states.has_length & np.isfinite(states.position).all(axis=1)).any():
         found["loaded_pose"] = _poses(data)
     if data.vibrations is not None and len(data.vibrations.log_hertz):
         found["cable_frequency"] = _cable_frequencies(data, null)
@@ -67,19 +68,15 @@ def _errors(data: Recorded, null: Judged) -> dict[str, np.ndarray]:
 
 def _tensions(data: Recorded) -> np.ndarray:
     """(S, m) measured tensions less those of the simulation's distribution at the measured pose [N]."""
-    campaign, states = data.campaign, data.campaign.states
-    there = at_states(data.arrays, data.known)
-    held = inverse(
-        there, data.readings.position, data.readings.rotation, data.known.model,
-        lower_bound=campaign.lower_bound, allow_unheld=True,
-    )  # fmt: skip
-    said = cell_reading(data.arrays, held.tensions, data.known.approach, data.known.wrap)
-    return np.where(states.static[:, None], states.tension - said, np.nan)
+    states = data.campaign.states
+    return np.where(states.static[:, None], states.tension - simulated_tensions(data), np.nan)
 
 
 def _poses(data: Recorded) -> np.ndarray:
     """(S, 1) distance between the measured position and that computed at the encoders' lengths [mm]."""
-    index = np.flatnonzero(data.campaign.states.loaded & np.isfinite(data.campaign.states.length).all(axis=1))
+    states = data.campaign.states
+    known = np.isfinite(states.length).all(axis=1) & np.isfinite(states.position).all(axis=1)
+    index = np.flatnonzero(states.loaded & known)
     there = of_states(at_states(data.arrays, data.known), index, data.states)
     place, turn = data.readings.position[index], data.readings.rotation[index]
     found = forward(there, data.readings.length[index], place, turn, data.known.model)

@@ -11,7 +11,7 @@ from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.residuals.layout import Layout, Shelf
 from cdpr_struct.residuals.recorded import Recorded
 
-_NONE = (-1, -1, -1)
+_NONE = (-1, -1, -1, 0.0)
 _CONCERNED = 0.1  # share of the rows that are concerned at least: those that change most
 KINDS = ("EQ", "CO", "CF", "RF", "FA")
 """Wrench balance, cable lengths, cable frequencies, robot frequencies, modal constants."""
@@ -22,6 +22,7 @@ class LeftOut:
     """Residuals (n,) of blocks that were not fitted, before and after, and one sigma of them if nothing were wrong.
 
     kind (n,) of `KINDS`;  state, cable (n,) from 0, -1 for none
+    hertz (n,) : of rows of ln f the frequency, else 0
     kept (causes,) : log evidence that each cause keeps without the block that it needs most [nat]
     """
 
@@ -31,6 +32,7 @@ class LeftOut:
     before: np.ndarray
     after: np.ndarray
     sigma: np.ndarray
+    hertz: np.ndarray
     kept: np.ndarray
 
     @property
@@ -65,23 +67,27 @@ def left_out(data: Recorded, where: Layout, found: Judged) -> LeftOut | None:
         return None
     after = _predictions(sums, np.concatenate(causes))
     kept = np.array([min(_gain(sums, own, k) for k in range(len(sums.gram))) for own in causes])
-    labels = _labels(data, where, 0 if found.lists is None else found.lists.shift.shape[1])
-    read = (labels[0] >= 0) & np.isfinite(sums.sigma)
-    kinds = np.array(KINDS, dtype=object)[labels[0][read]]
-    before, after, sigma = (values[read] for values in (sums.residual, after, sums.sigma))
-    return LeftOut(kinds, labels[1][read], labels[2][read], before, after, sigma, kept)
+    return _read(data, where, found, sums, after, kept)
 
 
 def rows_of(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> LeftOut:
     """Residuals of a fit as they stand and less its causes, nothing left out; sigmas at given sizes of the noise."""
     first = found.model.parameters - sum(len(part.pattern.prior) for part in found.hypothesis.parts)
     sums = _beside_modes(BlockSums.of(found.model, noise, found.fit.soft, first), found)
-    labels = _labels(data, where, 0 if found.lists is None else found.lists.shift.shape[1])
-    read = (labels[0] >= 0) & np.isfinite(sums.sigma)
-    kinds = np.array(KINDS, dtype=object)[labels[0][read]]
     after = sums.residual - sums.columns[:, first:] @ found.fit.z_mean[first:]  # columns of added modes are zero
-    before, after, sigma = (values[read] for values in (sums.residual, after, sums.sigma))
-    return LeftOut(kinds, labels[1][read], labels[2][read], before, after, sigma, np.zeros(0))
+    return _read(data, where, found, sums, after, np.zeros(0))
+
+
+def _read(
+    data: Recorded, where: Layout, found: Judged, sums: BlockSums, after: np.ndarray, kept: np.ndarray
+) -> LeftOut:
+    """The rows that hold a reading."""
+    modes = np.zeros((0, 0)) if found.lists is None else np.exp(found.lists.association.modes.ln_frequency)
+    kind, state, cable, hertz = _labels(data, where, modes)
+    read = (kind >= 0) & np.isfinite(sums.sigma)
+    kinds = np.array(KINDS, dtype=object)[kind[read].astype(int)]
+    before, after, sigma, hertz = (part[read] for part in (sums.residual, after, sums.sigma, hertz))
+    return LeftOut(kinds, state[read].astype(int), cable[read].astype(int), before, after, sigma, hertz, kept)
 
 
 def _beside_modes(sums: BlockSums, found: Judged) -> BlockSums:
@@ -122,16 +128,18 @@ def _log(gram: np.ndarray, score: np.ndarray) -> float:
     return float(0.5 * (np.linalg.solve(factor, score) ** 2).sum() - np.log(np.diagonal(factor)).sum())
 
 
-def _labels(data: Recorded, where: Layout, modes: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Number of the kind (-1: no reading), state and cable of every row, shelf by shelf, block by block."""
+def _labels(data: Recorded, where: Layout, modes: np.ndarray) -> np.ndarray:
+    """(4, n) number of the kind (-1: no reading), state, cable and frequency [Hz] of every row, shelf by shelf.
+
+    modes (F, M) : frequencies of the robot [Hz]
+    """
     rows = [
         row for shelf in where.shelves for k in range(len(shelf.states)) for row in _of_block(data, shelf, k, modes)
     ]
     for places in where.sizes_of_states.tolist():
         of = _state_of(data, places[0])
-        rows += [(4, of, -1) if place >= 0 else _NONE for place in places]
-    kind, state, cable = np.array(rows, dtype=int).reshape((-1, 3)).T
-    return kind, state, cable
+        rows += [(4, of, -1, 0.0) if place >= 0 else _NONE for place in places]
+    return np.array(rows, dtype=float).reshape((-1, 4)).T
 
 
 def _state_of(data: Recorded, place: int) -> int:
@@ -139,16 +147,17 @@ def _state_of(data: Recorded, place: int) -> int:
     return -1 if data.vibrations is None else int(data.vibrations.sizes.state[place])
 
 
-def _of_block(data: Recorded, shelf: Shelf, k: int, modes: int) -> Iterator[tuple[int, int, int]]:
+def _of_block(data: Recorded, shelf: Shelf, k: int, modes: np.ndarray) -> Iterator[tuple[int, int, int, float]]:
     m, measured = data.cables, data.vibrations
     for state in shelf.states[k].tolist():
         tensions = state >= 0 and bool(data.read[state, 6 : 6 + m].any())
-        yield from [(0 if tensions else -1, state, -1)] * 6
+        yield from [(0 if tensions else -1, state, -1, 0.0)] * 6
         for i in range(m):
-            yield (1 if state >= 0 and data.read[state, 6 + m + i] else -1), state, i
+            yield (1 if state >= 0 and data.read[state, 6 + m + i] else -1), state, i, 0.0
     if measured is None:
         return
     for row in shelf.cables[k].tolist():
-        yield (2, int(measured.states[measured.rows.state[row]]), int(measured.rows.cable[row])) if row >= 0 else _NONE
+        place = int(measured.states[measured.rows.state[row]]), int(measured.rows.cable[row])
+        yield (2, *place, float(np.exp(measured.log_hertz[row]))) if row >= 0 else _NONE
     for f in shelf.vibrating[k].tolist():
-        yield from [(3, int(measured.states[f]), -1) if f >= 0 else _NONE] * modes
+        yield from ((3, int(measured.states[f]), -1, hertz) if f >= 0 else _NONE for hertz in modes[f])

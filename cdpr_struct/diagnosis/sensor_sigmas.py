@@ -131,7 +131,7 @@ def doubts(campaign: Campaign, noise: list[NoiseOfKind]) -> list[Doubt]:
     rows = [doubt for used in sigmas_used(campaign) if (doubt := _absurd(campaign, used))]
     for name, most in _LOOSE.items():
         value = getattr(campaign.tolerances, name)
-        if value > most:
+        if value > most and not (name == "length_m" and campaign.relative_lengths):
             rows.append(Doubt("tolerance", name, "", f"{value:g}", tolerance_unit(name), True))
     for one in noise:
         if one.p_small < FALSE_ALARMS:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import Seen
-from cdpr_struct.hypotheses.hypothesis import Part
+from cdpr_struct.hypotheses.hypothesis import SCALES, Part
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.residuals.linearised import Term
@@ -18,6 +18,7 @@ from cdpr_struct.robot.parameters import PARAMETERS
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _STEP = 1e-4  # of a sigma: changes are linear in it
+_FREE = 3.0  # sigmas from its bound, from which a number is as good as free
 _SAME = 1e-3  # of a tolerance's change: what of it a cause cannot make, where it is the same change
 
 
@@ -48,7 +49,8 @@ class WholeSize:
 
 def whole_sizes(data: Recorded, seen: Seen, found: Judged) -> list[WholeSize]:
     """Of each cause of a hypothesis; laws outside the model have no parameters, and those and lines are left out."""
-    arrays, mean, covariance = found.point.robot(data), found.fit.z_mean, found.fit.z_covariance
+    arrays = found.point.robot(data)
+    mean, covariance = _over_scales(found)
     tolerance, start = found.point.terms[0], len(mean) - sum(len(p.pattern.prior) for p in found.hypothesis.parts)
     rows = []
     for part in found.hypothesis.parts:
@@ -61,6 +63,38 @@ def whole_sizes(data: Recorded, seen: Seen, found: Judged) -> list[WholeSize]:
         if part.cause.name != UNKNOWN and not part.cause.outside:
             rows.append(WholeSize(part, own @ mean, own @ covariance @ own.T))
     return rows
+
+
+def _over_scales(found: Judged) -> tuple[np.ndarray, np.ndarray]:
+    """Mean (t,) and covariance (t, t) of all numbers, the scale of each single one averaged over.
+
+    A fit is that of the likeliest scale, which draws a large number towards nothing. Vectors keep theirs, since it says
+    how large those of their parts are that the data do not show; so do numbers whose bound is near.
+    """
+    mean, covariance = found.fit.z_mean.copy(), found.fit.z_covariance.copy()
+    at = len(mean) - sum(len(part.pattern.prior) for part in found.hypothesis.parts)
+    for part in found.hypothesis.parts:
+        d, spread = len(part.pattern.prior), float(np.sqrt(covariance[at, at]))
+        bounded = bool(part.pattern.positive[0]) and mean[at] < _FREE * spread
+        if d == 1 and not bounded and not part.cause.tuned and spread < 1.0:
+            value, variance = _averaged(float(mean[at]), spread**2, np.array(SCALES) / part.scale)
+            along = covariance[:, at] / spread**2
+            mean = mean + along * (value - mean[at])
+            covariance = covariance + np.outer(along, along) * (variance - spread**2)
+        at += d
+    return mean, covariance
+
+
+def _averaged(mean: float, variance: float, scales: np.ndarray) -> tuple[float, float]:
+    """Mean and variance of a number under priors of several sigmas, equally likely, from those under a sigma of 1."""
+    sure = 1.0 / variance - 1.0
+    said, own = mean / variance / sure, 1.0 / sure
+    whole = own + scales**2
+    log = -0.5 * (said**2 / whole + np.log(whole))
+    weight = np.exp(log - log.max()) / np.exp(log - log.max()).sum()
+    means, variances = said * scales**2 / whole, own * scales**2 / whole
+    middle = float(weight @ means)
+    return middle, float(weight @ (variances + (means - middle) ** 2))
 
 
 def _shares(seen: Seen, arrays: RobotArrays, tolerance: Term, part: Part) -> np.ndarray:

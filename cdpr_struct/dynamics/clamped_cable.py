@@ -7,9 +7,11 @@ exactly one lies between (2 n - 1) pi and (2 n + 1) pi.
 import numpy as np
 
 from cdpr_struct.dynamics.taut_cables import TautCables
+from cdpr_struct.errors import ConvergenceError
 from cdpr_struct.generated.cable_dsm import clamped_frequency_function
 
 _SAME = 4.0 * float(np.finfo(float).eps)  # relative: two roots in a row that differ by rounding
+_MISSED = 1e-9  # relative: roots in a row that differ by more were not found
 _ROOT_STEPS = 60
 
 
@@ -70,4 +72,9 @@ def symmetric_roots(lambda2: np.ndarray, count: int) -> np.ndarray:
         if (np.abs(root - before) <= _SAME * root).all():
             break
         first, last_left = False, left
+    else:
+        moved = float(np.where(at_start, 0.0, np.abs(root - before) / root).max())
+        if moved > _MISSED:
+            hint = "Give a sag parameter of an ordinary cable."
+            raise ConvergenceError("roots of Irvine's equation", moved, _ROOT_STEPS, hint)
     return np.where(at_start, start, root)

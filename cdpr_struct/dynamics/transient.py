@@ -116,7 +116,7 @@ def along_path(
     ----------
     acceleration : (n, 6) of the nominal motion [m/s^2, rad/s^2], linear between the instants, zero after the stop
     stop_velocity : (6,) nominal velocity that the stop takes away (zero for a motion that ends at rest)
-    stop : number of the instant at which the motion ends
+    stop : number of the instant at which the motion ends, n for one that goes on beyond the record
     time : (n,) evenly spaced [s]
 
     The robot is linearised at one pose; the nominal motion acts through its inertia,
@@ -128,7 +128,8 @@ def along_path(
     forced = _driven(modes, drive, acceleration, float(time[1] - time[0]))
     state = (forced @ modes.vectors.T).real
     jump = np.concatenate([np.zeros(len(basis.omega)), participation @ stop_velocity])
-    state[stop:] += _free(modes, jump, time[stop:] - time[stop])
+    if stop < len(time):
+        state[stop:] += _free(modes, jump, time[stop:] - time[stop])
     largest = acceleration[np.linalg.norm(acceleration, axis=1).argmax()]
     excitation = stop_velocity if np.abs(largest).max() == 0.0 else largest
     return _vibration(basis, modes, ports, time, state, acceleration, participation, (excitation, mass))

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from cdpr_struct.hypotheses.alternatives import Offered
-from cdpr_struct.hypotheses.causes.cause import Pattern, Seen
+from cdpr_struct.hypotheses.causes.cause import Cause, Pattern, Seen
 from cdpr_struct.hypotheses.detectable import noncentrality
 from cdpr_struct.hypotheses.hypothesis import SCALES, Part
 from cdpr_struct.hypotheses.judge import Judged
@@ -109,6 +109,11 @@ def _occurs(found: Judged, i: int) -> bool:
     mean = float(factor @ found.fit.z_mean[own])
     sigma = float(np.sqrt(factor @ found.fit.z_covariance[np.ix_(own, own)] @ factor))
     return mean > max(part.pattern.parameters[sizes[0]].least, np.sqrt(noncentrality(1)) * sigma)
+
+
+def same(one: Cause, other: Cause) -> bool:
+    """Whether one of two causes has the numbers of the other in half of its patterns: with it, both say no more."""
+    return any(a.along and b.name in a.becomes for a, b in ((one, other), (other, one)))
 
 
 def bent(part: Part, seen: Seen) -> list[Part]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
-from cdpr_struct.hypotheses.handled import promising
+from cdpr_struct.hypotheses.handled import promising, readings_felt
 from cdpr_struct.hypotheses.handling import Correction, corrections, shortcuts
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import judged
@@ -46,15 +46,14 @@ class Explained:
 def explained(campaign: Campaign, budget: Budget, progress: Callable[[str], None]) -> list[Explained]:
     """The campaign as recorded, and corrected in every way that may explain it as well; best first."""
     progress("fitting causes")
-    first = _searched(campaign, None, budget)
+    first = _searched(campaign, None, budget, 0.0)
     progress("trying how the data may have been handled")
     found = [first, *_corrected(campaign, first, budget)]
     return sorted(found, key=lambda one: -(one.answers[0].score + one.price))
 
 
-def _searched(campaign: Campaign, correction: Correction | None, budget: Budget) -> Explained:
+def _searched(campaign: Campaign, correction: Correction | None, budget: Budget, price: float) -> Explained:
     search = Search(recorded(campaign), budget)
-    price = 0.0 if correction is None else correction.log_prior + correction.log_stretch
     return Explained(correction, search, tuple(search.run()), price)
 
 
@@ -62,11 +61,11 @@ def _corrected(campaign: Campaign, first: Explained, budget: Budget) -> list[Exp
     """Corrections whose data come near the best explanation of those recorded, beside causes of that or alone."""
     best = first.answers[0].score
     beside = _beside(first.answers[0].best.hypothesis)
-    found = []
-    for correction in [*promising(first.search.data, corrections(campaign)), *shortcuts(campaign)]:
-        data, price = recorded(correction.campaign), correction.log_prior + correction.log_stretch
+    felt, found = readings_felt(first.search.data), []
+    for correction in [*promising(first.search.data, corrections(campaign), felt), *shortcuts(campaign)]:
+        data, price = recorded(correction.campaign), correction.log_prior + correction.log_stretch(felt)
         if any(judged(data, first.search.where, one).score + price > best - budget.near for one in beside):
-            found.append(_searched(correction.campaign, correction, budget))
+            found.append(_searched(correction.campaign, correction, budget, price))
             best = max(best, found[-1].answers[0].score + found[-1].price)
     return found
 

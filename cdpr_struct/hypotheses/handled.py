@@ -16,23 +16,36 @@ from cdpr_struct.inference.scale_mixture import TAU_DEGREES
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.observation.rest import static_residuals
+from cdpr_struct.residuals.assembled import FLOOR
 from cdpr_struct.residuals.linearised import Local, Point
 from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.residuals.vibrations import Vibrating
 
 _MOST = 4  # corrections that are judged
+_FELT = 3.0  # times what the others tell of a reading: so unsure must it be without its sensor to contradict them
 
 
-def promising(data: Recorded, found: Sequence[Correction]) -> list[Correction]:
-    """The likeliest corrections, of those that are likelier than the data as they are."""
+def promising(data: Recorded, found: Sequence[Correction], felt: np.ndarray) -> list[Correction]:
+    """The likeliest corrections, of those that are likelier than the data as they are; felt: see `readings_felt`."""
     local = Local.about(data, Point.entered(data))
     covariance = _covariance(data, local)
     now = _costs(data, covariance, [data.campaign])[0]
-    prices = np.array([-one.log_prior - one.log_stretch for one in found])
+    prices = np.array([-one.log_prior - one.log_stretch(felt) for one in found])
     costs = _costs(data, covariance, [one.campaign for one in found]) + prices
     costs += np.array([_of_frequencies(local, one.campaign) for one in found])
     order = np.argsort(costs, kind="stable")
     return [found[i] for i in order[:_MOST] if costs[i] < now]
+
+
+def readings_felt(data: Recorded) -> np.ndarray:
+    """(S, 6 + 2 m) bool, readings that would be missed: unread, they could contradict what else was read.
+
+    The orientation of a point mass, say, changes nothing else.
+    """
+    local = Local.about(data, Point.entered(data))
+    root = np.linalg.inv(np.linalg.cholesky(_covariance(data, local)))
+    seen = np.linalg.norm(root @ local.by_noise.static, axis=1)
+    return np.asarray(data.read & (seen * data.unread > _FELT * data.sigma))
 
 
 def _covariance(data: Recorded, local: Local) -> np.ndarray:
@@ -40,7 +53,8 @@ def _covariance(data: Recorded, local: Local) -> np.ndarray:
     size = np.where(data.read, 1.0, data.unread / data.sigma)
     noise = local.by_noise.static * size[:, None, :]
     tolerance = local.own_columns.static
-    return np.asarray(noise @ np.swapaxes(noise, 1, 2) + tolerance @ np.swapaxes(tolerance, 1, 2))
+    floor = np.diag(np.repeat(np.square(FLOOR[:2]), (6, data.cables)))  # moments of a point mass are no question
+    return np.asarray(noise @ np.swapaxes(noise, 1, 2) + tolerance @ np.swapaxes(tolerance, 1, 2) + floor)
 
 
 def _costs(data: Recorded, covariance: np.ndarray, campaigns: Sequence[Campaign]) -> np.ndarray:

@@ -24,20 +24,27 @@ PAIRS_OF_STATES = 2000  # static ones: all of 63
 class Correction:
     """A corrected campaign: what was wrong with the recorded one, in words, and how many alternatives its kind has.
 
-    log_stretch : ln of by how much all readings together were stretched, which is part of their density
+    stretched : the factor in another unit, and which readings (S, 6 + 2 m) had it; None where no density changes
     """
 
     cause: str
     sentence: str
     campaign: Campaign
     alternatives: int = 1
-    log_stretch: float = 0.0
+    stretched: tuple[float, np.ndarray] | None = None
     parameters: dict[str, Any] = field(default_factory=dict)
 
     @property
     def log_prior(self) -> float:
         """ln of its probability against that of data as they are."""
         return -PRICE - math.log(self.alternatives)
+
+    def log_stretch(self, felt: np.ndarray) -> float:
+        """ln of by how much all readings together were stretched, which is part of their density.
+
+        felt (S, 6 + 2 m) : readings that the model holds against others: the rest has a density in no unit
+        """
+        return 0.0 if self.stretched is None else math.log(self.stretched[0]) * int((felt & self.stretched[1]).sum())
 
 
 def corrections(campaign: Campaign) -> list[Correction]:
@@ -79,22 +86,16 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
                 scale[slice(None) if which < 0 else which] = size
                 who = "the tensions" if which < 0 else f"the tensions of cable {which + 1}"
                 new = _with(campaign, tension=states.tension * scale, tension_sigma=states.tension_sigma)
-                count = int(np.isfinite(states.tension[:, scale != 1.0]).sum())
-                stretch = count * math.log(size)
-                said = f"{who} {wrong}"
-                yield Correction("unit_error", said, new, log_stretch=stretch, parameters={"factor": size})
+                said, own = f"{who} {wrong}", np.concatenate([np.zeros(6, bool), scale != 1.0, np.zeros(m, bool)])
+                yield _in_unit(said, new, size, own)
     for unit, factor in LENGTH_UNITS.items():
         for what in ("length", "position"):
             new = _with(campaign, **{what: getattr(states, what) * factor})
-            stretch = int(np.isfinite(getattr(states, what)).sum()) * math.log(factor)
-            said = f"the {what}s are in {unit}"
-            yield Correction("unit_error", said, new, log_stretch=stretch, parameters={"factor": factor})
+            yield _in_unit(f"the {what}s are in {unit}", new, factor, _columns(what, m))
     turned = ((np.degrees(1.0), "are in rad"), (np.radians(1.0), "were converted from rad, though in deg"))
     for factor, wrong in turned if _several_tilted(states) else ():
         new = _with(campaign, angles=states.angles * factor)
-        stretch = int(np.isfinite(states.angles).sum()) * math.log(factor)
-        said = f"the pose angles {wrong}"
-        yield Correction("unit_error", said, new, log_stretch=stretch, parameters={"factor": factor})
+        yield _in_unit(f"the pose angles {wrong}", new, factor, _columns("angles", m))
     for factor, unit in ((0.45359237, "lb"), (1.0 / 9.80665, "N")) if np.any(states.payload) else ():
         new = _with(campaign, payload=states.payload * factor)
         yield Correction("unit_error", f"the payloads are in {unit}", new, parameters={"factor": factor})
@@ -106,6 +107,20 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
             yield Correction(
                 "unit_error", f"the {what.replace('_', ' ')} are in rad/s", new, parameters={"factor": turn}
             )
+
+
+def _in_unit(said: str, new: Campaign, factor: float, columns: np.ndarray) -> Correction:
+    """Readings of some columns (6 + 2 m) times a factor."""
+    which = np.broadcast_to(columns, (len(new.states.names), len(columns)))
+    return Correction("unit_error", said, new, stretched=(factor, which), parameters={"factor": factor})
+
+
+def _columns(what: str, m: int) -> np.ndarray:
+    """(6 + 2 m) bool, the readings of a kind."""
+    places = {"position": slice(0, 3), "angles": slice(3, 6), "length": slice(6 + m, None)}
+    found = np.zeros(6 + 2 * m, dtype=bool)
+    found[places[what]] = True
+    return found
 
 
 def _several_tilted(states: States) -> bool:

@@ -20,6 +20,7 @@ PASSES = 5  # linearisations at most; near the data the steps shrink by ten and 
 _STEPS = (1.0, 0.4, 0.1)  # of the way to the likeliest point, as long as that leads nowhere
 WORTH = 0.1  # nats: a smaller difference is none; by so much must another start be better to be followed
 NEAR = 3.0  # sigmas: so far the model is straight, and a step that is no shorter only assigns peaks anew
+_BENDS = np.repeat([0.01, 0.005], 3)  # m, rad: a pose that moves so far counts as a sigma where it was not read
 _STILL = 0.01  # sigmas: so near its point the evidence of a hypothesis has converged
 SETTLED = 0.5  # sigmas: a point that moves less is where it was; what bends on so short a way is no tenth of a nat
 
@@ -198,7 +199,13 @@ def _of_model(
 ) -> Judged:  # fmt: skip
     found = fit(model, noise, lists, assigned, hypothesis.positive(point))
     there = noise_of_states(data, where, found.noise_mean)
-    by_noise = np.abs(there - point.noise)[data.read].max(initial=0.0)
+    by_noise = _shift(data, there - point.noise)
     by_numbers = np.abs(found.z_mean - np.concatenate(point.z)) / hypothesis.straight(point)
     moved = max(float(by_numbers.max()), float(by_noise))
     return Judged(hypothesis, point, model, lists, found, moved)
+
+
+def _shift(data: Recorded, change: np.ndarray) -> float:
+    """The largest change (S, 6 + 2 m) of the readings' noise, in sigmas; of unread poses by how they bend."""
+    pose = np.abs(change[:, :6] * data.sigma[:, :6]) / _BENDS
+    return float(max(np.abs(change)[data.read].max(initial=0.0), pose[~data.read[:, :6]].max(initial=0.0)))

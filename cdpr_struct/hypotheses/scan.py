@@ -30,7 +30,11 @@ _NEAR, _PLACES = 0.03, 2  # of ln f: so near, and at so many frequencies
 _FINE, _BEYOND = 0.012, 0.025  # of ln f: steps of a mount's frequency, and how far beyond its bounds they go
 _MOUNT, _BLOCK = 2, 32  # numbers of a part that moves along one axis; robots solved at once
 _HEAVY = 0.5  # of the platform's mass: more is not tried
-_ALONE = "cable"  # first word of patterns that are not tried: statics see a single cable
+_CARRIER = " alone"  # in the label of patterns of one cable, mast or axis
+_SMALL = (0.5, *AMPLITUDES)  # of one carrier alone
+_FEW_STATES = 3  # those with most peaks, for one carrier
+_DOUBT = 3.0  # sigmas that static readings may be off what they say of one carrier
+_CARRIERS = 3  # of a cause, the best that are fitted
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,18 +58,32 @@ def beginnings(data: Recorded, menu: Sequence[Offered], about: Judged, most: int
         if cause.cause.tuned:
             mounted += scan.tuned(cause, places)
             continue
-        singles = [i for i, p in enumerate(cause.patterns) if p.basis.shape[1] == 1 and not p.label.startswith(_ALONE)]
+        singles = [i for i, p in enumerate(cause.patterns) if p.basis.shape[1] == 1 and not p.label.startswith("cable")]
         if not cause.laws and "RF" in cause.cause.seen_in and singles:
             found = sorted((b for i in singles for b in scan.of(cause, i)), key=lambda one: -one.gain)
             best += [one for one in found[:_OF_A_CAUSE] if one.gain > -_COARSE]
     return [*sorted(best, key=lambda one: -one.gain)[:most], *mounted]
 
 
+def carriers(data: Recorded, menu: Sequence[Offered], about: Judged) -> list[Beginning]:
+    """The best changes of one cable, mast or axis alone beside a judged hypothesis, as far as static readings allow."""
+    if about.lists is None or data.campaign.model == "static":
+        return []
+    scan, best = _Scan(data, about, _FEW_STATES), []
+    for cause in menu:
+        if cause.cause.tuned or cause.laws or "RF" not in cause.cause.seen_in:
+            continue
+        alone = [i for i, p in enumerate(cause.patterns) if p.basis.shape[1] == 1 and _CARRIER in p.label]
+        found = [max(own, key=lambda one: one.gain) for i in alone if (own := scan.within(cause, i))]
+        best += sorted(found, key=lambda one: -one.gain)[:_CARRIERS]
+    return sorted(best, key=lambda one: -one.gain)
+
+
 class _Scan:
     """What amplitudes of causes bring beside a judged hypothesis, modes solved for each."""
 
-    def __init__(self, data: Recorded, about: Judged) -> None:
-        self.data, self.about = data, about
+    def __init__(self, data: Recorded, about: Judged, states: int = _STATES) -> None:
+        self.data, self.about, self.states = data, about, states
         self.screen = Screen.of(about.model, about.fit.noise)
         self.arrays, self.readings = about.point.robot(data), about.point.readings(data)
         self.level = self._of_peaks(replace(self.arrays, mass=np.asarray(self.arrays.mass)[None]))[0]
@@ -73,12 +91,32 @@ class _Scan:
     def of(self, cause: Offered, i: int) -> list[Beginning]:
         """One pattern at all amplitudes."""
         pattern = cause.patterns[i]
-        said = self.screen.screened([(part @ pattern.basis) * pattern.prior for part in cause.columns])
+        score, gram = self._static(cause, pattern)
         sizes = np.array(AMPLITUDES if pattern.positive[0] else [*AMPLITUDES, *(-a for a in AMPLITUDES)])
+        return self._at(cause, i, sizes, score, gram)
+
+    def within(self, cause: Offered, i: int) -> list[Beginning]:
+        """One pattern at what static readings say of it, and at amplitudes that these leave open."""
+        pattern = cause.patterns[i]
+        score, gram = self._static(cause, pattern)
+        likeliest, spread = score / (1.0 / AMPLITUDES[-1] ** 2 + gram), (1.0 / AMPLITUDES[-1] ** 2 + gram) ** -0.5
+        sizes = np.array([*_SMALL, *(-a for a in _SMALL), likeliest])
+        sizes = sizes[np.abs(sizes - likeliest) < _DOUBT * spread]
+        sizes = sizes[sizes > 0.0] if pattern.positive[0] else sizes[sizes != 0.0]
+        return self._at(cause, i, sizes, score, gram) if len(sizes) else []
+
+    def _static(self, cause: Offered, pattern: Pattern) -> tuple[float, float]:
+        """Score and gram of one number without the peaks."""
+        said = self.screen.screened([(part @ pattern.basis) * pattern.prior for part in cause.columns])
+        return float(said.score[0]), float(said.gram[0, 0])
+
+    def _at(self, cause: Offered, i: int, sizes: np.ndarray, score: float, gram: float) -> list[Beginning]:
+        """One pattern at amplitudes (a,)."""
+        pattern = cause.patterns[i]
         theta = (sizes[:, None, None] * pattern.prior) @ pattern.basis.T
         robots = (cause.cause.apply(self.arrays, one[None]) for one in theta)  # one by one: modes need room
         gains = np.concatenate([self._of_peaks(robot) for robot in robots]) - self.level
-        gains += sizes * said.score[0] - 0.5 * sizes**2 * said.gram[0, 0]
+        gains += sizes * score - 0.5 * sizes**2 * gram
         found = []
         for size, gain in zip(sizes, gains, strict=True):
             found.append(_beginning(cause, i, np.array([size]), float(gain)))
@@ -116,7 +154,7 @@ class _Scan:
         data, lists = self.data, self.about.lists
         if data.vibrations is None or lists is None:
             return np.zeros(1)
-        noise, measured = lists.association.noise, data.vibrations.richest(_STATES)
+        noise, measured = lists.association.noise, data.vibrations.richest(self.states)
         return log_likelihoods(data.campaign, data.known, measured, arrays, self.readings, _SPREAD**2, noise)
 
 

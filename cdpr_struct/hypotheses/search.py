@@ -11,18 +11,18 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
+from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.hypotheses.alternatives import Gains, Offered, gains, offered
 from cdpr_struct.hypotheses.causes import internal_force
-from cdpr_struct.hypotheses.causes.cause import Cause
 from cdpr_struct.hypotheses.causes.drift import AMPLITUDES
 from cdpr_struct.hypotheses.causes.library import testable
-from cdpr_struct.hypotheses.choices import bent, occurs, with_choices
-from cdpr_struct.hypotheses.hypothesis import PRICE, Hypothesis, drift_term
+from cdpr_struct.hypotheses.choices import bent, occurs, same, with_choices
+from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES, Hypothesis, drift_term
 from cdpr_struct.hypotheses.judge import NEAR, SETTLED, Judged, again, begun, converged, extended, judged, settled
 from cdpr_struct.hypotheses.laws import UNKNOWN
-from cdpr_struct.hypotheses.scan import Beginning, beginnings
+from cdpr_struct.hypotheses.scan import Beginning, beginnings, carriers
 from cdpr_struct.hypotheses.seen import seen_in
-from cdpr_struct.hypotheses.significant import p_of_null
+from cdpr_struct.hypotheses.significant import SIGNIFICANT, p_of_null
 from cdpr_struct.inference.evidence import bound_at, fit
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.residuals.assembled import stacked
@@ -33,6 +33,7 @@ from cdpr_struct.residuals.recorded import Recorded
 _NOTHING = 2.0  # nats by which the best single cause may be behind none: else a second one beside it is not looked for
 _NESTED = 2  # of the likeliest hypotheses, from whose points nothing wrong is judged
 _LAWS = 3  # outside the library, the likeliest, that are fitted where one may be
+_RICH = (1.0, SCALES[-1])  # scales of all causes at once: where they are small, outliers stand for large ones
 _AGAIN = 6  # hypotheses that are fitted from another one's noise
 
 
@@ -53,9 +54,10 @@ class Budget:
     pairs: int = 3
     sure: float = 8.0
     converged: int = 8
+    alone: int = 6
 
 
-BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 60.0, 5, 6, 14.0, 24)}
+BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 60.0, 5, 6, 14.0, 24, 16)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -103,13 +105,15 @@ class Search:
         base = max(nulls, key=lambda one: one.score)
         menu = offered(self.data, self.where, self.seen, self.causes, base)
         self.p_value = p_of_null(menu, base)
-        rich = self._rich(menu, base)
-        menu = with_choices(menu, base, [base.fit.noise, rich], self.seen)
+        rich = [self._rich(menu, base, scale) for scale in _RICH]
+        menu = with_choices(menu, base, [base.fit.noise, *rich], self.seen)
         rows = self._screened(menu, nulls, rich)
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
         self._bend(nulls)
         large = beginnings(self.data, menu, base, self.budget.beginnings + 1)
         self._begin(large, base)
+        if self.p_value < SIGNIFICANT:
+            self._begin_alone(carriers(self.data, menu, base), base)
         self._transfer()
         singles = self._singles()
         if singles[0].score > base.score:
@@ -143,22 +147,25 @@ class Search:
             found.append(self.keep(settled(self.data, self.where, more)))
         return [first, *found]
 
-    def _rich(self, menu: Sequence[Offered], base: Judged) -> NoiseState:
-        """Sizes of the noise where all causes act at once, but those of several ways: what none of them explains."""
+    def _rich(self, menu: Sequence[Offered], base: Judged, scale: float) -> NoiseState:
+        """Sizes of the noise where all causes act at once at a scale, but those of several ways: what none explains."""
         known = [cause for cause in menu if cause.cause.name != UNKNOWN and not cause.cause.one_of]
-        columns = [[part * cause.patterns[0].prior.max() for part in cause.columns] for cause in known]
+        columns = [[part * (scale * cause.patterns[0].prior.max()) for part in cause.columns] for cause in known]
         everything = base.model.with_columns([np.concatenate(parts, axis=-1) for parts in zip(*columns, strict=True)])
         lists = None if base.lists is None else base.lists.copy()
-        return fit(everything, base.fit.noise, lists, base.fit.soft).noise
+        begin = base.fit.noise if scale == _RICH[0] else NoiseState.stated(base.model.groups)
+        return fit(everything, begin, lists, base.fit.soft).noise
 
-    def _screened(self, menu: Sequence[Offered], bases: Sequence[Judged], rich: NoiseState | None) -> list[_Screened]:
-        """The best of each cause beside every base, at its own noise and at the rich one; best first."""
+    def _screened(
+        self, menu: Sequence[Offered], bases: Sequence[Judged], rich: Sequence[NoiseState] = ()
+    ) -> list[_Screened]:
+        """The best of each cause beside every base, at its own noise and at rich ones; best first."""
         best: dict[str, _Screened] = {}
         shapes = [part.shape[:2] for part in menu[0].columns] if menu else []
         for base in bases:
             if [stack.r.shape for stack in base.model.stacks] != shapes:
                 continue  # about its point the robot has other modes than about that of the menu
-            for noise in [base.fit.noise, *([rich] if rich is not None else [])]:
+            for noise in [base.fit.noise, *rich]:
                 bound = base.log_evidence if noise is base.fit.noise else bound_at(base.model, noise, base.fit.soft)
                 for row in (one for one in gains(menu, base, noise) if not one.cause.tuned):  # those are begun
                     score = bound + base.hypothesis.log_prior + row.total
@@ -202,7 +209,16 @@ class Search:
         for one in large:
             if one.part.cause.name not in present:
                 more = Hypothesis((*base.hypothesis.parts, one.part), base.hypothesis.drift)
-                self.keep(begun(self.data, self.where, base, more, one.z))
+                try:
+                    self.keep(begun(self.data, self.where, base, more, one.z))
+                except UnstableEquilibriumError:  # nor is a robot with so large a change one that was measured
+                    continue
+
+    def _begin_alone(self, alone: Sequence[Beginning], base: Judged) -> None:
+        """Fits of changes of one cable, mast or axis: those that may come near the best, the likeliest first."""
+        for one in alone[: self.budget.alone]:
+            if one.gain > alone[0].gain - self.budget.near:
+                self._begin([one], base)
 
     def _ranked(self, causes: int | None = None) -> list[Judged]:
         """All fits, or those of so many causes, best first, that say what may occur."""
@@ -250,10 +266,10 @@ class Search:
         """A second cause beside one, where that may come near the best."""
         present = {part.cause.name for part in first.hypothesis.parts}
         known = [part.cause for part in first.hypothesis.parts]
-        left = [c for c in self.causes if c.name not in present and not any(_same(c, one) for one in known)]
+        left = [c for c in self.causes if c.name not in present and not any(same(c, one) for one in known)]
         menu = offered(self.data, self.where, self.seen, left, first)
         menu = with_choices(menu, first, [first.fit.noise], self.seen)
-        rows = self._screened(menu, [first], None)[: self.budget.pairs]
+        rows = self._screened(menu, [first])[: self.budget.pairs]
         self._fit_best(menu, rows, 0, self._ranked()[0].score - self.budget.pair_near)
 
     def _laws_beside(self, best: Judged) -> None:
@@ -261,9 +277,4 @@ class Search:
         if len(best.hypothesis.parts) < 2 or UNKNOWN in best.hypothesis.names:
             return
         menu = [one for one in offered(self.data, self.where, self.seen, [], best) if one.cause.name == UNKNOWN]
-        self._fit_best(menu, self._screened(menu, [best], None), 0, best.score - self.budget.pair_near)
-
-
-def _same(one: Cause, other: Cause) -> bool:
-    """Whether one of two causes has the numbers of the other in half of its patterns: with it, both say no more."""
-    return any(a.along and b.name in a.becomes for a, b in ((one, other), (other, one)))
+        self._fit_best(menu, self._screened(menu, [best]), 0, best.score - self.budget.pair_near)

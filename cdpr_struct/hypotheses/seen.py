@@ -28,6 +28,8 @@ def seen_in(data: Recorded) -> Seen:
         states=states.names,
         highest=float(campaign.robot_frequencies.hertz.max(initial=0.0)),
         internal=data.arrays.has_internal_mass,
+        relative=campaign.relative_lengths,
+        poses=bool(data.read[:, :6].any()),
         wheels=data.arrays.has_pulleys,
         bare=bool((data.arrays.pulley_radius == 0.0).any()),
         groups={

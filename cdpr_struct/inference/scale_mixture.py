@@ -148,11 +148,6 @@ class NoiseState:
         """(G,) bool, groups that are more likely than not outliers."""
         return np.asarray(self.responsibility[:, KAPPA >= OUTLIER].sum(axis=1) > 0.5)
 
-    def weight(self, readings: GroupedReadings) -> np.ndarray:
-        """(kinds, 5) expected pi."""
-        counts = PSEUDO_COUNTS + readings.members @ self.responsibility
-        return counts / counts.sum(axis=1, keepdims=True)
-
 
 def updated_noise(readings: GroupedReadings, state: NoiseState, square: np.ndarray) -> NoiseState:
     """Scales given the expected squared length of the readings' errors; the bound does not fall.

@@ -294,13 +294,15 @@ def require_file(path: str | os.PathLike[str]) -> None:
     """
     if not isinstance(path, str | os.PathLike):
         raise InputError("campaign", "", path, "a Campaign, or the path of a campaign file")
-    if not Path(path).is_file():
+    from cdpr_struct.measurement.campaign_sources import is_there
+
+    if not is_there(Path(path)):
         raise InputError("campaign", "", os.fspath(path), _why_no_campaign(Path(path)))
 
 
 def _why_no_campaign(path: Path) -> str:
     """What is wrong with the path of a campaign file, and the campaign files in the folder if it is one."""
-    if not path.is_dir():
+    if not os.path.isdir(path):  # noqa: PTH112, the method of Path raises where a name is too long
         return "no such file"
     inside = sorted(str(file) for file in path.glob("*campaign*.toml"))
     return f"a file, not a folder; give {' or '.join(inside) or 'the campaign file in it'}"

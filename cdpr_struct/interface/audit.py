@@ -18,8 +18,9 @@ from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
 from cdpr_struct.interface.trajectory import read_trajectory
 from cdpr_struct.interface.winches import require_locked_lengths
-from cdpr_struct.reports.audit_result import audit_columns, audit_json, audit_text, sentences
+from cdpr_struct.reports.audit_result import audit_checks, audit_columns, audit_json, audit_text, sentences
 from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.reports.trust import Trust
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import Grid
@@ -161,7 +162,10 @@ class AuditQuestion:
     def answered(self, columns: Columns) -> AuditResult:
         """The result, with the columns of all poses."""
         found = audit_of(self.batches, columns)
-        told: dict[str, Any] = audit_json(found, self.time) | {"warnings": self.notes}
+        told: dict[str, Any] = audit_json(found, self.time) | {
+            "warnings": self.notes,
+            "trust": Trust(tuple(audit_checks(found))),
+        }
         if self.free is not None:
             angles = np.degrees(angles_from_rotation(found.rotation[found.held]))
             told = told_in_map(told, self.robot, self.free.tolist(), angles, table="audit.csv")

@@ -1,6 +1,8 @@
 """Measuring campaigns, given as such or as files, and the causes that a diagnosis knows."""
 
 import os
+from collections.abc import Mapping
+from typing import Any
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.hypotheses.causes.cause import Cause
@@ -8,8 +10,10 @@ from cdpr_struct.hypotheses.causes.library import LIBRARY, installed
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import read_bounds, require_file
 from cdpr_struct.interface.given import CampaignLike
+from cdpr_struct.interface.vibration_model import dropped_by
 from cdpr_struct.measurement import campaign_file
 from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.reports.trust import Trust
 
 
 def read_campaign(
@@ -31,6 +35,15 @@ def read_campaign(
         if value is not None:
             raise InputError(name, "", value, "a campaign that was read has its bounds: give them to load_campaign")
     return given
+
+
+_VIBRATING = ("cable_frequency", "robot_frequency", "frf", "free_decay")
+
+
+def with_dropped(told: Mapping[str, Any], campaign: Campaign) -> dict[str, Any]:
+    """The result of a campaign; its `trust` says, too, what the model under test leaves out of vibrating cables."""
+    more = dropped_by(campaign.model, campaign.robot) if set(campaign.kinds()).intersection(_VIBRATING) else []
+    return {**told, "trust": Trust((*told.get("trust", Trust()).checks, *more))}
 
 
 @answered

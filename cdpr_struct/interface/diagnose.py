@@ -9,7 +9,7 @@ from cdpr_struct.diagnosis.diagnosis import Diagnosis
 from cdpr_struct.hypotheses.search import BUDGETS
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of
-from cdpr_struct.interface.campaigns import read_campaign
+from cdpr_struct.interface.campaigns import read_campaign, with_dropped
 from cdpr_struct.interface.given import CampaignLike, Progress
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.planning.recommendations import recommendations
@@ -93,5 +93,5 @@ def diagnose(
     measured = read_campaign(campaign, lower_bound, upper_bound)
     found = diagnosed(measured, budget, progress)
     progress("simulating the next measurement")
-    told = result_json(found, recommendations(found))
+    told = with_dropped(result_json(found, recommendations(found)), measured)
     return DiagnoseResult(with_extensions(told, measured.robot, "diagnose"), found)

@@ -10,17 +10,15 @@ from cdpr_struct.interface.arguments import one_of, read_lengths, read_pose, rea
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.inverse import MODELS
 from cdpr_struct.interface.lumps import require_lumps_on_cables, require_sagging
+from cdpr_struct.interface.operating_point import AtRest
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.reports import statics_rest
 from cdpr_struct.reports.extension_notes import with_extensions
-from cdpr_struct.reports.locked_rest import equilibria_text, locked_json, locked_warnings
-from cdpr_struct.reports.platform_freedoms import freedoms_json
+from cdpr_struct.reports.locked_rest import equilibria_text
 from cdpr_struct.reports.text import paragraphs
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.statics.bound_advice import outside_limits
 from cdpr_struct.statics.locked_rest import LockedRest, locked_rest
-from cdpr_struct.statics.strained_cables import strain_sentence
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
@@ -118,12 +116,9 @@ def forward(
     found = locked_rest(machine, length, begin, chosen)
     require_lumps_on_cables(machine, found.solution.cables)
     length = _paid_out(machine, length, found)
-    told = statics_rest.forward_json(machine, chosen, length, found.solution) | {"locked": locked_json(found)}
-    torn = strain_sentence(found.solution.cables)
-    said = [*locked_warnings(found), *outside_limits(machine, found.solution.tensions), *([torn] if torn else [])]
-    told |= {"warnings": said}
     rest = found.solution
-    told |= freedoms_json(OperatingPoint(machine, rest.position, rest.rotation, rest.cables))
+    point = OperatingPoint(machine, rest.position, rest.rotation, rest.cables)
+    told = statics_rest.forward_json(machine, chosen, length, rest) | AtRest(point, found).told(moves=False)
     return ForwardResult(with_extensions(told, machine, "forward", chosen), machine, found, equilibria)
 
 

@@ -90,7 +90,7 @@ def told_in_map(
     tilt = largest_tilt(robot, degrees)
     said += "." if tilt is None else f", tilt up to {tilt:.1f}°."
     answer = {"angles": names_of(free), "largest_tilt_deg": tilt}
-    return {**told, "free": answer, "warnings": [said + more, *told["warnings"]]}
+    return {**told, "free": answer, "warnings": [said + more, *told.get("warnings", ())]}
 
 
 def told_on_way(told: Mapping[str, Any], free: Sequence[bool], rotation: np.ndarray, left_out: float) -> dict[str, Any]:
@@ -107,7 +107,7 @@ def told_on_way(told: Mapping[str, Any], free: Sequence[bool], rotation: np.ndar
     return {
         **told,
         "free": {"angles": names, "range_deg": reach, "left_out_Nm": left_out},
-        "warnings": [said, *told["warnings"]],
+        "warnings": [said, *told.get("warnings", ())],
     }
 
 

@@ -22,6 +22,7 @@ from cdpr_struct.reports.damping_note import damping_note
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.frf_result import frf_columns, frf_json
 from cdpr_struct.reports.frf_text import frf_summary, frf_text
+from cdpr_struct.reports.trust_of_modes import mode_checks
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
@@ -142,7 +143,9 @@ def frf(
         sweep = sweep_response(point, cable_model, law, source[0], targets, hertz, what, way)
     described = {"damping": damping, "frame": frame, "at_m": "0,0,0" if at is None else text_of(at), "assembly": way}
     described |= {"band_hz": band_text(band), "damping_note": damping_note(law, damping, machine, massless)}
-    told = frf_json(sweep, {**described, "command": None}) | state.told(*dropped_by(cable_model, machine))
+    checks = mode_checks(sweep.modes.hertz, sweep.modes.certified, sweep.modes.complete)
+    trust = state.told(*dropped_by(cable_model, machine), *checks)
+    told = frf_json(sweep, {**described, "command": None}) | trust
     return FrfResult(with_extensions(told, machine, "frf", cable_model), sweep)
 
 

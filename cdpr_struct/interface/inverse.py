@@ -10,19 +10,14 @@ from cdpr_struct.interface.arguments import one_of, read_pose, read_robot
 from cdpr_struct.interface.free_angles import FreeAngles, chosen_pose
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.lumps import require_lumps_on_cables, require_sagging
-from cdpr_struct.interface.operating_point import held
+from cdpr_struct.interface.operating_point import AtRest, held
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.reports import statics_rest
 from cdpr_struct.reports.extension_notes import with_extensions
-from cdpr_struct.reports.platform_freedoms import freedoms_json
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.statics.bound_advice import slack_warning
-from cdpr_struct.statics.held_stability import held_stability, unstable_sentence
+from cdpr_struct.statics.held_stability import held_stability
 from cdpr_struct.statics.inverse_kinematics import InverseSolution
-from cdpr_struct.statics.slack_cables import sag_sentence, sagging_cables
-from cdpr_struct.statics.strained_cables import strain_sentence
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
@@ -118,20 +113,10 @@ def inverse(
     where = where if hanging is None else hanging.pose
     solution = held(machine, where, chosen) if hanging is None else hanging.solution
     require_lumps_on_cables(machine, solution.cables)
-    stability = held_stability(RobotArrays.of(machine), where.position, where.rotation, solution.cables)
-    said = [
-        None if hanging is None else hanging.sentence(),
-        unstable_sentence(stability),
-        slack_warning(machine, where.position, where.rotation, solution.cables),
-        sag_sentence(solution.cables),
-        strain_sentence(solution.cables),
-    ]
+    point = OperatingPoint(machine, where.position, where.rotation, solution.cables)
     told = {
         **statics_rest.inverse_json(machine, chosen, where, solution),
-        **({} if hanging is None else hanging.json()),
-        "stable": bool(stability.stable),
-        "sagging_cables": sagging_cables(solution.cables),
-        "warnings": [sentence for sentence in said if sentence is not None],
+        "stable": bool(held_stability(point.arrays, point.position, point.rotation, point.cables).stable),
+        **AtRest(point, hanging=hanging).told(moves=False),
     }
-    told |= freedoms_json(OperatingPoint(machine, where.position, where.rotation, solution.cables))
     return InverseResult(with_extensions(told, machine, "inverse", chosen), machine, where, solution)

@@ -38,6 +38,7 @@ from cdpr_struct.workspace.work_list import Columns
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
 
+_ONCE = 1  # halving of the grid where a workspace ends, if nothing else is asked
 Three: TypeAlias = tuple[bool, bool, bool]
 More: TypeAlias = tuple[str | Iterable[str] | None, WrenchesLike | None, int, float]
 
@@ -104,7 +105,7 @@ def map(
     free: FreeAngles | None = None,
     require: str | Iterable[str] | None = None,
     wrenches: WrenchesLike | None = None,
-    refine: int = 1,
+    refine: int = _ONCE,
     anchor_zone: float = ZONE,
 ) -> MapResult | WorkspaceResult:
     """Map a quantity over a grid of poses, or the workspace: where all requirements hold.
@@ -193,7 +194,7 @@ def map_question(
     upper_bound: float | None,
     chunk: int | None,
     free: FreeAngles | None = None,
-    more: More = (None, None, 1, ZONE),
+    more: More = (None, None, _ONCE, ZONE),
 ) -> MapQuestion | WorkspaceQuestion:
     """What the arguments of `map` ask for; more : require, wrenches, refine and anchor_zone.
 
@@ -232,7 +233,9 @@ def _three(free: FreeAngles | None, robot: Robot, grid: Grid) -> Three | None:
 
 def _own(name: str, evaluates: Callable[..., Columns], more: More) -> ManyQuantities | None:
     """What computes a quantity with a set of wrenches or an anchor zone, where they are given."""
-    _, wrenches, _, zone = more
+    _, wrenches, refine, zone = more
+    if refine != _ONCE:
+        raise InputError("refine", "", refine, f"only `quantity` {WORKSPACE} has an end to refine; leave it out")
     if wrenches is not None and evaluates is not margins:
         raise InputError("wrenches", "", name, "a quantity that asks for wrenches: slack-margin, force-margin, ...")
     if zone != ZONE and evaluates is not distances:

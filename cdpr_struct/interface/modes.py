@@ -21,6 +21,7 @@ from cdpr_struct.interface.vibration_model import dropped_by, require_valid
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.mode_words import motion_words
 from cdpr_struct.reports.modes_text import modes_columns, modes_sentence, modes_text
+from cdpr_struct.reports.trust_of_modes import mode_checks
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
 if TYPE_CHECKING:
@@ -151,6 +152,6 @@ def modes(
         "motion_words": motion_words(found.platform_energy, shares),
         "tensions_N": point.cables.tension_at_platform,
         "lengths_m": RobotArrays.of(machine).reading(point.cables.total_length),
-        **state.told(*dropped_by(name, machine)),
+        **state.told(*dropped_by(name, machine), *mode_checks(found.hertz, found.count_certified)),
     }
     return ModesResult(with_extensions(told, machine, "modes", name), point, found, motion)

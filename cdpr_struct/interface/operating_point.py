@@ -1,34 +1,28 @@
 """The robot at rest: at a pose that it holds, or at locked cable lengths."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from cdpr_struct.dynamics.applied_moment import moment_sentence
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import CdprError, ConvergenceError, InputError, UnholdablePoseError, UnstableEquilibriumError
 from cdpr_struct.interface.arguments import read_lengths, read_pose
 from cdpr_struct.interface.free_angles import FreeAngles, HangingPose, hanging_pose
 from cdpr_struct.interface.given import Numbers, PoseLike
 from cdpr_struct.interface.lumps import require_lumps_on_cables
-from cdpr_struct.reports.locked_rest import locked_json, locked_warnings
+from cdpr_struct.reports.locked_rest import locked_json
 from cdpr_struct.reports.platform_freedoms import freedoms_json
+from cdpr_struct.reports.trust import Check
+from cdpr_struct.reports.trust_at_rest import trust_at_rest
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.bound_advice import bound_hint, outside_limits, slack_warning
+from cdpr_struct.statics.bound_advice import bound_hint
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 from cdpr_struct.statics.locked_rest import LockedRest, locked_rest
-from cdpr_struct.statics.slack_cables import (
-    cables_named,
-    hangs_slack,
-    sag_sentence,
-    sagging_cables,
-    slack_sentence,
-)
-from cdpr_struct.statics.strained_cables import strain_sentence
+from cdpr_struct.statics.slack_cables import cables_named, sagging_cables
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,29 +46,19 @@ class AtRest:
             hint = "" if self.locked is not None else bound_hint(point.entered, point.position, point.rotation)
             raise UnstableEquilibriumError(f"{error}.{hint}" if hint else str(error)) from error
 
-    def told(self, *warnings: str) -> dict[str, Any]:
-        """What every result says of the state of rest: `warnings`, deep sag, neutral freedoms, what a guide holds, and
-        `locked` if the lengths were given."""
-        state = {"sagging_cables": sagging_cables(self.point.cables), **freedoms_json(self.point)}
-        if self.locked is not None:
-            said = [*warnings, *locked_warnings(self.locked), *self._warnings()]
-            return {**state, "warnings": said, "locked": locked_json(self.locked)}
-        if self.hanging is None:
-            return {**state, "warnings": [*warnings, *self._warnings()]}
-        said = [*warnings, self.hanging.sentence(), *self._warnings()]
-        return {**state, **self.hanging.json(), "warnings": said}
+    def told(self, *more: Check, warnings: Sequence[str] = (), moves: bool = True) -> dict[str, Any]:
+        """What every result says of the state of rest: `trust` with checks of the command's own, deep sag, neutral
+        freedoms, what a guide holds, `locked` if the lengths were given, and `warnings` that are no checks.
 
-    def _warnings(self) -> list[str]:
-        """Sentences on slack cables, on locked cables outside the robot's force limits, and on a constant moment."""
-        point = self.point
-        said_of_cables = (sag_sentence(point.cables), strain_sentence(point.cables))
-        told = [sentence for sentence in (*said_of_cables, moment_sentence(point)) if sentence is not None]
-        if self.locked is None:
-            said = slack_warning(point.entered, point.position, point.rotation, point.cables)
-            return [*([] if said is None else [said]), *told]
-        slack = slack_sentence(hangs_slack(point.cables))
-        outside = outside_limits(point.entered, point.cables.tension_at_platform)
-        return [*([] if slack is None else [f"{slack}."]), *told, *outside]
+        moves : whether the command lets the robot vibrate
+        """
+        state = {"sagging_cables": sagging_cables(self.point.cables), **freedoms_json(self.point)}
+        state |= {"trust": trust_at_rest(self.point, self.locked, *more, moves=moves), "warnings": list(warnings)}
+        if self.locked is not None:
+            return {**state, "locked": locked_json(self.locked)}
+        if self.hanging is None:
+            return state
+        return {**state, **self.hanging.json(), "warnings": [*warnings, self.hanging.sentence()]}
 
 
 def rest(

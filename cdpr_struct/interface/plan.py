@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
-from cdpr_struct.interface.campaigns import read_campaign
+from cdpr_struct.interface.campaigns import read_campaign, with_dropped
 from cdpr_struct.interface.given import CampaignLike, Progress
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.measurement.campaign import Campaign
@@ -88,5 +88,5 @@ def plan(
     """
     entered = read_campaign(campaign, lower_bound, upper_bound, planned=True)
     found = planned(entered, progress)
-    told = plan_json(found) | {"warnings": list(entered.notes)}
+    told = with_dropped(plan_json(found) | {"warnings": list(entered.notes)}, entered)
     return PlanResult(with_extensions(told, entered.robot, "plan"), entered, found)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from cdpr_struct.reports.plain_json import plain
+from cdpr_struct.reports.plain_json import plain_result
 from cdpr_struct.reports.remarks import extensions_of, remarks, rest_of, warnings_of
 
 if TYPE_CHECKING:
@@ -36,8 +36,7 @@ class Result(ABC):
 
     def to_json(self) -> dict[str, Any]:
         """The keys and values of the command's result.json: lists, numbers, text; None where a number is nan or inf."""
-        found: dict[str, Any] = plain(self.answer)
-        return found
+        return plain_result(self.answer)
 
     def frame(self) -> "pd.DataFrame":
         """The command's main CSV file as a table, units in the names of its columns."""

@@ -18,6 +18,7 @@ from cdpr_struct.interface.vibration_model import dropped_by, read_model, requir
 from cdpr_struct.measurement.time_series import read_accelerations
 from cdpr_struct.reports import transient_measured
 from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.reports.trust_of_modes import mode_checks
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
@@ -114,5 +115,7 @@ def spectrogram(
     require_valid(cable_model, state.point, force)
     with state.advised():
         told = transient_measured.measured_json(time, acceleration, state.point, cable_model, highest)
-    told = with_extensions(told | state.told(*dropped_by(cable_model, machine)), machine, "spectrogram", cable_model)
-    return SpectrogramResult(told, time, acceleration, window)
+    told |= state.told(
+        *dropped_by(cable_model, machine), *mode_checks(told["natural_frequencies_hz"], told["count_certified"])
+    )
+    return SpectrogramResult(with_extensions(told, machine, "spectrogram", cable_model), time, acceleration, window)

@@ -71,7 +71,7 @@ def _from_file(path: Path, fewest: int) -> "TrajectoryFile":
 
     try:
         known = path.exists() and not path.is_dir()
-    except ValueError:  # a name that no file can have
+    except (OSError, ValueError):  # a name that no file can have
         known = False
     if not known:
         raise InputError(NAME, "", str(path), f"no such file; give {FORMS}")

@@ -23,6 +23,7 @@ from cdpr_struct.reports.damping_note import ENDLESS_VIBRATION, damping_note
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.transient_result import transient_columns, transient_json
 from cdpr_struct.reports.transient_text import transient_summary, transient_text
+from cdpr_struct.reports.trust_of_modes import mode_checks
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.statics.trajectory import Trajectory
 
@@ -164,8 +165,9 @@ def transient(
         )
     described = {"damping": damping, "frame": frame, "at_m": "0,0,0" if at is None else text_of(at), "assembly": way}
     note = damping_note(law, damping, machine, cable_model == "static", ENDLESS_VIBRATION)
-    assumed = [*assumed, *dropped_by(cable_model, machine)]
-    told = transient_json(record, {**described, "damping_note": note, "command": None}) | state.told(*assumed)
+    checks = *dropped_by(cable_model, machine), *mode_checks(record.modes.hertz, record.modes.certified)
+    told = transient_json(record, {**described, "damping_note": note, "command": None})
+    told |= state.told(*checks, warnings=assumed)
     return TransientResult(with_extensions(told, machine, "transient", cable_model), record, window)
 
 

@@ -19,7 +19,7 @@ from cdpr_struct.interface.operating_point import pose_in_degrees, rest
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.extension_notes import with_extensions
-from cdpr_struct.reports.verification_result import eigenfrequency_columns, verification_json
+from cdpr_struct.reports.verification_result import eigenfrequency_columns, verification_checks, verification_json
 from cdpr_struct.reports.verification_text import verification_text
 from cdpr_struct.reports.verification_verdict import verdict_lines
 
@@ -136,7 +136,7 @@ def verify(
     state = rest(machine.without_extensions(*NOT_IN_FEM), pose, lengths, start, free)
     with state.advised():
         trial = tried(state.point, counts, modes, way, criteria, progress, most_elements, judged)
-    told = verification_json(trial, pose_in_degrees(state.point)) | state.told()
+    told = verification_json(trial, pose_in_degrees(state.point)) | state.told(*verification_checks(trial))
     return VerifyResult(with_extensions(told, machine, "verify"), trial)
 
 

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from cdpr_struct.errors import InputError
+from cdpr_struct.errors import InputError, known_names
 from cdpr_struct.interface.arguments import LARGEST
 
 WrenchesLike: TypeAlias = str | os.PathLike[str] | Iterable[Iterable[float]]
@@ -66,7 +66,8 @@ def _of_file(path: str) -> Wrenches:
         raise InputError(path, "", "no rows", f"a row for each wrench, columns {', '.join(COLUMNS)}")
     for name in rows[0]:
         if name not in COLUMNS:
-            raise InputError(path, str(name), "a column", f"columns are {', '.join(COLUMNS)}; those left out are zero")
+            known = known_names(str(name), COLUMNS)
+            raise InputError(path, str(name), "a column", f"no such column; {known}; those left out are zero")
     found = []
     for number, row in enumerate(rows, start=2):
         for name, text in row.items():

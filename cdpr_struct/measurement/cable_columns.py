@@ -34,7 +34,7 @@ class CableQuantity:
     def number(self, name: str) -> int | None:
         """Number of the cable, from 1, that a column of this quantity belongs to; None for other columns."""
         digits = name.removeprefix(self.before).removesuffix(self.after)
-        return int(digits) if digits.isdecimal() and name == self.column(int(digits)) else None
+        return int(digits) if digits.isdecimal() and len(digits) <= 4 and name == self.column(int(digits)) else None
 
 
 TENSION = CableQuantity("tension", "tensions", "tension_N", "tension_", "_N", "N, at the platform")

@@ -14,7 +14,11 @@ if TYPE_CHECKING:
 
 SIGNALS = ("frf", "free_decay", "platform_motion")
 """Kinds of data whose frequencies are identified in records."""
+NOT_SAID, PLATFORM = -1, -2
+"""Labels of a peak of the robot: of nothing that is known, and of the platform."""
 KINDS = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency", *SIGNALS)
+UNKNOWN_ZERO = 1.0
+"""m, one sigma of a length's zero of which nothing is known."""
 MODELS = ("static", "dsm", "exact", "spring")
 
 
@@ -134,8 +138,10 @@ class CableFrequencies:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotFrequencies:
-    """Natural frequencies of the robot, unlabelled: state, [Hz], sigma [Hz].
+    """Natural frequencies of the robot: state, [Hz], sigma [Hz].
 
+    body : (r,) which body moves most: `PLATFORM`, the number of a cable from 0, or `NOT_SAID`; or (0,)
+    mode : (r,) number of the mode among those of the platform from 1, or `NOT_SAID`; or (0,)
     shape : (r, 6) complex, motion of the platform that signals show in each mode, any scale [m, rad], nan where not
             seen; or (0, 6)
     origin : (r, 2) number of the record in `identified` and of its mode, -1 for peaks of a list; or (0, 2)
@@ -146,6 +152,8 @@ class RobotFrequencies:
     sigma: np.ndarray
     shape: np.ndarray = field(default_factory=lambda: np.zeros((0, 6), dtype=complex))
     origin: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), dtype=int))
+    body: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))
+    mode: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))
 
     def unlike(self, rows: np.ndarray, model: np.ndarray, radius: float) -> np.ndarray:
         """(r, k) 1 - modal assurance of rows against the model's platform shapes (k, 6); nan without a measured shape.
@@ -187,6 +195,7 @@ class Campaign:
     identified : modes found in the signals of `series`; those used are among `robot_frequencies`
     sheets : the data files, with the sigmas used
     memory : correlation of a sensor's noise in one state with that in the next, 0 for independent noise
+    relative_lengths : each encoder counts from an unknown start, the same in all states
     notes : what was assumed where the data files say nothing, in sentences for a person
     loss : what mistakes of a diagnosis cost
     """
@@ -209,6 +218,7 @@ class Campaign:
     memory: float = 0.0
     sheets: tuple[Sheet, ...] = ()
     notes: tuple[str, ...] = ()
+    relative_lengths: bool = False
     loss: Loss = Loss()  # noqa: RUF009 - frozen
 
     @property

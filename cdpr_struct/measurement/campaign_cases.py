@@ -7,8 +7,17 @@ import numpy as np
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.assumed_angles import angle_note
-from cdpr_struct.measurement.campaign import SIGNALS, CableFrequencies, RobotFrequencies, Series, Sigmas, States
-from cdpr_struct.measurement.campaign_rows import POSE, Rows, length_columns
+from cdpr_struct.measurement.campaign import (
+    NOT_SAID,
+    SIGNALS,
+    CableFrequencies,
+    RobotFrequencies,
+    Series,
+    Sigmas,
+    States,
+)
+from cdpr_struct.measurement.campaign_rows import POSE, POSITION, Rows, length_columns
+from cdpr_struct.measurement.peak_labels import peak_label
 
 _SAME = 1e-9  # m, deg: two notes of the same number
 _ONE_STATE = "one case is one state: copy the digits, leave the cells empty, or give this case another name"
@@ -44,7 +53,7 @@ class Gathering:
     m: int
     known: dict[str, _State] = field(default_factory=dict)
     cable_rows: list[tuple[int, int, int, bool, float, float]] = field(default_factory=list)
-    robot_rows: list[tuple[int, float, float]] = field(default_factory=list)
+    robot_rows: list[tuple[int, float, float, int, int]] = field(default_factory=list)
     series: list[tuple[Series, Sigmas]] = field(default_factory=list)
     shapes: dict[int, np.ndarray] = field(default_factory=dict)
     origins: dict[int, tuple[int, int]] = field(default_factory=dict)
@@ -73,13 +82,16 @@ class Gathering:
 
     def _state(self, rows: Rows, i: int, sigmas: Sigmas) -> _State:
         name = rows.words["case"][i]
-        pose = np.array([rows.get(c, 0.0)[i] for c in POSE])
-        payload = float(rows.get("payload_kg", 0.0)[i])
+        placed = any(name in rows.numbers for name in POSITION)
+        pose = np.array([rows.get(c, 0.0 if placed else np.nan)[i] for c in POSE])
+        payload = float(
+            rows.get("payload_kg", 0.0 if placed else np.nan)[i]
+        )  # nan: known by the name of the state alone
         found = self.known.get(name)
         if found is None:
             found = self._new(name, rows.file, pose, payload, sigmas)
             found.temperature, found.time = float(rows.get("temperature_K")[i]), float(rows.get("time_s")[i])
-        elif _differ(found.pose, pose) or found.payload != payload:
+        elif _differ(np.append(found.pose, found.payload), np.append(pose, payload)):
             before = [*found.pose.tolist(), found.payload]
             expected = f"the pose and payload given before for this case in {Path(found.file).name}, {before}"
             expected += f": {_ONE_STATE}"
@@ -89,6 +101,7 @@ class Gathering:
                 expected += f" ({note.removesuffix('.')})"
             raise InputError(rows.file, f"{rows.place(i)}, case {name}", [*pose.tolist(), payload], expected)
         found.pose = np.where(np.isfinite(found.pose), found.pose, pose)
+        found.payload = found.payload if np.isfinite(found.payload) else payload
         return found
 
     def _new(self, name: str, file: str, pose: np.ndarray, payload: float, sigmas: Sigmas) -> _State:
@@ -115,7 +128,7 @@ class Gathering:
         for hertz, sigma, shape, origin in frequencies:
             self.origins[len(self.robot_rows)] = origin
             self.shapes[len(self.robot_rows)] = shape
-            self.robot_rows.append((place, hertz, sigma))
+            self.robot_rows.append((place, hertz, sigma, NOT_SAID, NOT_SAID))
 
     def _static(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         own = rows.get("sigma")
@@ -166,7 +179,7 @@ class Gathering:
         for i, state in enumerate(states):
             hertz = rows.numbers["frequency_hz"][i]
             sigma = own[i] if np.isfinite(own[i]) else float(sigmas.frequency(np.array(hertz)))
-            self.robot_rows.append((order[state.name], hertz, sigma))
+            self.robot_rows.append((order[state.name], hertz, sigma, *peak_label(rows, i, self.m)))
 
     def tension_files(self) -> dict[str, str]:
         """The file that gave the tensions of each case."""
@@ -182,7 +195,7 @@ class Gathering:
             angles=np.radians(np.array([s.pose[3:] for s in found]).reshape((-1, 3))),
             sigma_position=np.array([s.sigma_position for s in found]),
             sigma_rotation=np.array([s.sigma_rotation for s in found]),
-            payload=np.array([s.payload for s in found]),
+            payload=np.nan_to_num([s.payload for s in found]),
             tension=np.array([s.tension for s in found]).reshape((-1, self.m)),
             tension_sigma=np.array([s.tension_sigma for s in found]).reshape((-1, self.m)),
             length=length,
@@ -203,14 +216,15 @@ class Gathering:
 
     def robot_frequencies(self) -> RobotFrequencies:
         """All frequencies of the robot."""
-        table = np.array(self.robot_rows, dtype=float).reshape((-1, 3))
+        table = np.array(self.robot_rows, dtype=float).reshape((-1, 5))
         shape = np.full((len(table), 6), np.nan, dtype=complex)
         for row, seen in self.shapes.items():
             shape[row] = seen
         origin = np.full((len(table), 2), -1)
         for row, made in self.origins.items():
             origin[row] = made
-        return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2], shape, origin)
+        body, mode = table[:, 3:].astype(int).T
+        return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2], shape, origin, body, mode)
 
 
 def _other_length(rows: Rows, i: int, state: _State, length: np.ndarray) -> InputError:
@@ -247,6 +261,6 @@ def _locks(length: np.ndarray) -> np.ndarray:
     found: dict[tuple[float, ...], int] = {}
     locks = []
     for row in length:
-        read = tuple(np.where(np.isfinite(row), row, 0.0).tolist())  # no cable has no length
-        locks.append(found.setdefault(read, len(found)) if any(read) else -1)
+        read = tuple(np.where(np.isfinite(row), row, np.inf).tolist())
+        locks.append(found.setdefault(read, len(found)) if np.isfinite(read).any() else -1)
     return np.array(locks, dtype=int)

@@ -1,6 +1,5 @@
 """Campaign files: a TOML table naming the simulation under test, the tolerances and the measured data files."""
 
-import tomllib
 from dataclasses import fields, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -10,17 +9,18 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError, not_utf8
 from cdpr_struct.measurement.assumed_angles import angle_note
-from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas, Tolerances
+from cdpr_struct.measurement.campaign import UNKNOWN_ZERO, Campaign, Sheet, Sigmas, States, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
+from cdpr_struct.measurement.campaign_sources import is_there
 from cdpr_struct.measurement.campaign_template import KINDS
 from cdpr_struct.measurement.loss import Loss
-from cdpr_struct.measurement.missing_readings import missing_notes
+from cdpr_struct.measurement.missing_readings import check_placed, missing_notes
 from cdpr_struct.measurement.misspelt_cases import misspelt_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
 from cdpr_struct.measurement.unit_scale import check_scale
-from cdpr_struct.robot.file_complaints import input_error, not_toml
+from cdpr_struct.robot.file_complaints import input_error
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import (
     Matrix,
@@ -30,6 +30,7 @@ from cdpr_struct.robot.robot_file import (
     builtin_names,
     load_robot,
 )
+from cdpr_struct.robot.toml_text import toml_table
 
 Kind = Literal[
     "static_state", "loaded_pose", "cable_frequency", "robot_frequency", "frf", "free_decay", "platform_motion"
@@ -92,6 +93,7 @@ class CampaignTable(_Table):
     model: Literal["static", "dsm", "exact", "spring"] = "dsm"
     tension_distribution: Literal["minimum_norm"] = "minimum_norm"
     lower_bound_N: NotNegative | None = None
+    encoders: Literal["absolute", "relative"] = "absolute"
     nominal: NominalTable = NominalTable()
     tolerances: TolerancesTable = TolerancesTable()
     checked: dict[str, Positive] = {}
@@ -116,17 +118,19 @@ def load_campaign(
     robot = _nominal(_robot(table.robot, source), table.nominal, source)
     robot = robot if upper_bound is None else _below(robot, upper_bound, source)
     lowest = table.lower_bound_N if lower_bound is None else lower_bound
-    commanding = _commanding(robot, lowest, source)
+    commanding, relative = _commanding(robot, lowest, source), table.encoders == "relative"
     gathering = Gathering(len(robot.cables))
     sheets, cases = [], {}
     for number, entry in enumerate(table.measurement, start=1):
-        rows, sigmas = _rows(entry, source, number, len(robot.cables), planned), _sigmas(entry)
+        rows, sigmas = _rows(entry, source, number, len(robot.cables), planned, relative), _sigmas(entry)
         gathering.add(rows, sigmas)
         cases[entry.file] = rows.words.get("case", [])
         sheets.append(_sheet(entry, rows, sigmas))
     _check_poses(gathering)
-    check_scale(str(path), robot, gathering.states())
+    check_scale(str(path), robot, _absolute(gathering.states(), relative))
     check_robot_scale(str(path), robot, gathering.states(), gathering.tension_files())
+    vibrating = np.concatenate([gathering.cable_frequencies().state, gathering.robot_frequencies().state])
+    check_placed(str(path), gathering.states(), vibrating)
     identified = join_signals(gathering, commanding, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(
@@ -134,7 +138,7 @@ def load_campaign(
         robot=robot,
         robot_name=table.robot,
         model=table.model,
-        tolerances=Tolerances(**given),
+        tolerances=_tolerances(given, relative, source),
         stated=frozenset(given),
         states=gathering.states(),
         cable_frequencies=gathering.cable_frequencies(),
@@ -145,6 +149,7 @@ def load_campaign(
         tension_distribution=table.tension_distribution,
         lower_bound=lowest,
         checked=table.checked,
+        relative_lengths=relative,
         loss=_loss(table.loss, source),
         sheets=tuple(sheets),
         notes=(
@@ -155,6 +160,19 @@ def load_campaign(
     )
 
 
+def _absolute(states: States, relative: bool) -> States:
+    """The states with lengths that can be held against the robot's size."""
+    return replace(states, length=np.full_like(states.length, np.nan)) if relative else states
+
+
+def _tolerances(given: dict[str, float], relative: bool, source: Path) -> Tolerances:
+    """Those stated, and the defaults of the others; where encoders begin anywhere, their zeros are not known at all."""
+    if relative and "length_m" in given:
+        expected = 'no tolerance of the zeros beside encoders = "relative": these are unknown'
+        raise InputError(str(source), "tolerances.length_m", given["length_m"], expected)
+    return Tolerances(**(given | ({"length_m": UNKNOWN_ZERO} if relative else {})))
+
+
 def _table(source: Path) -> CampaignTable:
     try:
         text = source.read_text("utf-8-sig")
@@ -163,12 +181,10 @@ def _table(source: Path) -> CampaignTable:
     except (OSError, ValueError) as error:
         raise InputError("CAMPAIGN", "", str(source), "a campaign file (TOML) that can be read") from error
     try:
-        table = tomllib.loads(text)
+        table = toml_table(text, str(source))
         if isinstance(table.get("measurement"), dict):
             raise InputError(str(source), "[measurement]", "single brackets", "[[measurement]], one for each file")
         return CampaignTable.model_validate(table)
-    except tomllib.TOMLDecodeError as error:
-        raise not_toml(str(source), text, error) from error
     except ValidationError as error:
         raise _kind_error(source, error) or input_error(str(source), error, CampaignTable) from error
 
@@ -176,17 +192,18 @@ def _table(source: Path) -> CampaignTable:
 def _kind_error(source: Path, error: ValidationError) -> InputError | None:
     """What to say of a kind that `new-campaign` calls by another name; None if it is not that."""
     first = error.errors()[0]
-    meant = KINDS.get(str(first["input"])) if first["loc"][-1] == "kind" else None
-    if meant is None:
+    place = first["loc"]
+    meant = KINDS.get(str(first["input"])) if place[0] == "measurement" and place[-1] == "kind" else None
+    if meant is None or len(place) != 3:
         return None
     said = f"{first['input']} is a word of new-campaign: its readings are in files of the kind {meant}"
-    return InputError(str(source), f"measurement[{int(first['loc'][1]) + 1}].kind", first["input"], said)
+    return InputError(str(source), f"measurement[{int(place[1]) + 1}].kind", first["input"], said)
 
 
 def _robot(name: str, source: Path) -> Robot:
     if name in builtin_names():
         return load_robot(name)
-    if not (source.parent / name).is_file():
+    if not is_there(source.parent / name):
         known = ", ".join(builtin_names())
         raise InputError(str(source), "robot", name, f"a robot file, its path as seen from here, or one of: {known}")
     return load_robot(source.parent / name)
@@ -225,12 +242,12 @@ def _loss(table: LossTable, source: Path) -> Loss:
         raise InputError(str(source), "loss", said, expected) from error
 
 
-def _rows(entry: MeasurementTable, source: Path, number: int, cables: int, planned: bool) -> Rows:
+def _rows(entry: MeasurementTable, source: Path, number: int, cables: int, planned: bool, relative: bool) -> Rows:
     path = source.parent / entry.file
-    if not path.is_file():
+    if not is_there(path):
         expected = "no such data file; give its path as seen from the campaign file"
         raise InputError(str(source), f"measurement[{number}].file", entry.file, expected)
-    return read_rows(entry.kind, path, cables, planned)
+    return read_rows(entry.kind, path, cables, planned, relative)
 
 
 def _sigmas(entry: MeasurementTable) -> Sigmas:

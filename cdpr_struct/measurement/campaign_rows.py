@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from cdpr_struct.errors import InputError, known_names
+from cdpr_struct.errors import NOTHING, InputError, known_names
 from cdpr_struct.measurement.assumed_angles import ANGLES
 from cdpr_struct.measurement.cable_columns import EITHER, LENGTH, QUANTITIES
 from cdpr_struct.measurement.column_names import renaming
@@ -15,7 +15,8 @@ from cdpr_struct.measurement.universal_rows import is_universal, universal_colum
 from cdpr_struct.measurement.wide_table import check_wide, headings, is_wide, one_row_a_cable
 from cdpr_struct.robot.robot_file import LARGEST
 
-POSE = ("x_m", "y_m", "z_m", *ANGLES)
+POSITION = ("x_m", "y_m", "z_m")
+POSE = (*POSITION, *ANGLES)
 _NEEDED: dict[str, tuple[str, ...]] = {
     "static_state": ("x_m", "y_m", "z_m", "cable"),
     "loaded_pose": ("x_m", "y_m", "z_m"),
@@ -28,11 +29,12 @@ _NEEDED: dict[str, tuple[str, ...]] = {
 _ALSO: dict[str, tuple[str, ...]] = {
     "static_state": ("tension_N", "length_m"),
     "cable_frequency": ("tension_N", "plane"),
+    "robot_frequency": ("body", "mode"),
 }
-_WIDE_NEEDED = ("x_m", "y_m", "z_m")  # where a row is a pose
+_WIDE_NEEDED = POSITION  # where a row is a pose
 _WIDE_ALSO = {"static_state": (), "cable_frequency": ("mode", "plane")}
 _ALWAYS = ("case", *POSE, "payload_kg", "sigma", "temperature_K", "approach", "time_s")
-_WORDS = ("case", "respond", "excite", "plane")
+_WORDS = ("case", "respond", "excite", "plane", "body")
 _POSITIVE = ("tension", "length", "frequency", "sigma", "temperature", "mode", "cable")  # first words of columns
 COMMENTS = ("comment", "note", "remark")  # columns for people, not read
 PREDICTED = "predicted_"  # begins the names of others
@@ -70,11 +72,12 @@ class Rows:
         return np.full(len(self), default) if found is None else found
 
 
-def read_rows(kind: str, path: Path, cables: int, planned: bool = False) -> Rows:
+def read_rows(kind: str, path: Path, cables: int, planned: bool = False, relative: bool = False) -> Rows:
     """Checked rows of a CSV file of the given kind, for a robot with `cables` cables.
 
     A file with one row a pose and one column a cable gives the same rows as one with one row a cable.
     planned : cells of a template hold what their columns of predictions say
+    relative : lengths count from an unknown start, so that they may have any sign
 
     Raises
     ------
@@ -89,7 +92,8 @@ def read_rows(kind: str, path: Path, cables: int, planned: bool = False) -> Rows
     _require_filled(table, names)
     wide = is_wide(kind, names)
     blank = _blank_allowed(kind, cables)
-    numbers = {c: _numbers(str(path), c, table.column(c), c in blank) for c in names if c not in _WORDS}
+    above = tuple(word for word in _POSITIVE if not (relative and word == "length"))
+    numbers = {c: _numbers(str(path), c, table.column(c), c in blank, above) for c in names if c not in _WORDS}
     words = {c: table.column(c) for c in names if c in _WORDS}
     rows = Rows(kind, str(path), numbers, words)
     _check_values(rows, cables)
@@ -151,9 +155,12 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
     if how:
         raise InputError(source, "header", found, f"unknown for {kind}; {how}")
     check_wide(kind, source, columns, cables)
+    if kind in _READINGS_MAY_LACK and not {"case", *POSITION} & set(columns):
+        expected = f"a {kind} file needs {', '.join(POSITION)}, or the name of each state if no position was measured"
+        raise InputError(source, "case", "no such column", expected)
     for name in _needed(kind, columns, cables):
         if name not in columns:
-            raise InputError(source, name, "no such column", _needs(kind, columns, cables))
+            raise InputError(source, f"column {name}", NOTHING, _needs(kind, columns, cables))
     for number, name in enumerate(columns, start=1):
         if not name:
             expected = "a name for each column; pandas writes a nameless one unless to_csv has index=False"
@@ -161,13 +168,14 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
         if name not in known:
             raise InputError(source, name, "a column", _unknown(kind, name, known, cables))
     if kind == "static_state" and not is_wide(kind, columns) and not {"tension_N", "length_m"} & set(columns):
-        raise InputError(source, "tension_N", "no such column", "give tension_N or length_m or both")
+        raise InputError(source, "column tension_N", NOTHING, "give tension_N or length_m or both")
 
 
 def _needed(kind: str, columns: Sequence[str], cables: int) -> tuple[str, ...]:
-    if is_wide(kind, columns):
-        return _WIDE_NEEDED
-    return (*_NEEDED[kind], *(length_columns(cables) if kind == "loaded_pose" else ()))
+    own = _WIDE_NEEDED if is_wide(kind, columns) else _NEEDED[kind]
+    if kind in _READINGS_MAY_LACK and not set(POSITION) & set(columns):
+        own = tuple(name for name in own if name not in POSITION)  # a state without a measured position
+    return (*own, *(length_columns(cables) if kind == "loaded_pose" else ()))
 
 
 def _needs(kind: str, columns: Sequence[str], cables: int) -> str:
@@ -190,6 +198,8 @@ def _blank_allowed(kind: str, cables: int) -> set[str]:
     """Columns in which a cell may be empty: any reading of a pose or a cable, but of signals the pose is needed."""
     if kind not in _READINGS_MAY_LACK:
         return set(_BLANK_ALLOWED)
+    if kind == "robot_frequency":
+        return {*_BLANK_ALLOWED, *POSE, "mode"}
     return {*_BLANK_ALLOWED, *POSE, *(name for q in QUANTITIES.get(kind, ()) for name in q.columns(cables))}
 
 
@@ -210,10 +220,13 @@ def _number_wanted(text: str) -> str:
     return f"a number with a decimal point: {point}"
 
 
-def _numbers(source: str, name: str, cells: Sequence[str], blank: bool) -> np.ndarray:
-    """Numbers of a column; nan for an empty cell where `blank` ones are allowed."""
+def _numbers(source: str, name: str, cells: Sequence[str], blank: bool, above_zero: Sequence[str]) -> np.ndarray:
+    """Numbers of a column; nan for an empty cell where `blank` ones are allowed.
+
+    above_zero : first words of the columns whose numbers are
+    """
     values = np.empty(len(cells))
-    positive = name.partition("_")[0] in _POSITIVE
+    positive = name.partition("_")[0] in above_zero
     for i, text in enumerate(cells):
         place = f"row {i + 1}, column {name}"
         if not text:
@@ -257,13 +270,14 @@ def _check_values(rows: Rows, cables: int) -> None:
     _check_approach(rows)
     for name, last in (("cable", cables), ("mode", 50)):
         for i, value in enumerate(rows.numbers.get(name, ())):
-            if value != int(value) or not 1 <= value <= last:
+            blank = np.isnan(value) and rows.kind == "robot_frequency"  # a label, which a peak may lack
+            if not blank and (value != np.floor(value) or not 1 <= value <= last):
                 raise InputError(rows.file, f"row {i + 1}, column {name}", value, f"a whole number from 1 to {last}")
     for i, plane in enumerate(rows.words.get("plane", ())):
         if plane not in ("in", "out", ""):
             raise InputError(rows.file, f"row {i + 1}, column plane", plane, "in or out")
     for name, words in rows.words.items():
-        if name != "plane" and "" in words:
+        if name not in ("plane", "body") and "" in words:
             raise InputError(rows.file, f"row {words.index('') + 1}, column {name}", "nothing", "a name")
 
 

@@ -1,7 +1,16 @@
 """The files that a campaign is made of."""
 
-import tomllib
 from pathlib import Path
+
+from cdpr_struct.robot.toml_text import toml_table
+
+
+def is_there(path: Path) -> bool:
+    """Whether a path is that of a file; no file has a name that the system refuses."""
+    try:
+        return path.is_file()
+    except OSError:  # too long
+        return False
 
 
 def campaign_bytes(path: str | Path) -> bytes:
@@ -16,15 +25,15 @@ def campaign_bytes(path: str | Path) -> bytes:
 def campaign_files(path: str | Path) -> list[Path]:
     """The campaign file, and those of the robot and data files it names that are there; another file stands alone."""
     source = Path(path)
-    return [source, *(named for named in _named(source) if named.is_file())]
+    return [source, *(named for named in _named(source) if is_there(named))]
 
 
 def _named(source: Path) -> list[Path]:
     """Paths that a campaign file names; none of a file that is no campaign, of which its reader says what is wrong."""
     try:
-        table = tomllib.loads(_content(source).decode("utf-8-sig"))
+        table = toml_table(_content(source).decode("utf-8-sig"), str(source))
         names = [table.get("robot"), *(entry.get("file") for entry in table.get("measurement", ()))]
-    except (ValueError, AttributeError, RecursionError):
+    except (ValueError, AttributeError):
         return []
     return [source.parent / name for name in names if isinstance(name, str)]
 

@@ -27,6 +27,7 @@ KINDS = {
     "robot_frequency": "robot_frequency", "loaded": "loaded_pose",
 }  # fmt: skip
 """The kind of file that each of them is read from."""
+_FREEDOMS = 6
 _PEAKS = 6  # rows of robot frequencies a pose
 _NOTHING = 1e-12  # of any number [m, deg, N, Hz]
 _SIGMAS = {
@@ -50,7 +51,8 @@ _HINTS = {
 _COMMENTS = (
     f"# Replace each {UNFILLED} by what was measured; leave a cell empty where nothing was measured.",
     "# Pose columns hold the planned pose: replace it by the measured one, and copy it to the rows of the same case in",
-    "# the other files, digit by digit. Give repeated readings a case of their own.",
+    "# the other files, digit by digit. Empty the cells of what was not measured: the planned pose is no reading.",
+    "# Give repeated readings a case of their own.",
     f"# Columns {PREDICTED}... are the simulation's, to compare with; they are not read.",
 )
 _STATIC = {"tensions": TENSION, "lengths": LENGTH}
@@ -69,7 +71,7 @@ class PlannedPoses:
 
 
 def planned(robot: Robot, names: Sequence[str], poses: Sequence[Pose]) -> PlannedPoses:
-    """The robot at rest at the planned poses.
+    """The robot at rest at the planned poses; with fewer cables than freedoms, where it hangs at their lengths.
 
     Raises
     ------
@@ -77,6 +79,8 @@ def planned(robot: Robot, names: Sequence[str], poses: Sequence[Pose]) -> Planne
     """
     position = np.array([pose.position for pose in poses])
     rotation = np.array([pose.rotation for pose in poses])
+    if len(robot.cables) < _FREEDOMS:
+        return _hanging(robot, names, position, rotation)
     try:
         cables = inverse(robot, position, rotation).cables
     except CdprError as error:
@@ -84,6 +88,18 @@ def planned(robot: Robot, names: Sequence[str], poses: Sequence[Pose]) -> Planne
             _require_held(robot, name, pose)
         raise CdprError(f"not all poses can be held: {error}") from error
     return PlannedPoses(names, poses, OperatingPoint(robot, position, rotation, cables))
+
+
+def _hanging(robot: Robot, names: Sequence[str], position: np.ndarray, rotation: np.ndarray) -> PlannedPoses:
+    """At the lengths that reach to poses (p, 3), (p, 3, 3)."""
+    lengths = inverse(robot, position, rotation, allow_unheld=True).lengths
+    rest = forward(robot, lengths, position, rotation)
+    for name, place, stable in zip(names, position, rest.stable, strict=True):
+        if not stable:
+            where = ",".join(_short(value) for value in place)
+            raise UnholdablePoseError(f"{name} ({where}): the platform does not come to rest near this pose")
+    poses = [Pose(*own) for own in zip(rest.position, angles_from_rotation(rest.rotation), strict=True)]
+    return PlannedPoses(names, poses, OperatingPoint(robot, rest.position, rest.rotation, rest.cables))
 
 
 def _require_held(robot: Robot, name: str, pose: Pose) -> None:
@@ -138,10 +154,16 @@ def _cable_frequencies(plan: PlannedPoses) -> Columns:
 
 
 def _robot_frequencies(plan: PlannedPoses) -> Columns:
-    hertz = [certified_frequencies(_one(plan, i), "exact", _PEAKS).hertz for i in range(len(plan.names))]
+    hertz = [_first_peaks(_one(plan, i)) for i in range(len(plan.names))]
     columns = {name: np.repeat(cells, _PEAKS).tolist() for name, cells in _poses(plan).items()}
     open_cells = [UNFILLED] * (_PEAKS * len(plan.names))
     return columns | {"frequency_hz": open_cells, f"{PREDICTED}frequency_hz": _numbers(np.concatenate(hertz))}
+
+
+def _first_peaks(point: OperatingPoint) -> np.ndarray:
+    """(`_PEAKS`,) frequencies [Hz]; freedoms in which nothing pushes back, as a point mass turns, have none."""
+    found = certified_frequencies(point, "exact", _PEAKS + _FREEDOMS // 2).hertz
+    return np.asarray(found[found > _NOTHING][:_PEAKS])
 
 
 def _loaded(plan: PlannedPoses, payload: float, read_before: bool) -> Columns:
@@ -212,6 +234,7 @@ def _campaign(robot: str, kinds: Sequence[str]) -> str:
         "# Fill the data files named below, then: cdpr-struct diagnose campaign.toml",
         f'robot = "{_quotable(robot)}"',
         'model = "exact"                              # simulation under test: static, dsm, exact, spring',
+        '# encoders = "relative"                       # if they count from an unknown start',
         "",
         "[tolerances]                                 # one sigma of what is never exactly known: yours differ",
         "# anchor_m = 0.001                           # each coordinate of each anchor",

@@ -19,7 +19,8 @@ _WORDS = {
 }
 _ANY = {"", "cable", "rope", "wire", "seil", "c"}  # one reading a cable, but of what?
 _ALIASES = {"t": "time_s"}
-_NUMBERED = re.compile(r"(\D*)(\d+)(\D*)")
+_LONGEST = 80  # characters of a name that is compared with known ones
+_NUMBERED = re.compile(r"(\D*)(\d{1,4})(\D*)")
 _PARTS = re.compile(r"[^\W\d_]+")
 _FOREIGN = {  # unit at the end of a known column, and others that its readings often have
     "m": ("mm", "cm", "ft", "in"), "deg": ("rad",), "N": ("kn", "lbf", "kg"), "hz": ("khz",), "kg": ("g", "lb"),
@@ -45,7 +46,7 @@ def renaming(names: Sequence[str], known: Sequence[str], kind: str = "", cables:
     known : columns that the file may have
     kind, cables : of the measured data, and of the robot; for columns that a file has once per cable
     """
-    unknown = [name for name in names if name and name not in known]
+    unknown = [name for name in names if 0 < len(name) <= _LONGEST and name not in known]
     free = [name for name in dict.fromkeys(known) if name not in names]
     found, said = [], []
     for group in _groups(unknown):

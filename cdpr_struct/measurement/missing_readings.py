@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import States
 
 _SHOWN = 5  # states named before the rest is counted
@@ -16,6 +17,23 @@ def missing_notes(states: States) -> tuple[str, ...]:
     notes = [_of_cables("tension", states.tension[states.static]), _of_cables("length", states.length[placed])]
     notes += [_of_poses("position", states.names, states.position), _of_poses("rotation", states.names, states.angles)]
     return tuple(note for note in notes if note)
+
+
+def check_placed(source: str, states: States, vibrating: np.ndarray) -> None:
+    """Refuse frequencies of a state that nothing places.
+
+    vibrating : numbers of the states where frequencies were measured
+
+    Raises
+    ------
+    InputError : a state of them without any number of a position, and without the lengths of all cables.
+    """
+    placed = np.isfinite(states.position).any(axis=1) | states.has_length
+    for state in vibrating[~placed[vibrating]].tolist()[:1]:
+        expected = (
+            "frequencies of a state whose position, or whose lengths of all cables, some file of the campaign gives"
+        )
+        raise InputError(source, f"case {states.names[state]}", "no pose", expected)
 
 
 def _of_cables(name: str, values: np.ndarray) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.campaign import States
 from cdpr_struct.measurement.unit_scale import cable_vectors, chords, frame_reach
+from cdpr_struct.robot.plausibility import lengths_in_mm
 from cdpr_struct.robot.robot import Robot
 
 _STRAIN = 0.3  # beyond this no cable stretches under the tensions measured
@@ -57,8 +58,10 @@ def _check_cables(source: str, robot: Robot, states: States) -> None:
     ratio = weight / states.tension
     times = float(np.median(ratio[np.isfinite(ratio)])) if np.isfinite(ratio).any() else 0.0
     if times > _TIMES_TENSION:
-        expected = f"kg/m: such cables would weigh {times:.3g} times the tensions measured, in the median "
-        expected += "(is it in g/m, or are the tensions not in N?)"
+        weigh = f"such cables would weigh {times:.3g} times the tensions measured, in the median"
+        if whole := lengths_in_mm(robot):
+            raise InputError(source, "frame_anchor", robot.frame_anchors[0].tolist(), f"m: {weigh}. {whole}")
+        expected = f"kg/m: {weigh} (is it in g/m, or are the tensions not in N?)"
         raise InputError(source, "linear_density", float(np.median(robot.linear_density)), expected)
 
 

@@ -11,9 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import least_squares
 
+from cdpr_struct.errors import ConvergenceError
+
 Basis = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 _EVALUATIONS = 60
 _TOLERANCE = 1e-8
+_WORSE = 1e3  # times the residual without poles
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,6 +65,10 @@ def separable_fit(
     signal : (n, c);  weight : (n, c) or (1, c), one over the noise's standard deviation
     start : (k,) complex poles [rad/s];  tolerance : relative change of the squares below which it ends
     evaluations : of the signal, at most
+
+    Raises
+    ------
+    ConvergenceError : the poles to start with grow beyond all numbers.
     """
     scale = np.repeat(np.abs(start), 2)
     shared, channels = weight.shape[0] == 1, signal.shape[1]
@@ -84,10 +91,12 @@ def separable_fit(
         return jacobian * scale
 
     first = np.stack([start.real, start.imag], axis=1).ravel() / scale
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):
         found = least_squares(rest, first, jac=slope, method="lm", ftol=tolerance, max_nfev=evaluations)
         done = parts(found.x)
     information = sum(np.einsum("pcn,qcn->pq", p[1], p[1]) for p in done)
+    if not information.any():
+        raise ConvergenceError("modes of a record", np.inf, 0, "Is a reading far off all others, or a time wrong?")
     linear = np.concatenate([p[2] for p in done], axis=1)
     if shared:
         linear = linear / weight
@@ -100,7 +109,13 @@ def _poles(parts: np.ndarray) -> np.ndarray:
 
 
 def _project(columns: np.ndarray, slopes: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Residual (n, c), its slopes (2k, c, n) and the coefficients (q, c)."""
+    """Residual (n, c), its slopes (2k, c, n) and the coefficients (q, c).
+
+    A trial of poles that grow beyond all numbers is worse than no poles at all, so that the search turns back.
+    """
+    if not (np.isfinite(columns).all() and np.isfinite(slopes).all()):
+        (n, c), unknown = target.shape, len(slopes)
+        return _WORSE * target, np.zeros((unknown, c, n)), np.zeros((columns.shape[1], c))
     q, r = np.linalg.qr(columns)
     inside = q.T @ target
     linear = np.linalg.lstsq(r, inside, rcond=None)[0]

@@ -5,6 +5,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.generated.platform import rotation
 from cdpr_struct.measurement.campaign import States
+from cdpr_struct.robot.plausibility import lengths_in_mm
 from cdpr_struct.robot.robot import Robot
 
 _TIMES = 30.0  # beyond this no robot or reading is: mm instead of m is a thousand times, kN instead of N as well
@@ -45,7 +46,7 @@ def check_pose_scale(
     InputError : a pose or lengths that cannot be in m.
     """
     _check_position(source, name, robot, position)
-    _check_lengths(source, name, length, chords(robot, position[None], angles[None])[0], locked)
+    _check_lengths(source, name, robot, length, chords(robot, position[None], angles[None])[0], locked)
 
 
 def _check_position(source: str, name: str, robot: Robot, position: np.ndarray) -> None:
@@ -55,7 +56,14 @@ def _check_position(source: str, name: str, robot: Robot, position: np.ndarray) 
         raise InputError(source, f"case {name}: x_m, y_m, z_m", position.tolist(), expected)
 
 
-def _check_lengths(source: str, name: str, length: np.ndarray, chord: np.ndarray, locked: bool) -> None:
+def _robot_or_lengths(robot: Robot) -> str:
+    """Which file is in another unit, where all lengths are far shorter than the robot: its masses decide."""
+    if whole := lengths_in_mm(robot):
+        return f"the robot's lengths are in mm? {whole.rpartition(' (')[0]}"
+    return "are the anchors or this pose in mm, or is the length in km?"
+
+
+def _check_lengths(source: str, name: str, robot: Robot, length: np.ndarray, chord: np.ndarray, locked: bool) -> None:
     known = np.isfinite(length) & np.isfinite(chord)
     if not known.any():
         return
@@ -67,7 +75,9 @@ def _check_lengths(source: str, name: str, length: np.ndarray, chord: np.ndarray
     if off.size:
         i = int(off[0])
         which = "every cable" if off.size == known.sum() else f"cable {i + 1}"
-        expected = f"a length in m: at this pose its anchors are {chord[i]:.3g} m apart (is it in {unit}?)"
+        all_short = unit == "mm" and off.size == known.sum() and _all_beyond(ratio, _TIMES) and ratio[i] < 1.0
+        doubt = _robot_or_lengths(robot) if all_short else f"is it in {unit}?"
+        expected = f"a length in m: at this pose its anchors are {chord[i]:.3g} m apart ({doubt})"
         raise InputError(source, f"case {name}, {which}: length_m", float(length[i]), expected)
 
 

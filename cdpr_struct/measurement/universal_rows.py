@@ -8,6 +8,7 @@ import pyuff
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.universal_file import FREQUENCY_RESPONSE, PLATFORM_NODE
+from cdpr_struct.robot.robot_file import LARGEST
 
 _DERIVATIVES = {8: 2, 11: 1, 12: 0}  # ordinate displacement, velocity, acceleration: times i omega to acceleration
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
@@ -45,6 +46,8 @@ def universal_columns(path: Path) -> tuple[dict[str, np.ndarray], dict[str, list
 
 
 def _one(path: Path, number: int, one: dict[str, Any]) -> tuple[dict[str, np.ndarray], dict[str, list[str]]]:
+    if "x" not in one or "data" not in one:
+        raise InputError(str(path), f"FRF {number}", "no values", "frequencies and responses behind its header")
     hertz = np.asarray(one["x"], dtype=float)
     value = np.asarray(one["data"], dtype=complex)
     kind = int(one.get("ordinate_spec_data_type", 0))
@@ -52,8 +55,15 @@ def _one(path: Path, number: int, one: dict[str, Any]) -> tuple[dict[str, np.nda
         raise InputError(
             str(path), f"FRF {number}, ordinate type", kind, "8 (displacement), 11 (velocity) or 12 (acceleration)"
         )
-    if not (np.isfinite(hertz).all() and np.isfinite(value).all()):
-        raise InputError(str(path), f"FRF {number}", "values that are not numbers", "finite frequencies and responses")
+    declared = int(one.get("num_pts", value.size))
+    if not declared == value.size == hertz.size > 0:
+        given = f"{value.size} responses at {hertz.size} frequencies"
+        raise InputError(
+            str(path), f"FRF {number}", given, f"as many as the header declares, {declared}, and one at least"
+        )
+    if not ((np.abs(hertz) <= LARGEST).all() and (np.abs(value) <= LARGEST).all()):
+        given, expected = "values that are not numbers", f"finite frequencies and responses, of at most {LARGEST:g}"
+        raise InputError(str(path), f"FRF {number}", given, expected)
     good = hertz > 0.0
     hertz, value = hertz[good], value[good] * (2j * np.pi * hertz[good]) ** _DERIVATIVES[kind]
     respond, excite = _name(one, "rsp"), _name(one, "ref")

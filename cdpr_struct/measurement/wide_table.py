@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cdpr_struct.errors import InputError
+from cdpr_struct.errors import NOTHING, InputError
 from cdpr_struct.measurement.cable_columns import APPROACH, EITHER, QUANTITIES, CableQuantity
 
 
@@ -41,8 +41,8 @@ def _check_numbers(quantity: CableQuantity, source: str, given: Sequence[str], c
         expected = f"cables are numbered from 1: {quantity.column(0)} becomes {quantity.column(1)} and so on"
         raise InputError(source, "header", quantity.column(0), f"{expected} to {quantity.column(cables)}")
     for name in (*(n for n in wanted if n not in given), *(n for n in given if n not in wanted)):
-        value = "a column" if name in given else "no such column"
-        raise InputError(source, name, value, f"this robot has {cables} cables: give {quantity.span(cables)}")
+        place, value = (name, "a column") if name in given else (f"column {name}", NOTHING)
+        raise InputError(source, place, value, f"this robot has {cables} cables: give {quantity.span(cables)}")
 
 
 def headings(kind: str, names: Sequence[str], cables: int) -> dict[str, str]:

@@ -15,6 +15,8 @@ from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.equilibrium import PlatformArms, rotation_from_vector, tangent_stiffness
 from cdpr_struct.statics.tensioned_cables import tensioned
 
+_NEUTRAL = 1e-13  # of the largest singular value: a smaller one is zero but for rounding
+
 
 def vibrating(state: Rest, known: Circumstances) -> OperatingPoint:
     """States (..., S) at rest, with the sensors' mass on the platform origin and the cables' lengths locked.
@@ -41,7 +43,8 @@ def _given_way(state: Rest) -> tuple[np.ndarray, np.ndarray]:
     down = np.concatenate([arrays.tilt, np.full((*arrays.tilt.shape[:-1], 1), -1.0)], axis=-1)
     force = (arrays.sensor_mass * arrays.gravity)[..., None] * down
     wrench = np.concatenate([force, np.zeros_like(force)], axis=-1)
-    twist = np.linalg.solve(tangent_stiffness(arrays, state.cables, arms), wrench[..., None])[..., 0]
+    # in freedoms that nothing holds, as a point mass turns, the platform stays
+    twist = (np.linalg.pinv(tangent_stiffness(arrays, state.cables, arms), _NEUTRAL) @ wrench[..., None])[..., 0]
     moved = twist[..., None, :3] + np.cross(twist[..., None, 3:], arms.arms)
     back = (end_stiffness(arrays, state.cables) @ moved[..., None])[..., 0]
     pull = state.cables.force_on_platform

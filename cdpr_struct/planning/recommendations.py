@@ -80,9 +80,9 @@ def recommendations(found: Diagnosis, most: int = 3) -> tuple[Recommendation, ..
 def questions(found: Diagnosis) -> list[Question]:
     """One a class, or one for all likely causes of an error that nothing in the library explains well."""
     answers = [a for a in found.explained.answers if a.names and UNKNOWN not in a.names]
-    if found.decision.status == "adequate" or not answers:
+    if found.fitted.status == "adequate" or not answers:
         return []
-    if found.decision.status == UNKNOWN:
+    if found.fitted.status == UNKNOWN:
         none = next(a.score for a in found.explained.answers if not a.names)
         single = [a for a in answers if len(a.names) == 1]
         near = [a for a in single if a.score > max(single[0].score - NAMED, none)]
@@ -99,7 +99,7 @@ def _of_class(found: Diagnosis, i: int, answers: Sequence[Answer]) -> Question:
     rest = tuple(cause.name for cause in others)
     same = [a for a in answers if len(a.names) == len(parts) and set(rest) < set(a.names)]
     own = next(a for a in same if name in a.names)
-    named = next((names for names in found.decision.classes if name in names), (name,))
+    named = next((names for names in found.fitted.classes if name in names), (name,))
     rivals = [a for a in same if a is not own and set(a.names) - set(rest) <= set(named)]
     if len(named) == 1:
         rivals = [a for a in same if a is not own and a.score > own.score - found.explained.search.budget.near][:1]

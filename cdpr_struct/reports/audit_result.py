@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from cdpr_struct.crosscheck.limits_poses import PARAMETERS, PoseAudit
+from cdpr_struct.crosscheck.limits_poses import CUT_SHORT, PARAMETERS, PoseAudit
 from cdpr_struct.crosscheck.validity_limits import (
     CROSSOVER_DISTANCE,
     INCLINATION_EPSILON_PAIRS,
@@ -12,6 +12,7 @@ from cdpr_struct.crosscheck.validity_limits import (
     SAG_RATIO_LIMIT,
 )
 from cdpr_struct.reports.text import paragraphs, place, plain_table
+from cdpr_struct.reports.trust import Check
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import anchors_in_world
 from cdpr_struct.robot.robot_arrays import RobotArrays
@@ -81,7 +82,7 @@ def sentences(audit: PoseAudit) -> list[str]:
     total, held, bad = len(audit.held), int(audit.held.sum()), int((audit.count > 0).sum())
     where = "the pose" if total == 1 else f"{held} poses"
     unheld = [f"{total - held} of {total} poses cannot be held by the cables and were not checked."]
-    found = [*(unheld if held < total else []), *_slack(audit)]
+    found = unheld if held < total else []
     if not held:
         return [f"NOT CHECKED: {unheld[0]}", f"What to do: {_WHEN_UNHELD}"]
     found.append(f"What to do: {what_to_do(audit)}")
@@ -89,7 +90,8 @@ def sentences(audit: PoseAudit) -> list[str]:
         return [f"WITHIN THE PRINTED LIMITS: every cable at {where}.", *found]
     share = "" if total == 1 else f" {bad} of {held} poses are affected."
     parts = [f"{WORDS[name]} {_whose(b)} ({_worst(audit, name)})" for name, b in audit.broken.items() if b.any()]
-    return [f"OUTSIDE THE PRINTED LIMITS: {', '.join(parts)}.{share}", *found]
+    means = "; ".join(f"{WORDS[name]}: {MEANS[name]}" for name, b in audit.broken.items() if b.any())
+    return [f"OUTSIDE THE PRINTED LIMITS: {', '.join(parts)}.{share}", f"What that means: {means}.", *found]
 
 
 def what_to_do(audit: PoseAudit) -> str:
@@ -110,16 +112,25 @@ def what_to_do(audit: PoseAudit) -> str:
     )
 
 
-def _slack(audit: PoseAudit) -> list[str]:
-    """That cables pull with less than their own weight, and what tightens them; nothing if none does."""
+def audit_checks(audit: PoseAudit) -> list[Check]:
+    """Whether an audit over many poses can be trusted: searches that were cut short, and slack cables."""
+    cut = sum(reason == CUT_SHORT for reason in audit.reason)
+    lost = f"at {cut} of {len(audit.held)} poses the search for tensions ended before it had converged: not checked."
+    slack = _slack_poses(audit)
+    where = "the pose" if len(audit.held) == 1 else f"{slack} poses"
+    loose = f"At {where} cables hang slack (less tension than weight): --lower-bound N or force_min tightens them."
+    return [
+        Check.of("searches cut short", cut, 0.0, lost if cut else None),
+        Check.of("poses with slack cables", slack, 0.0, loose if slack else None),
+    ]
+
+
+def _slack_poses(audit: PoseAudit) -> int:
+    """At how many poses a cable pulls with less than its own weight."""
     robot = audit.robot
     chord = anchors_in_world(robot, audit.position, audit.rotation) - robot.frame_anchors
     weight = RobotArrays.of(robot).cable_load(chord)[0] * np.linalg.norm(chord, axis=-1)
-    poses = int((audit.held & (audit.tension < weight).any(axis=-1)).sum())
-    if not poses:
-        return []
-    where = "the pose" if len(audit.held) == 1 else f"{poses} poses"
-    return [f"At {where} cables hang slack (less tension than weight): --lower-bound N or force_min tightens them."]
+    return int((audit.held & (audit.tension < weight).any(axis=-1)).sum())
 
 
 def _whose(broken: np.ndarray) -> str:
@@ -168,6 +179,14 @@ def _extreme(audit: PoseAudit, name: str, poses: list[list[float]]) -> dict[str,
 
 WORDS = dict(zip(PARAMETERS, ("λ²", "crossover distance", "|α|", "ε", "sag/chord"), strict=True))
 """The parameters as tables and figures name them."""
+MEANS = {
+    "lambda2": "sag makes the cable much softer along its chord, and its in-plane frequencies change places",
+    "crossover_distance": "two frequencies of the cable nearly meet there, and small errors exchange their modes",
+    "alpha_deg": "the cable is so steep that its weight along the chord changes the tension along it",
+    "epsilon": "the cable's weight is not small beside its tension, so that terms left out of the closed form count",
+    "sag_ratio": "the cable hangs deeper than the parabola that the closed form takes for it",
+}
+"""What follows from a broken limit for the closed form."""
 CABLE_COLUMNS = ["cable", "tension [N]", "λ²", "crossover distance", "|α| [°]", "ε", "ε limit", "sag/chord", "breaks"]
 
 

@@ -3,16 +3,18 @@
 import csv
 import io
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
+_FORMULA = re.compile(r"[=@\t\r]|[+-].*[(|!]")  # a name that a spreadsheet would run; -z and -1.5 are none
 _ROWS = 4096  # of a long table that are in memory as text
 
 
 def csv_text(columns: Mapping[str, Iterable[Any]]) -> str:
-    """One row per entry; floats with all their digits, nan as an empty field.
+    """One row per entry; floats with all their digits, nan as an empty field, formulas as text.
 
     Raises
     ------
@@ -46,4 +48,5 @@ def _field(value: Any) -> str:
     value = value.item() if hasattr(value, "item") else value
     if isinstance(value, float):
         return "" if math.isnan(value) else repr(value)
-    return str(value)
+    text = str(value)
+    return f"'{text}" if _FORMULA.match(text) else text

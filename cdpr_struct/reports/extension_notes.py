@@ -1,8 +1,9 @@
-"""What every result says of its robot: numbers hardly meant, and which extensions act or why they do not."""
+"""What every result says at its end: whether it can be trusted, and which extensions act or why they do not."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from cdpr_struct.reports.trust import Check, Trust
 from cdpr_struct.robot.plausibility import implausible
 
 if TYPE_CHECKING:
@@ -20,11 +21,14 @@ _ELASTIC = ("series_compliance", "frame_compliance", "mast_bending", "nonlineari
 def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, model: str = "") -> dict[str, Any]:
     """The result, what became of the robot's extensions if it has any, and its constant `wrench` [N, N m] if any.
 
-    Numbers of the robot that can hardly be meant come first among its warnings.
-    model : cable model of a vibration command, "" if there is no choice
+    result : its `trust`, if any, is a `Trust`; this makes JSON of it and adds what its checks say to `warnings`, behind
+             numbers of the robot that can hardly be meant
+    model  : cable model of a vibration command, "" if there is no choice
     """
-    if doubts := implausible(robot):
-        result = {**result, "warnings": [*doubts, *result.get("warnings", ())]}
+    doubts, trust = implausible(robot), result.get("trust", Trust())
+    entered = Check.of("implausible numbers of the robot", len(doubts), 0.0, doubts)
+    told = Trust((entered, *trust.checks)).json()
+    result = {**result, "trust": told, "warnings": [*doubts, *result.get("warnings", ()), *trust.warnings]}
     active = robot.extensions.active
     if not active:
         return dict(result)

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.reports.text import paragraphs, plain_table, rounded
+from cdpr_struct.reports.trust import Check
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.statics.equilibria import Equilibria
 from cdpr_struct.statics.locked_rest import UPSET, LockedRest
@@ -27,28 +28,29 @@ def locked_json(found: LockedRest) -> dict[str, Any]:
     }
 
 
-def locked_warnings(found: LockedRest) -> list[str]:
-    """Sentences on why the pose may not be the one that was meant."""
-    said = []
-    if found.jumps:
-        times = "once" if found.jumps == 1 else f"{found.jumps} times"
-        said.append(
-            f"on the way from home the equilibrium ended {times} and the platform fell into another one; "
-            "if another pose is meant, give --start near it."
+def locked_checks(found: LockedRest) -> list[Check]:
+    """Whether the pose may not be the one that was meant."""
+    times = "once" if found.jumps == 1 else f"{found.jumps} times"
+    fell = (
+        f"on the way from home the equilibrium ended {times} and the platform fell into another one; "
+        "if another pose is meant, give --start near it."
+    )
+    lower, upset = int((found.others.energy < 0.0).sum()), bool(found.turned > UPSET and found.others.count)
+    turned = (
+        f"the platform is turned by {np.degrees(found.turned):.0f} deg against its start, and has other stable "
+        "poses at these lengths; if another pose is meant, give --start near it."
+    )
+    less = None
+    if lower:
+        less = (
+            f"another stable pose at these lengths has {-found.others.energy[0]:.3g} J less energy, "
+            f"{_where(found.others, 0)}; if another pose is meant, give --start near it."
         )
-    lower = int((found.others.energy < 0.0).sum())
-    if found.turned > UPSET and found.others.count:
-        said.append(
-            f"the platform is turned by {np.degrees(found.turned):.0f} deg against its start, and has other stable "
-            "poses at these lengths; if another pose is meant, give --start near it."
-        )
-    elif lower:
-        low = found.others.energy[0]
-        said.append(
-            f"another stable pose at these lengths has {-low:.3g} J less energy, {_where(found.others, 0)}; "
-            "if another pose is meant, give --start near it."
-        )
-    return said
+    checks = [Check.of("jumps on the way from home", found.jumps, 0.0, fell if found.jumps else None)]
+    if upset:
+        limit = float(np.degrees(UPSET))
+        return [*checks, Check.of("turned since the start", float(np.degrees(found.turned)), limit, turned, "deg")]
+    return [*checks, Check.of("stable poses of less energy", lower, 0.0, less)]
 
 
 def equilibria_text(result: dict[str, Any]) -> str:

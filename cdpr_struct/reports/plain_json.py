@@ -5,6 +5,10 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+SCHEMA = "schema_version"
+SCHEMA_VERSION = 1
+"""Of the keys of every result; docs/files.md says what may change without a new number."""
+
 
 def plain(value: Any) -> Any:
     """Copy of a result that JSON can hold: arrays as lists, nan and infinities as null."""
@@ -19,6 +23,17 @@ def plain(value: Any) -> Any:
     return value
 
 
-def json_text(result: Mapping[str, Any]) -> str:
+def plain_result(result: Mapping[str, Any]) -> dict[str, Any]:
+    """A result with the version of its schema in front, as plain JSON."""
+    found: dict[str, Any] = plain({SCHEMA: SCHEMA_VERSION, **result})
+    return found
+
+
+def result_text(result: Mapping[str, Any]) -> str:
     """Text of result.json."""
-    return json.dumps(plain(result), indent=2) + "\n"
+    return json_text(plain_result(result))
+
+
+def json_text(value: Mapping[str, Any]) -> str:
+    """Text of plain JSON, as result.json is written."""
+    return json.dumps(value, indent=2) + "\n"

@@ -1,9 +1,10 @@
-"""What stands beside every result: warnings, what is to be known of the rest, notes on extensions."""
+"""What stands beside every result: trust, warnings, what is to be known of the rest, notes on extensions."""
 
 from collections.abc import Mapping
 from typing import Any
 
 from cdpr_struct.reports.freedom_words import freedom_sentences
+from cdpr_struct.reports.trust import trust_sentences
 
 
 def warnings_of(result: Mapping[str, Any]) -> list[str]:
@@ -17,8 +18,8 @@ def extensions_of(result: Mapping[str, Any]) -> list[str]:
 
 
 def rest_of(result: Mapping[str, Any]) -> list[str]:
-    """Sentences on how the rest at locked lengths was found, on neutral freedoms and on what a guide holds."""
-    return [*result.get("locked", {}).get("sentences", ()), *freedom_sentences(result)]
+    """Sentences on how the rest at locked lengths was found, on neutral freedoms, what a guide holds, and on trust."""
+    return [*result.get("locked", {}).get("sentences", ()), *freedom_sentences(result), *trust_sentences(result)]
 
 
 def remarks(result: Mapping[str, Any]) -> list[str]:

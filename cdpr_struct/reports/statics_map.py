@@ -8,11 +8,9 @@ import numpy as np
 
 from cdpr_struct.reports.csv_table import LongTable
 from cdpr_struct.reports.html import Page, Plate, page_files
+from cdpr_struct.reports.trust_over_poses import deep_sag, slack_poses, trust_over_poses
 from cdpr_struct.reports.unheld_poses import what_helps
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.bound_advice import shared_cure
-from cdpr_struct.statics.slack_cables import DEEP
-from cdpr_struct.statics.sufficient_bound import shared_bound_of_pose_errors, shared_lower_bound
 from cdpr_struct.workspace.grid import AXES, Grid
 from cdpr_struct.workspace.quantities import quantity_of
 from cdpr_struct.workspace.work_list import Columns
@@ -22,7 +20,6 @@ if TYPE_CHECKING:
     from cdpr_struct.reports.figures.workspace_map import Layer
 
 _SAME = 1e-9  # relative: values of poses that count as equal
-_MOST_HELD, _MOST_RELEASED = 64, 16  # poses with slack cables at which a cure is searched; a release takes longer
 _FRAME = "the numbered frame anchors with the line around them, and the platform in the middle of the map."
 _NOTE = (
     "Each value is computed at the reference pose, or for pose errors from it, as the quantity's line in the "
@@ -72,10 +69,7 @@ def map_json(robot: Robot, name: str, grid: Grid, columns: Columns) -> dict[str,
         **deep_sag(columns),
         **({"shared_poses": int(shared(name, columns).sum())} if quantity.shared else {}),
         **followed(grid, columns),
-        "warnings": [
-            *slack_warnings(robot, grid, columns, released=name.startswith("pose-error")),
-            *sag_warnings(grid, columns),
-        ],
+        "trust": trust_over_poses(robot, grid, columns, released=name.startswith("pose-error")),
     }
 
 
@@ -96,49 +90,6 @@ def followed(grid: Grid, columns: Columns) -> dict[str, Any]:
     places = [{"position_m": grid.positions[i], "mode_Hz": float(columns["mode_Hz"][i])} for i in start]
     behind = int(columns["behind_veering"].sum())
     return {"reference": places[0] if places else None, **counts, "behind_veering_poses": behind}
-
-
-def slack_poses(columns: Columns) -> np.ndarray:
-    """Numbers of the poses at which a cable hangs slack."""
-    return np.flatnonzero(columns.get("slack_cables", np.zeros(0)) > 0.0)
-
-
-def slack_warnings(robot: Robot, grid: Grid, columns: Columns, released: bool = False) -> list[str]:
-    """A sentence on slack cables and the lower bound that would cure them; none if no cable hangs slack.
-
-    released : the platform is let go at ideal lengths (pose errors), not held at the poses
-    """
-    slack = slack_poses(columns)
-    if not slack.size:
-        return []
-    most = _MOST_RELEASED if released else _MOST_HELD
-    when = " once the platform is let go" if released else ""
-    where = f"{len(slack)} of {grid.size} poses" if grid.size > 1 else "the pose"
-    said = f"Cables hang slack at {where}{when} (they pull with less than their own weight)"
-    if "rx_deg" in columns:  # a bound would turn the platform, too
-        return [f"{said}."]
-    tried = slack[np.unique(np.linspace(0, len(slack) - 1, min(most, len(slack))).astype(int))]
-    search = shared_bound_of_pose_errors if released else shared_lower_bound
-    cure = shared_cure(search(robot, grid.positions[tried], grid.rotation), len(slack))
-    return [f"{said}; {cure}."]
-
-
-def deep_sag(columns: Columns) -> dict[str, Any]:
-    """At how many poses a cable sags by a tenth of its chord, and the largest sag; nothing where it is not known."""
-    sag = columns.get("sag_over_chord_max")
-    if sag is None or not np.isfinite(sag).any():
-        return {}
-    return {"deep_sag_poses": int((sag >= DEEP).sum()), "sag_over_chord_max": float(np.nanmax(sag))}
-
-
-def sag_warnings(grid: Grid, columns: Columns) -> list[str]:
-    """A sentence on cables that sag deeply; none if none does."""
-    told = deep_sag(columns)
-    if not told.get("deep_sag_poses"):
-        return []
-    where = f"{told['deep_sag_poses']} of {grid.size} poses" if grid.size > 1 else "the pose"
-    most = f"{told['sag_over_chord_max']:.2g}"
-    return [f"Deep sag: at {where} a cable sags by a tenth of its chord or more, at most by {most} of it."]
 
 
 def map_values(name: str, columns: Columns) -> np.ndarray:

@@ -12,8 +12,9 @@ from cdpr_struct.reports.figures.frame_plan import FramePlan
 from cdpr_struct.reports.figures.interactive_map import map_plot
 from cdpr_struct.reports.figures.style import Draw
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
-from cdpr_struct.reports.statics_map import map_table, slack_poses, slack_warnings
+from cdpr_struct.reports.statics_map import map_table
 from cdpr_struct.reports.text import place, rounded
+from cdpr_struct.reports.trust_over_poses import slack_poses, trust_over_poses
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.sufficient_load import SufficientLoad
@@ -46,7 +47,7 @@ def pose_error_json(errors: PoseErrorMap, robot: Robot) -> dict[str, Any]:
         "mean_mm": {part: errors.mean(part) for part in PARTS},
         "largest_mm": {part: {"value": value, "position_m": where} for part, (value, where) in worst.items()},
         "slack_poses": len(slack_poses(errors.columns)),
-        "warnings": slack_warnings(robot, errors.grid, errors.columns, released=True),
+        "trust": trust_over_poses(robot, errors.grid, errors.columns, released=True),
     }
 
 

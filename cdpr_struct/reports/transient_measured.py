@@ -49,7 +49,7 @@ def measured_json(
 
 def measured_text(result: Mapping[str, Any]) -> str:
     """The dominant frequencies in sentences."""
-    channels = ", ".join(f"{name} {hertz:.3f} Hz" for name, hertz in result["channels"].items())
+    channels = ", ".join(f"{name} {_hertz(hertz)}" for name, hertz in result["channels"].items())
     return (
         f"{result['samples']} samples at {result['sample_rate_hz']:.6g} Hz: mainly {result['dominant_hz']:.3f} Hz "
         f"({channels}).\nThe nearest of the {len(result['natural_frequencies_hz'])} predicted eigenfrequencies is "

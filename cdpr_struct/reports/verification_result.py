@@ -15,6 +15,7 @@ from cdpr_struct.crosscheck.validity_limits import (
 )
 from cdpr_struct.crosscheck.verdicts import Judged
 from cdpr_struct.crosscheck.verification import Verification
+from cdpr_struct.reports.trust import Check
 from cdpr_struct.reports.verification_verdict import what_to_do, worst
 
 
@@ -53,6 +54,14 @@ def verification_json(v: Verification, pose: list[float]) -> dict[str, Any]:
         "what_to_do": what_to_do(v),
         "mac": {"exact": v.exact_mac, "dsm": v.dsm_mac},
     }
+
+
+def verification_checks(v: Verification) -> list[Check]:
+    """Whether the FEM has converged to a limit sharp enough to judge by; the verdicts say the rest."""
+    model = min(v.judged, key=lambda one: v.agreement(one).criteria.fem_uncertainty(one))
+    found = v.agreement(model)
+    asked = 100.0 * found.criteria.fem_uncertainty(model)
+    return [Check.of("uncertainty of the FEM", 100.0 * v.fem_uncertainty, asked, found.undecided, "%")]
 
 
 def _verdict(v: Verification, model: Judged) -> dict[str, Any]:

@@ -8,8 +8,8 @@ import numpy as np
 
 from cdpr_struct.reports.csv_table import LongTable
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
-from cdpr_struct.reports.statics_map import deep_sag, sag_warnings, slack_poses, slack_warnings
 from cdpr_struct.reports.text import with_sigma
+from cdpr_struct.reports.trust_over_poses import deep_sag, slack_poses, trust_over_poses
 from cdpr_struct.reports.unheld_poses import what_helps
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import Grid
@@ -88,7 +88,7 @@ def result(
         "rejections": rejections,
         "slack_poses": len(slack_poses(columns)),
         **deep_sag(columns),
-        "warnings": [*slack_warnings(robot, grid, columns), *sag_warnings(grid, columns)],
+        "trust": trust_over_poses(robot, grid, columns),
     }
 
 

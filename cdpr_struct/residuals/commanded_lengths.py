@@ -42,12 +42,17 @@ class Commanded:
 
 def commanded(campaign: Campaign, position: np.ndarray, rotation: np.ndarray) -> Commanded:
     """At the measured poses (S, 3), (S, 3, 3), by a controller that knows nothing of the robot's extensions."""
+    return commanded_at(campaign, position, rotation, ~np.isfinite(campaign.states.length).any(axis=1))
+
+
+def commanded_at(campaign: Campaign, position: np.ndarray, rotation: np.ndarray, some: np.ndarray) -> Commanded:
+    """The same for some (S,) bool of the static states, encoders read or not."""
     states, robot = campaign.states, campaign.robot.without_extensions()
     s, m = states.tension.shape
     q = max(m - 6, 0)
     found = Commanded(np.full((s, m), np.nan), np.zeros((s, m, 6)), np.zeros((s, m, q)))
     read = np.isfinite(states.tension).any(axis=1) & np.isfinite(states.position).all(axis=1)
-    free = np.flatnonzero(states.static & read & ~np.isfinite(states.length).any(axis=1) & (q > 0))
+    free = np.flatnonzero(states.static & read & some & (q > 0))
     if not len(free):
         return found
     plain = replace(campaign, robot=robot)
@@ -59,10 +64,18 @@ def commanded(campaign: Campaign, position: np.ndarray, rotation: np.ndarray) ->
             taut = near.tensions > _TAUT * robot.linear_density * robot.gravity * near.lengths
             # where they bend more, another cable is at its lower bound nearby, and the command says little
             if taut.all() and np.abs(null.T @ near.bend).max() < SIGMA:
-                left, _, right = np.linalg.svd(null @ null.T @ reference, full_matrices=False)
                 found.lengths[k], found.slope[k] = near.lengths, near.slope
-                found.internal[k] = near.rate[:, None] * (left @ right) * np.sqrt(m)
+                found.internal[k] = near.rate[:, None] * aligned(null, reference)
     return found
+
+
+def aligned(null: np.ndarray, reference: np.ndarray) -> np.ndarray:
+    """(m, q) basis of internal forces `null` turned as near to `reference` (m, q) as the pose allows, of norm sqrt(m).
+
+    So one newton along a direction is one newton rms over the cables, and means the same at every pose.
+    """
+    left, _, right = np.linalg.svd(null @ null.T @ reference, full_matrices=False)
+    return np.asarray(left @ right * np.sqrt(len(null)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,28 +4,24 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cdpr_struct.errors import CdprError, InputError
+from cdpr_struct.errors import InputError
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.circumstances import Circumstances
-from cdpr_struct.observation.readings import LEAST_TENSION, Readings, cell_reading
-from cdpr_struct.observation.rest import at_states
+from cdpr_struct.observation.readings import Readings
 from cdpr_struct.residuals.commanded_lengths import SIGMA, Commanded, commanded
+from cdpr_struct.residuals.filled import filled, zeros
+from cdpr_struct.residuals.resting_poses import Spread, at_lengths, fitted_poses
 from cdpr_struct.residuals.vibrations import Vibrations, vibrations
+from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.energy_descent import arm_scale
-from cdpr_struct.statics.equilibrium import PlatformArms
-from cdpr_struct.statics.forward_kinematics import forward
-from cdpr_struct.statics.inverse_kinematics import inverse
-from cdpr_struct.statics.tensioned_cables import tensioned
 
 POSITION, ROTATION, TENSION, LENGTH, CABLE_FREQUENCY, MODAL_SIZE = range(6)
 """Kinds of sensors: what shares a size of its noise."""
 _UNREAD_LENGTH = 1.0  # m, one sigma of a length that nobody read: nothing is known of it
 _UNREAD_POSE = (1.0, 0.5)  # m, rad, of a pose that nobody read
 _FEWEST = 10  # readings that show a step of rounding: once in 2^10 times are all even multiples of half of it
-_NEAR = 0.2  # of the platform's arm: farther away, locked lengths have led to another equilibrium
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,16 +65,23 @@ def recorded(campaign: Campaign) -> Recorded:
     ------
     InputError : a campaign without states, or a state that cannot be imagined: neither held nor at rest.
     """
-    states = campaign.states
-    if not len(states.names):
+    if not len(campaign.states.names):
         raise InputError(campaign.source, "measurement", "no states", "static states, loaded poses or frequencies")
-    turn = np.array([rotation_from_angles(*angles) for angles in np.nan_to_num(states.angles)]).reshape((-1, 3, 3))
+    angles = np.nan_to_num(campaign.states.angles)
+    turn = np.array([rotation_from_angles(*own) for own in angles]).reshape((-1, 3, 3))
     position, read_pose = _places(campaign)
     known = Circumstances.of(campaign, turn, position)
     arrays = RobotArrays.of(campaign.robot)
+    begun = Readings(position, turn, campaign.states.tension, campaign.states.length)
+    if campaign.relative_lengths:
+        begun = replace(begun, length=begun.length - zeros(campaign, arrays, known, begun))
+        campaign = replace(campaign, states=replace(campaign.states, length=begun.length))
+    states = campaign.states
+    position, turn = at_lengths(arrays, known, begun, read_pose)
+    known = Circumstances.of(campaign, turn, position)
     sent = commanded(campaign, position, turn)
     lengths = np.where(np.isfinite(states.length), states.length, sent.lengths)
-    readings = _filled(campaign, arrays, known, Readings(position, turn, states.tension, lengths))
+    readings = filled(campaign, arrays, known, Readings(position, turn, states.tension, lengths))
     m = arrays.cable_count
     read = np.concatenate([read_pose, np.isfinite(states.tension), np.isfinite(lengths)], axis=1)
     mean = np.full((len(states.names), m), known.mean_tension)
@@ -86,19 +89,47 @@ def recorded(campaign: Campaign) -> Recorded:
     tension = np.where(np.isfinite(states.tension_sigma), _rounded(states.tension, states.tension_sigma), 1.0)
     length = np.where(np.isfinite(states.length_sigma), states.length_sigma, 1e-3)
     length = np.where(np.isfinite(states.length), length, np.where(np.isfinite(lengths), SIGMA, length))
-    unread = [np.repeat([_UNREAD_POSE], len(mean), axis=0).repeat(3, axis=1), mean, np.full_like(mean, _UNREAD_LENGTH)]
+    parts = [np.repeat([_UNREAD_POSE], len(mean), axis=0).repeat(3, axis=1), mean, np.full_like(mean, _UNREAD_LENGTH)]
+    sigma, unread = np.concatenate([pose, tension, length], axis=1), np.concatenate(parts, axis=1)
+    if not _redundant(campaign, read):
+        expected = "more readings than tensions in some state, such as lengths beside tensions, or measured poses"
+        raise InputError(campaign.source, "readings", "no state where one could contradict another", expected)
+    radius = arm_scale(arrays)
+    readings = fitted_poses(arrays, known, readings, Spread(sigma, read, unread), radius)
     return Recorded(
-        campaign, arrays, readings, known, arm_scale(arrays), np.concatenate([pose, tension, length], axis=1), read,
-        np.concatenate(unread, axis=1), _blocks(states.lock), vibrations(campaign), sent,
-    )  # fmt: skip
+        campaign, arrays, readings, known, radius, sigma, read, unread, _blocks(states.lock), vibrations(campaign), sent
+    )
+
+
+def _redundant(campaign: Campaign, read: np.ndarray) -> bool:
+    """Whether anything can be contradicted: as many numbers as there are cables say where and how the robot rests.
+
+    read (S, 6 + 2 m) : which readings exist
+    """
+    m = (read.shape[1] - 6) // 2
+    if campaign.cable_frequencies.hertz.size or campaign.robot_frequencies.hertz.size or campaign.series:
+        return True
+    count = [read[own, : 6 + m].sum() + read[own[0], 6 + m :].sum() for own in _blocks(campaign.states.lock)]
+    return max(count) > m
 
 
 def _places(campaign: Campaign) -> tuple[np.ndarray, np.ndarray]:
     """Positions (S, 3), the middle of the others where none was read, and which of (S, 6) pose readings exist."""
     states = campaign.states
     read = np.isfinite(np.concatenate([states.position, states.angles], axis=1))
-    middle = np.nanmean(states.position, axis=0) if read[:, :3].any() else np.zeros(3)
+    middle = _usual_place(campaign.robot)
+    for axis in np.flatnonzero(read[:, :3].any(axis=0)):
+        middle[axis] = np.nanmean(states.position[:, axis])
     return np.where(np.isfinite(states.position), states.position, middle), read
+
+
+def _usual_place(robot: Robot) -> np.ndarray:
+    """(3,) home, or below the frame anchors by half of their distance from their middle [m]."""
+    if robot.home is not None:
+        return np.array(robot.home.position, dtype=float)
+    middle = robot.frame_anchors.mean(axis=0)
+    reach = np.linalg.norm(robot.frame_anchors - middle, axis=1).mean()
+    return np.asarray(middle - [0.0, 0.0, 0.5 * reach])
 
 
 def _rounded(tension: np.ndarray, sigma: np.ndarray) -> np.ndarray:
@@ -123,40 +154,3 @@ def _blocks(lock: np.ndarray) -> tuple[np.ndarray, ...]:
     own = np.where(lock >= 0, lock, lock.max(initial=-1) + 1 + np.arange(len(lock)))
     _, first = np.unique(own, return_index=True)
     return tuple(np.flatnonzero(own == own[i]) for i in np.sort(first))
-
-
-def _filled(campaign: Campaign, arrays: RobotArrays, known: Circumstances, readings: Readings) -> Readings:
-    """Readings with estimates where nothing was read: tensions that hold the platform, lengths of the cables then."""
-    tension = readings.tension
-    if np.isnan(tension).any():
-        there = at_states(arrays, known)
-        held = np.maximum(_tensions(campaign, there, readings, known), LEAST_TENSION)
-        said = cell_reading(arrays, held, known.approach, known.wrap)
-        tension = np.where(np.isfinite(tension), tension, said)
-    readings = replace(readings, tension=tension)
-    if np.isnan(readings.length).any():
-        there = at_states(arrays, known)
-        arms = PlatformArms.at(there, readings.position, readings.rotation)
-        cables = tensioned(cable_model(known.model), there, arms.points, np.maximum(tension, LEAST_TENSION))
-        length = arrays.reading(cables.total_length)
-        readings = replace(readings, length=np.where(np.isfinite(readings.length), readings.length, length))
-    return readings
-
-
-def _tensions(campaign: Campaign, there: RobotArrays, readings: Readings, known: Circumstances) -> np.ndarray:
-    """(S, m) tensions in balance at or near the poses: at locked lengths where all were read, else of least norm."""
-    try:
-        held = inverse(there, readings.position, readings.rotation, known.model, allow_unheld=True)
-    except CdprError as error:
-        expected = f"poses that the robot can hold, or tensions: {error}"
-        raise InputError(campaign.source, "poses", "static states", expected) from error
-    found = held.tensions
-    locked = np.isfinite(readings.length).all(axis=1)
-    if locked.any():
-        index = np.flatnonzero(locked)
-        place, turn = readings.position[index], readings.rotation[index]
-        rest_ = forward(there.take(index), readings.length[index], place, turn, known.model)
-        near = rest_.converged & (np.linalg.norm(rest_.position - place, axis=-1) < _NEAR * arm_scale(there))
-        found = found.copy()
-        found[index[near]] = rest_.tensions[near]
-    return found

@@ -7,14 +7,14 @@ import numpy as np
 from cdpr_struct.association.association import Association
 from cdpr_struct.association.detection import SHARE_INVISIBLE, clutter, robot_detection
 from cdpr_struct.association.doubles import detection_of_doubles
-from cdpr_struct.association.modes import robot_modes
+from cdpr_struct.association.modes import PredictedModes, robot_modes
 from cdpr_struct.association.peak_noise import PeakNoise
-from cdpr_struct.association.peaks import PeakList, PeakLists, padded
+from cdpr_struct.association.peaks import UNLABELLED, PeakList, PeakLists, padded
 from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import CrowdedModesError, UnstableEquilibriumError
-from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.measurement.campaign import PLATFORM, Campaign
 from cdpr_struct.observation.cable_modes import CableModes, CableRows, cable_modes_at, cable_rates
 from cdpr_struct.observation.circumstances import Circumstances
 from cdpr_struct.observation.readings import Readings
@@ -33,6 +33,11 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import VECTORS
 
 _BELOW = 0.7  # of the lowest peak: where somebody who picked it began to look
+_BELOW_LABELLED = 0.2  # the same where labels say which mode a peak is: it may be far off
+_HALF = 0.5  # of the kinetic energy, from which a mode is the platform's, as `modes` says
+_SURE = 1e-3  # of labelled peaks: how probable it is that one is no mode, beside one without a label
+OF_CABLES = -3
+"""Label of modes whose motion is that of cables, whichever; `PLATFORM` is that of modes with half of it or more."""
 _ABOVE = 1.02  # of the highest: the list ends there, and modes beyond were not looked for
 
 
@@ -83,8 +88,11 @@ def vibrations(campaign: Campaign) -> Vibrations | None:
     for k, state in enumerate(states):
         own = np.flatnonzero(robot.state == state)
         hertz = robot.hertz[own]
-        band = (_BELOW * hertz.min(), _ABOVE * hertz.max()) if own.size else (1.0, 2.0)
-        lists.append(PeakList(hertz, robot.sigma[own] / np.where(own.size, hertz, 1.0), band, k, 0))
+        body, mode = (said[own] if said.size else np.full(own.size, UNLABELLED) for said in (robot.body, robot.mode))
+        below = _BELOW if (body == UNLABELLED).all() else _BELOW_LABELLED
+        band = (below * hertz.min(), _ABOVE * hertz.max()) if own.size else (1.0, 2.0)
+        sigma = robot.sigma[own] / np.where(own.size, hertz, 1.0)
+        lists.append(PeakList(hertz, sigma, band, k, 0, np.where(body >= 0, OF_CABLES, body), mode))
         highest[k] = 2.0 * np.pi * band[1]
     peaks = padded(lists) if robot.hertz.size else None
     return Vibrations(
@@ -226,7 +234,13 @@ def _association(peaks: PeakLists, log_hertz: np.ndarray, share: np.ndarray) -> 
     low, high = peaks.band[:, :1], peaks.band[:, 1:]
     visible = (share >= 0.0) & (log_hertz > low) & (log_hertz < high)
     detection = detection_of_doubles(log_hertz, np.where(visible, robot_detection(share), 0.0))
-    return Association(peaks, robot_modes(log_hertz, detection), clutter(peaks))
+    found, labelled = clutter(peaks), peaks.cable != UNLABELLED
+    if not labelled.any():
+        return Association(peaks, robot_modes(log_hertz, detection), found)
+    moves = share >= _HALF
+    order = np.where(moves, np.cumsum(moves, axis=1), UNLABELLED)
+    modes = PredictedModes(log_hertz, detection, np.where(moves, PLATFORM, OF_CABLES), order)
+    return Association(peaks, modes, replace(found, density=np.where(labelled, _SURE, 1.0) * found.density))
 
 
 def _assembly(campaign: Campaign) -> Assembly:

@@ -5,6 +5,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from cdpr_struct.errors import InputError
+from cdpr_struct.robot.robot_file import LARGEST
 
 
 def parse(text: str, source: str) -> ElementTree.Element:
@@ -50,6 +51,7 @@ def numbers(parent: ElementTree.Element, name: str, source: str, count: int) -> 
         found = np.array([float(part) for part in text.split()])
     except ValueError as error:
         raise InputError(source, f"{parent.tag}.{name}", text.strip(), f"{count} finite number(s)") from error
-    if found.shape != (count,) or not np.isfinite(found).all():
-        raise InputError(source, f"{parent.tag}.{name}", text.strip(), f"{count} finite number(s)")
+    if found.shape != (count,) or not (np.abs(found) <= LARGEST).all():
+        expected = f"{count} finite number(s), of at most {LARGEST:g}"
+        raise InputError(source, f"{parent.tag}.{name}", text.strip(), expected)
     return found

@@ -1,7 +1,5 @@
 """What is wrong with a file, in one sentence: file, field, value and what would be right."""
 
-import re
-from tomllib import TOMLDecodeError
 from typing import get_args
 
 from pydantic import BaseModel, ValidationError
@@ -27,17 +25,6 @@ def input_error(source: str, error: ValidationError, model: type[BaseModel] | No
         known = known_keys(model, first["loc"][:-1])
         expected += "; " + known_names(str(first["loc"][-1]), known)
     return InputError(source, field, value, expected)
-
-
-def not_toml(source: str, text: str, error: TOMLDecodeError) -> InputError:
-    """What is wrong with a file that is no TOML, and the line where it ends to be."""
-    where = re.search(r" \(at line (\d+), column \d+\)", str(error))
-    reason = str(error) if where is None else str(error)[: where.start()]
-    lines = text.splitlines()
-    number = len(lines) if where is None else min(int(where[1]), len(lines))
-    line = lines[number - 1].strip() if lines else ""
-    expected = f"a TOML file: decimals with a point, text in quotes, each key and table given once ({reason})"
-    return InputError(source, f"line {number}", line, expected)
 
 
 def known_keys(model: type[BaseModel], place: tuple[int | str, ...]) -> list[str]:

@@ -15,14 +15,63 @@ BREAKING_STRAIN = 0.02
 _SOFTEST, _STIFFEST = 1e5, 1e9  # of EA over linear density [N m/kg]: ropes of nylon have 1e6, fibres of carbon 1.4e8
 
 
+_THINNEST = 1e-3  # [kg/m^3], platform's mass over its radius cubed: a thousandth of air
+_FARTHEST = 2e4  # reach of the frame over the platform's radius of gyration
+_HEAVIEST, _LARGE = (
+    30.0,
+    100.0,
+)  # weight of all cables over the platform's, where the frame reaches beyond so many metres
+_OUTSIDE = 30.0  # home pose from the middle of the frame, in sizes of the frame
+_DEEPEST = 3e3  # [m] below it, which a hoist in a shaft reaches
+
+
 def implausible(robot: Robot) -> tuple[str, ...]:
     """Sentences on anchors, pulleys, stiffness and mass of cables that are probably in another unit; () if none."""
-    return (*_anchors(robot), *_pulleys(robot), *_cables(robot))
+    whole = lengths_in_mm(robot)
+    return (*([whole] if whole else []), *_home(robot), *_anchors(robot), *_pulleys(robot), *_cables(robot))
+
+
+def lengths_in_mm(robot: Robot) -> str:
+    """A sentence on a robot whose lengths are all in mm, as its masses tell; "" if they are not.
+
+    All lengths alike a thousand times too large leave its shape as it is. What remains is the platform: thinner than
+    air, with all its mass in its middle, or nothing beside its cables.
+    """
+    body, reach = robot.platform, _reach(robot)
+    middle = np.median(robot.platform_anchors, axis=0)
+    inner = float(np.median(np.linalg.norm(robot.platform_anchors - middle, axis=1)))
+    gyration = float(np.sqrt(np.trace(body.inertia) / (2.0 * body.mass)))
+    cables = float(robot.linear_density.sum() * reach)
+    far = f"The frame's anchors lie up to {reach:.4g} m away"
+    if inner > 0.0 and body.mass < _THINNEST * inner**3:
+        return f"{far}, and {body.mass:.4g} kg fill a platform of {inner:.4g} m in radius (are the lengths in mm?)."
+    if reach > _FARTHEST * gyration:
+        return f"{far}, and the platform's radius of gyration is {gyration:.2g} m (are the lengths in mm?)."
+    if robot.gravity > 0.0 and reach > _LARGE and cables > _HEAVIEST * body.mass:
+        return f"{far}: cables of that length weigh {cables:.3g} kg, the platform {body.mass:.4g} kg (is it in mm?)."
+    return ""
+
+
+def _home(robot: Robot) -> list[str]:
+    """A home pose far outside of the frame; below it hang lifts."""
+    middle = np.median(robot.frame_anchors, axis=0)
+    size = float(np.linalg.norm(robot.frame_anchors - middle, axis=1).max())
+    if robot.home is None or not size > 0.0:
+        return []
+    away = robot.home.position - middle
+    down = max(float(away @ robot.down), 0.0)
+    beside = float(np.linalg.norm(away - down * robot.down))
+    if beside <= _OUTSIDE * size and down <= max(_OUTSIDE * size, _DEEPEST):
+        return []
+    place = ", ".join(f"{v:g}" for v in robot.home.position)
+    where = f"{np.linalg.norm(away):.4g} m from the middle of the frame, whose anchors are within {size:.3g} m of it"
+    return [f"home_pose = [{place}] m lies {where} (is it in mm?)."]
 
 
 def _reach(robot: Robot) -> float:
     """How far the farthest frame anchor is from the home pose, or from the middle of all [m], without one far out."""
-    centre = np.median(robot.frame_anchors, axis=0) if robot.home is None else robot.home.position
+    middle = robot.home is None or bool(_home(robot))
+    centre = np.median(robot.frame_anchors, axis=0) if robot.home is None or middle else robot.home.position
     away = np.linalg.norm(robot.frame_anchors - centre, axis=1)
     usual = away[away <= _FAR_OUT * np.median(away)]
     return float(usual.max(initial=0.0))

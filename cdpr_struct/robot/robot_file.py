@@ -1,7 +1,6 @@
 """Robot files (TOML): read, check with messages that name the field, write."""
 
 import math
-import tomllib
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any
@@ -9,16 +8,17 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from cdpr_struct.errors import InputError
+from cdpr_struct.errors import InputError, known_names
 from cdpr_struct.robot.body_table import BodyTable, body_of
 from cdpr_struct.robot.cable import LARGEST_EXPANSION, Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions, divided_mast
-from cdpr_struct.robot.file_complaints import input_error, not_toml
+from cdpr_struct.robot.file_complaints import input_error
 from cdpr_struct.robot.lump import LumpTable, lumps_fault
 from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import FREEDOMS, Robot, cable_drag_fault, internal_mass_fault
+from cdpr_struct.robot.toml_text import toml_table
 
 LARGEST, SMALLEST = 1e12, 1e-12  # of any number; beyond them squares and products leave what can be computed
 Number = Annotated[float, Field(strict=True, ge=-LARGEST, le=LARGEST)]
@@ -40,7 +40,7 @@ class PlatformTable(_Table):
     guided: list[Any] = []
 
 
-class CableTable(_Table):
+class CableNumbers(_Table):
     axial_stiffness: Positive | None = None
     linear_density: Positive | None = None
     damping_ratio: Annotated[float, Field(strict=True, ge=0.0, lt=1.0)] | None = None
@@ -55,10 +55,13 @@ class PulleyTable(_Table):
     axis: Vector = [0.0, 0.0, 1.0]
 
 
+class CableTable(CableNumbers):
+    pulley: PulleyTable | None = None
+
+
 class CablesEntry(CableTable):
     platform_anchor: Vector
     frame_anchor: Vector
-    pulley: PulleyTable | None = None
 
 
 class RobotTable(_Table):
@@ -98,9 +101,7 @@ def robot_of_text(text: str, source: str) -> Robot:
     InputError : as `load_robot`.
     """
     try:
-        table = RobotTable.model_validate(tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
-        raise not_toml(source, text, error) from error
+        table = RobotTable.model_validate(toml_table(text, source))
     except ValidationError as error:
         raise input_error(source, error, RobotTable) from error
     return _build(table, source)
@@ -118,7 +119,7 @@ def _read(name: str) -> tuple[str, str]:
 
 def _build(table: RobotTable, source: str) -> Robot:
     cables = tuple(_cable(table.cable, entry, source, i) for i, entry in enumerate(table.cables, start=1))
-    pulleys = tuple(_pulley(entry, source, i) for i, entry in enumerate(table.cables, start=1))
+    pulleys = tuple(_pulley(table.cable, entry, source, i) for i, entry in enumerate(table.cables, start=1))
     home = _home(table.home_pose, source)
     platform, more = _with_joints(_platform(table.platform, source), table, source), _extensions(table, source)
     if fault := internal_mass_fault(platform, more):
@@ -191,8 +192,8 @@ def _extensions(table: RobotTable, source: str) -> Extensions:
         raise InputError(source, "extensions.causes", causes, "give a list of names in quotes")
     for name, value in given.items():
         if name not in EXTENSIONS:
-            known = ", ".join(["causes", "joint_mass", *EXTENSIONS])
-            raise InputError(source, f"extensions.{name}", value, f"no such key is known here; known: {known}")
+            known = known_names(name, ["causes", "joint_mass", *EXTENSIONS])
+            raise InputError(source, f"extensions.{name}", value, f"no such key is known here; {known}")
         _check_extension(name, value, len(table.cables), source)
     made = Extensions.of(len(table.cables), given, tuple(causes))
     anchors = np.array([entry.frame_anchor for entry in table.cables])
@@ -238,18 +239,20 @@ def _with_joints(platform: Platform, table: RobotTable, source: str) -> Platform
     )
 
 
-def _pulley(entry: CablesEntry, source: str, number: int) -> Pulley | None:
-    if entry.pulley is None:
+def _pulley(default: CableTable, entry: CablesEntry, source: str, number: int) -> Pulley | None:
+    own = entry.pulley or default.pulley
+    if own is None:
         return None
     try:
-        return Pulley(entry.pulley.radius, np.array(entry.pulley.axis))
+        return Pulley(own.radius, np.array(own.axis))
     except ValueError as error:
-        raise InputError(source, f"cables[{number}].pulley.axis", entry.pulley.axis, str(error)) from error
+        place = "cable" if entry.pulley is None else f"cables[{number}]"
+        raise InputError(source, f"{place}.pulley.axis", own.axis, str(error)) from error
 
 
 def _cable(default: CableTable, entry: CablesEntry, source: str, number: int) -> Cable:
     values: dict[str, Any] = {}
-    for name in CableTable.model_fields:
+    for name in CableNumbers.model_fields:
         own = getattr(entry, name)
         values[name] = getattr(default, name) if own is None else own
     for name in ("axial_stiffness", "linear_density"):

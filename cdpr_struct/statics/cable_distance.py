@@ -13,13 +13,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.errors import ConvergenceError
 from cdpr_struct.robot.body import Body
 from cdpr_struct.statics.cable_curves import CableCurves
 
 CLOSE = 1e-5  # [m], between the bounds of a distance
 SHARED = 1e-3  # [m]: anchors that are closer count as one
 _HALVINGS = 40
-_MOST_PIECES = 400_000  # more of them at a time: parallel cables; the bounds reached by then are taken
+_MOST_PIECES = 400_000  # at a time; where there are more, the poses are searched in parts
 _SECTIONS = 26  # of the golden section on a chord, after which 4e-6 of it is left
 _GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 
@@ -181,9 +182,25 @@ def _least_along(away: Callable[[np.ndarray], np.ndarray], count: int) -> np.nda
 
 
 def _searched(pieces: _Pieces, count: int, sides: tuple[int, ...], enclosed: Enclosed) -> Nearest:
-    """Branch and bound over pieces, all poses (count) together."""
+    """Branch and bound over pieces, all poses (count) together; in parts where pieces become too many."""
     best, pair = np.full(count, np.inf), np.full((2, count), -1)
-    for _ in range(_HALVINGS):
+    open_ = [(pieces, _HALVINGS)]
+    while open_:
+        open_ += _narrowed(*open_.pop(), best, pair, sides, enclosed)
+    return Nearest(np.where(best <= CLOSE, 0.0, best), *pair)
+
+
+def _narrowed(
+    pieces: _Pieces, halvings: int, best: np.ndarray, pair: np.ndarray, sides: tuple[int, ...], enclosed: Enclosed
+) -> list[tuple[_Pieces, int]]:
+    """Smallest distances so far, in place (count,), (2, count); pieces that are left where they became too many, in two
+    parts by their poses, each with the halvings that are left to it.
+
+    Raises
+    ------
+    ConvergenceError : too many pieces of a single pose, or no halvings left.
+    """
+    for used in range(halvings):
         distance, bulge = enclosed(pieces)
         upper = distance + bulge
         order = np.argsort(-upper, kind="stable")  # of several assignments to a pose the last, the least, stays
@@ -191,10 +208,19 @@ def _searched(pieces: _Pieces, count: int, sides: tuple[int, ...], enclosed: Enc
         best[pieces.pose[better]] = upper[better]
         pair[:, pieces.pose[better]] = pieces.first[better], pieces.second[better]
         going = np.flatnonzero((distance - bulge < best[pieces.pose] - CLOSE) & (best[pieces.pose] > 0.0))
-        if not going.size or len(going) > _MOST_PIECES:
+        if not going.size:
+            return []
+        pieces = pieces.take(going)
+        poses = np.unique(pieces.pose)
+        if len(going) > _MOST_PIECES and len(poses) > 1:
+            later = pieces.pose >= poses[len(poses) // 2]
+            return [(pieces.take(np.flatnonzero(part)), halvings - used) for part in (later, ~later)]
+        if len(going) > _MOST_PIECES:
             break
-        pieces = pieces.take(going).halved(sides)
-    return Nearest(np.where(best <= CLOSE, 0.0, best), *pair)
+        pieces = pieces.halved(sides)
+    left = float(bulge[going].max())
+    hint = "Cables that lie along each other or along a body have no nearest point that can be told."
+    raise ConvergenceError("smallest distance of the cables", left, used + 1, hint)
 
 
 def _nothing(count: int) -> Nearest:

@@ -11,6 +11,7 @@ _SHORTEST_LIMIT, _LIMIT = 0.6, 0.06  # a step is at most 0.6 m or .06 of the rea
 LARGEST_TURN = 0.5  # [rad]
 _OVERSHOOT = 0.8  # a step is kept while the power at its end is above -0.8 of that at its start
 _PUSH = 0.02  # [m] off a saddle, along its softest motion
+_UNSTABLE = 1e-9  # of the largest eigenvalue: below minus that, the softest motion grows
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,56 +66,66 @@ class EnergyDescent:
         self.converged = self._small(first)
         self.iterations = np.zeros(len(position), dtype=int)
 
-    def run(self, limit: int) -> None:
-        """Step every item that is not balanced until it is, at most `limit` evaluations each."""
-        items = np.flatnonzero(~self.converged)
-        step = newton_step(
-            self._scaled(self.tangent[items]), self.wrench[items] / self.unit, self.unit[-1], self.longest
-        )
-        for _ in range(limit):
-            if not items.size:
-                return
+    def run(self, limit: int, pushes: int = 0, spared: int = 0) -> None:
+        """Step every item that is not balanced until it is, at most `limit` evaluations each.
+
+        pushes : how often an item that is balanced but unstable is pushed along its softest motion, to descend again
+        spared : so many items, the slowest, need not end
+        """
+        left, evaluated = np.full(len(self.converged), pushes), np.zeros(len(self.converged), dtype=int)
+        items, step = np.flatnonzero(~self.converged), np.zeros(self.wrench.shape)
+        step[items] = self._newton(items)
+        pushed = self._push(np.flatnonzero(self.converged), step, left)
+        items = np.sort(np.append(items, np.flatnonzero(pushed)))
+        while len(items) > spared:
             part = self.balance.take(items)
-            position, rotation = part.moved(self.position[items], self.rotation[items], step / self.unit)
+            position, rotation = part.moved(self.position[items], self.rotation[items], step[items] / self.unit)
             there = part.evaluate(position, rotation)
-            self.iterations[items] += 1
-            small = self._small(there)
-            before = np.einsum("ni,ni->n", self.wrench[items] / self.unit, step)
-            after = np.einsum("ni,ni->n", there.wrench / self.unit, step)
-            accepted = small | (after >= -_OVERSHOOT * before)
-            accepted |= np.linalg.norm(step, axis=-1) < 1e-13
+            small = self._small(there) & ~pushed[items]
+            accepted, shorter = self._judged(items, step[items], there, small | pushed[items])
             kept = items[accepted]
             self.position[kept], self.rotation[kept] = position[accepted], rotation[accepted]
             self.wrench[kept], self.tangent[kept] = there.wrench[accepted], there.tangent[accepted]
-            self.converged[kept] = small[accepted]
-            with np.errstate(over="ignore"):  # power that hardly falls: the longest step will do
-                shorter = np.clip(before / np.maximum(before - after, 1e-300), 0.1, 0.6)
-            step = np.where(accepted[:, None], step, shorter[:, None] * step)
-            going = ~self.converged[items]
-            items, step, fresh = items[going], step[going], accepted[going]
-            scaled = self._scaled(self.tangent[items[fresh]])
-            step[fresh] = newton_step(scaled, self.wrench[items[fresh]] / self.unit, self.unit[-1], self.longest)
+            self.converged[items] = small
+            self.iterations[items] += ~pushed[items]
+            evaluated[items] = np.where(pushed[items], 0, evaluated[items] + 1)
+            step[items[~accepted]] *= shorter[~accepted, None]
+            going = ~small & (evaluated[items] < limit)
+            fresh = items[going & accepted]
+            step[fresh] = self._newton(fresh)
+            pushed = self._push(items[small], step, left)
+            items = items[going | pushed[items]]
 
-    def leave_saddles(self, limit: int, attempts: int = 3) -> np.ndarray:
-        """Push balanced but unstable items along their softest motion and descend again.
+    def _judged(
+        self, items: np.ndarray, step: np.ndarray, there: Evaluation, certain: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Which steps (k, 6) are kept, and to which share the others are cut."""
+        before = np.einsum("ni,ni->n", self.wrench[items] / self.unit, step)
+        after = np.einsum("ni,ni->n", there.wrench / self.unit, step)
+        accepted = certain | (after >= -_OVERSHOOT * before) | (np.linalg.norm(step, axis=-1) < 1e-13)
+        with np.errstate(over="ignore"):  # power that hardly falls: the longest step will do
+            return accepted, np.clip(before / np.maximum(before - after, 1e-300), 0.1, 0.6)
 
-        Returns the eigenvalues of the symmetric tangent (n, 6), ascending, in scaled coordinates [N/m].
-        """
-        values = np.linalg.eigvalsh(symmetric(self._scaled(self.tangent)))
-        for _ in range(attempts):
-            items = np.flatnonzero(self.converged & (values[:, 0] < -1e-9 * np.abs(values[:, -1])))
-            if not items.size:
-                break
-            softest = np.linalg.eigh(symmetric(self._scaled(self.tangent[items])))[1][:, :, 0]
-            part, push = self.balance.take(items), _PUSH * softest / self.unit
-            position, rotation = part.moved(self.position[items], self.rotation[items], push)
-            there = part.evaluate(position, rotation)
-            self.position[items], self.rotation[items] = position, rotation
-            self.wrench[items], self.tangent[items] = there.wrench, there.tangent
-            self.converged[items] = False
-            self.run(limit)
-            values[items] = np.linalg.eigvalsh(symmetric(self._scaled(self.tangent[items])))
-        return values
+    def _newton(self, items: np.ndarray) -> np.ndarray:
+        scaled = self._scaled(self.tangent[items])
+        return newton_step(scaled, self.wrench[items] / self.unit, self.unit[-1], self.longest)
+
+    def _push(self, items: np.ndarray, step: np.ndarray, left: np.ndarray) -> np.ndarray:
+        """(n,) bool: which of the balanced `items` are unstable and pushed; sets their steps and the pushes `left`."""
+        pushed = np.zeros(len(left), dtype=bool)
+        items = items[left[items] > 0]
+        if items.size:
+            values, vectors = np.linalg.eigh(symmetric(self._scaled(self.tangent[items])))
+            off = values[:, 0] < -_UNSTABLE * np.abs(values[:, -1])
+            step[items[off]] = _PUSH * vectors[off, :, 0]
+            pushed[items[off]] = True
+            left[items[off]] -= 1
+        return pushed
+
+    @property
+    def stiffness(self) -> np.ndarray:
+        """(n, 6) eigenvalues of the symmetric tangent, ascending, in scaled coordinates [N/m]."""
+        return np.asarray(np.linalg.eigvalsh(symmetric(self._scaled(self.tangent))))
 
     def _small(self, there: Evaluation) -> np.ndarray:
         return np.linalg.norm(there.wrench / self.unit, axis=-1) <= there.tolerance

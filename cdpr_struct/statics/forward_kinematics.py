@@ -19,10 +19,14 @@ from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.energy_descent import EnergyDescent, arm_scale, longest_step
 from cdpr_struct.statics.equilibrium import PlatformArms, tangent_stiffness
 from cdpr_struct.statics.locked_balance import LockedBalance
+from cdpr_struct.statics.lost_cables import lost
 from cdpr_struct.statics.neutral_freedoms import stability, turned_least
 from cdpr_struct.statics.tension_winches import pulls_as_held
 
 MAX_ITERATIONS = 500  # stiff cables, far from rest: of 10 000 random robots, eleven take more than 200, none 360
+_MOST_STIFFENINGS = 50
+_UNLIKE_STIFFNESS = 1e-8  # relative change of EA from which on that at the tension has not been found
+_PUSHES = 3  # off saddles, of a pose
 _SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
 
 
@@ -87,6 +91,7 @@ def forward(
     model: str | CableModel = "sagging",
     external_wrench: npt.ArrayLike | None = None,
     mass: npt.ArrayLike | None = None,
+    spared: int = 0,
 ) -> ForwardSolution:
     """Stable pose of the platform at locked unstrained cable lengths, or held tensions where winches hold these.
 
@@ -100,6 +105,7 @@ def forward(
     model : "sagging", "spring" or "ideal"
     external_wrench : (..., 6) on the platform about its origin, world axes, beside its weight [N, N m]
     mass : (...) of the platform in place of the robot's [kg]
+    spared : so many items of the batch, the slowest, are not awaited and stay unconverged
 
     Returns
     -------
@@ -124,14 +130,17 @@ def forward(
         arrays.flattened(shape), _flat(length, shape, 1), _flat(wrench, shape, 1), cable_model(model)
     )
     begun, entered, sizes = turns.copy(), balance.arrays, (arm_scale(arrays), longest_step(float(length.mean())))
-    for station in balance.model.approach():
+    *first, last = balance.model.approach()
+    stiffens = balance.arrays.nonlinearity.any()
+    for station in (*first, last):
         balance = replace(balance, arrays=station.seen(entered), model=station)
         descent = EnergyDescent(balance, place, turns, *sizes)
-        descent.run(MAX_ITERATIONS)
+        descent.run(MAX_ITERATIONS, *((_PUSHES, spared) if station is last and not stiffens else ()))
         place, turns = descent.position, descent.rotation
-    if balance.arrays.nonlinearity.any():
+    if stiffens:
         balance, descent = _stiffening(balance, descent, sizes)
-    return _solution(descent, balance, descent.leave_saddles(MAX_ITERATIONS), shape, begun)
+        descent.run(MAX_ITERATIONS, _PUSHES)
+    return _solution(descent, balance, shape, begun)
 
 
 def _stiffening(
@@ -139,14 +148,16 @@ def _stiffening(
 ) -> tuple[LockedBalance, EnergyDescent]:
     """Descents with the stiffness that the cables have at their tension, until it stays."""
     entered = balance.arrays
-    for _ in range(MAX_ITERATIONS):
+    for _ in range(_MOST_STIFFENINGS):
         tension = balance.states(descent.position, descent.rotation).tension_at_platform
         stiffness, before = entered.stiffness_at(tension), balance.arrays.axial_stiffness
-        if np.abs(stiffness / before - 1.0).max() <= _SAME_STIFFNESS:
+        change = np.abs(stiffness / before - 1.0)
+        if change.max() <= _SAME_STIFFNESS:
             break
         balance = replace(balance, arrays=replace(entered, axial_stiffness=stiffness))
         descent = EnergyDescent(balance, descent.position, descent.rotation, *sizes)
         descent.run(MAX_ITERATIONS)
+    descent.converged &= ~(change > _UNLIKE_STIFFNESS).any(axis=-1)
     return balance, descent
 
 
@@ -168,7 +179,6 @@ def _flat(value: np.ndarray, shape: tuple[int, ...], core_axes: int) -> np.ndarr
 def _solution(
     descent: EnergyDescent,
     balance: LockedBalance,
-    eigenvalues: np.ndarray,
     shape: tuple[int, ...],
     begun: np.ndarray,
 ) -> ForwardSolution:
@@ -182,13 +192,14 @@ def _solution(
     position, rotation = turned_least(held, descent.position, descent.rotation, begun)
     status = np.where(held.neutral > 0, ForwardStatus.NEUTRAL, ForwardStatus.CONVERGED)
     status[held.unstable] = ForwardStatus.NOT_STABLE
-    status[~descent.converged | ~pulls_as_held(balance.arrays, states)] = ForwardStatus.NOT_CONVERGED
+    open_ = ~descent.converged | ~pulls_as_held(balance.arrays, states) | lost(states).any(axis=1)
+    status[open_] = ForwardStatus.NOT_CONVERGED
     return ForwardSolution(
         position=position.reshape((*shape, 3)),
         rotation=rotation.reshape((*shape, 3, 3)),
         cables=cables,
         residual_wrench=descent.wrench.reshape((*shape, 6)),
-        least_stiffness=eigenvalues[:, 0].reshape(shape),
+        least_stiffness=descent.stiffness[:, 0].reshape(shape),
         iterations=descent.iterations.reshape(shape),
         status=status.reshape(shape),
     )

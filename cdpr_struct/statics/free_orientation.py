@@ -36,6 +36,7 @@ _LARGEST_TURN = 0.2  # of one step [rad]
 _BALANCED = 1e-11  # moment over arms times tensions
 _ALIGNED = 1e-9  # by so much an axis of a free angle may differ from one about which a guide lets the platform turn
 _WITHIN = 1e-8  # of load and tensions: what counts as balanced and within the bounds
+_TILT = 0.3  # [rad], of starts beside the angles given
 _NEXT = 3  # rounds of starts from neighbours
 
 
@@ -156,23 +157,30 @@ class HangingProblem:
         left = cable_wrench(states, problem.arms) + problem.load
         pulls = np.linalg.norm(problem.load[:, :3], axis=1) + states.tension_at_platform.sum(axis=1)
         about = np.where(self.free, np.einsum("kij,kj->ki", axes, left[:, 3:]), 0.0)
-        return _Hung(angles, rotation, tension, about / (platform_radius(self.arrays) * pulls)[:, None])
+        carried = np.linalg.norm(problem.balanced(left / problem.unit), axis=1) <= _WITHIN * pulls
+        return _Hung(angles, rotation, tension, about / (platform_radius(self.arrays) * pulls)[:, None], carried)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Hung:
     """angles (k, 3) [rad], rotations (k, 3, 3), chord tensions (k, m) [N], moments (k, 3) about the free angles over
-    arms times tensions."""
+    arms times tensions, and whether the tensions balance all else (k,)."""
 
     angles: np.ndarray
     rotation: np.ndarray
     tension: np.ndarray
     moment: np.ndarray
+    carried: np.ndarray
 
     @property
     def size(self) -> np.ndarray:
         """(k,) largest moment."""
         return np.asarray(np.abs(self.moment).max(axis=1))
+
+    @property
+    def found(self) -> np.ndarray:
+        """(k,) bool: carried, with no moment left."""
+        return np.asarray(self.carried & (self.size <= _BALANCED))
 
     def take(self, index: np.ndarray) -> "_Hung":
         return _Hung(*(getattr(self, name)[index] for name in self.__slots__))
@@ -187,12 +195,13 @@ def hang_freely(problem: HangingProblem, angles: np.ndarray) -> FreeOrientation:
     """Free angles found from given ones (k, 3) [rad], or else from level ones; the others stay."""
     ends = _newton(problem, problem.at(angles))
     level = np.where(problem.free, 0.0, angles)
-    lost = np.flatnonzero((ends.size > _BALANCED) & (level != angles).any(axis=1))
+    lost = np.flatnonzero(~ends.found & (level != angles).any(axis=1))
     if lost.size:
         _begun_again(problem, ends, lost, level[lost])
+    if len(angles) == 1:
+        _tilted_starts(problem, ends, angles)
     for _ in range(_NEXT):
-        found = ends.size <= _BALANCED
-        lost, reached = np.flatnonzero(~found), np.flatnonzero(found)
+        lost, reached = np.flatnonzero(~ends.found), np.flatnonzero(ends.found)
         if not lost.size or not reached.size:
             break
         apart = np.linalg.norm(problem.position[lost, None] - problem.position[None, reached], axis=-1)
@@ -207,8 +216,16 @@ def _begun_again(
     """Newton once more for some items from other angles (n, 3) [rad]; takes what is better, in place."""
     part = problem.take(lost)
     again = _newton(part, part.at(angles, tension))
-    better = again.size < ends.size[lost]
+    as_good, before = again.carried == ends.carried[lost], ends.size[lost]
+    better = np.where(as_good, again.size < before, again.carried)
     ends.replaced(lost[better], again.take(better))
+
+
+def _tilted_starts(problem: HangingProblem, ends: _Hung, angles: np.ndarray) -> None:
+    """A single pose, which has no neighbours, begun again from beside its angles (1, 3), where tensions carry it."""
+    for shift in _TILT * np.concatenate([np.eye(3), -np.eye(3)])[np.tile(problem.free, 2)]:
+        if not ends.found[0] and problem.at(angles + shift).carried[0]:
+            _begun_again(problem, ends, np.zeros(1, dtype=int), angles + shift)
 
 
 def _checked(problem: HangingProblem, ends: _Hung) -> FreeOrientation:

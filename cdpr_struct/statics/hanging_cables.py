@@ -8,11 +8,13 @@ from cdpr_struct.statics.cable_segments import LoadedLength, Loading, forces_at_
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span, span_and_rise
 from cdpr_struct.statics.catenary import CatenaryForces, solve_end_forces
 from cdpr_struct.statics.catenary_length import CatenaryLength, length_at_chord_tension
+from cdpr_struct.statics.lost_cables import missing
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 from cdpr_struct.statics.tension_winches import held_at_frame, with_winches
 
 _EXIT_ITERATIONS = 30
-_EXIT_TOLERANCE = 1e-14  # of the tension, or of the unit direction
+_EXIT_TOLERANCE = 1e-14  # of the tension and EA, or of the unit direction
+_EXIT_MET = 1e-10  # of the same: above it the exit from the pulley was not found
 
 
 def hanging(
@@ -89,10 +91,11 @@ def _catenary_over_pulley(
         tension = np.linalg.norm(vector, axis=-1)
         states, near = _leaving(arrays, offset, length, vector / tension[..., None], tension, near)
         error = states.force_at_frame - vector
-        if (np.abs(error).max(axis=-1) <= _EXIT_TOLERANCE * (tension + arrays.axial_stiffness)).all():
+        off, size = np.abs(error).max(axis=-1), tension + arrays.axial_stiffness
+        if (off <= _EXIT_TOLERANCE * size).all():
             break
         vector = vector + np.linalg.solve(exit_jacobian(arrays, states), error[..., None])[..., 0]
-    return states, near
+    return missing(states, ~(off <= _EXIT_MET * size)), near
 
 
 def _leaving(
@@ -148,6 +151,8 @@ def _held_over_pulley(
         states, length_rate = _catenary_at_tension(arrays, offset - exit_.point, chord_tension, wrap)
         before = direction
         direction = states.force_at_frame / states.tension_at_frame[..., None]
-        if np.abs(direction - before).max(initial=0.0) <= _EXIT_TOLERANCE:
+        turned = np.abs(direction - before).max(axis=-1)
+        if (turned <= _EXIT_TOLERANCE).all():
             break
+    states = missing(states, ~(turned <= _EXIT_MET))
     return states, length_rate * (1.0 + states.wrapped_length / states.length)  # the wrapped piece stretches alike

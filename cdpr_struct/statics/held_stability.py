@@ -7,7 +7,7 @@ import numpy as np
 from cdpr_struct.robot.robot import MOTIONS
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates
-from cdpr_struct.statics.equilibrium import PlatformArms, tangent_stiffness
+from cdpr_struct.statics.equilibrium import PlatformArms, platform_radius, tangent_stiffness
 from cdpr_struct.statics.guides import free_axes
 from cdpr_struct.statics.neutral_freedoms import stability
 
@@ -19,11 +19,14 @@ class HeldStability:
     stable          : (...) bool: no motion of the platform is pushed on; it may be neutral
     least_stiffness : (...) of all motions, rotations as arcs at the anchors [N/m]
     motion          : (..., 6) the motion of least stiffness, the largest component 1 [m, arc in m]
+    condition       : (...) largest stiffness over the least in size, neutral freedoms left out, rotations as arcs at
+                      the platform's radius [-]
     """
 
     stable: np.ndarray
     least_stiffness: np.ndarray
     motion: np.ndarray
+    condition: np.ndarray
 
     @property
     def direction(self) -> str:
@@ -46,8 +49,21 @@ def held_stability(
     softest = np.zeros(unit.shape)
     softest[..., free] = vectors[..., 0]
     largest = np.take_along_axis(softest, np.abs(softest).argmax(axis=-1)[..., None], axis=-1)
-    stable = ~stability(arrays, rotation, tangent).unstable
-    return HeldStability(np.asarray(stable), values[..., 0], softest / largest)
+    held = stability(arrays, rotation, tangent)
+    return HeldStability(
+        np.asarray(~held.unstable), values[..., 0], softest / largest, _condition(arrays, tangent, held.neutral)
+    )
+
+
+def _condition(arrays: RobotArrays, tangent: np.ndarray, neutral: np.ndarray) -> np.ndarray:
+    """Of stiffnesses (..., 6, 6), the smallest `neutral` (...) in size left out; inf where nothing is stiff."""
+    unit, free = np.repeat([1.0, platform_radius(arrays)], 3), free_axes(arrays)
+    scaled = (tangent / unit / unit[:, None])[..., free[:, None], free]
+    size = np.sort(np.abs(np.linalg.eigvalsh(0.5 * (scaled + np.swapaxes(scaled, -1, -2)))), axis=-1)
+    first = np.minimum(neutral, size.shape[-1] - 1)[..., None]
+    least = np.take_along_axis(size, first, axis=-1)[..., 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(size[..., -1] > 0.0, size[..., -1] / least, np.inf)
 
 
 def unstable_sentence(found: HeldStability) -> str | None:

@@ -72,7 +72,8 @@ class HoldingProblem:
         for _ in range(MAX_ITERATIONS):
             step, unbalanced, dual[items] = self.take(items)._step(tension[items], dual[items])
             small = np.abs(step).max(axis=1) <= 1e-11 * tension[items].max(axis=1)
-            better = unbalanced <= 0.9 * least[items]
+            begun_balanced = (iterations[items] == 0) & (unbalanced <= 1e-9 * self._size(items))
+            better = (unbalanced <= 0.9 * least[items]) & ~begun_balanced  # outside the bounds: the way in unbalances
             best[items[better]] = tension[items[better]]
             least[items] = np.where(better, unbalanced, least[items])
             since[items] = np.where(better | (unbalanced <= 1e-9 * self._size(items)), 0, since[items] + 1)
@@ -152,7 +153,7 @@ class HoldingProblem:
         low, high = self._step_bounds(held, growth, tension)
         curvature = self._curvature(held, dual)
         step, multipliers = self._program(curvature, growth, matrix, wrench, low, high)
-        return step, np.linalg.norm(self._balanced(wrench / self.unit), axis=1), multipliers
+        return step, np.linalg.norm(self.balanced(wrench / self.unit), axis=1), multipliers
 
     def _curvature(self, held: HeldCables, dual: np.ndarray) -> np.ndarray:
         """(k, m) second derivative of cost minus multipliers times balance, kept positive."""
@@ -187,14 +188,14 @@ class HoldingProblem:
         low: np.ndarray,
         high: np.ndarray,
     ) -> tuple[np.ndarray, np.ndarray]:
-        scaled = self._balanced(np.swapaxes(matrix, -1, -2) / self.unit[..., None])
-        programs = QuadraticPrograms(curvature, gradient, scaled, self._balanced(-wrench / self.unit), low, high)
+        scaled = self.balanced(np.swapaxes(matrix, -1, -2) / self.unit[..., None])
+        programs = QuadraticPrograms(curvature, gradient, scaled, self.balanced(-wrench / self.unit), low, high)
         step, dual = solve_programs(programs, self.careful)
         if self.kept is not None:
             dual[:, 3:] = np.einsum("kij,ki->kj", self.kept, dual[:, 3:])
         return step, dual
 
-    def _balanced(self, scaled: np.ndarray) -> np.ndarray:
+    def balanced(self, scaled: np.ndarray) -> np.ndarray:
         """Scaled wrenches (k, 6) or (k, 6, m) without the moments that need no balance."""
         if self.kept is None:
             return scaled

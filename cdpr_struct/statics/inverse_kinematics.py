@@ -23,12 +23,14 @@ from cdpr_struct.statics.equilibrium import cable_wrench
 from cdpr_struct.statics.free_orientation import FreeOrientation
 from cdpr_struct.statics.guides import free_part
 from cdpr_struct.statics.holding_tensions import HoldingProblem
+from cdpr_struct.statics.lost_cables import lost
 from cdpr_struct.statics.separating_wrench import separation
 from cdpr_struct.statics.taut_tensions import suits, taut_tensions
 from cdpr_struct.statics.unholdable_poses import no_length_error, unholdable, without_length
 
 BALANCED = 1e-8  # residual over load and tensions that counts as balanced
 _SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
+_UNLIKE_STIFFNESS = 1e-8  # from which on it has not been found
 _MOST_STIFFENINGS = 50
 _MOST_WINCH_STEPS = 12
 
@@ -158,7 +160,7 @@ def _with_winches(problem: HoldingProblem, solution: InverseSolution) -> tuple[H
         if (np.abs(miss) <= BALANCED * 1e-3 * wanted.max()).all():
             break
         at_platform = np.maximum(solution.tensions + miss, 0.0)
-    return problem, solution
+    return problem, _cut_short(solution, (np.abs(miss) > BALANCED * wanted.max()).any(axis=-1))
 
 
 def hung_solution(robot: Robot | RobotArrays, hung: FreeOrientation) -> InverseSolution:
@@ -173,11 +175,18 @@ def _stiffening(problem: HoldingProblem, solution: InverseSolution) -> tuple[Hol
     entered = problem.arrays
     for _ in range(_MOST_STIFFENINGS):
         stiffness, before = entered.stiffness_at(solution.tensions), problem.arrays.axial_stiffness
-        if np.abs(stiffness / before - 1.0).max() <= _SAME_STIFFNESS:
+        change = np.abs(stiffness / before - 1.0)
+        if change.max() <= _SAME_STIFFNESS:
             break
         problem = replace(problem, arrays=replace(entered, axial_stiffness=stiffness))
         solution = _solve(problem)
-    return problem, solution
+    return problem, _cut_short(solution, (change > _UNLIKE_STIFFNESS).any(axis=-1))
+
+
+def _cut_short(solution: InverseSolution, open_: np.ndarray) -> InverseSolution:
+    """The solution; poses (n,) that are `open_` do not count as held, since a search around them has not ended."""
+    status = np.where(open_ & solution.held, InverseStatus.NOT_CONVERGED, solution.status)
+    return replace(solution, status=status)
 
 
 def _solve(problem: HoldingProblem) -> InverseSolution:
@@ -236,6 +245,7 @@ def _judged(
     inside = ((pull >= problem.low - margin) & (pull <= problem.high + margin)).all(axis=1)
     status = np.where(balanced & inside, InverseStatus.HELD, InverseStatus.UNHOLDABLE)
     cut_short = ~settled & ((status == InverseStatus.HELD) | (iterations >= holding_tensions.MAX_ITERATIONS))
+    cut_short |= (status == InverseStatus.HELD) & lost(states).any(axis=1)
     status[cut_short] = InverseStatus.NOT_CONVERGED
     lengths = problem.arrays.reading(states.total_length)
     return InverseSolution(states, lengths, residual, status, iterations)

@@ -27,7 +27,8 @@ def potential_energy(
     lengths and tensions mean something.
 
     Weight, cables, constant forces, a hose, elements in line and masts are counted. Cable on a pulley counts by its
-    stretch. Cables whose EA depends on their tension are taken with EA as in `states`.
+    stretch and its weight, as if it lay where the free cable begins. Cables whose EA depends on their tension are taken
+    with EA as in `states`.
 
     Parameters
     ----------
@@ -62,7 +63,7 @@ def _behind_frame(arrays: RobotArrays, states: CableStates, height: np.ndarray) 
     square = 0.5 * states.tension_at_frame**2
     wrapped = square * states.wrapped_length / states.axial_stiffness
     in_line = square * arrays.series_compliance / (1.0 + states.tension_at_frame / states.axial_stiffness)
-    return np.asarray(wrapped + in_line - states.weight * height * states.let_out)
+    return np.asarray(wrapped + in_line + states.weight * height * (states.wrapped_length - states.let_out))
 
 
 def _of_whole_cables(states: CableStates, height: np.ndarray) -> np.ndarray:

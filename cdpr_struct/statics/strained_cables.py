@@ -16,8 +16,12 @@ def strain_sentence(cables: CableStates) -> str | None:
     strain = strains(cables)
     if not strain.max() > BREAKING_STRAIN:
         return None
-    cable = int(strain.argmax()) + 1
+    return torn_sentence(f"Cable {int(strain.argmax()) + 1} is stretched", float(strain.max()))
+
+
+def torn_sentence(stretched: str, strain: float) -> str:
+    """What a strain beyond `BREAKING_STRAIN` means; `stretched` says which cable, and where."""
     return (
-        f"Cable {cable} is stretched by {100.0 * strain.max():.3g} %: it would break long before, steel near 2 %, "
-        "high-modulus fibres near 3.5 %. Check its axial_stiffness (EA in N, not kN) and the load."
+        f"{stretched} by {100.0 * strain:.3g} %: it would break long before, steel near 2 %, high-modulus fibres near "
+        "3.5 %. Check its axial_stiffness (EA in N, not kN) and the load."
     )

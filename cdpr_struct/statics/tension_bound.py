@@ -9,12 +9,14 @@ from collections.abc import Callable
 
 import numpy as np
 
+from cdpr_struct.errors import ConvergenceError
 from cdpr_struct.generated.tension_bound import lower_bound_printed
 from cdpr_struct.statics.cable_models import HeldCables
 from cdpr_struct.statics.cable_state import CableStates, span_and_rise
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 
 MAX_ITERATIONS = 60
+_MISSED = 1e-6  # relative step above which the tension was not found
 _MET = 1e-9  # relative step after which the next one would be below rounding
 _BISECTIONS = 12
 _TURNING = 0.02  # least growth of the tension with the chord tension that still counts as the taut side
@@ -63,6 +65,11 @@ def chord_tension_at(problem: HoldingProblem, wanted: Wanted) -> tuple[np.ndarra
         tau, pull = tau + step, pull + growth * step
         if (np.abs(step) <= _MET * tau).all():
             break
+    else:
+        missed = float((np.abs(step) / tau).max())
+        if missed > _MISSED:
+            hint = "The bound on the cable forces may be out of reach of some cable; try another one."
+            raise ConvergenceError("chord tension at the bound of the cable forces", missed, MAX_ITERATIONS, hint)
     if lost.any():
         tau = np.where(lost, _turning_point(problem, tau), tau)
         pull = _held(problem, tau).states.tension_at_platform

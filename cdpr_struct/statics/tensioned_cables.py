@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from cdpr_struct.errors import ConvergenceError
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel
 from cdpr_struct.statics.cable_response import let_out
@@ -18,6 +19,7 @@ from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 
 _EXIT_ITERATIONS = 30
 _EXIT_SETTLED = 1e-12  # of the unit direction in which a cable leaves its pulley
+_EXIT_MET = 1e-8  # of the same: above it the exit was not found
 
 
 def tensioned(model: CableModel, arrays: RobotArrays, points: np.ndarray, tension: np.ndarray) -> CableStates:
@@ -47,8 +49,12 @@ def _hanging(arrays: RobotArrays, points: np.ndarray, tension: np.ndarray) -> Ca
         states, near = _between(arrays, free, tension, wrap, near if alike else None)
         before = direction
         direction = states.force_at_frame / states.tension_at_frame[..., None]
-        if np.abs(direction - before).max(initial=0.0) <= _EXIT_SETTLED:
+        turned = float(np.abs(direction - before).max(initial=0.0))
+        if turned <= _EXIT_SETTLED:
             break
+    if not turned <= _EXIT_MET:
+        hint = "The cables hang too slack over their pulleys for these tensions; check tensions and radii."
+        raise ConvergenceError("exits from the pulleys at given tensions", turned, _EXIT_ITERATIONS, hint)
     return states
 
 

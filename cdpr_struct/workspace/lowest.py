@@ -6,7 +6,7 @@ from cdpr_struct.dynamics.many_poses import lowest_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
-from cdpr_struct.statics.slack_cables import slack_count
+from cdpr_struct.workspace.rest_columns import rest_columns
 from cdpr_struct.workspace.work_list import Columns
 
 LOWEST = 12
@@ -33,6 +33,5 @@ def lowest(robot: Robot, positions: np.ndarray, rotation: np.ndarray, given: Inv
         **{f"f{i + 1}_Hz": hertz[:, i] for i in range(LOWEST)},
         "bracket_max_Hz": width,
         "quick": quick,
-        "slack_cables": slack_count(solution.cables, solution.held),
-        "held": solution.held,
+        **rest_columns(solution),
     }

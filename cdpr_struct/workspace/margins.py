@@ -9,8 +9,8 @@ from cdpr_struct.statics.cable_curves import CableCurves
 from cdpr_struct.statics.cable_distance import Nearest, body_distance, cable_distance
 from cdpr_struct.statics.held_stability import held_stability
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
-from cdpr_struct.statics.slack_cables import sag_over_chord, slack_count
 from cdpr_struct.statics.wrench_feasibility import wrench_feasibility
+from cdpr_struct.workspace.rest_columns import rest_columns
 from cdpr_struct.workspace.work_list import Columns
 
 ZONE = 0.1  # [m] of cable next to an anchor that is shared or sits on a body: not counted in distances
@@ -34,8 +34,7 @@ def margins(
         "slack_margin_N": told.slack_margin,
         "force_margin_N": told.force_margin,
         "wrenches_held": told.feasible.mean(axis=1),
-        **sagging(solution),
-        "held": solution.held,
+        **rest_columns(solution),
     }
 
 
@@ -66,14 +65,14 @@ def distances(
         body = body_distance(curves, m, robot.bodies, (positions[good], turned), zone)
         columns["body_distance_m"] = _at(good, body.distance, len(positions))
         columns |= _pair(body, good, len(positions), "cable_at_body", "body")
-    return {**columns, **sagging(solution), "held": solution.held}
+    return {**columns, **rest_columns(solution)}
 
 
 def tilts(robot: Robot, positions: np.ndarray, rotation: np.ndarray, found: InverseSolution | None = None) -> Columns:
     """Angle between the platform's z axis and the vertical [deg]."""
     solution = inverse(robot, positions, rotation, allow_unheld=True) if found is None else found
     tilt = from_vertical(robot, np.broadcast_to(rotation, (len(positions), 3, 3)))
-    return {"tilt_deg": np.where(solution.held, tilt, np.nan), **sagging(solution), "held": solution.held}
+    return {"tilt_deg": np.where(solution.held, tilt, np.nan), **rest_columns(solution)}
 
 
 def from_vertical(robot: Robot, rotation: np.ndarray) -> np.ndarray:
@@ -87,16 +86,6 @@ def largest_tilt(robot: Robot, degrees: np.ndarray) -> float | None:
     """Largest angle to the vertical of platforms at angles rx, ry, rz (k, 3) [deg], nan left out; None if all are."""
     known = np.radians(degrees[np.isfinite(degrees).all(axis=1)])
     return float(from_vertical(robot, rotation_from_angles(*known.T)).max()) if len(known) else None
-
-
-def sagging(solution: InverseSolution) -> Columns:
-    """How many cables hang slack, and the largest sag over chord; nan where a pose is not held."""
-    with np.errstate(invalid="ignore"):
-        sag = np.nan_to_num(sag_over_chord(solution.cables), nan=0.0).max(axis=-1)
-    return {
-        "slack_cables": slack_count(solution.cables, solution.held),
-        "sag_over_chord_max": np.where(solution.held, sag, np.nan),
-    }
 
 
 def stable_where_held(

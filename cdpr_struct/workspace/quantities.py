@@ -20,10 +20,12 @@ from cdpr_struct.statics.neutral_freedoms import Stability
 from cdpr_struct.statics.pose_error import pose_error
 from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.statics.static_stiffness import RobotStiffness, static_stiffness
+from cdpr_struct.statics.strained_cables import strains
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.lowest import LOWEST, lowest
-from cdpr_struct.workspace.margins import distances, margins, sagging, tilts
+from cdpr_struct.workspace.margins import distances, margins, tilts
 from cdpr_struct.workspace.mode_map import MOST_MODES, ModeMap
+from cdpr_struct.workspace.rest_columns import rest_columns
 from cdpr_struct.workspace.vibration import SHARE, first_frequencies, marked_frequencies, shaped_frequencies
 from cdpr_struct.workspace.work_list import Columns
 
@@ -116,10 +118,13 @@ def pose_errors(robot: Robot, positions: np.ndarray, rotation: np.ndarray) -> Co
     }
     turn = np.degrees(error.global_rotation)
     columns |= {f"global_r{axis}_deg": turn[:, i] for i, axis in enumerate("xyz")}
-    slack = slack_count(error.sagging.cables, error.held & error.converged)
+    known = error.held & error.converged
+    slack = slack_count(error.sagging.cables, known)
+    strain = np.where(known, strains(error.sagging.cables).max(axis=-1), np.nan)
     return {
         **columns,
         "slack_cables": slack,
+        "strain_max": strain,
         "held": error.held,
         "stable": error.converged,
         "more_stable_pose": error.more_stable_pose,
@@ -138,8 +143,7 @@ def tensions(
         "tension_max_N": _where_held(solution, solution.tensions.max(axis=-1)),
         "tension_min_N": _where_held(solution, solution.tensions.min(axis=-1)),
         "sag_max_mm": _where_held(solution, 1e3 * solution.cables.sag.max(axis=-1)),
-        **sagging(solution),
-        "held": solution.held,
+        **rest_columns(solution),
     }
 
 
@@ -174,8 +178,7 @@ def stiffnesses(
     return {
         **values,
         "neutral_freedoms": neutral,
-        **sagging(solution),
-        "held": solution.held,
+        **rest_columns(solution),
     }
 
 

@@ -8,8 +8,9 @@ import numpy as np
 
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
-from cdpr_struct.workspace.margins import NO_WRENCH, ZONE, distances, margins, sagging, stable_where_held
+from cdpr_struct.workspace.margins import NO_WRENCH, ZONE, distances, margins, stable_where_held
 from cdpr_struct.workspace.quantities import pose_errors, quantity_of
+from cdpr_struct.workspace.rest_columns import rest_columns
 from cdpr_struct.workspace.work_list import Columns
 
 FEASIBLE = "wrench-feasible"
@@ -94,9 +95,9 @@ class ManyQuantities:
             made = compute(robot, positions, rotation, *given, **more.get(compute, {}))
             good = made.pop("held") & made.pop("stable", True)
             columns |= made if takes else {name: np.where(good, value, np.nan) for name, value in made.items()}
-        columns |= sagging(solution)
+        columns |= rest_columns(solution)
         stable = stable_where_held(robot, positions, rotation, solution)
-        return {**columns, "held": solution.held, "stable": stable}
+        return {**columns, "stable": stable}
 
 
 def reasons(requirements: tuple[Requirement, ...]) -> list[str]:

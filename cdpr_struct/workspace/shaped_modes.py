@@ -13,8 +13,8 @@ from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import stability_at
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
-from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.workspace.mode_records import unit_shapes
+from cdpr_struct.workspace.rest_columns import rest_columns
 from cdpr_struct.workspace.work_list import Columns
 
 _CHUNK = 1024  # poses at once
@@ -78,10 +78,7 @@ def shaped_modes(
             own = chosen[start : start + _CHUNK]
             squared, moved = _at_rest(poses_of(point, own), how.neutral[own], count, parts)
             hertz[held[own]], shapes[held[own]] = np.sqrt(squared) / (2.0 * np.pi), unit_shapes(moved)
-    return ShapedModes(hertz, shapes), {
-        "held": solution.held,
-        "slack_cables": slack_count(solution.cables, solution.held),
-    }
+    return ShapedModes(hertz, shapes), rest_columns(solution)
 
 
 def _at_rest(point: OperatingPoint, neutral: np.ndarray, count: int, parts: int) -> tuple[np.ndarray, np.ndarray]:

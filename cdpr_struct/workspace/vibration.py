@@ -19,10 +19,10 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.guides import free_axes, free_block
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
-from cdpr_struct.statics.slack_cables import slack_count
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.mode_matching import unlike_neighbours
 from cdpr_struct.workspace.mode_records import as_records, of_records, unit_shapes
+from cdpr_struct.workspace.rest_columns import rest_columns
 from cdpr_struct.workspace.work_list import Columns
 
 SHARE, SHAPE = "platform_share", "platform_shape"
@@ -90,8 +90,7 @@ def _of_chunk(
     return {
         **columns,
         "neutral_freedoms": neutral,
-        "slack_cables": slack_count(solution.cables, solution.held),
-        "held": solution.held,
+        **rest_columns(solution),
     }
 
 

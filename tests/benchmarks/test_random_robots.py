@@ -8,16 +8,23 @@ import pytest
 
 import cdpr_struct as cs
 from benchmarks.random_robots import running
-from benchmarks.random_robots.drawing import KINDS, drawn
+from benchmarks.random_robots.altering import scaled
+from benchmarks.random_robots.drawing import KINDS, drawn, plain
+from benchmarks.random_robots.fem_modes import fem_faults
+from benchmarks.random_robots.further import distributed, distribution_faults, error_at, pose_error_faults
 from benchmarks.random_robots.judging import mode_faults, not_numbers, refusal_faults, rest_faults, static_faults
-from benchmarks.random_robots.own_mechanics import compliance, end_offset, own_rest
+from benchmarks.random_robots.own_cables import Wheels, compliance, end_offset
+from benchmarks.random_robots.own_mechanics import own_rest
 from benchmarks.random_robots.refusals import holdable
 from benchmarks.random_robots.summary import summary
-from benchmarks.random_robots.trying import tried
+from benchmarks.random_robots.trying import tried, tried_case
 
 PRELOADED, HANGING = cs.load_robot("thesis-3-1"), cs.load_robot("cogiro")
 
-CORRECTED = (589, 991, 1709, 2497, 2575, 3722, 3727, 4066, 4702, 5181, 6401, 6495, 6519, 6850, 7657, 8236, 8517, 9799)
+CORRECTED = (
+    589, 991, 1709, 2497, 2575, 3722, 3727, 4066, 4702, 5181, 6401, 6495, 6519, 6850, 7657, 7829, 8236, 8517,
+    9709, 9799,
+)  # fmt: skip
 """Seeds about which the program, or the study, was wrong."""
 
 
@@ -27,14 +34,23 @@ def rest_of(robot: cs.Robot, stretch: float = 1.0):
     return held, forces, own_rest(robot, held.pose, stretch * np.asarray(held.answer["lengths_m"]), forces)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", [1, 2, 4, 5, 8, 9, 24, 26, 28, 40, 52])
 def test_answers_about_random_robots_stand_up(seed):
     assert tried(seed)["violations"] == []
 
 
+def test_a_search_that_begins_balanced_outside_the_bounds_goes_on():
+    # the way from there is unbalanced for nine steps; a search that counted the beginning gave up after eight
+    case = plain(7829)
+    held = cs.inverse(case.robot, case.pose)
+    own = own_rest(case.robot, held.pose, held.answer["lengths_m"], held.solution.cables.force_on_platform)
+    assert own.unbalanced < 1e-12  # rounding of 9 cables, measured 7e-14
+    assert (held.solution.tensions >= case.robot.force_min * (1.0 - 1e-12)).all()
+
+
 @pytest.mark.slow
 def test_answers_about_three_hundred_random_robots_stand_up():
-    found = [tried(seed) for seed in (*CORRECTED, *range(1000, 1300))]
+    found = [*(tried_case(plain(seed)) for seed in CORRECTED), *(tried(seed) for seed in range(1000, 1300))]
     assert {told["seed"]: told["violations"] for told in found if told["violations"]} == {}
 
 
@@ -76,14 +92,63 @@ def test_judges_of_frequencies_and_refusals_see_what_is_wrong():
         assert list(refusal_faults(case, "inverse", error, own)), error
 
 
+def test_own_pulleys_are_seen_by_their_balance():
+    pulleys = tuple(cs.robot.cable.Pulley(0.1, np.array([0.1, 0.0, 1.0])) for _ in HANGING.cables)
+    robot = replace(HANGING, pulleys=pulleys)
+    held, forces, own = rest_of(robot)
+    assert list(rest_faults(own, forces, held.answer)) == []
+    fixed = own_rest(HANGING, held.pose, held.answer["lengths_m"], forces)
+    assert own.unbalanced < 1e-9 < fixed.unbalanced
+
+
+def test_own_exit_of_a_pulley_goes_round_it():
+    wheels = Wheels(np.array([2.0]), np.array([[0.0, 0.0, 1.0]]))
+    # straight on, level, and straight back down: p = 0, 90 and (nearly) 180 degrees
+    for pull, point, arc in (
+        ([1e-9, 0, 1], [0, 0, 0], 0.0),
+        ([1, 0, 0], [2, 0, 2], np.pi),
+        ([1e-9, 0, -1], [4, 0, 0], 2 * np.pi),
+    ):
+        found = wheels.left(np.array([pull], dtype=float))
+        np.testing.assert_allclose(found[0][0], point, atol=1e-8)  # directions are off by 1e-9
+        np.testing.assert_allclose(found[1][0], arc, atol=1e-8)
+
+
+def test_a_robot_scaled_in_lengths_and_forces_answers_alike():
+    # all numbers of the mechanics but g keep their ratios, so tensions scale with forces, frequencies with g / length
+    robot = scaled(PRELOADED, 1e-3, 1e-2)
+    small, large = cs.modes(robot, count=6), cs.modes(PRELOADED, count=6)
+    np.testing.assert_allclose(small.answer["tensions_N"], 1e-2 * large.answer["tensions_N"], rtol=1e-9)
+    np.testing.assert_allclose(small.modes.hertz, 1e3**0.5 * large.modes.hertz, rtol=1e-8)
+
+
+def test_judges_of_pose_errors_distributions_and_finite_elements_see_what_is_wrong():
+    case = replace(drawn(1), robot=PRELOADED, pose=PRELOADED.home, free=None)
+    held, error, spread = cs.inverse(PRELOADED), error_at(case, case.pose), distributed(case)
+    assert list(pose_error_faults(case, case.pose, error)) == []
+    error.errors.columns["global_z_mm"][0] += 1e-3
+    assert "error" in next(pose_error_faults(case, case.pose, error))
+    assert list(distribution_faults(case, held, spread)) == []
+    spread.found[0].distribution.lengths[:] *= 1.0 + 1e-6
+    assert any("balance" in fault for fault in distribution_faults(case, held, spread))
+    modes = cs.modes(PRELOADED, count=3)
+    assert list(fem_faults(modes.point, modes.modes.hertz)) == []
+    assert "frequency" in next(fem_faults(modes.point, modes.modes.hertz * [1.0, 1.0, 1.0 + 1e-4]))
+
+
 def test_a_linear_program_proves_what_cables_cannot_hold():
     assert holdable(PRELOADED, PRELOADED.home) == "yes"
     outside = cs.Pose(np.array([100.0, 0.0, 1.0]), np.zeros(3))
     assert holdable(PRELOADED, outside) == "no"
+    assert holdable(PRELOADED, outside, free=True) == "no"
+    assert holdable(PRELOADED, PRELOADED.home, free=True) == "unknown"
+    wheels = tuple(cs.robot.cable.Pulley(0.05) for _ in PRELOADED.cables)
+    assert holdable(replace(PRELOADED, pulleys=wheels), outside) == "no"
+    assert holdable(replace(PRELOADED, pulleys=wheels), PRELOADED.home) == "unknown"
 
 
 def test_seeds_draw_every_kind_always_alike():
-    cases = [drawn(seed) for seed in range(60)]
+    cases = [drawn(seed) for seed in range(100)]
     assert {case.kind for case in cases} == set(KINDS)
     assert {len(case.robot.cables) for case in cases} >= {3, 8, 16}
     assert (drawn(7).robot.frame_anchors == cases[7].robot.frame_anchors).all()

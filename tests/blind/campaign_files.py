@@ -12,6 +12,7 @@ import pandas as pd
 from tests.blind.case_drawing import Case
 from tests.blind.controller import lower_bound
 from tests.blind.deviations import TOLERANCES
+from tests.blind.entered_robot import INCLINED_SUFFIX
 from tests.blind.sensors import CABLE_HZ, ROBOT_HZ, SIGMA
 
 MODEL = "exact"
@@ -61,13 +62,13 @@ def robot_text(case: Case) -> str | None:
     """The robot file that belongs to the campaign; None if it is one of the program's own."""
     if case.check is not None and case.check.robot_text is not None:
         return case.check.robot_text
-    return None if case.robot.pulley_radius is None else case.robot.text
+    return case.robot.text if case.robot.own else None
 
 
 def campaign_text(case: Case) -> str:
     """The campaign file (TOML)."""
     pulleys = case.robot.pulley_radius is not None
-    file = case.robot.name if robot_text(case) is None else "robot.toml"
+    file = case.robot.name.removesuffix(INCLINED_SUFFIX) if robot_text(case) is None else "robot.toml"
     lines = [f'robot = "{file}"', f'model = "{MODEL}"', 'tension_distribution = "minimum_norm"']
     lines += [f"lower_bound_N = {lower_bound(case.robot)}", ""]
     tolerances = {key: value for key, value in TOLERANCES.items() if pulleys or key != "pulley_radius_m"}

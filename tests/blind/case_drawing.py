@@ -34,7 +34,6 @@ SHARES = (0.35, 0.25, 0.25, 0.15)
 SUSPENDED = ROBOTS[:2]
 SMALLEST_MULTIPLE_KEPT = 0.8  # of the multiple asked for, where the plausible size ends earlier
 ATTEMPTS = 60
-CABLES = 8  # of every robot here
 
 
 @dataclass(frozen=True)
@@ -47,6 +46,7 @@ class CaseKind:
     lengths  : whether lengths are filed
     separated : an ambiguous case with the measurements that tell its names apart, where there are any
     statics  : without frequencies; sizes are then multiples of what statics alone can detect
+    robot    : which one; any of `ROBOTS` if not given
     """
 
     kind: str
@@ -56,6 +56,7 @@ class CaseKind:
     separated: bool = False
     statics: bool = False
     size: PlanSize = field(default_factory=PlanSize)
+    robot: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +122,7 @@ class Reality:
 def drawn_reality(kind: CaseKind, streams: Sequence[np.random.SeedSequence], hidden: np.random.Generator) -> Reality:
     """Robot, tolerances, effects and what the referee sees of them; the first, second and fourth stream are used."""
     choice, workshop, route = (np.random.default_rng(streams[number]) for number in (0, 1, 3))
-    robot = entered_robot(str(choice.choice(ROBOTS, p=SHARES)))
+    robot = entered_robot(kind.robot or str(choice.choice(ROBOTS, p=SHARES)))
     deviations = drawn_tolerances(robot.cables, workshop)
     if robot.pulley_radius is None:
         deviations = deviations.plus("pulley_radius", -deviations["pulley_radius"])
@@ -171,7 +172,7 @@ def sized(
     """
     if effect.name == "internal_force" and robot not in SUSPENDED:
         raise RejectedDrawError
-    shape, pattern = drawn_pattern(effect, CABLES, rng)
+    shape, pattern = drawn_pattern(effect, entered_robot(robot).cables, rng)
     reference = reference_size(robot, seen_as, pattern, unknowns(shape, pattern), statics)
     if reference is None:
         raise RejectedDrawError

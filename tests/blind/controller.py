@@ -14,7 +14,7 @@ from cdpr_struct.fem_reference import PulleyData, solve_robot
 from cdpr_struct.fem_reference.pulley import wrapped
 from tests.blind.deviations import Deviations
 from tests.blind.entered_robot import UP, EnteredRobot
-from tests.blind.true_robot import Command, true_robot
+from tests.blind.true_robot import Command, at_rest, true_robot
 
 SUSPENDED_BOUND = 70.0  # N
 PRELOADED_BOUND = 150.0  # N, robots with exits below the platform
@@ -25,7 +25,9 @@ EXIT_ROUNDS = 12  # each a hundredfold nearer with pulleys of centimetres on cab
 
 
 def lower_bound(robot: EnteredRobot) -> float:
-    """Smallest tension [N] that the controller aims at."""
+    """Smallest tension [N] that the controller aims at; none where balance leaves no choice."""
+    if robot.hangs:
+        return 0.0
     return PRELOADED_BOUND if robot.frame_anchors[:, 2].min() < robot.home[2] else SUSPENDED_BOUND
 
 
@@ -96,3 +98,20 @@ def commanded_lengths(
         give = lengths / robot.axial_stiffness + weight**2 * lengths**3 / (12.0 * np.maximum(reached, 30.0) ** 3)
         lengths = lengths + (reached - tensions) * give
     return np.asarray(lengths)
+
+
+def hanging(
+    robot: EnteredRobot, position: np.ndarray, payload: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Lengths (m,) [m] that reach from the exits to a level platform at a position, and where the entered robot hangs.
+
+    Its position (3,) [m], rotation (3, 3) and tensions (m,) [N] at the platform are those of the referee's cables.
+    """
+    anchors = position + robot.platform_anchors
+    lengths = np.linalg.norm(exit_points(robot, anchors) - anchors, axis=1)
+    if robot.pulley_radius is not None:
+        raise NotImplementedError("lengths of a hanging robot with pulleys")
+    command = Command(lengths, payload, np.zeros(robot.cables), position, np.eye(3))
+    rest = at_rest(robot, Deviations.none(robot.cables), command, ELEMENTS)
+    tensions = np.array([np.linalg.norm(cable.end_force) for cable in rest.cables])
+    return lengths, rest.position, rest.rotation, tensions

@@ -9,8 +9,11 @@ from pathlib import Path
 import numpy as np
 
 BUILTIN = Path(__file__).resolve().parents[2] / "cdpr_struct" / "robot" / "builtin"
+OWN = Path(__file__).with_name("robots")  # robots with few cables, which are not built in
 PULLEY_SUFFIX = "-pulleys"
+INCLINED_SUFFIX = "-inclined"
 PULLEY_RADIUS = 0.05  # m, entered for the robots whose name ends in -pulleys
+FREEDOMS = 6
 UP = np.array([0.0, 0.0, 1.0])
 
 
@@ -21,6 +24,7 @@ class EnteredRobot:
     home          : (3,) [m]
     pulley_radius : [m], None without pulleys; swivel axes point up
     text          : the robot file
+    tracked       : whether a tracker reads poses; else an inclinometer reads rx and ry
     """
 
     name: str
@@ -35,6 +39,17 @@ class EnteredRobot:
     gravity: float
     home: np.ndarray
     pulley_radius: float | None
+    tracked: bool = True
+
+    @property
+    def own(self) -> bool:
+        """Whether its file is handed out, since it is not one of the program's own."""
+        return self.pulley_radius is not None or (OWN / f"{self.name.removesuffix(INCLINED_SUFFIX)}.toml").exists()
+
+    @property
+    def hangs(self) -> bool:
+        """Whether lengths and gravity alone say where it rests: it has fewer cables than freedoms."""
+        return self.cables < FREEDOMS
 
     @property
     def cables(self) -> int:
@@ -48,11 +63,16 @@ class EnteredRobot:
 
 
 def entered_robot(name: str) -> EnteredRobot:
-    """Robot of a built-in file; `NAME-pulleys` is NAME with a swivelling pulley at every exit."""
-    base = name.removesuffix(PULLEY_SUFFIX)
-    text = (BUILTIN / f"{base}.toml").read_text("utf-8")
-    if name != base:
-        text = _with_pulleys(text, name)
+    """Robot of a file, built in or of this room.
+
+    `NAME-pulleys` is NAME with a swivelling pulley at every exit, `NAME-inclined` one whose position nobody reads.
+    """
+    plain = name.removesuffix(INCLINED_SUFFIX)
+    base = plain.removesuffix(PULLEY_SUFFIX)
+    folder = OWN if (OWN / f"{base}.toml").exists() else BUILTIN
+    text = (folder / f"{base}.toml").read_text("utf-8")
+    if plain != base:
+        text = _with_pulleys(text, plain)
     table = tomllib.loads(text)
     entries, cable, platform = table["cables"], table["cable"], table["platform"]
     return EnteredRobot(
@@ -67,7 +87,8 @@ def entered_robot(name: str) -> EnteredRobot:
         np.array(platform["inertia"]),
         table["gravity"],
         np.array(table["home_pose"][:3]),
-        PULLEY_RADIUS if name != base else None,
+        PULLEY_RADIUS if plain != base else None,
+        plain == name,
     )
 
 

@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from tests.blind.controller import commanded_lengths, intended_tensions, null_directions
+from cdpr_struct.fem_reference import FemError
+from tests.blind.controller import commanded_lengths, hanging, intended_tensions, null_directions
 from tests.blind.deviations import Deviations
-from tests.blind.entered_robot import EnteredRobot
+from tests.blind.entered_robot import INCLINED_SUFFIX, EnteredRobot
 from tests.blind.true_robot import Command
 
 
@@ -37,6 +38,14 @@ WORKSPACES = {
     "thesis-5": Workspace((-3.0, -2.0, 1.5), (3.0, 2.0, 3.5), 2.5, (0.0, 10.0, 20.0), 2000.0),
 }
 WORKSPACES["thesis-5-pulleys"] = WORKSPACES["thesis-5"]
+HANGING = (0.0, 5.0, 10.0)  # kg
+WORKSPACES |= {
+    "two-cables": Workspace((-1.2, 0.45, 1.6), (1.2, 0.45, 2.9), 0.0, HANGING, 800.0),
+    "three-cables": Workspace((-0.9, -0.9, 1.2), (0.9, 0.9, 2.6), 0.0, HANGING, 800.0),
+    "four-cables": Workspace((-1.2, -1.0, 1.3), (1.2, 1.0, 2.8), 0.0, HANGING, 800.0),
+    "five-cables": Workspace((-1.0, -0.8, 1.3), (1.0, 0.8, 2.4), 0.0, HANGING, 800.0),
+}
+LEAST_HANGING = 15.0  # N in every cable of a robot that hangs
 
 
 @dataclass(frozen=True)
@@ -73,7 +82,7 @@ def drawn_plan(
     """A plan for one campaign; of the deviations only the controller's own (internal force) matter here."""
     size = size or PlanSize()
     internal = np.zeros(2) if deviations is None else deviations["internal_force"]
-    space = WORKSPACES[robot.name]
+    space = workspace(robot)
     statics = []
     for number in range(size.static_states):
         payload = space.payloads[number % len(space.payloads)]
@@ -99,9 +108,16 @@ def _dated(plan: Plan) -> Plan:
     return Plan(statics, tuple(locks), plan.frequency_states)
 
 
+def workspace(robot: EnteredRobot) -> Workspace:
+    """Where a robot is sent, whatever reads its pose."""
+    return WORKSPACES[robot.name.removesuffix(INCLINED_SUFFIX)]
+
+
 def _command(
     robot: EnteredRobot, rng: np.random.Generator, payload: float, internal: np.ndarray, one_sided: bool
 ) -> Command:
+    if robot.hangs:
+        return _hung(robot, rng, payload)
     position, rotation, tensions = _reachable(robot, rng, payload)
     tensions = tensions + null_directions(robot, position, rotation) @ internal
     sides = rng.choice([-1.0, 1.0], robot.cables)
@@ -110,11 +126,25 @@ def _command(
     return Command(lengths, payload, approach, position, rotation)
 
 
+def _hung(robot: EnteredRobot, rng: np.random.Generator, payload: float) -> Command:
+    """Lengths of a level platform near which the robot comes to rest, all its cables taut."""
+    space = workspace(robot)
+    while True:
+        wanted = rng.uniform(space.low, space.high)
+        approach = rng.choice([-1.0, 1.0], robot.cables)
+        try:
+            lengths, position, rotation, tensions = hanging(robot, wanted, payload)
+        except FemError:
+            continue
+        if tensions.min() >= LEAST_HANGING and tensions.max() <= space.most_tension:
+            return Command(lengths, payload, approach, position, rotation)
+
+
 def _reachable(
     robot: EnteredRobot, rng: np.random.Generator, payload: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """A pose, most of them tilted, that tensions within the bounds hold."""
-    space = WORKSPACES[robot.name]
+    space = workspace(robot)
     while True:
         position = rng.uniform(space.low, space.high)
         angles = rng.uniform(-space.tilt_deg, space.tilt_deg, 3) * (rng.random() < 0.7)

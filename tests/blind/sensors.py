@@ -20,6 +20,7 @@ CABLE_HZ = 0.003  # relative
 ROBOT_HZ = 0.004  # relative
 PICKED = 0.8  # share of the visible peaks that somebody picks
 POSE = ["x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"]
+POSE_READ, INCLINATION_READ = slice(0, 6), slice(3, 5)  # numbers of a pose that a tracker, an inclinometer reads
 COLOUR = 0.7  # correlation of one reading with the next in coloured noise
 OUTLIER = 7.0  # sigma
 PICTURE = 3.0  # m, from the middle of the tracker's picture, where its lens error is given
@@ -181,3 +182,9 @@ def robot_rows(seen: Observation, states: pd.DataFrame, noise: Noise, picker: Pi
 def _state(states: pd.DataFrame, case: str) -> Mapping[str, float]:
     """Pose and payload of a case, with the same readings as in the file of the static states."""
     return {str(key): value for key, value in states.loc[case, [*POSE, "payload_kg"]].items()}
+
+
+def inclined(tables: Tables) -> Tables:
+    """The same files of a robot whose position nobody reads: rx and ry are an inclinometer's."""
+    gone = [name for name in POSE if name not in POSE[INCLINATION_READ]]
+    return {kind: table.drop(columns=gone) for kind, table in tables.items()}

@@ -3,11 +3,12 @@
 messy : static campaigns, clean and spoilt in six ways
 peaks : campaigns with frequencies, clean, spoilt in six ways, and in all of them at once
 sizes : the same cause at 2, 4, 8 and 16 times what can be detected, with and without frequencies
+few   : static campaigns, clean, of robots with two to five cables, and of others whose position nobody reads
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,9 +26,10 @@ from tests.blind.case_drawing import (
     truth_record,
 )
 from tests.blind.catalogue import EQUIVALENT, LIBRARY
+from tests.blind.detectability import FEW
 from tests.blind.measuring_plan import PlanSize
 from tests.blind.observation import SlackStateError
-from tests.blind.sensors import Noise, filed, picked
+from tests.blind.sensors import Noise, filed, inclined, picked
 from tests.blind.spoiled_peaks import PeakSpoiler, spoil_peak_tables
 from tests.blind.spoiled_readings import spoil_readings
 
@@ -65,7 +67,7 @@ def spoilt_kinds(name: str, total: int, base: int) -> list[SpoiltKind]:
     """Kinds of all cases in the order in which they are numbered, which tells nothing about them."""
     rng = np.random.default_rng([base, 0])
     kind = name.removesuffix(DEVELOPMENT)
-    makers = {"messy": _messy, "peaks": _peaks, "sizes": _sizes}
+    makers = {"messy": _messy, "peaks": _peaks, "sizes": _sizes, "few": _few}
     kinds = list(makers[kind](total, rng))
     return [kinds[index] for index in rng.permutation(len(kinds))]
 
@@ -105,10 +107,20 @@ def _sizes(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
                 yield SpoiltKind(group, kind, MOTIONLESS if statics else VIBRATING, SIZES[-1])
 
 
-def _reaches(name: str, multiple: float, statics: bool) -> bool:
+def _few(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
+    """As many cases of each robot, a third of them nulls; of causes that can plausibly be that large there."""
+    each, group = total // len(FEW), 0
+    for robot in FEW:
+        names = [name for name in _names(True) if _reaches(name, CLEAR, True, (robot,))]
+        for kind in _realities(each, names, rng):
+            yield SpoiltKind(group, replace(kind, statics=True, robot=robot), robot)
+            group += 1
+
+
+def _reaches(name: str, multiple: float, statics: bool, robots: Sequence[str] = ROBOTS) -> bool:
     """Whether some robot can have an effect of so many times its detectable size that is not absurd."""
     effect, rng = {**EQUIVALENT, **LIBRARY}[name], np.random.default_rng(0)
-    for robot in ROBOTS:
+    for robot in robots:
         for _ in range(PATTERNS_TRIED):
             try:
                 sized(effect, robot, multiple, rng, name, statics)
@@ -156,7 +168,8 @@ def read_case(kind: SpoiltKind, real: Reality, seed: tuple[int, ...]) -> Case:
     noise = Noise(sensor, "student" if "student" in ways else "white")
     if kind.reality.statics:
         tables = filed(real.plan, real.seen, real.deviations, noise)
-        said = spoil_readings(kind.way, tables, spoiler)
+        said = "" if kind.way == real.robot.name else spoil_readings(kind.way, tables, spoiler)
+        tables = tables if real.robot.tracked else inclined(tables)
     else:
         peaks = PeakSpoiler(ways)
         picker = picked if kind.way == VIBRATING else peaks.picker()

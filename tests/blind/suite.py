@@ -23,6 +23,7 @@ NULLS = 0.6  # share of nulls in a set of rates; the rest is just detectable
 SET_SEEDS = {"dev": 20_101, "ci": 20_102, "unseen": 20_103, "rates": 20_104}
 SET_SEEDS |= {"messy": 31_201, "peaks": 31_202, "sizes": 31_203}
 SET_SEEDS |= {"messy-dev": 31_301, "peaks-dev": 31_302, "sizes-dev": 31_303}
+SET_SEEDS |= {"few": 31_204, "few-dev": 31_304}
 SET_SEEDS |= {"outside-dev": 31_401, "outside-held": 31_402}
 USES = Path(__file__).with_name("final_uses.json")
 

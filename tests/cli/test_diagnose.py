@@ -3,12 +3,14 @@
 import json
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from cdpr_struct.cli.main import run
-from cdpr_struct.reports.diagnose import tables
+from cdpr_struct.reports.diagnose import sentences, tables
+from cdpr_struct.reports.diagnose.text import result_text
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CAMPAIGN = str(EXAMPLES / "table-4-4" / "campaign.toml")
@@ -36,9 +38,55 @@ def test_result_has_the_promised_keys(level):
     assert promised | {"not_testable", "minimum_detectable"} <= result.keys()
     beside = {"campaign", "robot", "model", "p_value_of", "p_adequate", "set_aside", "noise_memory", "outside_library"}
     beside |= {"why_not_testable", "tolerances", "sigmas", "warnings", "not_used", "signals", "damping"}
+    beside |= {"internal_force", "peaks_apart", "errors_by_state", "detectable_by_pattern"}
     assert beside <= result.keys()
     said = {"status", "causes", "class", "probability", "location", "next_measurement", "sentence"}
     assert said <= result["verdict"].keys()
+
+
+def test_errors_stand_in_newtons_millimetres_and_hertz_before_and_after(level, shaken):
+    """Every state and kind once; beside causes every error has its value with them."""
+    for result, out in (level, shaken):
+        rows = result["errors_by_state"]
+        assert len({(row["case"], row["kind"]) for row in rows}) == len(rows) > 0
+        assert {row["unit"] for row in rows} <= {"N", "mm", "Hz"}
+        assert all(row["after"] is not None and row["before"] > 0.0 for row in rows)
+        assert (out / "state_errors.svg").exists()
+    hertz = [row for row in shaken[0]["errors_by_state"] if row["unit"] == "Hz"]
+    assert max(row["after"] for row in hertz) < max(row["before"] for row in hertz)  # the verdict concerns them
+
+
+def test_tensions_are_split_as_in_the_table_of_the_thesis(level):
+    """82, 69 and 67 % internal force at corner, centre and edge: docs/thesis_measurements.md, measured less ours."""
+    split = level[0]["internal_force"]
+    assert not split["found"]  # without encoders it is a cause among others
+    assert {row["case"]: round(row["internal_percent"]) for row in split["states"]} == {
+        "horizontal corner": 82, "horizontal centre": 69, "middle edge": 67,
+    }  # fmt: skip
+    for row in split["states"]:
+        assert row["internal_rms_N"] ** 2 + row["balance_rms_N"] ** 2 == pytest.approx(row["rms_N"] ** 2)
+
+
+def test_the_screen_says_what_was_assumed_and_what_could_be_seen(level):
+    """Tolerances that the campaign does not state, and the smallest detectable size of every pattern."""
+    text = result_text(level[0])
+    assert "Tolerances not given, defaults used: length_m 0.0005 m" in text
+    assert "each its own" in text
+    sizes = {row["pattern"]: row["value"] for row in level[0]["detectable_by_pattern"]["load_cell_bias"]}
+    assert sizes["all alike"] == pytest.approx(level[0]["minimum_detectable"]["load_cell_bias"]["value"])
+
+
+def test_a_cause_without_a_change_is_said_to_be_none():
+    """A class may hold a cause whose fitted size is none: 1.00 +- 0.20 of the linear density."""
+    size = SimpleNamespace(
+        part=SimpleNamespace(cause=SimpleNamespace(name="cable_linear_density")), is_change=False,
+        parameters={"linear_density": {"value": 1.0, "sigma": 0.2, "unit": "ratio"}},
+    )  # fmt: skip
+    found = SimpleNamespace(candidates=[SimpleNamespace(names=("cable_linear_density",), sizes=[size])])
+    (said,) = sentences._without_change(found, [("platform_mass", "cable_linear_density")])
+    assert "cable linear density (linear_density 1.00 ± 0.20 ratio)" in said
+    size.is_change = True
+    assert sentences._without_change(found, [("platform_mass", "cable_linear_density")]) == []
 
 
 def test_report_stands_alone(level):

@@ -72,7 +72,7 @@ def test_forward_and_inverse_speak_of_the_same_lengths(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("line", "complaint"),
     [
-        ("mast_compliance = 1e-5", "no such key is known here; known: causes, joint_mass, series_compliance"),
+        ("mast_compliance = 1e-5", "known are causes, joint_mass, series_compliance"),
         ("series_compliance = [1e-5, 1e-5]", "give 8 numbers in square brackets, or one for all in m/N"),
         ("series_compliance = -1e-5", "in m/N, not below 0"),
         ("frame_compliance = [1e-5]", "give 8 numbers in square brackets, or one for all in m/N"),

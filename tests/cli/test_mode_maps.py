@@ -24,7 +24,7 @@ def test_a_followed_mode_says_where_it_comes_from_and_where_that_is_in_doubt(tmp
     result, table = written(VEERING, tmp_path)
     assert list(table.columns) == [
         "x_m", "y_m", "z_m", "mode_Hz", "mode_number", "mac", "followed_from", "veering", "behind_veering",
-        "held", "slack_cables",
+        "slack_cables", "sag_over_chord_max", "strain_max", "cut_short", "held",
     ]  # fmt: skip
     start = table[table.followed_from == 0]
     assert len(start) == 1

@@ -20,10 +20,11 @@ import pytest
 from cdpr_struct.cli.main import COMMANDS, run
 from cdpr_struct.cli.output import repeating
 from cdpr_struct.derivations import regenerate
-from tests.cli.conftest import ENDLESS, EXAMPLES, FAILS, ROOT, words_of
+from cdpr_struct.reports.plain_json import SCHEMA_VERSION
+from tests.cli.conftest import ENDLESS, EXAMPLES, FAILS, OTHERS, ROOT, words_of
+from tests.cli.result_keys import RECORD, keys, missing, recorded_version
 
 NAMES = [command.NAME for command in COMMANDS]
-OTHERS = {"import-caspr", "new-robot", "new-campaign", "export", "rerun"}  # they write files of their own kind
 REPORTING = [name for name in NAMES if name not in {*OTHERS, *ENDLESS}]
 PYTHON = re.compile(r"\b(np|array|float64|int64|None|nan|inf|True|False)\b|[{}]|^\[.*\]$|^[('\"]|[0-9]j\b")  # no words
 CLOCK = {"seconds"}  # of the run, not of the result; pages show it, so digests of `files` differ then
@@ -33,6 +34,7 @@ OF_ALL = [
     for name, number, _ in EXAMPLES
     if name in REPORTING
 ]
+GONE = "keys that users rely on are gone: see docs/files.md, result.json, before SCHEMA_VERSION grows"
 QUICKEST = ("platform", "tension_bound")  # sheets; test_derivations_current.py holds all of them against the files
 
 # Where the numbers of a table stand in result.json: file, column, path.
@@ -102,6 +104,8 @@ def test_examples_run_and_every_cell_can_be_read(name, number, runs):
     directory = runs(name, number)
     assert {path.name for path in directory.iterdir()} == set(result_of(directory)["files"])
     assert (directory / "report.html").exists()
+    assert next(iter(result_of(directory).items())) == ("schema_version", SCHEMA_VERSION)
+    assert missing(name, number, result_of(directory)) == [], GONE
     for path in directory.glob("*.csv"):
         table = pd.read_csv(path, dtype=str, keep_default_na=False)
         assert len(table), path.name
@@ -114,6 +118,39 @@ def test_examples_run_and_every_cell_can_be_read(name, number, runs):
             np.testing.assert_allclose(read, told, rtol=1e-12)
         else:
             assert list(read) == told
+
+
+def test_the_record_of_keys_is_of_this_version_and_a_lost_key_is_seen():
+    assert recorded_version() == SCHEMA_VERSION
+    record = json.loads(RECORD.read_text("utf-8"))["keys"]
+    assert set(record) == {f"{name} {number}" for name, number, _ in EXAMPLES if name in REPORTING}
+    kept = {"name": [{"a": 1}, {"b": {"c": None}}], "files": {"x.csv": "0"}}
+    assert list(keys(kept)) == ["name", "name.a", "name.b", "name.b.c", "files"]
+    assert "schema_version" in missing("robots", 0, {"robots": []})
+
+
+@pytest.mark.parametrize("name", sorted(OTHERS))
+def test_what_the_other_commands_print_has_a_version_too(name, tmp_path, capsys):
+    words = {
+        "import-caspr": ["examples/caspr/bodies.xml", "examples/caspr/cables.xml", "--out", str(tmp_path / "r.toml")],
+        "new-robot": ["crane", "--cables", "6", "--size", "12,12,8", "--out", str(tmp_path / "r.toml")],
+        "new-campaign": ["cogiro", "--kinds", "tensions", "--poses", "0,0,1", "--out", str(tmp_path / "mine")],
+        "export": ["cogiro", "--to", "moorpy", "--out", str(tmp_path / "cogiro.txt")],
+        "rerun": [str(tmp_path / "first")],
+    }
+    if name == "rerun":
+        assert run(["robots", "--out", str(tmp_path / "first"), "--quiet"]) == 0
+    capsys.readouterr()
+    assert run([name, *words[name], "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["schema_version"] == SCHEMA_VERSION
+
+
+def test_json_is_written_in_one_place():
+    """Others write no results: data inside report pages, a glTF file, a part of interrupted work."""
+    inside = {"reports/mode_viewer.py", "reports/html.py", "reports/gltf_file.py", "cli/many_inputs.py"}
+    source = ROOT / "cdpr_struct"
+    writing = {p.relative_to(source).as_posix() for p in source.rglob("*.py") if "json.dump" in p.read_text("utf-8")}
+    assert writing == {"reports/plain_json.py", *inside}
 
 
 def plain_cell(cell: str) -> bool:

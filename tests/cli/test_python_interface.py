@@ -10,7 +10,7 @@ import pytest
 import cdpr_struct as cs
 from cdpr_struct.cli.main import COMMANDS
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.plain_json import json_text
+from cdpr_struct.reports.plain_json import result_text
 from tests.cli.conftest import EXAMPLES, ROOT, words_of
 
 NOT_IN_PYTHON = {
@@ -90,7 +90,7 @@ def test_python_answers_as_the_command_does(name, number, runs, line_of):
         commanded["command"] = None
     assert list(answered) == list(commanded)
     assert answered == commanded
-    assert json.loads(json_text(found.answer)) == answered
+    assert json.loads(result_text(found.answer)) == answered
     if name in MAIN_TABLE:
         frame = found.frame()
         table = (files / MAIN_TABLE[name]).read_text("utf-8")

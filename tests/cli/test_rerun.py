@@ -1,5 +1,6 @@
 """A result can be computed again from what it records, and a difference is named."""
 
+import hashlib
 import json
 from pathlib import Path
 
@@ -106,3 +107,23 @@ def test_a_campaigns_files_are_inputs(tmp_path):
     assert {Path(path).name for path in found} >= {"campaign.toml", *named} - {""}
     assert named
     assert all(len(digest) == 64 for digest in found.values())
+
+
+def test_a_result_of_another_schema_is_told(earlier, capsys):
+    file = earlier / "result.json"
+    file.write_text(json.dumps(json.loads(file.read_text()) | {"schema_version": 99}))
+    code, told = answered(["rerun", str(earlier)], capsys)
+    assert (code, told["same"]) == (0, True)
+    assert told["warnings"] == ["The earlier result has schema_version 99, this one 1: keys may differ in meaning."]
+
+
+def test_a_result_of_a_program_without_schema_versions_may_be_replaced(earlier):
+    """Its own digest is of its text, to which nothing may be added."""
+    file = earlier / "result.json"
+    older = json.loads(file.read_text())
+    del older["schema_version"]
+    digests = older.pop("files")
+    digests["result.json"] = hashlib.sha256((json.dumps(older, indent=2) + "\n").encode()).hexdigest()
+    file.write_text(json.dumps({**older, "files": digests}, indent=2) + "\n")
+    again = ["inverse", str(earlier.parent / "robot.toml"), "--pose", "0,0,0.6", "--out", str(earlier), "--quiet"]
+    assert run(again) == 0

@@ -228,7 +228,7 @@ def test_of_several_cable_sets_one_is_chosen_by_name(tmp_path, capsys):
 
 def test_without_a_default_several_cable_sets_are_listed(tmp_path, capsys):
     line, _ = convert(tmp_path, capsys, cable_text=SEVERAL)
-    assert "--cable-set: got 'nothing'; a cable set of the file: short, long" in line
+    assert "--cable-set is missing; a cable set of the file: short, long" in line
     line, _ = convert(tmp_path, capsys, cable_text=SEVERAL.replace('id="long"', 'id="short"'))
     assert "a name of its own" in line
 

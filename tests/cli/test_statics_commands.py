@@ -15,7 +15,8 @@ import numpy as np
 import pytest
 
 from cdpr_struct.cli.main import run
-from cdpr_struct.reports.locked_rest import locked_warnings
+from cdpr_struct.reports.locked_rest import locked_checks
+from cdpr_struct.reports.trust import Trust
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.robot.robot_writing import robot_toml
@@ -159,7 +160,7 @@ def test_a_robot_without_bodies_has_no_distance_to_them(asked, capsys):
 
 def test_cables_without_a_largest_force_have_no_margin_to_it(capsys):
     assert run(["map", "thesis-3-1", "--grid=-2:2:3,-2:2:3,0.5", "--quantity", "force-margin"]) == 2
-    assert "--upper-bound: got 'nothing'; force-margin needs a finite upper bound" in capsys.readouterr().err
+    assert "--upper-bound is missing; force-margin needs a finite upper bound" in capsys.readouterr().err
 
 
 def test_smallest_stiffness_is_the_softest_direction(capsys):
@@ -381,9 +382,9 @@ def test_start_chooses_among_equilibria_and_a_tumbled_one_is_warned_of(command, 
 def test_a_platform_that_turned_over_is_warned_of():
     lengths = [float(value) for value in COGIRO_LENGTHS.split(",")]
     tumbled = locked_rest(load_robot("cogiro"), lengths, Pose.from_degrees([-3.769, 2.688, 1, -22, 68, 73]))
-    assert "less energy" in locked_warnings(tumbled)[0]
+    assert "less energy" in Trust(tuple(locked_checks(tumbled))).warnings[0]
     fallen = replace(tumbled, start=load_robot("cogiro").home, way="continued", steps=9, jumps=1)
-    jumped, turned = locked_warnings(fallen)
+    jumped, turned = Trust(tuple(locked_checks(fallen))).warnings
     assert "ended once" in jumped
     assert "turned by 108 deg" in turned
 

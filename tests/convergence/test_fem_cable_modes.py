@@ -26,6 +26,7 @@ MASSES = pytest.mark.parametrize("mass", ["lumped", "consistent"])
 def first_frequencies(cable, end, elements, each=6, mass="lumped", gravity=(0.0, 0.0, -9.81)):
     """First in-plane, then out-of-plane frequencies [Hz]."""
     modes = cable_modes(solve_cable(cable, START, end, elements, gravity), 4 * each, mass)
+    assert np.minimum(modes.in_plane_share, 1.0 - modes.in_plane_share).max() < 1e-9  # no mode is of both planes
     inside = modes.in_plane_share > 0.5
     return np.concatenate([modes.frequencies_hz[inside][:each], modes.frequencies_hz[~inside][:each]])
 

@@ -144,6 +144,7 @@ def test_large_motion_with_slack_cables_keeps_its_energy(rest):
     history = integrate(rest, 0.3, 1e-3, STOP, linear=False)
     assert np.abs(history.energy / history.energy[0] - 1.0).max() < 1e-9
     small = integrate(rest, 0.3, 1e-3, STOP)
+    assert history.energy[0] == pytest.approx(small.energy[0], rel=1e-9)  # that of the motion alone, rest has none
     assert np.abs(small.platform - history.platform).max() > 0.1 * np.abs(small.platform).max()
 
 
@@ -158,6 +159,14 @@ def test_large_motion_is_of_order_two_in_the_step():
     coarse, middle, fine = (at_end(step) for step in (2e-3, 1e-3, 5e-4))
     order = np.log2(np.linalg.norm(coarse - middle) / np.linalg.norm(middle - fine))
     assert order == pytest.approx(2.0, abs=0.15)
+
+
+def test_a_body_that_is_held_off_its_rest_stays_there():
+    """The holding wrench acts on in the motion; without it the body springs back."""
+    state = solve_robot(robot_of(), PLACE + np.array([0.0, 0.0, -0.002]), np.eye(3), 3, hold_pose=True)
+    assert np.abs(state.residual_wrench).max() > 10.0
+    history = integrate(state, 0.02, 1e-3, linear=False)
+    assert np.abs(history.platform).max() < 1e-9
 
 
 def test_a_pendulum_swings_as_slowly_as_the_elliptic_integral_says():

@@ -118,7 +118,11 @@ BAD = {
     "millimetres": (lambda: cs.forward("thesis-3-1", [9e3] * 8), "look like mm"),
     "wrench": (lambda: cs.inverse("thesis-3-1", wrench=(1, 2)), "wrench: got .*give 6 numbers in N and N m"),
     "grid": (lambda: cs.map("thesis-3-1", 5, "tension-max"), "grid: got 5; give X0:X1:NX"),
-    "no grid": (lambda: cs.map("thesis-3-1"), "grid: got 'nothing'"),
+    "refine without a workspace": (
+        lambda: cs.map("thesis-3-1", "-1:1:2,0,0.5", "tension-max", refine=3),
+        "refine: got 3; only `quantity` workspace",
+    ),
+    "no grid": (lambda: cs.map("thesis-3-1"), "grid is missing"),
     "quantity": (lambda: cs.map("thesis-3-1", "0:1:2,0,0.5", "heat"), "quantity: got 'heat'; one of: pose-error"),
     "chunk": (lambda: cs.map("thesis-3-1", "0:1:2,0,0.5", "sag-max", chunk=0), "chunk: got 0"),
     "band": (lambda: cs.frf("thesis-3-1", excite="fz", respond="z", band=(3, 1, 0.1)), "band: got .*F0:F1:DF"),
@@ -143,7 +147,7 @@ BAD = {
     "item": (lambda: cs.reproduce("table-9"), "items: got 'table-9'; one of: table-2.2"),
     "cable": (lambda: cs.cable(force=(1, 1), length=0, EA=1e5, rho=0.1), "length: got 0; give a finite number"),
     "tolerance of load": (lambda: cs.pose_error("thesis-3-1", sufficient_load="x"), "sufficient_load: got 'x'"),
-    "no question": (lambda: cs.pose_error("thesis-3-1"), "grid: got 'nothing'; give `grid`, `sufficient_load`"),
+    "no question": (lambda: cs.pose_error("thesis-3-1"), "grid is missing; give `grid`, `sufficient_load`"),
     "spectrogram": (lambda: cs.spectrogram("none.csv", "thesis-3-1"), "none.csv"),
     "not a robot": (lambda: cs.write_robot("thesis-3-1", "x.toml"), "robot: got 'thesis-3-1'; a Robot"),
 }

@@ -83,6 +83,7 @@ def test_table_text_and_json(name, answers):
     assert repr(found).startswith(f"<{type(found).__name__} {found.title}")
     assert "\n" not in repr(found)
     assert json.loads(json.dumps(found.to_json(), allow_nan=False)) == found.to_json()
+    assert name in NAMELESS or found.to_json()["trust"]["checks"]
     page = found._repr_html_()
     assert page.count("<div") >= 1
     assert page.startswith("<div>")

@@ -96,6 +96,19 @@ def test_shared_anchor_counts_from_its_zone_on():
     assert cable_distance(curves, 2, 0.2).distance[0] == pytest.approx(0.4 * np.sin(0.5 * angle), abs=2.0 * CLOSE)
 
 
+def test_anchors_are_shared_by_the_cables_of_one_pose_only():
+    """Level cables a metre apart; then the first and the third from one anchor, as above, the second 3 m higher."""
+    angle = np.radians(30.0)
+    start = np.array([[0, 5, 0], [0, 6, 0], [0, 7, 0], [0, 1, 0], [0, 1, 3], [0, 1, 0]], dtype=float)
+    heading = np.tile([1.0, 0.0, 0.0], (6, 1))
+    heading[5] = np.cos(angle), np.sin(angle), 0.0
+    one = np.ones(6)
+    up = np.tile([0.0, 0.0, 1.0], (6, 1))
+    curves = CableCurves(start, heading, up, 100.0 * one, 0.0 * one, 5.0 * one, 1e9 * one, 0.0 * one)
+    found = cable_distance(curves, 3, 0.2).distance
+    np.testing.assert_allclose(found, [1.0, 0.4 * np.sin(0.5 * angle)], atol=2.0 * CLOSE)
+
+
 def test_fem_shape_gives_the_same_distance():
     """The referee's bar elements between the same ends, as segments: the catenary's distance within their size."""
     robot = load_robot("thesis-3-1")

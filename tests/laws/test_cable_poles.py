@@ -48,6 +48,9 @@ def test_exactly_at_a_pole_the_stiffness_is_finite(point):
     factors = CableFactors(place, np.ones((8, 1)), np.full((8, 1), poles.omega_squared[0]))
     gap = poles.terms(np.arange(1), factors)[0, 0, 0]
     assert gap == pytest.approx(1.0 / (np.finfo(float).eps * poles.omega_squared[0]))
+    beside = np.flatnonzero(np.abs(poles.omega_squared / poles.omega_squared[0] - 1.0) > 1e-3)
+    others = poles.terms(np.append(0, beside), factors)[1 : 1 + len(beside), 0, 0]
+    np.testing.assert_allclose(others, 1.0 / (poles.omega_squared[beside] - poles.omega_squared[0]), rtol=1e-9)
 
 
 @pytest.mark.parametrize("model", ["dsm", "exact"])

@@ -138,3 +138,11 @@ def test_own_weight_above_the_wanted_tension():
     for other in (0.8, 1.3):
         states = holding.model.hold(holding.arrays, holding.arms.points, other * tau).states
         assert (states.tension_at_platform > tension * (1.0 - 0.02)).all()
+
+
+def test_one_cable_whose_upper_bound_lies_below_its_lower_one_is_told(found):
+    """Cable 3 at its largest demand, by the robot's force_max of all others."""
+    demand = found["fixed"].distribution.lower[0, 2]
+    highest = np.where(np.arange(8) == 2, 0.9 * demand, ROBOT.force_max)
+    with pytest.raises(UnholdablePoseError, match=rf"cable 3 must carry at least {demand:.4g} N, {0.1 * demand:.4g} N"):
+        distribute_along(ROBOT, helix(61), "fixed", upper_bound=highest)

@@ -156,6 +156,8 @@ def test_springs_along_the_axes_store_no_more_energy():
     give = (directions / stiffness[:, None, :]) @ np.swapaxes(directions, 1, 2)
     for axes, own in zip(np.moveaxis(springs.along_axes[:, 0], -1, 0), give, strict=True):
         assert np.linalg.eigvalsh(np.diag(1.0 / axes) - own)[0] >= -1e-12 * np.abs(own).max()
+    largest = np.linalg.eigvalsh(give[:, 1:, 1:])[:, -1]  # across the chord, in any direction
+    np.testing.assert_allclose(springs.give_across[0], largest, rtol=1e-12)
 
 
 @pytest.mark.parametrize("ends", ENDS)

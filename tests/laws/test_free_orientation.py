@@ -13,6 +13,9 @@ from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.errors import InputError, UnholdablePoseError
 from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics import free_orientation
+from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.free_orientation import left_free
 from tests.fast_like import fast_like, few_cables
 
@@ -240,3 +243,37 @@ def test_the_most_even_tensions_are_met_by_a_search_without_derivatives():
         cs.inverse(few_cables(4), place, orient="even")
     with pytest.raises(InputError, match="give `free`, too"):
         cs.inverse(robot, place, orient="hanging")
+
+
+def found_from(robot: cs.Robot, angles: np.ndarray, monkeypatch: pytest.MonkeyPatch, lost: int) -> bool:
+    """Whether a search from `angles` finds the platform hanging if its first `lost` starts lead nowhere."""
+    newton, begun = free_orientation._newton, []
+
+    def failing(problem, ends):
+        begun.append(ends.angles[0])
+        return ends if len(begun) <= lost else newton(problem, ends)
+
+    monkeypatch.setattr(free_orientation, "_newton", failing)
+    place = robot.home.position[None]
+    return bool(free_orientation.free_orientation(robot, place, angles, [True, True, False]).found[0])
+
+
+def test_a_single_pose_is_begun_again_level_and_from_beside_its_angles(monkeypatch):
+    robot, angles = cs.load_robot("cogiro"), np.array([0.05, -0.1, 0.0])
+    assert found_from(robot, angles, monkeypatch, 2)  # the angles given, level ones
+    assert not found_from(robot, angles, monkeypatch, 6)  # and four beside
+
+
+def test_an_end_that_tensions_carry_is_never_given_up_for_one_that_they_do_not():
+    robot = cs.load_robot("cogiro")
+    arrays = RobotArrays.of(robot).flattened((1,))
+    bounds = np.zeros((1, 8)), np.full((1, 8), np.inf)
+    free = np.array([True, True, True])
+    place, none = robot.home.position[None], np.zeros((1, 6))
+    problem = free_orientation.HangingProblem(arrays, cable_model("sagging"), place, none, bounds, free)
+    held, far = problem.at(np.array([[0.1, 0.0, 0.0]])), replace(problem, position=place + np.array([0.0, 0.0, 50.0]))
+    assert held.carried[0]
+    assert held.size[0] > 1e-3  # far from hanging freely
+    assert not far.at(np.zeros((1, 3))).carried[0]  # high above all winches
+    free_orientation._begun_again(far, held, np.zeros(1, dtype=int), np.zeros((1, 3)))
+    assert held.carried[0]

@@ -50,6 +50,23 @@ def test_rates_give_back_the_law(law):
         assert max(np.ptp(a, axis=0).max(), np.ptp(b, axis=0).max()) < 1e-12
 
 
+def test_every_law_is_the_formula_of_its_description():
+    """At 40 rad/s, by hand; power law: (40/14)^1, (40/20)^-0.5 of the loss factor."""
+    omega = np.array([[40.0]])
+    undamped, viscous, hysteretic, rayleigh, rising, fading = LAWS.values()
+    for law in (undamped, hysteretic, rising, fading):
+        np.testing.assert_allclose(law.inertia(omega, FIRST), np.full((1, 3), 1600.0))
+    np.testing.assert_allclose(viscous.inertia(omega, FIRST), [[1600 - 11.2j, 1600 - 24j, 1600 - 80j]])
+    np.testing.assert_allclose(rayleigh.inertia(omega, FIRST), np.full((1, 3), 1600.0 - 16.0j))
+    for law in (undamped, viscous):
+        np.testing.assert_array_equal(law.elasticity(omega, FIRST), np.ones((1, 3)))
+    np.testing.assert_allclose(hysteretic.elasticity(omega, FIRST), np.full((1, 3), 1.0 + 0.03j))
+    np.testing.assert_allclose(rayleigh.elasticity(omega, FIRST), np.full((1, 3), 1.0 + 0.008j))
+    np.testing.assert_allclose(rising.elasticity(omega, FIRST)[0], 1.0 + 0.03j * 40.0 / FIRST)
+    np.testing.assert_allclose(fading.elasticity(omega, FIRST), np.full((1, 3), 1.0 + 0.03j / np.sqrt(2.0)))
+    assert [law.constant_rates for law in LAWS.values()] == [True, True, False, True, False, False]
+
+
 def test_power_law_meets_its_special_cases():
     flat = PowerLaw(0.03, 0.0, 20.0).elasticity(OMEGA, FIRST)
     np.testing.assert_array_equal(flat, Hysteretic(0.03).elasticity(OMEGA, FIRST))

@@ -30,6 +30,8 @@ def test_gaussian_evidence_is_that_of_the_dense_normal_density(given, floor):
     )
     assert found.iterations == 2
     assert found.converged
+    assert found.soft is None
+    assert found.soft_mean.shape == found.soft_variance.shape == (0, 0)
 
 
 def test_a_model_without_parameters_has_evidence():
@@ -216,6 +218,36 @@ def test_sigmas_that_are_twice_the_stated_are_found():
     model = campaign(10, shape=(18, 14, 22, 10), kinds=1)
     doubled = changed(model, A=0.5 * model.stacks[0].A, floor=0.5 * model.stacks[0].floor)
     assert fit(doubled).noise.tau == pytest.approx(2.0, rel=0.15)
+
+
+def test_a_row_that_reads_one_parameter_counts_though_its_reading_is_zero():
+    """Its floor is one and it holds no reading: no padding, since it says that the parameter is near zero."""
+    model = campaign(1, given=2.0)
+    r, A, X, floor = (getattr(model.stacks[0], name).copy() for name in ("r", "A", "X", "floor"))
+    r[0, :2], floor[0, :2] = 0.0, 1.0
+    A[0, 0], X[0, 0] = 0.0, [0.0, 3.0, 0.0]
+    A[0, 1], X[0, 1] = [0.0, 0.0, 0.5, 0.0, 0.0, 0.0], 0.0
+    small = changed(model, r=r, A=A, X=X, floor=floor)
+    exact = dense_log_density(small, np.full(len(model.groups.kind), 2.0))
+    assert fit(small).log_evidence == pytest.approx(exact, abs=1e-9)
+
+
+def test_a_group_without_readings_changes_nothing():
+    model = campaign(2, outlier=6.0)
+    more = NoiseGroups(np.append(model.groups.kind, 0), np.append(model.groups.fixed_variance, np.nan))
+    one, other = fit(model), fit(replace(model, groups=more))
+    assert other.log_evidence == pytest.approx(one.log_evidence, abs=1e-9)
+    np.testing.assert_allclose(other.noise.variance[:-1], one.noise.variance, rtol=1e-9)
+
+
+def test_what_a_model_holds_cannot_be_changed():
+    """White rows and grouped readings are kept, so they would no longer be those of changed arrays."""
+    model = LinearModel(list(campaign(1).stacks), campaign(1).groups)
+    assert isinstance(model.stacks, tuple)
+    stack, groups, readings = model.stacks[0], model.groups, model.readings
+    held = [getattr(stack, name) for name in ("r", "A", "X", "floor", "index", "soft")]
+    held += [groups.kind, groups.fixed_variance, readings.size, readings.members, readings.flat]
+    assert not any(values.flags.writeable for values in held)
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cdpr_struct.inference.block_sums import BlockSums
 from cdpr_struct.inference.evidence import bound_at, fit
 from cdpr_struct.inference.linear_model import LinearModel, Stack
 from cdpr_struct.inference.scale_mixture import KAPPA, PADDING, UNIT, NoiseGroups, NoiseState
@@ -145,3 +146,54 @@ def test_more_noise_of_no_effect_changes_nothing_and_explains_what_is_there():
     for mean, variance, known in zip(found.noise_mean, found.noise_variance, true, strict=True):
         assert (np.abs(mean[:, -1:] - known) < 4.0 * np.sqrt(variance[:, -1:])).all()
         assert (variance[:, -1] < 0.1).all()  # of a prior of one
+
+
+def test_sums_of_a_block_are_those_of_its_dense_covariance():
+    """Every block has noise of its own: c' S^-1 c, c' S^-1 r, and the spread of each row by noise and by z.
+
+    One row has no reading and one parameter only.
+    """
+    model, known = unequal(7), 2
+    A, X = model.stacks[0].A.copy(), model.stacks[0].X.copy()
+    A[1, 2], X[1, 2, 1:] = 0.0, 0.0
+    model = replace(model, stacks=(replace(model.stacks[0], A=A, X=X), *model.stacks[1:]))
+    state = NoiseState.of(
+        model.groups,
+        np.random.default_rng(7).dirichlet(np.ones(len(KAPPA)), len(model.groups.kind)),
+        np.array([0.7, 1.6]),
+    )
+    found = BlockSums.of(model, state, None, known)
+    gram, score, sigma, block = [], [], [], []
+    for stack in model.stacks:
+        for r, A, X, floor, index in zip(stack.r, stack.A, stack.X, stack.floor, stack.index, strict=True):
+            covariance = (A * state.variance[index]) @ A.T + np.diag(floor**2)
+            weighed = np.linalg.solve(covariance, X)
+            gram.append(X.T @ weighed)
+            score.append(r @ weighed)
+            sigma.append(np.sqrt(np.diag(covariance + X[:, :known] @ X[:, :known].T)))
+            block.append(np.full(len(r), len(block)))
+    np.testing.assert_allclose(found.gram, gram, rtol=1e-9)
+    np.testing.assert_allclose(found.score, score, rtol=1e-9)
+    np.testing.assert_allclose(found.sigma, np.concatenate(sigma), rtol=1e-12)
+    np.testing.assert_array_equal(found.block, np.concatenate(block))
+    np.testing.assert_array_equal(found.residual, np.concatenate([stack.r.ravel() for stack in model.stacks]))
+    np.testing.assert_array_equal(found.columns, np.concatenate([s.X.reshape(-1, 5) for s in model.stacks]))
+
+
+def test_soft_rows_have_the_spread_of_their_mixture_and_rows_that_are_not_read_an_infinite_one():
+    """Precision 4 is a sigma of 1/2; rows of padding and soft rows of no precision say nothing."""
+    model = padded(unequal(8, given=2.0, soft=2))
+    stack, soft = model.stacks[0], model.stacks[0].soft
+    read = Reading().expect(np.zeros((8, 2)), np.zeros((8, 2)))
+    state = NoiseState.stated(model.groups)
+    found, unread = (BlockSums.of(model, state, one, 1) for one in (read, None))
+    by_noise = 2.0 * (stack.A**2).sum(axis=2) + stack.X[..., 0] ** 2
+    expected = np.sqrt(by_noise + stack.floor**2)
+    expected[:, soft] = np.sqrt(by_noise[:, soft] + 0.25)
+    expected[:-2, soft] = np.inf
+    expected[~stack.A.any(axis=2) & ~stack.X.any(axis=2)] = np.inf
+    np.testing.assert_allclose(found.sigma.reshape(stack.r.shape), expected, rtol=1e-12)
+    assert (found.residual.reshape(stack.r.shape)[:, soft] == 0.7).all()
+    assert np.isinf(unread.sigma.reshape(stack.r.shape)[:, soft]).all()
+    assert not unread.residual.reshape(stack.r.shape)[:, soft].any()
+    np.testing.assert_array_equal(unread.sigma.reshape(stack.r.shape)[:, :6], found.sigma.reshape(stack.r.shape)[:, :6])

@@ -14,8 +14,27 @@ from cdpr_struct.inference.scale_mixture import KAPPA, NoiseGroups, NoiseState, 
 from tests.laws.inference_cases import NO_ROWS, campaign, changed, dense_log_density
 
 
-def test_likelihood_of_a_scale_is_the_ratio_of_dense_densities():
-    model = campaign(3)
+def interleaved():
+    """Three groups of two readings each in every block, their readings in turns."""
+    stack = campaign(3).stacks[0]
+    index = np.tile(np.arange(3), 2) + 3 * np.arange(3)[:, None]
+    return LinearModel((replace(stack, index=index),), NoiseGroups(np.arange(9) % 2, np.full(9, np.nan)))
+
+
+def without_effect():
+    """The same, the readings of the second group of each block without effect: their variance is that of the prior."""
+    model = interleaved()
+    A = model.stacks[0].A.copy()
+    A[:, :, [1, 4]] = 0.0
+    return changed(model, A=A)
+
+
+@pytest.mark.parametrize(
+    "model",
+    [campaign(3), interleaved(), without_effect()],
+    ids=["one joint group a block", "three", "one without effect"],
+)
+def test_likelihood_of_a_scale_is_the_ratio_of_dense_densities(model):
     groups, rng = model.groups, np.random.default_rng(3)
     readings = model.readings
     state = NoiseState.of(groups, rng.dirichlet(np.ones(len(KAPPA)), len(groups.kind)), np.array([1.3, 0.8]))
@@ -99,5 +118,6 @@ def test_a_leap_sums_a_geometric_series():
     found = extrapolated(squares, free)
     np.testing.assert_allclose(found[:2], np.exp(end[:2]))
     assert found[2] == squares[-1][2]
+    np.testing.assert_array_equal(extrapolated(squares[-3:], free), found)
     assert extrapolated(squares[:2], free) is None
     assert extrapolated([np.exp(end - way * 0.1**n) for n in range(3)], free) is None

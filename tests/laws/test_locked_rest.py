@@ -10,6 +10,7 @@ from cdpr_struct.errors import ConvergenceError
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.statics import equilibria
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.continuation import continued
 from cdpr_struct.statics.equilibrium import rotation_from_vector
@@ -111,6 +112,7 @@ CHANGES = {
     "as entered": {},
     "slack": {"length_scale": np.asarray(1.1)},
     "masts": {"frame_compliance": np.full(8, 5e-5)},
+    "pulleys": {"pulley_radius": np.full(8, 0.1)},
     "in line": {"series_compliance": np.full(8, 5e-5)},
     "loads": {
         "hose": np.asarray(100.0), "hose_center": np.ones(3), "force": np.array([1.0, 2.0, 3.0]),
@@ -214,3 +216,27 @@ def test_equilibria_are_balanced_distinct_and_stable():
     apart = np.linalg.norm(others.rotation[:, None] - others.rotation, axis=(-2, -1)) + np.eye(others.count)
     assert apart.min() > 1e-3
     assert (np.diff(others.energy) >= 0.0).all()
+
+
+def test_the_slowest_descents_find_no_other_equilibrium(monkeypatch):
+    robot = load_robot("thesis-3-1")
+    lengths = inverse(robot, robot.home.position, robot.home.rotation).lengths
+    usual = locked_rest(robot, lengths, robot.home).others
+    monkeypatch.setattr(equilibria, "_SPARED", 0)
+    every = locked_rest(robot, lengths, robot.home).others
+    assert usual.count == every.count > 0
+    np.testing.assert_allclose(usual.energy, every.energy, rtol=1e-6)  # ends of different descents to the same rest
+
+
+def test_a_platform_balanced_on_a_saddle_is_pushed_off_whatever_its_companions_do():
+    # upside down, all turned by 180 degrees: a mass hung from one point balances above it, too
+    robot = replace(load_robot("cogiro"), platform_anchors=np.tile([0.0, 0.0, 0.5], (8, 1)))
+    held = inverse(robot, robot.home.position, np.eye(3))
+    upside_down = np.diag([1.0, -1.0, -1.0])
+    place = robot.home.position + np.array([0.0, 0.0, 1.0])  # the anchors stay where they are
+    alone = forward(robot, held.lengths, place, upside_down)
+    both = forward(robot, held.lengths, np.stack([place, robot.home.position]), np.stack([upside_down, np.eye(3)]))
+    assert alone.stable
+    assert both.stable.all()
+    np.testing.assert_array_equal(both.position[0], alone.position)
+    assert alone.rotation[2, 2] > 0.99  # it hangs

@@ -163,7 +163,7 @@ def test_a_mass_at_mid_cable_slows_a_taut_string():
     """
     density, mass = 0.05, 0.4
     cables = SAGGING.states(one_cable(density, [(5.0, mass)]), np.array([[10.02, 0.0, 0.0]]), np.array([10.0]))
-    extras = CableExtras(np.zeros(1), np.zeros(1), np.array([[mass]]))
+    extras = CableExtras(*np.zeros((4, 1)), np.array([[mass]]))
     found = expand_catenaries(cables, np.array([density]), 20, cable_stiffness(cables), None, extras)
     first = np.sqrt(found.omega_squared[0, 0])
     tension, length = cables.tension_at_platform[0], cables.chord[0]
@@ -208,7 +208,7 @@ def test_a_lump_is_written_and_read_again():
         ("cable = 9\nfrom_platform = 1.0\nmass = 1.0", "lumps: .*there is no cable 9: cables are numbered from 1 to 8"),
         ("cable = 1\nfrom_platform = 1.0\nmass = -1.0", r"lumps\[1\]\.mass: got -1\.0"),
         ("cable = 1\nfrom_platform = 0.0\nmass = 1.0", r"lumps\[1\]\.from_platform: got 0\.0"),
-        ("cable = 1\nmass = 1.0", r"lumps\[1\]\.from_platform: .*required"),
+        ("cable = 1\nmass = 1.0", r"lumps\[1\]\.from_platform is missing; .*required"),
     ],
 )
 def test_an_unusable_lump_is_refused_by_its_field(table, said):
@@ -281,3 +281,12 @@ def test_a_mass_beyond_the_frame_end_is_refused_by_its_number():
     for command in (cs.inverse, cs.modes):
         with pytest.raises(CdprError, match=r"lumps\[2\] is 15 m from the platform end of cable 4, but only 10\."):
             command(robot)
+
+
+def test_the_least_tension_of_a_cable_is_that_of_its_own_masses():
+    robot, plain = RobotArrays.of(loaded("thesis-3-1")), RobotArrays.of(loaded("thesis-3-1", ()))
+    points = robot.platform_anchors + load_robot("thesis-3-1").home.position
+    more, less = (SAGGING.least_chord_tension(arrays, points) for arrays in (robot, plain))
+    carrying = np.isin(np.arange(8), [0, 2])
+    assert (more[carrying] > less[carrying]).all()
+    np.testing.assert_array_equal(more[~carrying], less[~carrying])

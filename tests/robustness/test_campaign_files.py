@@ -7,6 +7,9 @@ import pytest
 from cdpr_struct.cli.main import run
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.measurement.misspelt_cases import misspelt_notes
+from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.robot_writing import robot_toml
+from tests.robustness.test_plausible_robots import in_mm
 
 HEAD = "case,x_m,y_m,z_m,cable,tension_N\n"
 ROWS = "".join(f"a,0,0,1,{i},300\n" for i in range(1, 9))
@@ -30,7 +33,7 @@ def complaint(tmp_path, capsys, campaign=CAMPAIGN, rows=HEAD + ROWS) -> str:
     [
         ("", ["states.csv", "an empty file", "a header line"]),
         (HEAD, ["states.csv", "no rows"]),
-        (HEAD.replace("cable,", ""), ["cable", "no such column"]),
+        (HEAD.replace("cable,", ""), ["column cable is missing"]),
         (HEAD.replace("tension_N", "tension_kN") + ROWS, ["tension_kN", "unknown"]),
         (HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,1,3,much"), ["row 3", "tension_N", "much", "a number"]),
         (HEAD + ROWS.replace("a,0,0,1,3,300", "a,0,0,1,3,-5"), ["row 3", "-5", "above zero"]),
@@ -205,3 +208,15 @@ def test_a_case_that_is_perhaps_misspelt_is_a_warning(tmp_path):
 )
 def test_slips_are_few_letters_and_no_numbers(one, other, slips):
     assert len(misspelt_notes({"one.csv": one, "other.csv": other})) == slips
+
+
+@pytest.mark.parametrize(
+    ("columns", "value"), [("tension_N,length_m", "300,9.5"), ("length_m", "9.5"), ("tension_N", "300")]
+)
+def test_a_robot_in_mm_is_named_not_the_data_in_m(columns, value, tmp_path, capsys):
+    """The robot's masses decide which of the two files is in mm."""
+    (tmp_path / "large.toml").write_text(robot_toml(in_mm(load_robot("cogiro")), "large"))
+    rows = f"case,x_m,y_m,z_m,cable,{columns}\n" + "".join(f"a,0,0,1,{i},{value}\n" for i in range(1, 9))
+    line = complaint(tmp_path, capsys, CAMPAIGN.replace("cogiro", "large.toml"), rows)
+    assert "the lengths in mm?" in line or "the robot's lengths are in mm?" in line, line
+    assert "is it in g/m" not in line

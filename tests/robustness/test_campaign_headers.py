@@ -43,7 +43,7 @@ def refusal(tmp_path, text: str, kind: str = "static_state") -> str:
         ("length{} (mm)", ["convert the values from mm", *LENGTHS]),
         ("cable {}", ["one reading per cable: tensions are named tension_1_N", "or lengths are named length_1_m"]),
         ("{}", ["one reading per cable: tensions are named tension_1_N", "or lengths are named length_1_m"]),
-        ("S{}", ["cable", "no such column", "with one row a pose, tension_1_N ... tension_8_N"]),
+        ("S{}", ["column cable is missing", "with one row a pose, tension_1_N ... tension_8_N"]),
     ],
 )  # fmt: skip
 def test_one_column_a_cable(form, words, tmp_path):
@@ -114,7 +114,7 @@ def test_single_columns(header, words, tmp_path):
         ("cable_frequency", "cable {} [Hz]", ["name them frequency_1_hz ... frequency_8_hz (Hz"]),
         ("loaded_pose", "L{}", LENGTHS),
         ("free_decay", "l_{}", LENGTHS),
-        ("robot_frequency", "f{}", ["frequency_hz", "no such column"]),
+        ("robot_frequency", "f{}", ["column frequency_hz is missing"]),
     ],
 )
 def test_other_kinds(kind, form, words, tmp_path):

@@ -29,9 +29,9 @@ STOP = ["transient", "six-cable-4mm", "--initial-velocity=0.1,0,0"]
         (["map", "thesis-3-1", "--grid=0,0,1e300", "--quantity=sag-max"], ["--grid", "1e300"]),
         (["audit", "thesis-3-1", "--trajectory=line:0,0,0.5:1,0,0.5:1e-300"], ["--trajectory", "1e-06 s"]),
         (["audit", "thesis-3-1", "--small"], ["--small", "--limits"]),
-        (STOP, ["--duration: got 'nothing'"]),
+        (STOP, ["--duration is missing"]),
         ([*STOP, "--duration=1e-9"], ["--duration", "1e-09", "0.04 s"]),
-        (["transient", "six-cable-4mm"], ["--initial-velocity: got 'nothing'"]),
+        (["transient", "six-cable-4mm"], ["--initial-velocity is missing"]),
     ],
     ids=range(15),
 )

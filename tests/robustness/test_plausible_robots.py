@@ -11,6 +11,7 @@ import pytest
 from cdpr_struct.cli.main import run
 from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.plausibility import implausible
+from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import builtin_names, load_robot
 from tests.random_robots import random_robot
@@ -24,6 +25,17 @@ def scaled(robot: Robot, size: float) -> Robot:
     frame, inner = size * robot.frame_anchors, size * robot.platform_anchors
     pulleys = tuple(None if one is None else replace(one, radius=size * one.radius) for one in robot.pulleys)
     return replace(robot, frame_anchors=frame, platform_anchors=inner, pulleys=pulleys, home=None)
+
+
+def in_mm(robot: Robot, inertia: float = 1.0) -> Robot:
+    """A robot whose lengths, and inertia times a factor, are entered in mm."""
+    body = replace(
+        robot.platform,
+        center_of_mass=1e3 * robot.platform.center_of_mass,
+        inertia=inertia * robot.platform.inertia,
+    )
+    home = None if robot.home is None else Pose(1e3 * robot.home.position, robot.home.angles)
+    return replace(scaled(robot, 1e3), platform=body, home=home)
 
 
 def moved(robot: Robot, name: str, cable: int) -> Robot:
@@ -65,6 +77,30 @@ def test_no_ordinary_robot_is_doubted():
 def test_a_wrong_unit_is_told_with_its_key(name, wrong, words):
     (said,) = implausible(wrong(load_robot(name)))
     assert all(word in said for word in words), said
+
+
+@pytest.mark.parametrize("inertia", [1.0, 1e6], ids=["kg m^2", "kg mm^2"])
+@pytest.mark.parametrize("name", [*builtin_names(), *EXAMPLES], ids=lambda path: Path(path).parts[-2:][0])
+def test_a_robot_wholly_in_mm_is_told(name, inertia):
+    """Three light ones on thin cables from a point keep proportions of a large robot where inertia is in mm, too."""
+    (said, *_) = implausible(in_mm(load_robot(name), inertia)) or ("",)
+    light = {"force-controlled-winch", "load-on-one-rope", "two-rope-plotter"}
+    assert ("in mm?" in said) or (inertia > 1.0 and Path(name).parent.name in light)
+
+
+@pytest.mark.parametrize("name", ["cogiro", "six-cable-8mm", "thesis-5"])
+def test_a_home_pose_in_mm_is_told_alone(name):
+    robot = load_robot(name)
+    home = Pose(np.array([1200.0, -800.0, 1500.0]), robot.home.angles)
+    (said,) = implausible(replace(robot, home=home))
+    assert said.startswith("home_pose = [1200, -800, 1500] m lies")
+
+
+def test_a_lift_far_below_its_frame_is_no_mistake():
+    """A cage at 0 on ropes 14 cm apart, 100 m up."""
+    lift = load_robot(next(path for path in EXAMPLES if path.parent.name == "lift"))
+    assert implausible(lift) == ()
+    assert implausible(replace(lift, home=Pose(np.array([0.0, 0.0, -1e4]), np.zeros(3))))
 
 
 def test_softer_ropes_than_the_program_knows_are_not_doubted():

@@ -75,8 +75,10 @@ class Pattern:
 class Seen:
     """What a campaign's data hold, for causes to say whether they can show there.
 
-    kinds : of rows, as in `seen_in`;  tensions, lengths : whether any was read;  approach : whether directions are
-    known;  hours : that the readings span;  cable_modes : how many different modes of a cable;  states : names
+    kinds : of rows, as in `seen_in`;  tensions, lengths, poses : whether any was read
+    relative : whether encoders count from an unknown start
+    approach : whether directions are known;  hours : that the readings span
+    cable_modes : how many different modes of a cable;  states : names
     highest : frequency measured of the robot [Hz], 0 without;  internal : whether the robot has an internal mass
     wheels, bare : whether some cables have pulleys in the robot file, and whether some have none
     groups : endings and words of what carries parameters of its own, by carrier ("cable", "mast", "axis", "state")
@@ -92,6 +94,8 @@ class Seen:
     groups: Mapping[str, Mapping[str, str]]
     highest: float = 0.0
     internal: bool = False
+    poses: bool = True
+    relative: bool = False
     wheels: bool = False
     bare: bool = True
 

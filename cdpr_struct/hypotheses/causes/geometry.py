@@ -57,6 +57,14 @@ def _lengths(seen: Seen) -> str:
     return "" if seen.lengths else "needs lengths from the encoders"
 
 
+def _zeros(seen: Seen) -> str:
+    return "the encoders are relative: their zeros are unknown" if seen.relative else _lengths(seen)
+
+
+def _poses(seen: Seen) -> str:
+    return "" if seen.poses else "needs measured poses"
+
+
 CAUSES = (
     Cause(
         "frame_anchor_position",
@@ -89,7 +97,7 @@ CAUSES = (
         seen_in=("CO", "NS"),
         sentence="the zero of the cable lengths is off by {rms} m on average",
         sign="paid out = encoder length + this",
-        needs=_lengths,
+        needs=_zeros,
         separated_by="six or more spread poses; homing again",
         extension="length_offset",
     ),
@@ -137,6 +145,7 @@ CAUSES = (
         + tuple(Parameter(f"turn_{a}", "rad", 3e-3) for a in _XYZ),
         _tracker,
         seen_in=("CO",),
+        needs=_poses,
         sentence="the coordinate frame of the tracker is shifted or rotated by {parts}",
         separated_by="common points measured on the frame",
         shapes=(
@@ -162,6 +171,7 @@ CAUSES = (
         + tuple(Parameter(f"turn_{a}", "rad", 0.03) for a in _XYZ),
         _pose,
         seen_in=("EQ", "CO"),
+        needs=_poses,
         sentence="the pose entered for one state does not belong to its readings",
         separated_by="measuring that pose again",
         carrier="state",

@@ -8,6 +8,7 @@ from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.diagnose import tables
 from cdpr_struct.reports.diagnose.residual_table import residual_columns
 from cdpr_struct.reports.diagnose.signals import signal_plates, signal_table
+from cdpr_struct.reports.diagnose.state_errors import state_table, tension_table
 from cdpr_struct.reports.diagnose.text import diagnosis_sentences
 from cdpr_struct.reports.figures import diagnose as figures
 from cdpr_struct.reports.figures.drawing import Drawing
@@ -56,6 +57,13 @@ def plates(found: Diagnosis, result: Mapping[str, Any]) -> list[Plate]:
             live_caption=f"{_RESIDUALS} {_VALUES}",
         )
     ]
+    if result["errors_by_state"]:
+        drawn = Drawing("state_errors", figures.STATES_SIZE, lambda f: figures.draw_state_errors(f, result))
+        said = (
+            "Rms of measured less predicted in each state, in the unit of each kind. Look where the second bar is no "
+        )
+        said += "shorter than the first: there the causes do not help. Moments are over the platform's radius."
+        shown.append(Plate("state_errors", "Errors by state", drawn, said))
     if result["candidates"]:
         drawn = Drawing("evidence", figures.EVIDENCE_SIZE, lambda f: figures.draw_evidence(f, result))
         said = "Look for the longest bar, and for those within 3 nats of it (a factor of 20 in probability): the data "
@@ -132,6 +140,8 @@ def _facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
 def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
     shown = (
         tables.errors(result),
+        state_table(result),
+        tension_table(result),
         tables.candidates(result["candidates"], 20, 3),
         tables.left_out(result["gain"]),
         tables.next_steps(result["next_measurements"]),

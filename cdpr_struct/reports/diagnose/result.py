@@ -9,13 +9,17 @@ import numpy as np
 from cdpr_struct.diagnosis.decision import fits
 from cdpr_struct.diagnosis.diagnosis import Candidate, Diagnosis, Tried
 from cdpr_struct.diagnosis.left_out import LeftOut
+from cdpr_struct.hypotheses.causes import internal_force
+from cdpr_struct.hypotheses.judge import NEAR
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.planning.recommendations import Recommendation
 from cdpr_struct.reports.diagnose import signals
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.sentences import finite, sentence
+from cdpr_struct.reports.diagnose.state_errors import state_errors
 from cdpr_struct.reports.diagnose.words import doubt, place, recommendation
 from cdpr_struct.reports.plan.measurements import recommendation_text
+from cdpr_struct.reports.trust import Check, Trust
 
 KINDS = {
     "EQ": ("static_state (wrench balance)", 1.0, "N"), "CO": ("static_state (cable lengths)", 1e3, "mm"),
@@ -38,6 +42,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "robot": found.campaign.robot_name,
         "model": found.campaign.model,
         "simulation_error": [_error(found, i) for i in range(len(found.errors))],
+        "errors_by_state": state_errors(found),
         "significant": found.decision.status != "adequate",
         "p_value": found.p_value,
         "p_value_of": "evidence",
@@ -64,15 +69,19 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "not_testable": sorted(hidden),
         "why_not_testable": hidden,
         "minimum_detectable": found.minimum_detectable,
+        "detectable_by_pattern": found.detectable_by_pattern,
         "tolerances": {
             name: {"value": getattr(found.campaign.tolerances, name), "stated": name in found.campaign.stated}
             for name in found.campaign.tolerances.__slots__
         },
         "loss": asdict(found.campaign.loss),
         "sigmas": [asdict(used) for used in found.sigmas],
+        "trust": Trust((_sigmas(found), *_settled(found))),
         "warnings": _warnings(found),
         "not_used": _not_used(found),
         "signals": [signals.signal_json(item) for item in found.campaign.identified],
+        "peaks_apart": _apart(found),
+        "internal_force": _forces(found),
         "damping": None if found.damped is None else signals.damping_json(found.damped),
     }  # fmt: skip
 
@@ -83,6 +92,38 @@ def _verdict(found: Diagnosis, steps: Sequence[str]) -> dict[str, Any]:
         "status": decision.status, "causes": likeliest(found), "class": [list(names) for names in decision.classes],
         "probability": float(decision.probability), "location": place(found.location),
         "next_measurement": "; ".join(steps), "sentence": sentence(found),
+    }  # fmt: skip
+
+
+def _forces(found: Diagnosis) -> dict[str, Any] | None:
+    """Measured against simulated tensions, split into internal force and what has to balance."""
+    forces = found.forces
+    if forces is None:
+        return None
+    split, names = forces.split, found.campaign.states.names
+    rows = zip(split.state.tolist(), split.rms, split.internal_rms, split.share, strict=True)
+    return {
+        "found": forces.found, "log_evidence_gain": forces.gain, "rms_N": forces.size,
+        "states": [
+            {"case": names[k], "rms_N": float(rms), "internal_rms_N": float(own),
+             "balance_rms_N": float(np.sqrt(max(rms**2 - own**2, 0.0))), "internal_percent": 100.0 * float(share)}
+            for k, rms, own, share in rows
+        ],
+    }  # fmt: skip
+
+
+def _apart(found: Diagnosis) -> dict[str, Any] | None:
+    """The common factor between peaks and the modes that a sensor on the platform can see."""
+    apart = found.apart
+    if apart is None:
+        return None
+    return {
+        "found": apart.found, "factor": apart.factor, "stiffness_per_mass": apart.stiffness_per_mass,
+        "p_value": apart.p, "causes": list(apart.names),
+        "states": [
+            {"case": one.case, "measured_Hz": one.measured.tolist(), "predicted_Hz": one.predicted.tolist()}
+            for one in apart.lists
+        ],
     }  # fmt: skip
 
 
@@ -103,7 +144,8 @@ def _is_among(step: str, simulated: Sequence[str]) -> bool:
 def likeliest(found: Diagnosis) -> list[str]:
     """Of each class the cause that was chosen, in the order of the classes."""
     if found.by_damping:
-        return list(found.damped.finding.causes) if found.damped is not None else []
+        more = [internal_force.CAUSE.name] if found.decision is not found.fitted else []
+        return [*(found.damped.finding.causes if found.damped is not None else ()), *more]
     own = [] if found.correction is None else [found.correction.cause]
     names = [*own, *found.chosen.hypothesis.names]
     order = []
@@ -143,8 +185,8 @@ def candidate_rows(found: Diagnosis) -> list[dict[str, Any]]:
 def _left_open(found: Diagnosis, one: Candidate) -> bool:
     """Whether the verdict speaks of just these causes."""
     own = None if found.correction is None else found.correction.cause
-    classes = tuple(names for names in found.decision.classes if own not in names)
-    return bool(classes) and len(one.names) == len(classes) and fits(classes, one.names)
+    classes = tuple(names for names in found.fitted.classes if own not in names)
+    return bool(classes) and not found.by_peaks and len(one.names) == len(classes) and fits(classes, one.names)
 
 
 def _of_correction(found: Diagnosis, one: Tried) -> dict[str, Any]:
@@ -210,7 +252,26 @@ def _hidden(found: Diagnosis) -> dict[str, str]:
 
 def _warnings(found: Diagnosis) -> list[str]:
     silent = [signals.silent(item) for item in found.campaign.identified if not item.used.any()]
-    return [*_unique([doubt(one) for one in found.doubts]), *found.campaign.notes, *silent]
+    return [*found.campaign.notes, *silent]
+
+
+def _settled(found: Diagnosis) -> list[Check]:
+    """Whether the fit of the likeliest hypothesis has converged, in its numbers and in its evidence."""
+    moved, open_ = float(found.chosen.moved), not found.chosen.fit.converged
+    far = (
+        f"the likeliest fit had not settled when it ended: its numbers still move by {moved:.2g} sigma when it is "
+        "linearised about them. Sizes and evidence of the cause are rough."
+    )
+    loose = "the evidence of the likeliest fit had not settled when its search ended: probabilities are rough."
+    return [
+        Check.of("distance of the fit from its linearisation", moved, NEAR, far if moved > NEAR else None, "sigma"),
+        Check.of("evidences not settled", open_, 0.0, loose if open_ else None),
+    ]
+
+
+def _sigmas(found: Diagnosis) -> Check:
+    said = _unique([doubt(one) for one in found.doubts])
+    return Check.of("improbable sigmas and tolerances", len(said), 0.0, said)
 
 
 def _not_used(found: Diagnosis) -> list[str]:

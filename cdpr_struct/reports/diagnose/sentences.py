@@ -1,14 +1,21 @@
 """The verdict in plain sentences."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from cdpr_struct.diagnosis.decision import fits
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
+from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.signals import damping_sentence
 from cdpr_struct.reports.diagnose.words import described, listed, place, plain, reading
+from cdpr_struct.reports.text import with_sigma
 
 LARGEST_CLASS = 4  # causes beyond which a sentence leads with none of them
+_NULL_SPACE = internal_force.CAUSE.name
+_LISTS = 2  # of peaks that one sentence shows
 _MOST = 4  # readings that one sentence lists
 _NEAR = 3.0  # nats, a factor of twenty in probability
 _BETTER = 1.05  # times smaller error from which a prediction is better
@@ -17,19 +24,56 @@ _FAR = 30.0  # times its stated sigma from which the scatter of a sensor means a
 
 def sentence(found: Diagnosis) -> str:
     """What was found, for a person."""
-    status = found.decision.status
+    status = found.fitted.status
     if found.by_damping:
-        parts = [_damping(found), "No other error is significant."]
+        parts = [_damping(found), _forces(found) or "No other error is significant."]
+    elif found.by_peaks:
+        parts = [_apart(found)]
     elif status == "adequate":
-        parts = [agreement(found)]
+        parts = [_forces(found) or agreement(found)]
     elif status == UNKNOWN:
         parts = _unknown(found)
     else:
         parts = _named(found)
-    parts += [_peaks(found), _line(found), _aside(found), _drift(found)]
+    parts += ["" if found.by_peaks else _peaks(found), _line(found), _aside(found), _drift(found)]
     if not found.by_damping:
-        parts.append(_damping(found))
+        parts += [_forces(found) if status != "adequate" else "", _damping(found)]
     return " ".join(filter(None, parts))
+
+
+def _forces(found: Diagnosis) -> str:
+    """Internal forces that lengths and load cells show together."""
+    forces = found.forces
+    if forces is None or not forces.found or _NULL_SPACE in sum(found.fitted.classes, ()):
+        return ""
+    share = 100.0 * forces.split.share
+    lead = "The forces balance; the" if found.fitted.status == "adequate" else "In addition, the"
+    return (
+        f"{lead} robot holds other internal forces than the simulation commands: {forces.size:.2g} N rms over the "
+        f"cables and states. Of the squared difference between measured and simulated tensions, {share.min():.0f} to "
+        f"{share.max():.0f} % is internal force."
+    )
+
+
+def _apart(found: Diagnosis) -> str:
+    """Peaks far from all modes: measured, predicted, the factor, and what would do it."""
+    apart = found.apart
+    if apart is None:
+        return ""
+    lists = [
+        f"{' '.join(f'{f:.3g}' for f in one.measured)} Hz are measured in case {one.case}, where the modes that move "
+        f"the platform are predicted at {' '.join(f'{f:.3g}' for f in one.predicted)} Hz"
+        for one in apart.lists[:_LISTS]
+    ]
+    shares = {"axial_stiffness": apart.stiffness_per_mass, "platform_mass": 1.0 / apart.stiffness_per_mass}
+    could = [plain(n) + (f" (about {shares[n]:.2g} times as entered)" if n in shares else "") for n in apart.names]
+    side = "above" if apart.factor > 1.0 else "below"
+    return (
+        f"The measured robot frequencies lie far {side} those of the simulation, by a factor of about "
+        f"{apart.factor:.2f} (p = {apart.p:.2g}): {'; '.join(lists)}. That is {apart.stiffness_per_mass:.2g} times the "
+        f"stiffness per mass. Possible causes: {', '.join(could)}. Which peak is which mode is not certain, so none of "
+        "them is fitted."
+    )
 
 
 def _line(found: Diagnosis) -> str:
@@ -66,20 +110,33 @@ def agreement(found: Diagnosis) -> str:
 def _named(found: Diagnosis) -> list[str]:
     """Corrections and causes with their sizes, what is not told apart, what they explain."""
     parts = [] if found.correction is None else [corrected(found.campaign, found.correction)]
-    own = [names for names in found.decision.classes if not _of_correction(found, names)]
+    own = [names for names in found.fitted.classes if not _of_correction(found, names)]
     if any(len(names) > LARGEST_CLASS for names in own):
         lead = [f"{said[:1].upper()}{said[1:]}." for said in parts]
         left = " and, in addition, ".join(_many(names) for names in own)
         return [*lead, f"There is a significant error in {place(found.location)}. Possible causes: {left}."]
     for size in found.sizes:
         names = next((n for n in own if size.part.cause.name in n), ())
-        doubted = found.decision.doubted or not found.confirmed
+        doubted = found.fitted.doubted or not found.confirmed
         lead_of = "best candidate of its class: " if len(names) > 1 else "best candidate: " if doubted else ""
         parts.append(lead_of + described(size))
     text = "; ".join(parts)
     said = [f"{text[:1].upper()}{text[1:]}."]
-    said += [f"These data do not distinguish {listed(names)}." for names in found.decision.classes if len(names) > 1]
+    said += [f"These data do not distinguish {listed(names)}." for names in found.fitted.classes if len(names) > 1]
+    said += _without_change(found, own)
     return [*said, _other_corrections(found), _standing(found)]
+
+
+def _without_change(found: Diagnosis, classes: Sequence[tuple[str, ...]]) -> list[str]:
+    """Causes that the verdict speaks of although their fitted size is none."""
+    fitted = [one for one in found.candidates if len(one.names) == len(classes) and fits(tuple(classes), one.names)]
+    none: dict[str, str] = {}
+    for size in (size for one in fitted for size in one.sizes if not size.is_change):
+        cause, (name, first) = size.part.cause.name, next(iter(size.parameters.items()))
+        value = with_sigma(float(first["value"]), float(first["sigma"]))
+        none.setdefault(cause, f"{plain(cause)} ({name} {value} {first['unit']})")
+    told = ", ".join(none.values())
+    return [f"Fitted without a change, and possible only since these data hardly show it: {told}."] if none else []
 
 
 def _other_corrections(found: Diagnosis) -> str:
@@ -153,7 +210,7 @@ def _unknown(found: Diagnosis) -> list[str]:
 def _peaks(found: Diagnosis) -> str:
     """Peaks that are no mode of the chosen model, where something is wrong."""
     none = [peak for peak in found.peaks.uncertain if peak.none > 0.5]
-    if found.decision.status == "adequate" or not none:
+    if found.fitted.status == "adequate" or not none:
         return ""
     some = ", ".join(f"{peak.hertz:g}" for peak in none[:_MOST]) + (", ..." if len(none) > _MOST else "")
     return f"{len(none)} of {found.peaks.count} robot frequencies match no mode of the model ({some} Hz)."

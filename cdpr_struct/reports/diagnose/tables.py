@@ -216,10 +216,47 @@ def not_shown(result: Row) -> HtmlTable:
 
 
 def detectable(result: Row) -> HtmlTable:
-    """The smallest sizes that would be found."""
-    sizes = [[n.replace("_", " "), f"{v['value']:.3g}", v["unit"]] for n, v in result["minimum_detectable"].items()]
+    """The smallest sizes that would be found, of every pattern of occurrence."""
+    rows = [
+        [name.replace("_", " "), *(_sizes_of(found, kind) for kind in _PATTERNS), str(found[0]["unit"])]
+        for name, found in result["detectable_by_pattern"].items()
+    ]
+    columns = ["cause", *_PATTERNS.values(), "unit"]
+    note = (
+        "With the tolerances and sigmas that were used. Of several numbers their rms; of one alone the best and worst."
+    )
     title = "Smallest detectable size (found in 4 of 5 cases)"
-    return HtmlTable(title, ["cause", "size", "unit"], sizes, prose=frozenset({2}))
+    return HtmlTable(title, columns, rows, note, prose=frozenset({len(columns) - 1}))
+
+
+_PATTERNS = {"all alike": "all alike", "each its own": "each its own", " alone": "one alone", "": "as a whole"}
+"""Ends of a pattern's label, and its column."""
+
+
+def _sizes_of(found: Sequence[Row], kind: str) -> str:
+    """Sizes of the patterns of a kind, the smallest and the largest."""
+    ends = [end for end in _PATTERNS if end]
+    own = [
+        row["value"] for row in found
+        if (kind in row["pattern"] if kind else not any(end in row["pattern"] for end in ends))
+    ]  # fmt: skip
+    if not own:
+        return ""
+    least, most = f"{min(own):.2g}", f"{max(own):.2g}"
+    return least if least == most else f"{least} to {most}"
+
+
+def assumed(result: Row) -> str:
+    """One line for a terminal about sigmas and tolerances that nobody gave."""
+    given = [
+        f"{n} {v['value']:g} {tolerance_unit(n)}".rstrip()
+        for n, v in result["tolerances"].items() if not v["stated"]
+    ]  # fmt: skip
+    lines = [
+        default_sigmas(result["sigmas"]),
+        f"Tolerances not given, defaults used: {', '.join(given)}." if given else "",
+    ]
+    return " ".join(filter(None, lines))
 
 
 def tolerances(result: Row) -> HtmlTable:

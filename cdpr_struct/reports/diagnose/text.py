@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from cdpr_struct.reports.diagnose import tables
+from cdpr_struct.reports.diagnose.state_errors import state_table, tension_table
 from cdpr_struct.reports.html import HtmlTable
 from cdpr_struct.reports.text import paragraphs, plain_table
 
@@ -13,6 +14,8 @@ def result_text(result: Mapping[str, Any]) -> str:
     said = result["verdict"]
     blocks = [said["sentence"], "\n".join(tables.standing(result)), _shown(tables.errors(result))]
     rest = (
+        state_table(result, 3),
+        tension_table(result, 5),
         tables.candidates(result["candidates"], 8, 2),
         tables.left_out(result["gain"]),
         tables.noise(result["noise"], all_of_them=False),
@@ -21,7 +24,9 @@ def result_text(result: Mapping[str, Any]) -> str:
     blocks += [_shown(table) for table in rest if table]
     after = tables.next_steps(result["next_measurements"])
     blocks += [f"{after.title}\n" + "\n".join(row[0] for row in after.rows)] if after else []
-    blocks += filter(None, [tables.default_sigmas(result["sigmas"])])
+    assumed = tables.assumed(result)
+    if assumed:
+        blocks += [assumed, _shown(tables.detectable(result))]
     return paragraphs(*blocks)
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cdpr_struct.diagnosis.diagnosis import DAMPING, Location
+from cdpr_struct.diagnosis.diagnosis import DAMPING, NULL_SPACE, Location
 from cdpr_struct.diagnosis.recommended import Recommendation
 from cdpr_struct.diagnosis.sensor_sigmas import Doubt
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
@@ -14,6 +14,7 @@ PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
     "CF": "the cable frequencies", "RF": "the robot frequencies",
     "FA": "the modal constants of the FRFs", DAMPING: "the damping ratios",
+    NULL_SPACE: "the internal forces (null space of the structure matrix)",
 }  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from cdpr_struct.reports.diagnose.tables import figure as shown
 from cdpr_struct.reports.diagnose.tables import hypotheses
 from cdpr_struct.reports.figures.style import BLUE, GREY, LIGHT, ORANGE, plain_number, quiet
 
-RESIDUAL_SIZE, EVIDENCE_SIZE, PROBABILITY_SIZE = (9.6, 4.2), (9.6, 3.2), (9.6, 2.6)
+RESIDUAL_SIZE, EVIDENCE_SIZE, PROBABILITY_SIZE, STATES_SIZE = (9.6, 4.2), (9.6, 3.2), (9.6, 2.6), (9.6, 3.6)
 _BARS, _MOST_NAMES, _LETTERS, _ANSWERS = 10, 30, 18, 6
 _FEWEST = 4  # places for bars: a single bar does not fill the figure
 _NARROW = 0.3  # of the width: two blocks together on which their names would touch
@@ -46,6 +46,26 @@ def draw_residuals(figure: Figure, found: Diagnosis) -> None:
     axes.set_ylabel("residual / its sigma [-]")
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper right", ncols=2)
     quiet(axes)
+
+
+def draw_state_errors(figure: Figure, result: Mapping[str, Any]) -> None:
+    """Errors of every kind in its unit, a bar a state, as entered and with the causes."""
+    rows = result["errors_by_state"]
+    kinds = list(dict.fromkeys(row["kind"] for row in rows))
+    grid = figure.subplots(1, len(kinds), squeeze=False)[0]
+    for axes, kind in zip(grid, kinds, strict=True):
+        own = [row for row in rows if row["kind"] == kind]
+        place = np.arange(len(own))
+        both = any(row["after"] is not None for row in own)
+        axes.bar(place - 0.2 * both, [row["before"] for row in own], 0.4, color=ORANGE, label="as entered")
+        if both:
+            after = [np.nan if row["after"] is None else row["after"] for row in own]
+            axes.bar(place + 0.2, after, 0.4, color=BLUE, label="with causes")
+        shown_at = place[:: 1 + len(place) // 12]
+        axes.set_xticks(shown_at, [own[i]["case"] for i in shown_at], rotation=60, ha="right", fontsize=7.5)
+        axes.set_ylabel(f"{kind} [{own[0]['unit']}]")
+        quiet(axes, "y")
+    figure.legend(*grid[0].get_legend_handles_labels(), loc="outside upper right", ncols=2)
 
 
 def draw_evidence(figure: Figure, result: Mapping[str, Any]) -> None:

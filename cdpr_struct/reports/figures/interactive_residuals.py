@@ -1,6 +1,7 @@
 """Residuals of a diagnosis that name themselves."""
 
 from collections.abc import Mapping
+from html import escape
 from itertools import pairwise
 from typing import Any
 
@@ -64,7 +65,7 @@ def _said(columns: Mapping[str, Any], i: int, names: Mapping[str, str]) -> str:
     cable = f", cable {columns['cable'][i]}" if columns["cable"][i] != "" else ""
     unit = columns["unit"][i]
     return (
-        f"{names[columns['block'][i]]}, state {columns['case'][i]}{cable}, row {columns['row'][i]}"
+        f"{names[columns['block'][i]]}, state {escape(str(columns['case'][i]))}{cable}, row {columns['row'][i]}"
         f"<br>{columns['residual'][i]:+.4g} {unit}, with causes {columns['with_causes'][i]:+.4g} {unit}"
         f" (sigma {columns['sigma'][i]:.3g})"
     )

@@ -8,7 +8,18 @@ from scipy.signal import find_peaks
 from cdpr_struct.diagnosis.damping_rows import DampingRows
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.signal_states import VISIBLE
-from cdpr_struct.reports.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILLION, quiet
+from cdpr_struct.reports.figures.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILLION,
+    plain_ticks,
+    quiet,
+)
 
 SPECTRUM_SIZE, DAMPING_SIZE = (9.6, 3.4), (9.6, 3.6)
 _STANDS_OUT, _ABOVE = 3.0, 10.0  # factor between a peak and the dips beside it; times the noise
@@ -39,6 +50,7 @@ def draw_spectrum(figure: Figure, item: Identified) -> None:
     axes.set_xlim(low, high)
     axes.set_xlabel("frequency [Hz]")
     axes.set_ylabel("response [1/its noise]")
+    plain_ticks(axes.yaxis)
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper right", ncols=5)
     quiet(axes)
 
@@ -107,6 +119,7 @@ def draw_damping(figure: Figure, rows: DampingRows) -> None:
     axes.set_xscale("log")
     axes.set_xlabel("amplitude of the platform point [mm]")
     axes.set_ylabel("damping ratio [%]")
+    plain_ticks(axes.xaxis)
     if drawn:
         columns = 1 + min(drawn, _MOST_NAMED) // 13
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), ncols=columns, fontsize=7.5, borderaxespad=0.0)

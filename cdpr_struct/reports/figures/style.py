@@ -54,6 +54,7 @@ LOOK: Any = {
     "legend.fontsize": 8.5,
     "legend.frameon": False,
     "text.color": BLACK,
+    "text.parse_math": False,  # names of robots and cases may hold any sign
     "figure.facecolor": "white",
 }
 _NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from cdpr_struct.reports.figures.style import BLUE, GREY, ORANGE
+from cdpr_struct.reports.figures.style import BLUE, GREY, ORANGE, plain_ticks
 from cdpr_struct.reports.figures.workspace_map import Layer, draw_heat
 from cdpr_struct.thesis.reproduction import Reproduction
 from cdpr_struct.workspace.grid import Grid
@@ -17,6 +17,7 @@ def draw_trace(figure: Figure, item: Reproduction) -> None:
     axes.semilogy(c["frequency_Hz"], c["static_trace_N_m"], color=GREY, linestyle="--", label="static")
     axes.set_xlabel("frequency [Hz]")
     axes.set_ylabel("|trace K| [N/m]")
+    plain_ticks(axes.yaxis)
     axes.legend()
 
 

@@ -1,0 +1,42 @@
+"""The first frequencies of a robot by finite elements on meshes that double, and how certain their limit is."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+import cdpr_struct.fem_reference as fem
+from benchmarks.robot_reference import romberg
+from cdpr_struct.crosscheck.fem_robot import solve_in_fem
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+
+_MESHES = (20, 40, 80, 160)
+_FINER = (40, 80, 160, 320, 640)
+_SURE = 10.0  # times what the finest mesh changed
+_FLOOR = 1e-6  # of a frequency: rounding of fine meshes
+
+
+def fem_faults(point: OperatingPoint, hertz: np.ndarray) -> Iterator[str]:
+    """What is wrong with natural frequencies (k,), neutral ones among them [Hz].
+
+    Raises
+    ------
+    FemError : the finite elements find no rest or no modes.
+    """
+    said = list(_differences(point, hertz, _MESHES))
+    yield from _differences(point, hertz, _FINER) if said else ()
+
+
+def _differences(point: OperatingPoint, hertz: np.ndarray, meshes: tuple[int, ...]) -> Iterator[str]:
+    rests = [solve_in_fem(point, elements) for elements in meshes]
+    neutral = fem.neutral_freedoms(rests[-1])
+    if neutral != (hertz == 0.0).sum():
+        yield f"neutral: {neutral} freedoms in the finite elements"
+        return
+    asked = hertz[neutral:]
+    values = [fem.robot_modes(rest, len(hertz)).frequencies_hz[neutral:] for rest in rests]
+    best, coarser = romberg(values), romberg(values[:-1])
+    tolerance = _FLOOR + _SURE * np.abs(coarser / best - 1.0)
+    off = np.abs(asked / best - 1.0)
+    if (off > tolerance).any():
+        worst = int((off / tolerance).argmax())
+        yield f"frequency {worst + 1}: {off[worst]:.1e} from the finite elements, sure to {tolerance[worst]:.1e}"

@@ -1,0 +1,63 @@
+"""The set of robots with few cables: what is drawn, where they hang, and what is handed out."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.blind.campaign_files import write_case
+from tests.blind.catalogue import LIBRARY
+from tests.blind.controller import hanging
+from tests.blind.detectability import FEW, reference_size
+from tests.blind.entered_robot import entered_robot
+from tests.blind.measuring_plan import PlanSize
+from tests.blind.spoilt_sets import spoilt_cases, spoilt_kinds
+
+SMALL = PlanSize(static_states=2, locks=1, loads_per_lock=2)
+
+
+def test_every_robot_has_as_many_cases_and_a_third_of_nulls():
+    kinds = spoilt_kinds("few", 6 * len(FEW), 1)
+    for robot in FEW:
+        own = [kind.reality for kind in kinds if kind.way == robot]
+        assert len(own) == 6
+        assert sum(kind.kind == "null" for kind in own) == 2
+    assert len({kind.group for kind in kinds}) == len(kinds)
+
+
+@pytest.mark.parametrize("robot", ["two-cables", "four-cables-inclined"])
+def test_a_campaign_holds_what_the_robot_s_sensors_read(tmp_path, robot):
+    kind = next(kind for kind in spoilt_kinds("few", 3 * len(FEW), 1) if kind.way == robot)
+    kind = replace(kind, reality=replace(kind.reality, size=SMALL))
+    ((name, case, seed),) = spoilt_cases([("c001", kind)], 1)
+    file = write_case(case, name, seed, tmp_path / "campaigns", tmp_path / "sealed")
+    assert 'robot = "robot.toml"' in file.read_text()
+    cables, tracked = entered_robot(robot).cables, not robot.endswith("inclined")
+    assert (file.parent / "robot.toml").read_text().count("[[cables]]") == cables
+    for table in case.tables.values():
+        assert ("x_m" in table) == ("rz_deg" in table) == tracked
+        assert {"rx_deg", "ry_deg"} <= set(table)
+
+
+def test_a_robot_hangs_where_its_forces_meet_the_weight():
+    """Two cables: their planes and the centre of mass lie in one vertical plane, but for the cables' own weight."""
+    robot = entered_robot("two-cables")
+    lengths, position, rotation, tensions = hanging(robot, robot.home, 0.0)
+    away = robot.frame_anchors - position - robot.platform_anchors @ rotation.T
+    force = (tensions / np.linalg.norm(away, axis=1)) @ away
+    cables = robot.linear_density * lengths
+    carried = robot.gravity * (robot.mass + 0.5 * cables.sum())  # half of each cable hangs on the platform
+    # straight chords: a sag of half a per cent turns the pull by as much
+    assert force[2] == pytest.approx(carried, rel=0.01)
+    assert np.abs(force[:2]).max() < 0.01 * carried
+
+
+@pytest.mark.parametrize("robot", FEW)
+def test_a_mass_shows_as_far_as_the_cells_allow(robot):
+    """Gains of .5 % of single cells and .1 kg: with m cells 4.1 sigmas of a mass are some per cent of it."""
+    entered = entered_robot(robot)
+    size = reference_size(robot, "platform_mass", np.ones(1), 1, True)
+    assert size is not None
+    assert 4.1 * 0.1 < size < 0.05 * entered.mass
+    assert reference_size(robot, "internal_force", np.ones(2), 1, True) is None
+    assert LIBRARY["platform_mass"].largest > 4.0 * size
