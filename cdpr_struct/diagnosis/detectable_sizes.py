@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cdpr_struct.hypotheses.alternatives import of_pattern, offered
-from cdpr_struct.hypotheses.causes.cause import Pattern
+from cdpr_struct.hypotheses.causes.cause import ALIKE_IN, Pattern
 from cdpr_struct.hypotheses.detectable import noncentrality
 from cdpr_struct.hypotheses.hypothesis import SCALES
 from cdpr_struct.hypotheses.judge import Judged
@@ -57,5 +57,5 @@ def smallest(pattern: Pattern, gram: np.ndarray) -> dict[str, float | str]:
 
 def plainest(patterns: Sequence[Pattern]) -> Pattern:
     """All alike if there is such a pattern, else that of the most numbers."""
-    alike = [pattern for pattern in patterns if pattern.label == "all alike"]
+    alike = [p for p in patterns if p.label == "all alike" or p.label.startswith(ALIKE_IN)]
     return (alike or [max(patterns, key=lambda pattern: len(pattern.parameters))])[0]

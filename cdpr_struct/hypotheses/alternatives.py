@@ -60,14 +60,27 @@ class Gains:
     def leading(self, count: int) -> list[tuple[Part, float]]:
         """The best alternatives of so many patterns, best first, and by how much all that each stands for exceed it.
 
-        Each stands for the other scales of its pattern, and the first for all other patterns as well.
+        Each stands for the other scales of its pattern, and the first for all other patterns as well. Of a cause whose
+        numbers may go along: the best pattern with them and the best without, each for all others that are so.
         """
+        if self.cause.along:
+            return self._with_and_without()
         order = np.argsort(-self.logs.max(axis=1), kind="stable")
         found = []
         for k, i in enumerate(order[:count]):
             own = [i] if k else [i, *order[count:]]
             part = self.offered.part(int(i), SCALES[int(self.logs[i].argmax())])
             found.append((part, float(logsumexp(self.logs[own]) - self.logs[i].max())))
+        return found
+
+    def _with_and_without(self) -> list[tuple[Part, float]]:
+        """The best of the patterns with the numbers that may go along, and of those without."""
+        along = np.array([pattern.label.endswith(self.cause.along) for pattern in self.offered.patterns])
+        found = []
+        for group in (np.flatnonzero(~along), np.flatnonzero(along)):
+            i = int(group[self.logs[group].max(axis=1).argmax()])
+            part = self.offered.part(i, SCALES[int(self.logs[i].argmax())])
+            found.append((part, float(logsumexp(self.logs[group]) - self.logs[i].max())))
         return found
 
 

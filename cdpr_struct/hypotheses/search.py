@@ -16,6 +16,7 @@ from cdpr_struct.hypotheses.alternatives import Gains, Offered, gains, offered
 from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.drift import AMPLITUDES
 from cdpr_struct.hypotheses.causes.library import testable
+from cdpr_struct.hypotheses.choices import bent, occurs, same, with_choices
 from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES, Hypothesis, drift_term
 from cdpr_struct.hypotheses.judge import NEAR, SETTLED, Judged, again, begun, converged, extended, judged, settled
 from cdpr_struct.hypotheses.laws import UNKNOWN
@@ -104,8 +105,11 @@ class Search:
         base = max(nulls, key=lambda one: one.score)
         menu = offered(self.data, self.where, self.seen, self.causes, base)
         self.p_value = p_of_null(menu, base)
-        rows = self._screened(menu, nulls, [self._rich(menu, base, scale) for scale in _RICH])
+        rich = [self._rich(menu, base, scale) for scale in _RICH]
+        menu = with_choices(menu, base, [base.fit.noise, *rich], self.seen)
+        rows = self._screened(menu, nulls, rich)
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
+        self._bend(nulls)
         large = beginnings(self.data, menu, base, self.budget.beginnings + 1)
         self._begin(large, base)
         if self.p_value < SIGNIFICANT:
@@ -125,7 +129,7 @@ class Search:
     def answers(self) -> list[Answer]:
         """Sets of causes, best first."""
         groups: dict[tuple[str, ...], list[Judged]] = {}
-        for one in self.found.values():
+        for one in self._ranked():
             groups.setdefault(tuple(sorted(one.hypothesis.names)), []).append(one)
         rows = []
         for names, own in groups.items():
@@ -144,8 +148,8 @@ class Search:
         return [first, *found]
 
     def _rich(self, menu: Sequence[Offered], base: Judged, scale: float) -> NoiseState:
-        """Sizes of the noise where every cause may act at once at a scale: what none of them explains."""
-        known = [cause for cause in menu if cause.cause.name != UNKNOWN]
+        """Sizes of the noise where all causes act at once at a scale, but those of several ways: what none explains."""
+        known = [cause for cause in menu if cause.cause.name != UNKNOWN and not cause.cause.one_of]
         columns = [[part * (scale * cause.patterns[0].prior.max()) for part in cause.columns] for cause in known]
         everything = base.model.with_columns([np.concatenate(parts, axis=-1) for parts in zip(*columns, strict=True)])
         lists = None if base.lists is None else base.lists.copy()
@@ -189,6 +193,16 @@ class Search:
         worth = self.budget.hopeless if found.moved > NEAR else PRICE
         return settled(self.data, self.where, found) if found.score > self._ranked()[0].score - worth else found
 
+    def _bend(self, nulls: Sequence[Judged]) -> None:
+        """Causes whose carriers have one of several ways, fitted so that these ways may bend."""
+        for one in [one for one in self._ranked(1) if one.hypothesis.parts[0].cause.one_of]:
+            base = next(null for null in nulls if null.hypothesis.drift == one.hypothesis.drift)
+            for part in bent(one.hypothesis.parts[0], self.seen):
+                more = Hypothesis((part,), one.hypothesis.drift)
+                self.spread[more.key] = self.spread.get(one.hypothesis.key, 0.0)
+                z = np.append(one.sizes[0], np.zeros(len(part.pattern.prior) - len(one.sizes[0])))
+                self.keep(begun(self.data, self.where, base, more, z))
+
     def _begin(self, large: Sequence[Beginning], base: Judged) -> None:
         """Fits of large changes that would put peaks right, beside what is known by then."""
         present = {part.cause.name for part in base.hypothesis.parts}
@@ -207,7 +221,8 @@ class Search:
                 self._begin([one], base)
 
     def _ranked(self, causes: int | None = None) -> list[Judged]:
-        own = [one for one in self.found.values() if causes is None or len(one.hypothesis.parts) == causes]
+        """All fits, or those of so many causes, best first, that say what may occur."""
+        own = [one for one in self.found.values() if causes in (None, len(one.hypothesis.parts)) and occurs(one)]
         return sorted(own, key=lambda one: -one.score)
 
     def _singles(self) -> list[Judged]:
@@ -250,8 +265,10 @@ class Search:
     def _pairs(self, first: Judged) -> None:
         """A second cause beside one, where that may come near the best."""
         present = {part.cause.name for part in first.hypothesis.parts}
-        left = [cause for cause in self.causes if cause.name not in present]
+        known = [part.cause for part in first.hypothesis.parts]
+        left = [c for c in self.causes if c.name not in present and not any(same(c, one) for one in known)]
         menu = offered(self.data, self.where, self.seen, left, first)
+        menu = with_choices(menu, first, [first.fit.noise], self.seen)
         rows = self._screened(menu, [first])[: self.budget.pairs]
         self._fit_best(menu, rows, 0, self._ranked()[0].score - self.budget.pair_near)
 

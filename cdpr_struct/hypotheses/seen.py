@@ -30,6 +30,8 @@ def seen_in(data: Recorded) -> Seen:
         internal=data.arrays.has_internal_mass,
         relative=campaign.relative_lengths,
         poses=bool(data.read[:, :6].any()),
+        wheels=data.arrays.has_pulleys,
+        bare=bool((data.arrays.pulley_radius == 0.0).any()),
         groups={
             "cable": {str(i): f"cable {i}" for i in range(1, m + 1)},
             "mast": _masts(campaign.robot.frame_anchors),

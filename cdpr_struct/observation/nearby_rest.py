@@ -1,7 +1,9 @@
 """States at rest near known ones, to first order: residuals of many slightly different robots without any catenary.
 
-A cable that carries a given tension depends on where its ends are, its tension, stiffness, weight, pulley and what is
-in line with it: ten numbers. Their slopes are taken once; what a robot or a reading changes of them is geometry.
+A cable that carries a given tension depends on where its ends are, its tension, stiffness, weight and what is in line
+with it: seven numbers. Their slopes are taken once; what a robot or a reading changes of them is geometry. So is a
+pulley of another radius or axis: with the cable's direction held, its exit moves as if the frame anchor did, and the
+cable on it is longer. What the exit does as the cable turns after that, the slopes know.
 """
 
 from dataclasses import dataclass, replace
@@ -16,9 +18,10 @@ from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, load_wrench
 from cdpr_struct.statics.masts import MastShapes
+from cdpr_struct.statics.pulley import pulley_exit
 from cdpr_struct.statics.tensioned_cables import tensioned
 
-_ANCHOR, _SHARE, _RADIUS, _COMPLIANCE = 1e-5, 1e-5, 1e-6, 1e-10  # steps: m, of the value, m, m/N
+_ANCHOR, _SHARE, _COMPLIANCE = 1e-5, 1e-5, 1e-10  # steps: m, of the value, m/N
 _PULLS = 3  # rounds of masts that are pulled by what they move: each is a thousandth of the one before
 
 
@@ -26,9 +29,11 @@ _PULLS = 3  # rounds of masts that are pulled by what they move: each is a thous
 class NearbyRest:
     """Known states, and slopes of the cables there.
 
-    inputs (S, m, 8) : exit to platform anchor with rigid masts (3) [m], tension, EA, weight, pulley radius, compliance
+    inputs (S, m, 7) : frame to platform anchor with rigid masts (3) [m], tension, EA, weight, compliance
     outputs (S, m, 7) : force on the platform, pull at the frame (3 each) [N], length from the frame anchor on [m]
-    slopes (S, m, 7, 8)
+    slopes (S, m, 7, 7)
+    wound (S or 1, m or 1, 4) : exit less frame anchor (3) [m], unstrained length on the pulley [m], at these pulls
+    stretch (S, m) : strained over unstrained length where cables leave the pulleys
     """
 
     known: Circumstances
@@ -36,6 +41,8 @@ class NearbyRest:
     inputs: np.ndarray
     outputs: np.ndarray
     slopes: np.ndarray
+    wound: np.ndarray
+    stretch: np.ndarray
 
     @classmethod
     def about(cls, arrays: RobotArrays, readings: Readings, known: Circumstances, radius: float) -> "NearbyRest":
@@ -47,7 +54,9 @@ class NearbyRest:
         moved, pulled, steps = _steps(rigid, tension)
         found = _outputs(tensioned(cable_model(known.model), moved, state.arms.points, pulled))
         inputs = _inputs(state.arrays, state.arms, tension, _mast_shift(state.arrays, base))
-        return cls(known, radius, inputs, base, np.moveaxis((found - base) / steps[..., None], 0, -1))
+        slopes = np.moveaxis((found - base) / steps[..., None], 0, -1)
+        stretch = 1.0 + np.linalg.norm(base[..., 3:6], axis=-1) / state.cables.axial_stiffness
+        return cls(known, radius, inputs, base, slopes, _wound(state.arrays, base, stretch), stretch)
 
     def residuals(self, arrays: RobotArrays, readings: Readings) -> np.ndarray:
         """(..., S, 6 + m) as `static_residuals`, to first order in the change of the cables."""
@@ -65,11 +74,11 @@ class NearbyRest:
 
     def _cables(self, there: RobotArrays, arms: PlatformArms, tension: np.ndarray) -> np.ndarray:
         """(..., S, m, 7) outputs."""
-        found = self.outputs
+        found, wound = self.outputs, _wound(there, self.outputs, self.stretch) - self.wound
         for _ in range(_PULLS if there.has_masts else 1):
-            change = _inputs(there, arms, tension, _mast_shift(there, found)) - self.inputs
+            change = _inputs(there, arms, tension, _mast_shift(there, found) + wound[..., :3]) - self.inputs
             found = self.outputs + np.einsum("smoi,...smi->...smo", self.slopes, change)
-        return found
+        return np.concatenate([found[..., :6], found[..., 6:] + wound[..., 3:]], axis=-1) if wound.any() else found
 
 
 def _rigid(state: Rest, tension: np.ndarray) -> RobotArrays:
@@ -99,27 +108,36 @@ def _mast_shift(arrays: RobotArrays, outputs: np.ndarray) -> np.ndarray:
     return MastShapes.soft(arrays).shift(outputs[..., 3:6])
 
 
+def _wound(arrays: RobotArrays, outputs: np.ndarray, stretch: np.ndarray) -> np.ndarray:
+    """(..., m, 4) exit less frame anchor (3) and unstrained length on the pulley [m], of cables with these pulls."""
+    if not arrays.has_pulleys:
+        return np.zeros((1, 1, 4))
+    pull = outputs[..., 3:6]
+    there = pulley_exit(pull / np.linalg.norm(pull, axis=-1, keepdims=True), arrays.pulley_axis, arrays.pulley_radius)
+    length = arrays.pulley_radius * there.wrap_angle / stretch
+    return np.concatenate([there.point, length[..., None]], axis=-1)
+
+
 def _inputs(arrays: RobotArrays, arms: PlatformArms, tension: np.ndarray, shift: np.ndarray) -> np.ndarray:
-    """(..., m, 8)."""
+    """(..., m, 7)."""
     offset = arms.points - arrays.frame_anchors - shift
-    single = [tension, arrays.stiffness_at(tension), arrays.weight, arrays.pulley_radius, arrays.series_compliance]
+    single = [tension, arrays.stiffness_at(tension), arrays.weight, arrays.series_compliance]
     lead = np.broadcast_shapes(offset.shape[:-1], *(value.shape for value in single))
     parts = [np.broadcast_to(offset, (*lead, 3)), *(np.broadcast_to(value, lead)[..., None] for value in single)]
     return np.concatenate(parts, axis=-1)
 
 
 def _steps(rigid: RobotArrays, tension: np.ndarray) -> tuple[RobotArrays, np.ndarray, np.ndarray]:
-    """The robot and its tensions with one input at a time changed along a new first axis (8), by (8, S, m)."""
-    shift, pull, stiff, heavy, wide, soft = np.split(np.eye(8)[:, :, None, None], [3, 4, 5, 6, 7], axis=1)
-    pull, stiff, heavy, wide, soft = (part[:, 0] for part in (pull, stiff, heavy, wide, soft))
+    """The robot and its tensions with one input at a time changed along a new first axis (7), by (7, S, m)."""
+    shift, pull, stiff, heavy, soft = np.split(np.eye(7)[:, :, None, None], [3, 4, 5, 6], axis=1)
+    pull, stiff, heavy, soft = (part[:, 0] for part in (pull, stiff, heavy, soft))
     moved = replace(
         rigid,
         frame_anchors=rigid.frame_anchors - _ANCHOR * np.moveaxis(shift, 1, -1),
         axial_stiffness=rigid.axial_stiffness * (1.0 + _SHARE * stiff),
         linear_density=rigid.linear_density * (1.0 + _SHARE * heavy),
-        pulley_radius=rigid.pulley_radius + _RADIUS * wide,
         series_compliance=rigid.series_compliance + _COMPLIANCE * soft,
     )
     shares = pull * tension + stiff * rigid.axial_stiffness + heavy * rigid.weight
-    sizes = _ANCHOR * shift.sum(axis=1) + _SHARE * shares + _RADIUS * wide + _COMPLIANCE * soft
+    sizes = _ANCHOR * shift.sum(axis=1) + _SHARE * shares + _COMPLIANCE * soft
     return moved, tension * (1.0 + _SHARE * pull), sizes

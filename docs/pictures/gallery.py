@@ -23,6 +23,7 @@ What each cause of the [library](index.md) looks like in every kind of reading, 
 - **Robot**: the box robot of [my robot, from drawings](../tutorial_own_robot.md) at x = 0.4 m, y = 0.3 m, z = 1.3 m,
   turned by 1, -1 and 2 degrees; eight preloaded cables. Approach +1, one hour after the first reading.
 - **Real robot**: the same with one cause, its winches locked at the encoder lengths that the simulation commands.
+  For `missing_pulleys` the simulation has no pulleys, for all others those of the robot file.
 - **Size**: one sigma of the cause's prior (accelerometer gain: four), halved until no tension changes by 60 N. A
   preloaded robot with locked winches is so stiff that a millimetre of cable is worth tens of newtons.
 - **Tensions, frequencies**: real less simulated. Of cable frequencies the bar is the first mode in the plane, the dot

@@ -104,9 +104,10 @@ def _answer(stand: Stand) -> locked.Answer:
     return replace(found, response=stand.gain * found.response)
 
 
-def entered() -> Stand:
-    """The simulation under test."""
+def entered(pulleys: bool = True) -> Stand:
+    """The simulation under test, or the same without the pulleys of its robot file."""
     robot = load_robot(ROBOT)
+    robot = robot if pulleys else replace(robot, pulleys=(None,) * len(robot.cables))
     held = inverse(robot, POSE.position, POSE.rotation)
     position, rotation = POSE.position[None], POSE.rotation[None]
     turns = exit_turns(robot, position, rotation)
@@ -123,7 +124,7 @@ def theta_of(cause: Cause, arrays: RobotArrays) -> tuple[np.ndarray, str]:
         one[2:3] = np.sqrt(3.0) if len(one) == 4 else one[2:3]
         return one, ""
     own = _TIMES.get(cause.name, 1.0) * np.array([p.prior for p in cause.parameters])
-    if cause.name in ("accelerometer_gain", "tracker_frame", "pose_mismatch", "frame_compliance"):
+    if cause.name in ("accelerometer_gain", "tracker_frame", "pose_mismatch", "frame_compliance", "missing_pulleys"):
         own = own * (np.arange(len(own)) < {"tracker_frame": 6, "pose_mismatch": 3}.get(cause.name, 1))
     count = {"cable": 8, "mast": carriers(arrays.masts).shape[1], "axis": 3, "state": 1}.get(cause.carrier, 1)
     every = np.tile(own, (count, 1))
@@ -201,6 +202,7 @@ def effects() -> dict[str, Effect]:
 def of_library(name: str, simulation: Stand) -> Effect:
     """Of a cause that changes the robot or a sensor."""
     cause = LIBRARY[name]
+    simulation = simulation if cause.name != "missing_pulleys" else entered(pulleys=False)
     if cause.outside:
         return effect(simulation, simulation, f"{cause.parameters[0].name} {_LINE:g} Hz", peak=_LINE)
     real, size = real_robot(cause, simulation)

@@ -7,6 +7,8 @@ CDPR_EXTERNAL_DATA names the folder that holds them, and without it these tests 
 
 import json
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +23,7 @@ from cdpr_struct.statics.pose_error import reference_lengths
 DEFAULT = Path(__file__).parents[3] / "shared" / "external"
 FOLDER = Path(os.environ.get("CDPR_EXTERNAL_DATA", DEFAULT)) / "irma_free_motion"
 pytestmark = pytest.mark.skipif(not FOLDER.exists(), reason=f"no recordings in {FOLDER}")
+RECORDED = [f"p_33_{i:02d}" for i in range(1, 13)]
 PARTNER = 0.1  # a measured frequency farther off than this is another mode, or a weakly excited one
 
 
@@ -82,8 +85,14 @@ def deviations(setup, tmp_path, capsys, pulleys=True, assembly="consistent") -> 
     """Relative deviations of the pairs found, and how many of 36 computed frequencies have no measured partner."""
     config, turn = setup
     path = robot_file(config, turn, tmp_path / "robot.toml", pulleys)
+    return deviations_of(path, turn, sorted(RECORDED), assembly, capsys)
+
+
+def deviations_of(path, turn, names, assembly, capsys) -> tuple[np.ndarray, int]:
+    """The same of a robot file, in some of the recordings."""
+    motions = np.load(FOLDER / "free_motion_poses_100Hz_33.npz")
     found, alone = [], 0
-    for motion in np.load(FOLDER / "free_motion_poses_100Hz_33.npz").values():
+    for motion in (motions[name] for name in names):
         measured = measured_frequencies(motion.astype(float))
         computed = computed_frequencies(path, motion.astype(float), turn, assembly, capsys)
         ratio = computed[None, :] / measured[:, None]
@@ -112,3 +121,34 @@ def test_geometric_term_decides_on_three_cables(setup, tmp_path, capsys):
     """Without the work of the static cable forces on the rotating arms 32 of the 36 frequencies have no partner."""
     _, alone = deviations(setup, tmp_path, capsys, assembly="thesis")
     assert alone >= 30
+
+
+def without_pulleys(names, directory) -> Path:
+    """The campaign of some recordings that the example writes, pulleys and their tolerance deleted."""
+    script = Path(__file__).parents[2] / "examples" / "free_motion_campaign.py"
+    subprocess.run([sys.executable, script, FOLDER, directory, "--only", ",".join(names)], check=True)
+    for file in (directory / "three_cables.toml", directory / "campaign.toml"):
+        lines = file.read_text().splitlines()
+        file.write_text("\n".join(line for line in lines if not line.startswith("pulley")))
+    return directory / "campaign.toml"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("fitted", "left_out"), [(RECORDED[::2], RECORDED[1::2]), (RECORDED[1::2], RECORDED[::2])])
+def test_pulleys_nobody_entered_are_found_in_six_recordings(setup, tmp_path, capsys, fitted, left_out):
+    """Named, or in a class of two, with radius 22.5 mm (three sigmas) and axes -x, -y, +x; the six recordings left out
+    are predicted as well as with the robot entered with pulleys: median deviation within 20 %."""
+    config, turn = setup
+    campaign = without_pulleys(fitted, tmp_path / "campaign")
+    assert run(["diagnose", str(campaign), "--out", str(tmp_path / "out"), "--json", "--quiet"]) == 0
+    result = json.loads((tmp_path / "out" / "result.json").read_text())
+    (names,) = result["verdict"]["class"]
+    assert {*names} in ({"missing_pulleys"}, {"missing_pulleys", "frame_anchor_position"})
+    robot = load_robot(tmp_path / "out" / "extended_robot.toml")
+    axes = np.round([pulley.axis for pulley in robot.pulleys])
+    np.testing.assert_array_equal(axes, [[-1, 0, 0], [0, -1, 0], [1, 0, 0]])
+    assert np.abs([pulley.radius - 0.0225 for pulley in robot.pulleys]).max() < 3 * 0.0006
+    capsys.readouterr()
+    paths = (robot_file(config, turn, tmp_path / "entered.toml"), tmp_path / "out" / "extended_robot.toml")
+    entered, extended = (deviations_of(path, turn, left_out, "consistent", capsys)[0] for path in paths)
+    assert np.median(np.abs(extended)) < 1.2 * np.median(np.abs(entered))

@@ -81,7 +81,9 @@ def test_slopes_by_every_parameter_of_every_cause(about, name):
     data, nearby = about
     cause = LIBRARY[name]
     if name == "pulley_radius" and not data.arrays.has_pulleys:
-        pytest.skip("a wheel cannot be smaller than none: no central difference")
+        pytest.skip("no wheel that it could change")
+    if name == "missing_pulleys":
+        pytest.skip("a wheel cannot be smaller than none: forward differences in test_missing_pulleys.py")
     sigma = np.array([p.prior for p in cause.basic(seen_in(data))])
     term = Term(cause.apply, np.eye(len(sigma)), sigma)
 

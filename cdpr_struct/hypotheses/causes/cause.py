@@ -1,6 +1,6 @@
 """What a cause is: named parameters with priors, one change of the robot, and patterns of occurrence."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -9,6 +9,8 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 
 A_MINUTE = 1.0 / 60.0
 """[h] Readings of a shorter time show nothing that grows with time: creep counts its decades after the first minute."""
+ALIKE_IN = "all alike, axes "
+"""How the label of a pattern begins in which all carriers are of one size, each in one of several ways."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,6 +21,7 @@ class Parameter:
     squared : theta is the root of what is reported
     positive : theta below zero means nothing
     prior   : one sigma of theta
+    least   : smallest size that occurs, of those of a cause in one of several ways
     in_band : a frequency, its prior in the highest one that was measured of the robot; no check bounds it
     """
 
@@ -29,6 +32,7 @@ class Parameter:
     squared: bool = False
     positive: bool = False
     in_band: bool = False
+    least: float = 0.0
 
     def shown(self, theta: float, sigma: float) -> dict[str, float | str]:
         """Value, sigma and unit as they are reported."""
@@ -76,6 +80,7 @@ class Seen:
     approach : whether directions are known;  hours : that the readings span
     cable_modes : how many different modes of a cable;  states : names
     highest : frequency measured of the robot [Hz], 0 without;  internal : whether the robot has an internal mass
+    wheels, bare : whether some cables have pulleys in the robot file, and whether some have none
     groups : endings and words of what carries parameters of its own, by carrier ("cable", "mast", "axis", "state")
     """
 
@@ -91,6 +96,8 @@ class Seen:
     internal: bool = False
     poses: bool = True
     relative: bool = False
+    wheels: bool = False
+    bare: bool = True
 
 
 def always(seen: Seen) -> str:
@@ -107,6 +114,9 @@ class Cause:
     alike     : probability that all carriers have the same, 0 if that cannot be
     shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
     laws      : (words, which of its parameters, probability) where a carrier may follow one of several laws
+    one_of    : words of the first parameters of each carrier, if these are ways to occur of which it has one; the last
+                ones bend that way, and are in no pattern to begin with (see `choices.py`)
+    along     : words, if the parameter after the ways goes along in half of the patterns
     seen_in   : kinds of rows it shows in;  needs : why these data cannot show it, or ""
     outside   : whether it sits in the data alone: the extended robot does not have it
     becomes   : causes that it is where some of its parameters are zero
@@ -122,6 +132,8 @@ class Cause:
     alike: float = 0.4
     shapes: tuple[tuple[str, slice | list[int], float], ...] = ()
     laws: tuple[tuple[str, list[int], float], ...] = ()
+    one_of: tuple[str, ...] = ()
+    along: str = ""
     seen_in: tuple[str, ...] = ()
     needs: Callable[[Seen], str] = always
     outside: bool = False
@@ -150,10 +162,35 @@ class Cause:
         every = np.eye(len(basic))
         if self.shapes:
             return [_of_some(label, every, basic, own, weight) for label, own, weight in self.shapes]
+        if self.one_of:
+            return [p for k in range(len(self.one_of)) for p in self.in_one_way(seen, [k] * (len(basic) // axes))]
         if len(basic) < 2 * axes:
             return [Pattern("", every, self.parameters, 1.0)]
         laws = self.laws or (("", list(range(axes)), 1.0),)
         return [found for words, own, share in laws for found in self._of_law(seen, words, own, share)]
+
+    def in_one_way(self, seen: Seen, ways: Sequence[int]) -> list[Pattern]:
+        """Each carrier in one of its ways, all of one size or each of its own, with what may go along and without."""
+        basic, axes, endings = self.basic(seen), len(self.parameters), list(seen.groups[self.carrier])
+        every, count = np.eye(len(basic)), len(self.one_of)
+        starts = axes * np.arange(len(endings))
+        words = self.one_of[ways[0]] if len(set(ways)) == 1 else ", ".join(self.one_of[k] for k in ways)
+        each = every[:, starts + np.asarray(ways)]
+        own = tuple(replace(self.parameters[0], name=f"{self.parameters[0].name}_{e}") for e in endings)
+        sizes = (
+            (f"{ALIKE_IN}{words}", each.sum(axis=1, keepdims=True), self.parameters[:1], self.alike / count),
+            (f"each its own, axes {words}", each, own, (1.0 - self.alike) / count),
+        )
+        if not self.along:
+            return [Pattern(*size) for size in sizes]
+        more, free = every[:, starts + count], tuple(basic[i] for i in starts + count)
+        found = [Pattern(label, basis, named, 0.5 * weight) for label, basis, named, weight in sizes]
+        return found + [
+            Pattern(
+                f"{p.label}; {self.along}", np.concatenate([p.basis, more], axis=1), (*p.parameters, *free), p.weight
+            )
+            for p in found
+        ]
 
     def _of_law(self, seen: Seen, law: str, own: list[int], share: float) -> list[Pattern]:
         """Patterns in which some of the parameters `own` of each carrier act, with a probability `share` together."""

@@ -32,7 +32,8 @@ def _temperature(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
 
 
 def _pulley(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
-    return plus(arrays, pulley_radius=np.maximum(theta, -0.9 * arrays.pulley_radius))
+    turning = arrays.pulley_radius > 0.0
+    return plus(arrays, pulley_radius=np.where(turning, np.maximum(theta, -0.9 * arrays.pulley_radius), 0.0))
 
 
 def _tracker(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
@@ -46,6 +47,10 @@ def _tilt(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
 def _pose(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
     """A frame of its own for the tracker in each state (..., S * 6)."""
     return plus(arrays, tracker=by_carrier(theta, 6)[..., 0, :, :])
+
+
+def _wheels(seen: Seen) -> str:
+    return "" if seen.wheels else "no cable has a pulley in the robot file; see missing_pulleys"
 
 
 def _lengths(seen: Seen) -> str:
@@ -129,6 +134,7 @@ CAUSES = (
         seen_in=("CO", "NS"),
         sentence="the pulley radius is off by {value} m",
         sign="positive: larger than entered",
+        needs=_wheels,
         separated_by="poses at other heights",
         extension="pulley_radius",
     ),

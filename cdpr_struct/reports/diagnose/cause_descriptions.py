@@ -97,6 +97,17 @@ DESCRIPTIONS = {
         "above 0: larger than entered",
         "Lengths are off by amounts that depend on the wrap angle, so they change with height and distance",
     ),
+    "missing_pulleys": Description(
+        "every cable that has no pulley in the robot file runs over one: it comes along the axis to the frame anchor, "
+        "bends over the wheel and leaves at a tangent. Axes point the way the cable runs: up, down, along a horizontal "
+        "axis of the world, outwards of the middle of the frame anchors, inwards, or left or right of outwards. They "
+        "may lean from there; the lean is reported as radius times angle. Where lengths were homed without pulleys, "
+        "each cable has a zero offset besides",
+        "never negative",
+        "Lengths are off by radius times (wrap angle less its sine), so they change with the direction of the cable; "
+        "directions and lever arms change by the radius over the length",
+        "Geometry of the swivelling pulley: [how to enter pulleys](../pulleys.md)",
+    ),
     "tracker_frame": Description(
         "true pose = pose read, turned and shifted by the parameters",
         "what turns the tracker's frame into the robot's",

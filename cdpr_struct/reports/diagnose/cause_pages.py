@@ -30,7 +30,9 @@ def cause_page(cause: Cause) -> str:
     """One cause as Markdown."""
     kind = _CARRIED[cause.carrier].format(cause.carrier)
     kind += "; " + ", ".join(label for label, _, _ in cause.shapes) if cause.tuned else ""
-    rows = [f"| {p.name} | {'ratio' if p.ratio else p.unit} | {_prior(p)} |" for p in cause.parameters]
+    if cause.one_of:
+        kind = f"per {cause.carrier} (equal for all, or each different), each with one of: {', '.join(cause.one_of)}"
+    rows = [f"| {p.name} | {'ratio' if p.ratio else p.unit} | {_prior(p)} |" for p in dict.fromkeys(cause.parameters)]
     table = ["| parameter | unit | prior, one sigma (of the logarithm for ratios) |", "|---|---|---|", *rows]
     sign = cause.sign or DESCRIPTIONS[cause.name].sign
     seen = ", ".join(BLOCKS[b] for b in cause.seen_in)

@@ -5,6 +5,7 @@ _PAIRS = (
     "frame_compliance dead_length", "frame_anchor_position tracker_frame",
     "frame_anchor_position platform_anchor_position", "platform_anchor_position tracker_frame",
     "pulley_radius frame_anchor_position", "pulley_radius tracker_frame", "pulley_radius platform_anchor_position",
+    "missing_pulleys frame_anchor_position", "missing_pulleys unstrained_length_offset",
     "pulley_radius unstrained_length_offset", "unstrained_length_offset drum_scale", "external_force hose_stiffness",
     "gravity_tilt hose_stiffness", "gravity_tilt external_force", "load_cell_gain pulley_friction",
     "joint_mass platform_mass", "joint_mass hose_stiffness", "joint_mass external_force", "platform_mass "
