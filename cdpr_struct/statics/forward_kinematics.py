@@ -138,15 +138,16 @@ def forward(
         descent.run(MAX_ITERATIONS, *((_PUSHES, spared) if station is last and not stiffens else ()))
         place, turns = descent.position, descent.rotation
     if stiffens:
-        balance, descent = _stiffening(balance, descent, sizes)
+        balance, descent, same = _stiffening(balance, descent, sizes)
         descent.run(MAX_ITERATIONS, _PUSHES)
+        descent.converged &= same
     return _solution(descent, balance, shape, begun)
 
 
 def _stiffening(
     balance: LockedBalance, descent: EnergyDescent, sizes: tuple[float, float]
-) -> tuple[LockedBalance, EnergyDescent]:
-    """Descents with the stiffness that the cables have at their tension, until it stays."""
+) -> tuple[LockedBalance, EnergyDescent, np.ndarray]:
+    """Descents with the stiffness that the cables have at their tension, until it stays, and where (...) it did."""
     entered = balance.arrays
     for _ in range(_MOST_STIFFENINGS):
         tension = balance.states(descent.position, descent.rotation).tension_at_platform
@@ -157,8 +158,7 @@ def _stiffening(
         balance = replace(balance, arrays=replace(entered, axial_stiffness=stiffness))
         descent = EnergyDescent(balance, descent.position, descent.rotation, *sizes)
         descent.run(MAX_ITERATIONS)
-    descent.converged &= ~(change > _UNLIKE_STIFFNESS).any(axis=-1)
-    return balance, descent
+    return balance, descent, ~(change > _UNLIKE_STIFFNESS).any(axis=-1)
 
 
 def starting_position(arrays: RobotArrays, length: np.ndarray) -> np.ndarray:

@@ -26,6 +26,7 @@ DEFENDED = {
     "cdpr_struct/dynamics/natural_frequencies.py:bisect_count": LEFT + "brackets say how wide they are",
     "cdpr_struct/dynamics/pose_frequencies.py:quick_frequencies": LEFT + "None goes to the certified modes",
     "cdpr_struct/dynamics/swept_stiffness.py:swept_stiffness": LEFT + "what no piece covers is evaluated in full",
+    "cdpr_struct/hypotheses/choices.py:best_mix": "a local best of many starts; the fit of each hypothesis judges it",
     "cdpr_struct/hypotheses/judge.py:converged": LEFT + "`moved`, which the result's trust tells",
     "cdpr_struct/hypotheses/judge.py:settled": LEFT + "`moved`, which the result's trust tells",
     "cdpr_struct/inference/marginal_scales.py:first_noise": "a beginning; the fit from it says whether it settled",

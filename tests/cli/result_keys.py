@@ -12,7 +12,9 @@ from typing import Any
 from tests.cli.conftest import EXAMPLES, OTHERS, words_of
 
 RECORD = Path(__file__).with_name("result_keys.json")
-_NAMED_BY_DATA = {"files", "inputs"}  # their keys are names of files
+_NAMED_BY_DATA = {"files", "inputs", "minimum_detectable"}  # their keys are names of files, or of causes that are tried
+
+_BETWEEN = "; "
 
 
 def keys(result: Any, before: str = "") -> Iterator[str]:
@@ -30,7 +32,7 @@ def keys(result: Any, before: str = "") -> Iterator[str]:
 def missing(name: str, number: int, result: Mapping[str, Any]) -> list[str]:
     """Recorded keys that the result of an example no longer has."""
     record = json.loads(RECORD.read_text("utf-8"))
-    return sorted(set(record["keys"][f"{name} {number}"].split()) - set(keys(result)))
+    return sorted(set(record["keys"][f"{name} {number}"].split(_BETWEEN)) - set(keys(result)))
 
 
 def recorded_version() -> int:
@@ -50,7 +52,7 @@ def main() -> None:
         with tempfile.TemporaryDirectory() as scratch:
             run([*words_of(line), "--out", scratch, "--quiet"])
             result = json.loads((Path(scratch) / "result.json").read_text("utf-8"))
-            found[f"{name} {number}"] = " ".join(sorted(set(keys(result))))
+            found[f"{name} {number}"] = _BETWEEN.join(sorted(set(keys(result))))
     RECORD.write_text(json.dumps({"schema_version": SCHEMA_VERSION, "keys": found}, indent=1) + "\n", "utf-8")
 
 
