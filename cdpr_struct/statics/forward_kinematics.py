@@ -138,9 +138,9 @@ def forward(
         descent.run(MAX_ITERATIONS, *((_PUSHES, spared) if station is last and not stiffens else ()))
         place, turns = descent.position, descent.rotation
     if stiffens:
-        balance, descent, same = _stiffening(balance, descent, sizes)
+        balance, descent, settled = _stiffening(balance, descent, sizes)
         descent.run(MAX_ITERATIONS, _PUSHES)
-        descent.converged &= same
+        descent.converged &= settled
     return _solution(descent, balance, shape, begun)
 
 
@@ -158,7 +158,8 @@ def _stiffening(
         balance = replace(balance, arrays=replace(entered, axial_stiffness=stiffness))
         descent = EnergyDescent(balance, descent.position, descent.rotation, *sizes)
         descent.run(MAX_ITERATIONS)
-    return balance, descent, ~(change > _UNLIKE_STIFFNESS).any(axis=-1)
+    settled = ~(change > _UNLIKE_STIFFNESS).any(axis=-1)
+    return balance, descent, settled
 
 
 def starting_position(arrays: RobotArrays, length: np.ndarray) -> np.ndarray:
