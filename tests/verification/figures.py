@@ -148,3 +148,22 @@ def lowest() -> Figure:
 
 def _cells(line: str) -> list[str]:
     return [cell.strip() for cell in line.strip().strip("|").split("|")]
+
+
+def fuzzed_files() -> Figure:
+    """Executions of the fuzzer since the last correction of each reader, and failures among them."""
+    rows = table("robustness.md", "target", "executions")
+    since = [re.match(r"(\d+), \d+, (\d+)$", row[4]) for row in rows]
+    fails = sum(int(found[2]) for found in since if found)
+    runs = sum(int(found[1]) for found in since if found)
+    text = f"{runs} inputs since the last correction, {fails} failures"
+    untried = [row[0].split()[0] for row, found in zip(rows, since, strict=True) if not found]
+    return Figure(text + (f"; not since: {', '.join(untried)}" if untried else ""), fails == 0 and not untried)
+
+
+def surroundings() -> Figure:
+    """Attacks on the surroundings: those that hold, or hold since a correction."""
+    rows = table("robustness.md", "attack", "tried")
+    good = sum(row[3].startswith(("holds", "corrected")) for row in rows)
+    corrected = sum(row[3].startswith("corrected") for row in rows)
+    return Figure(f"{good} of {len(rows)} kinds hold, {corrected} of them since a correction", good == len(rows))

@@ -246,7 +246,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             test="tests/robustness/test_fuzzed_files.py::test_robot_files",
             twin=None,
             source="robustness.md",
-            figure=None,
+            figure=figures.fuzzed_files,
         ),
         Row(
             case="environment: locales, full disks, read-only folders",
@@ -257,7 +257,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             test="tests/robustness/test_environment.py",
             twin=None,
             source="robustness.md",
-            figure=None,
+            figure=figures.surroundings,
         ),
         Row(
             case="the test suite: mutants of the program",
