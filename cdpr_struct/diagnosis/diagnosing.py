@@ -3,8 +3,6 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from cdpr_struct.diagnosis import stories
 from cdpr_struct.diagnosis.added_modes import least_evidence
 from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
@@ -163,7 +161,7 @@ class _Said:
             return Location("RF", self.apart.lists[0].case, -1)
         if self._by_damping:
             return Location(DAMPING, "", -1)
-        if self.forces is None or self.whole is self.fitted:
+        if self.forces is None or self.whole == self.fitted:
             return None
         split, names = self.forces.split, self.campaign.states.names
         return Location(NULL_SPACE, names[int(split.state[split.internal_rms.argmax()])], -1)
@@ -189,11 +187,9 @@ def _assembled(
     least = minimum_detectable(search, null)
     unseen = {cause.name: TOO_SMALL for cause in search.causes if not (cause.name in least or cause.tuned)}
     noise, aside = noise_of_kinds(chosen), tuple(set_aside(data, search.where, chosen))
-    fitted, by_forces = said.fitted, 1.0
-    decision = said.whole if said.whole != fitted else fitted
-    if said.forces is not None and decision is not fitted:
-        by_forces = float(np.exp(-(said.forces.gain or 0.0)))
-    by_peaks = 1.0 if said.apart is None or not said.apart.found else said.apart.p
+    fitted, decision = said.fitted, said.whole
+    by_forces = said.forces.p if said.forces is not None and decision != fitted else 1.0
+    by_peaks = said.apart.p if said.apart is not None and said.apart.found else 1.0
     advice = recommended(fitted if by_peaks < 1.0 else said.decision, said.confirmed, _likeliest(rows))
     return Diagnosis(
         campaign=campaign, decision=decision, beliefs=tuple(sorted(beliefs, key=lambda one: -one.probability)),

@@ -205,7 +205,7 @@ class Diagnosis:
     @property
     def by_forces(self) -> bool:
         """Whether the decision speaks of internal forces that encoders and load cells show together."""
-        return self.fitted is not self.decision and not self.by_damping
+        return self.fitted != self.decision and not self.by_damping
 
     @property
     def outside(self) -> tuple[str, float]:

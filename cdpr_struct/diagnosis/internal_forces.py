@@ -24,7 +24,7 @@ from cdpr_struct.residuals.commanded_lengths import SIGMA, aligned, commanded_at
 from cdpr_struct.residuals.layout import Layout
 from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.statics.equilibrium import rotation_from_vector
-from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 
 _LEAST = 3  # states: of fewer, one that is left out leaves nothing to confirm
 _LEFT_OUT = 0.2  # share of the states that contradict the simulation most, which alone are no finding
@@ -81,6 +81,11 @@ class InternalForces:
         """Of that."""
         return 0.0 if self.gain is None else float(1.0 / (1.0 + np.exp(PRICE - self.gain)))
 
+    @property
+    def p(self) -> float:
+        """Bound on the chance of so much evidence if nothing were wrong: one over the Bayes factor (Markov)."""
+        return 1.0 if self.gain is None else min(1.0, float(np.exp(-self.gain)))
+
 
 def internal_forces(
     data: Recorded, where: Layout, found: Judged, noise: Sequence[NoiseOfKind]
@@ -112,12 +117,13 @@ def force_split(data: Recorded) -> ForceSplit | None:
 
 def simulated_tensions(data: Recorded) -> np.ndarray:
     """(S, m) what load cells would read of the simulation's tension distribution [N]."""
-    there, readings, known = at_states(data.arrays, data.known), data.readings, data.known
-    held = inverse(
-        there, readings.position, readings.rotation, known.model, lower_bound=data.campaign.lower_bound,
-        allow_unheld=True,
-    )  # fmt: skip
-    return cell_reading(data.arrays, held.tensions, known.approach, known.wrap)
+    return cell_reading(data.arrays, _distribution(data).tensions, data.known.approach, data.known.wrap)
+
+
+def _distribution(data: Recorded) -> InverseSolution:
+    """The simulation's tension distribution at the poses of all states."""
+    there, readings, bound = at_states(data.arrays, data.known), data.readings, data.campaign.lower_bound
+    return inverse(there, readings.position, readings.rotation, data.known.model, lower_bound=bound, allow_unheld=True)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -200,11 +206,10 @@ def _by_forces(data: Recorded, where: Layout, found: Judged, state: np.ndarray, 
     place, turn = data.readings.position, data.readings.rotation
     null = [null_space(robot, place[k], turn[k]) for k in state]
     basis = np.array([aligned(own, null[0]) for own in null])
-    there = at_states(data.arrays, data.known)
-    said = inverse(there, place, turn, data.known.model, lower_bound=data.campaign.lower_bound, allow_unheld=True)
-    off = np.broadcast_to(held, said.tensions.shape)[state] - said.tensions[state]
+    said = _distribution(data).tensions
+    off = np.broadcast_to(held, said.shape)[state] - said[state]
     tolerances = data.campaign.tolerances
-    share = np.hypot(tolerances.load_cell_gain, _MODEL) * said.tensions[state]
+    share = np.hypot(tolerances.load_cell_gain, _MODEL) * said[state]
     variance = (factor * data.sigma[state, 6 : 6 + m]) ** 2 + share**2 + tolerances.load_cell_bias_N**2
     map_ = np.swapaxes(basis, 1, 2) / m
     return _Deviation((map_ @ off[..., None])[..., 0], (map_ * variance[:, None]) @ np.swapaxes(map_, 1, 2))

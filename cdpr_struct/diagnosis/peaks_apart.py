@@ -168,7 +168,7 @@ def _drawn(lists: Sequence[_List], rng: np.random.Generator) -> list[np.ndarray]
         spread = float(np.median(one.peaks[:, 1]))
         kept = rng.random(len(one.modes)) < ROBOT_DETECTION_HIGHEST * one.detection
         own = (one.modes + one.columns @ z + spread * rng.standard_normal(len(one.modes)))[kept]
-        all_ = np.concatenate([own, rng.uniform(low, high, rng.poisson(_beside(len(one.peaks))))])
-        all_ = all_[all_ < high] if (all_ < high).any() else one.modes[:1]
-        found.append(np.stack([all_, np.full(len(all_), spread)], axis=1))
+        peaks = np.concatenate([own, rng.uniform(low, high, rng.poisson(_beside(len(one.peaks))))])
+        peaks = peaks[peaks < high] if (peaks < high).any() else one.modes[:1]
+        found.append(np.stack([peaks, np.full(len(peaks), spread)], axis=1))
     return found

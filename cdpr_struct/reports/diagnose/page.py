@@ -61,8 +61,8 @@ def plates(found: Diagnosis, result: Mapping[str, Any]) -> list[Plate]:
         drawn = Drawing("state_errors", figures.STATES_SIZE, lambda f: figures.draw_state_errors(f, result))
         said = (
             "Rms of measured less predicted in each state, in the unit of each kind. Look where the second bar is no "
+            "shorter than the first: there the causes do not help. Moments are over the platform's radius."
         )
-        said += "shorter than the first: there the causes do not help. Moments are over the platform's radius."
         shown.append(Plate("state_errors", "Errors by state", drawn, said))
     if result["candidates"]:
         drawn = Drawing("evidence", figures.EVIDENCE_SIZE, lambda f: figures.draw_evidence(f, result))

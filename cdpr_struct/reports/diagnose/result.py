@@ -144,7 +144,7 @@ def _is_among(step: str, simulated: Sequence[str]) -> bool:
 def likeliest(found: Diagnosis) -> list[str]:
     """Of each class the cause that was chosen, in the order of the classes."""
     if found.by_damping:
-        more = [internal_force.CAUSE.name] if found.decision is not found.fitted else []
+        more = [internal_force.CAUSE.name] if found.decision != found.fitted else []
         return [*(found.damped.finding.causes if found.damped is not None else ()), *more]
     own = [] if found.correction is None else [found.correction.cause]
     names = [*own, *found.chosen.hypothesis.names]

@@ -45,7 +45,7 @@ def state_table(result: Mapping[str, Any], most: int | None = None) -> HtmlTable
     kinds = dict.fromkeys(row["kind"] for row in rows)
     ranked = [sorted((r for r in rows if r["kind"] == kind), key=lambda row: -row["before"])[:most] for kind in kinds]
     cells = [
-        [row["kind"], row["case"], f"{row['before']:.3g}", *(["" if row["after"] is None else f"{row['after']:.3g}"]),
+        [row["kind"], row["case"], f"{row['before']:.3g}", "" if row["after"] is None else f"{row['after']:.3g}",
          row["unit"]]
         for own in ranked for row in own
     ]  # fmt: skip
