@@ -83,10 +83,9 @@ class Gathering:
     def _state(self, rows: Rows, i: int, sigmas: Sigmas) -> _State:
         name = rows.words["case"][i]
         placed = any(name in rows.numbers for name in POSITION)
-        pose = np.array([rows.get(c, 0.0 if placed else np.nan)[i] for c in POSE])
-        payload = float(
-            rows.get("payload_kg", 0.0 if placed else np.nan)[i]
-        )  # nan: known by the name of the state alone
+        unsaid = 0.0 if placed else np.nan  # nan: another file says it of the state of this name
+        pose = np.array([rows.get(c, unsaid)[i] for c in POSE])
+        payload = float(rows.get("payload_kg", unsaid)[i])
         found = self.known.get(name)
         if found is None:
             found = self._new(name, rows.file, pose, payload, sigmas)

@@ -57,7 +57,7 @@ def _tensions(campaign: Campaign, there: RobotArrays, readings: Readings, known:
     return found
 
 
-def zeros(campaign: Campaign, arrays: RobotArrays, known: Circumstances, readings: Readings) -> np.ndarray:
+def encoder_zeros(campaign: Campaign, arrays: RobotArrays, known: Circumstances, readings: Readings) -> np.ndarray:
     """(m,) where relative encoders begin, in the median over states with a measured pose [m].
 
     Raises

@@ -10,7 +10,7 @@ from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.circumstances import Circumstances
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.residuals.commanded_lengths import SIGMA, Commanded, commanded
-from cdpr_struct.residuals.filled import filled, zeros
+from cdpr_struct.residuals.filled import encoder_zeros, filled
 from cdpr_struct.residuals.resting_poses import Spread, at_lengths, fitted_poses
 from cdpr_struct.residuals.vibrations import Vibrations, vibrations
 from cdpr_struct.robot.robot import Robot
@@ -74,7 +74,7 @@ def recorded(campaign: Campaign) -> Recorded:
     arrays = RobotArrays.of(campaign.robot)
     begun = Readings(position, turn, campaign.states.tension, campaign.states.length)
     if campaign.relative_lengths:
-        begun = replace(begun, length=begun.length - zeros(campaign, arrays, known, begun))
+        begun = replace(begun, length=begun.length - encoder_zeros(campaign, arrays, known, begun))
         campaign = replace(campaign, states=replace(campaign.states, length=begun.length))
     states = campaign.states
     position, turn = at_lengths(arrays, known, begun, read_pose)

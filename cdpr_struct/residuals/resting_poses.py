@@ -22,6 +22,7 @@ _BALANCE, _FIT = 0.05, 1e-4  # N, m: how exactly balance and the lengths of cabl
 _ROUNDS = 60  # of the least-squares problem; a few are enough near the answer
 _STILL = 1e-3  # of a sigma, or of a prior's: so small is a step that matters no more
 _STEP, _PULL = 1e-5, 1e-3  # m, rad, and N, of differences
+_FIELDS = ("position", "rotation", "tension", "length")  # of `Readings`
 _FIRST, _LESS, _MORE, _LEAST, _MOST = 1e-3, 0.2, 5.0, 1e-9, 1e9  # damping, and how it goes on
 
 
@@ -87,9 +88,6 @@ def fitted_poses(
     return replace(readings, position=position, rotation=rotation, tension=tensions, length=lengths)
 
 
-_FIELDS = ("position", "rotation", "tension", "length")
-
-
 def _kept(rotation: np.ndarray, turn: np.ndarray) -> np.ndarray:
     return np.asarray(rotation_from_vector(-turn) @ rotation)
 
@@ -107,7 +105,7 @@ class _Fit:
         self.rows = np.concatenate([rows, np.hypot(sigma[:, 6 + self.m :], _FIT)], axis=1)
 
     def residuals(self, error: np.ndarray) -> np.ndarray:
-        """(..., K, 12 + 2 m) at errors (..., K, 6 + m)."""
+        """(..., K, 6 + m) balance and lengths, in `rows`, at errors (..., K, 6 + m)."""
         there = self.readings.less(error[..., :6], error[..., 6:], np.zeros(self.m))
         return static_residuals(self.arrays, there, self.known, self.radius) / self.rows
 
@@ -137,7 +135,7 @@ class _Fit:
         return np.asarray((r**2).sum(axis=-1) + ((error / self.own) ** 2).sum(axis=-1))
 
     def _slope(self, error: np.ndarray, r: np.ndarray) -> np.ndarray:
-        """(K, 6 + m rows, 6 + m) change of the residuals with the errors."""
+        """(K, 6 + m, 6 + m) change of the residuals, the rows, with the errors [1/m, 1/rad, 1/N]."""
         n = error.shape[1]
         size = np.concatenate([np.full(6, _STEP), np.full(self.m, _PULL)])
         moved = self.residuals(error + (size * np.eye(n))[:, None, :])

@@ -8,7 +8,7 @@ from cdpr_struct.statics.cable_segments import LoadedLength, Loading, forces_at_
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span, span_and_rise
 from cdpr_struct.statics.catenary import CatenaryForces, solve_end_forces
 from cdpr_struct.statics.catenary_length import CatenaryLength, length_at_chord_tension
-from cdpr_struct.statics.lost_cables import missing
+from cdpr_struct.statics.lost_cables import counted_lost
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit
 from cdpr_struct.statics.tension_winches import held_at_frame, with_winches
 
@@ -95,7 +95,7 @@ def _catenary_over_pulley(
         if (off <= _EXIT_TOLERANCE * size).all():
             break
         vector = vector + np.linalg.solve(exit_jacobian(arrays, states), error[..., None])[..., 0]
-    return missing(states, ~(off <= _EXIT_MET * size)), near
+    return counted_lost(states, ~(off <= _EXIT_MET * size)), near
 
 
 def _leaving(
@@ -154,5 +154,5 @@ def _held_over_pulley(
         turned = np.abs(direction - before).max(axis=-1)
         if (turned <= _EXIT_TOLERANCE).all():
             break
-    states = missing(states, ~(turned <= _EXIT_MET))
+    states = counted_lost(states, ~(turned <= _EXIT_MET))
     return states, length_rate * (1.0 + states.wrapped_length / states.length)  # the wrapped piece stretches alike

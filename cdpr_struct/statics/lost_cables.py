@@ -13,7 +13,7 @@ def lost(states: CableStates) -> np.ndarray:
     return np.asarray(states.status == CableStatus.NOT_CONVERGED)
 
 
-def missing(states: CableStates, missed: np.ndarray) -> CableStates:
+def counted_lost(states: CableStates, missed: np.ndarray) -> CableStates:
     """The same states; cables (..., m) that `missed` what they were to have count as lost."""
     return (
         replace(states, status=np.where(missed, CableStatus.NOT_CONVERGED, states.status)) if missed.any() else states
