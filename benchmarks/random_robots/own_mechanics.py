@@ -18,11 +18,12 @@ class OwnRest:
     """A platform at a pose on cables of given lengths.
 
     forces    : (m, 3) of the cables on the platform [N]
-    stiffness : (m, 3, 3) of each cable's platform end [N/m]
-    misfit    : of the cables' ends, over their chords
-    unbalanced : over `scale`, the load, the tensions and a little of EA [N]
+    misfit    : of the cables' ends, over their chords [-]
+    unbalanced : wrench that is left over, over `scale` [-]
+    scale     : load, tensions and a little of EA together [N]
     tangent, mass : (f, f) stiffness and mass of the free motions, rotations as arcs [N/m, kg]
     turning   : (3, 3) stiffness of turns by the weight alone where all cables meet in a point, else None [N m]
+    weight_scale : the platform's weight times its radius, the size of `turning` [N m]
     """
 
     forces: np.ndarray

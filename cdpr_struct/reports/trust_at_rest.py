@@ -49,7 +49,7 @@ def _balance(point: OperatingPoint) -> list[Check]:
     left, held = float(unbalanced_share(*state)), held_stability(*state)
     least, condition = float(held.least_stiffness), float(held.condition)
     least = max(least, 0.0) if held.stable else least  # of a neutral freedom rounding is left
-    torn = f"{left:.2g} of the load is left unbalanced: the search for the rest ended before it had converged."
+    unbalanced = f"{left:.2g} of the load is left unbalanced: the search for the rest ended before it had converged."
     softest = (
         f"the stiffest motion is {condition:.2g} times stiffer than the softest: the pose is close to a singular "
         "one, and its softest motion rests on small differences of large numbers."
@@ -58,7 +58,7 @@ def _balance(point: OperatingPoint) -> list[Check]:
     failed = f"the search for the state of {cables_named(unsolved)} had not converged." if unsolved else None
     return [
         Check.of("unsolved cables", len(unsolved), 0.0, failed),
-        Check.of("unbalanced wrench", left, MOST_UNBALANCED, None if left <= MOST_UNBALANCED else torn),
+        Check.of("unbalanced wrench", left, MOST_UNBALANCED, None if left <= MOST_UNBALANCED else unbalanced),
         Check.of("least stiffness", least, 0.0, unstable_sentence(held), "N/m", at_least=True),
         Check.of("condition", condition, ILL_CONDITIONED, None if condition <= ILL_CONDITIONED else softest),
     ]

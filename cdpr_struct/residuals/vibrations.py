@@ -33,12 +33,12 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import VECTORS
 
 _BELOW = 0.7  # of the lowest peak: where somebody who picked it began to look
-_BELOW_LABELLED = 0.2  # the same where labels say which mode a peak is: it may be far off
+_ABOVE = 1.02  # of the highest: the list ends there, and modes beyond were not looked for
+_BELOW_LABELLED = 0.2  # of the lowest peak, where labels say which mode a peak is: it may be far off
 _HALF = 0.5  # of the kinetic energy, from which a mode is the platform's, as `modes` says
 _SURE = 1e-3  # of labelled peaks: how probable it is that one is no mode, beside one without a label
 OF_CABLES = -3
 """Label of modes whose motion is that of cables, whichever; `PLATFORM` is that of modes with half of it or more."""
-_ABOVE = 1.02  # of the highest: the list ends there, and modes beyond were not looked for
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -14,7 +14,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 FILES = sorted([*(ROOT / "cdpr_struct").rglob("*.py"), *(ROOT / "fem_reference").rglob("*.py")])
 FEW = 3  # rounds written as a number up to which a loop is no search
-ASKED = {"NOT_CONVERGED", "cut_short", "missing", "status", "converged", "settled", "proved", "feasible"}
+ASKED = {"NOT_CONVERGED", "cut_short", "counted_lost", "status", "converged", "settled", "proved", "feasible"}
 HALVED = "a step is halved; the search around it ends with an error or a mark where steps do not help"
 LEFT = "its caller is told what is left: "
 DEFENDED = {

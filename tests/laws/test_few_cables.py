@@ -25,7 +25,7 @@ from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.forward_kinematics import forward
-from tests.laws.written_campaigns import NO_CABLES, NO_PEAKS
+from tests.laws.written_campaigns import NO_CABLES, NO_PEAKS, with_states
 
 ROBOTS = Path(__file__).parents[1] / "blind" / "robots"
 SIGMA = {"position": 3e-4, "rotation": 2e-4, "tension": 1.0, "length": 3e-4}
@@ -60,10 +60,6 @@ def hung(robot: Robot, count: int, noise: float = 0.0) -> Campaign:
         approach=np.full((count, m), np.nan), time=blank,
     )  # fmt: skip
     return Campaign("hung", robot, robot.name, "exact", Tolerances(), frozenset(), states, NO_CABLES, NO_PEAKS)
-
-
-def with_states(campaign: Campaign, **changes) -> Campaign:
-    return replace(campaign, states=replace(campaign.states, **changes))
 
 
 def unplaced(campaign: Campaign, inclined: bool, first: int = 0) -> Campaign:
