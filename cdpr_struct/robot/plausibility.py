@@ -13,20 +13,16 @@ _WHEEL = 0.3  # of the farthest frame anchor, beyond which no pulley is
 BREAKING_STRAIN = 0.02
 """Elongation over length near which steel ropes break; high-modulus fibres near 0.035."""
 _SOFTEST, _STIFFEST = 1e5, 1e9  # of EA over linear density [N m/kg]: ropes of nylon have 1e6, fibres of carbon 1.4e8
-
-
 _THINNEST = 1e-3  # [kg/m^3], platform's mass over its radius cubed: a thousandth of air
 _FARTHEST = 2e4  # reach of the frame over the platform's radius of gyration
-_HEAVIEST, _LARGE = (
-    30.0,
-    100.0,
-)  # weight of all cables over the platform's, where the frame reaches beyond so many metres
+_HEAVIEST = 30.0  # weight of all cables over the platform's
+_LARGE = 100.0  # [m], reach of the frame from which on that weight is a sign of mm
 _OUTSIDE = 30.0  # home pose from the middle of the frame, in sizes of the frame
 _DEEPEST = 3e3  # [m] below it, which a hoist in a shaft reaches
 
 
 def implausible(robot: Robot) -> tuple[str, ...]:
-    """Sentences on anchors, pulleys, stiffness and mass of cables that are probably in another unit; () if none."""
+    """Sentences on lengths, home pose, anchors, pulleys and cables that are probably in another unit; () if none."""
     whole = lengths_in_mm(robot)
     return (*([whole] if whole else []), *_home(robot), *_anchors(robot), *_pulleys(robot), *_cables(robot))
 
@@ -70,8 +66,7 @@ def _home(robot: Robot) -> list[str]:
 
 def _reach(robot: Robot) -> float:
     """How far the farthest frame anchor is from the home pose, or from the middle of all [m], without one far out."""
-    middle = robot.home is None or bool(_home(robot))
-    centre = np.median(robot.frame_anchors, axis=0) if robot.home is None or middle else robot.home.position
+    centre = np.median(robot.frame_anchors, axis=0) if robot.home is None or _home(robot) else robot.home.position
     away = np.linalg.norm(robot.frame_anchors - centre, axis=1)
     usual = away[away <= _FAR_OUT * np.median(away)]
     return float(usual.max(initial=0.0))

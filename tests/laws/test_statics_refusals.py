@@ -98,14 +98,8 @@ def test_what_just_fits_is_taken():
 )
 def test_slopes_and_curvatures_of_a_cost_are_its_derivatives(cost):
     """Central differences of step 1e-3 N of terms whose third derivatives are below 1: off by 1e-6 at most."""
-    tension, low, high, unit = (
-        np.array([[30.0, 45.0, 70.0]]),
-        np.full((1, 3), 10.0),
-        np.full((1, 3), 100.0),
-        np.ones((1, 1)),
-    )
-    unit = 20.0 * unit
-    step = 1e-3
+    tension, low, high = np.array([[30.0, 45.0, 70.0]]), np.full((1, 3), 10.0), np.full((1, 3), 100.0)
+    unit, step = np.full((1, 1), 20.0), 1e-3
 
     def terms(shift):
         return cost.terms(tension + shift, low, high, unit)
