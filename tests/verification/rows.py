@@ -238,8 +238,8 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.random_robots,
         ),
         Row(
-            case="fuzzed robot, campaign and signal files",
-            reference="one sentence and exit code 2",
+            case="fuzzed files of every kind that the program reads",
+            reference="loaded, or refused in one sentence",
             metric="inputs that end otherwise",
             acceptance="0",
             command="python -m tests.fuzz --target all --seconds 60 --rounds 10",
@@ -249,8 +249,8 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.fuzzed_files,
         ),
         Row(
-            case="environment: locales, full disks, read-only folders",
-            reference="one sentence and exit code 2",
+            case="environment: locales, full disks, read-only folders, signals",
+            reference="outcome demanded on the page",
             metric="cases that end otherwise",
             acceptance="0",
             command="python -m pytest tests/robustness/test_environment.py",
