@@ -13,12 +13,12 @@ number that is compared (metric), the limit that this number must keep (acceptan
 Results are read from the page in the last column, or were measured on the date given there. "Not measured" means that
 there is no figure yet. A result that does not meet its acceptance stays in the table.
 
-The last table gives one command that repeats each row. **The test** must fail if the acceptance is not met; it checks a
-case that is small enough for the everyday suite, or runs with `-m slow`. Rows that take hours (blind campaigns, mutants,
-other versions of Python) have a test of a small sample, of the tools or of the page instead. **Its twin** feeds the same
-check a deliberate error, which the check must notice. In a blind campaign the program diagnoses simulated measurements with a hidden
-error; campaigns are made and sealed first, and scored afterwards (`tests/blind/README.md`). DSM is the dynamic
-stiffness matrix.
+The last table gives one command that repeats each row. **The test** must fail if the acceptance is not met; it checks
+a case that is small enough for the everyday suite, or runs with `-m slow`. Rows that take hours (blind campaigns,
+mutants, other versions of Python) have a test of a small sample, of the tools or of the page instead. **Its twin**
+feeds the same check a deliberate error, which the check must notice. In a blind campaign the program diagnoses
+simulated measurements with a hidden error; campaigns are made and sealed first, and scored afterwards
+(`tests/blind/README.md`). DSM is the dynamic stiffness matrix.
 """
 _ROWS = "| row | case | reference | metric | acceptance | result | from |\n|---|---|---|---|---|---|---|\n"
 _REPEAT = "| row | command | the test that must fail | its twin |\n|---|---|---|---|\n"
