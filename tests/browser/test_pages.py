@@ -92,7 +92,9 @@ def test_the_slider_goes_through_the_slices(browser, folders):
 
 def test_hover_names_a_mode(browser, folders):
     with Sight(browser, folders["frf"] / "report.html", 1400, "light") as sight:
-        mark = sight.page.locator(".plot .xy2 .points path").first.bounding_box()
+        first = sight.page.locator(".plot .xy2 .points path").first
+        first.scroll_into_view_if_needed()
+        mark = first.bounding_box()
         sight.page.mouse.move(mark["x"] + mark["width"] / 2, mark["y"] + mark["height"] / 2)
         sight.page.wait_for_selector(".hoverlayer .hovertext")
         assert "mode " in sight.page.locator(".hoverlayer .hovertext").first.text_content()

@@ -158,7 +158,9 @@ def fuzzed_files() -> Figure:
     runs = sum(int(found[1]) for found in since if found)
     text = f"{runs} inputs since the last correction, {fails} failures"
     untried = [row[0].split()[0] for row, found in zip(rows, since, strict=True) if not found]
-    return Figure(text + (f"; not since: {', '.join(untried)}" if untried else ""), fails == 0 and not untried)
+    return Figure(
+        text + (f"; none run since then: {', '.join(untried)}" if untried else ""), fails == 0 and not untried
+    )
 
 
 def surroundings() -> Figure:

@@ -8,14 +8,17 @@ PAGE = DOCS / "verification.md"
 
 _HEAD = """# Verification and validation
 
-Written by `python -m tests.verification`; do not edit. Each row names a case, what it is compared with, the number that
-is compared, how large it may be, and what was measured. Results are read from the pages in the last column, or were
-measured on the day that stands there. "Not measured" means that there is no figure yet. A result that does not meet its
-acceptance stays in the table.
+Written by `python -m tests.verification`; do not edit. Each row names a case, the reference it is compared with, the
+number that is compared (metric), the limit that this number must keep (acceptance), and the value measured (result).
+Results are read from the page in the last column, or were measured on the date given there. "Not measured" means that
+there is no figure yet. A result that does not meet its acceptance stays in the table.
 
-The second table repeats each row by one command. **The test** must fail if the acceptance is not met: on a case that is
-small enough for every day, or with `-m slow`. **Its twin** feeds the same check something wrong on purpose, which must
-be seen. Blind campaigns are made before and scored afterwards (`tests/blind/README.md`).
+The last table gives one command that repeats each row. **The test** must fail if the acceptance is not met; it checks
+a case that is small enough for the everyday suite, or runs with `-m slow`. Rows that take hours (blind campaigns,
+mutants, other versions of Python) have a test of a small sample, of the tools or of the page instead. **Its twin**
+feeds the same check a deliberate error, which the check must notice. In a blind campaign the program diagnoses
+simulated measurements with a hidden error; campaigns are made and sealed first, and scored afterwards
+(`tests/blind/README.md`). DSM is the dynamic stiffness matrix.
 """
 _ROWS = "| row | case | reference | metric | acceptance | result | from |\n|---|---|---|---|---|---|---|\n"
 _REPEAT = "| row | command | the test that must fail | its twin |\n|---|---|---|---|\n"

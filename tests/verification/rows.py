@@ -14,7 +14,7 @@ _JUDGED = f"{_CROSS}/test_fem_judges_dsm.py"
 SUBJECTS: dict[str, tuple[Row, ...]] = {
     "Verification: are the equations solved right?": (
         Row(
-            case="20 robots: thesis, pulleys, facades, random, CASPR",
+            case="20 robots: of the thesis, with pulleys, on facades, random, from CASPR",
             reference="finite elements, extrapolated",
             metric="largest relative deviation of 60 eigenfrequencies, exact model",
             acceptance="1e-5",
@@ -26,7 +26,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
         ),
         Row(
             case="the same robots, closed-form DSM",
-            reference="exact model with effects taken away, finite elements",
+            reference="exact model with single effects switched off, finite elements",
             metric="robots off by more than 1 % for which a cause is named",
             acceptance="all of them",
             command="python -m benchmarks verified-robots",
@@ -47,20 +47,20 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=measured("0.79 %"),
         ),
         Row(
-            case="determinant minima, the method of the thesis: robot of Table 3.1, 60 frequencies, damping 1 %",
-            reference="frequencies that are counted (Wittrick and Williams)",
+            case="minima of the determinant, as in the thesis: robot of Table 3.1, 60 frequencies, damping 1 %",
+            reference="certified count of frequencies (Wittrick and Williams)",
             metric="frequencies without a minimum of the determinant at a step of 0.01 Hz",
             acceptance="0",
             command="cdpr-struct verify thesis-3-1",
             test=f"{_JUDGED}::test_scan_misses_most_of_the_clustered_frequencies",
             twin=f"{_JUDGED}::test_each_minimum_serves_one_frequency",
             source="2026-11-25",
-            figure=measured("46; the program counts instead", met=False),
+            figure=measured("46; the program uses the count instead", met=False),
         ),
         Row(
-            case="three robots, ten poses, 7 random frequencies each",
-            reference="sign counts of the finite elements",
-            metric="counts of frequencies that differ",
+            case="count of frequencies below 7 random frequencies, three robots, ten poses",
+            reference="count of the finite elements (Sylvester's law of inertia)",
+            metric="counts that differ",
             acceptance="0",
             command=f"python -m pytest {_CROSS}/test_counts_agree.py",
             test=f"{_CROSS}/test_counts_agree.py::test_counts_agree_at_ten_poses",
@@ -80,7 +80,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=measured("1.996 to 2.003"),
         ),
         Row(
-            case="finite elements: robot of Table 3.1, 10 to 640 bars a cable",
+            case="finite elements: robot of Table 3.1, 10 to 640 bars per cable",
             reference="theory of linear elements",
             metric="median observed order, 60 frequencies",
             acceptance="2.0 within 0.05",
@@ -88,10 +88,10 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             test=f"{_JUDGED}::test_fem_converges_with_order_two",
             twin=None,
             source="2026-11-25",
-            figure=measured("2.000, single frequencies 1.999 to 2.011"),
+            figure=measured("2.000; single frequencies 1.999 to 2.011"),
         ),
         Row(
-            case="finite elements share nothing with the model",
+            case="independence of the finite elements from the model",
             reference="imports of every module",
             metric="imports beyond NumPy, SciPy and the package itself",
             acceptance="0",
@@ -124,7 +124,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.geometric_term,
         ),
         Row(
-            case="6177 cables: closed form within the printed limits",
+            case="closed form: 6177 cables within the limits printed in the thesis",
             reference="exact model, finite elements at the worst cables",
             metric="largest error of a frequency",
             acceptance="1 %",
@@ -135,9 +135,9 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.printed_limits,
         ),
         Row(
-            case="closed form within the four numbers of the page on limits",
+            case="closed form: random cables within the four limits of our own",
             reference="exact model",
-            metric="cables with a frequency off by 1 %",
+            metric="cables with a frequency off by more than 1 %",
             acceptance="none",
             command=f"python -m pytest {_CROSS}/test_limits_trial.py",
             test=f"{_CROSS}/test_limits_trial.py::test_rule_of_the_docs_keeps_frequencies_and_shapes",
@@ -147,7 +147,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
         ),
         Row(
             case="generated formulas",
-            reference="their derivation in SymPy, printed anew",
+            reference="their derivation in SymPy, generated again",
             metric="files that differ",
             acceptance="0",
             command="cdpr-struct derive --check",
@@ -161,7 +161,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
         Row(
             case="cables, strings, chains, pendulums",
             reference="published numbers",
-            metric="deviation of the model over what the print allows",
+            metric="deviation of the model, as a share of the accepted deviation",
             acceptance="100 %",
             command="python -m pytest tests/published",
             test="tests/published/test_published.py::test_the_model_meets_the_print",
@@ -172,7 +172,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
         Row(
             case="twelve recorded free motions of a platform on three cables",
             reference="recordings made by others",
-            metric="deviation of the identified frequencies",
+            metric="deviation of the model from the identified frequencies",
             acceptance="1 % in the median",
             command=f"python -m pytest {_CROSS}/test_recorded_free_motion.py",
             test=f"{_CROSS}/test_recorded_free_motion.py::test_eigenfrequencies_meet_the_recordings",
@@ -181,7 +181,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.recordings,
         ),
         Row(
-            case="blind campaigns, nothing hidden",
+            case="blind campaigns without a hidden error",
             reference="sealed truth",
             metric="false alarms",
             acceptance="5 %",
@@ -203,9 +203,9 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=lambda: figures.blind("detection at 2x"),
         ),
         Row(
-            case="the same, causes that the data separate",
+            case="blind campaigns, effects of twice the detectable size and more, causes that the data separate",
             reference="sealed truth",
-            metric="right name",
+            metric="right cause named",
             acceptance="90 %",
             command=_BLIND,
             test="tests/blind/test_mission.py::test_no_wrong_name_is_said_with_confidence",
@@ -216,7 +216,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
         Row(
             case="all blind campaigns",
             reference="sealed truth",
-            metric="wrong name said with confidence",
+            metric="wrong cause named with confidence",
             acceptance="2 %",
             command=_BLIND,
             test="tests/blind/test_mission.py::test_no_wrong_name_is_said_with_confidence",
@@ -228,7 +228,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
     "The program: does it hold up in use?": (
         Row(
             case="random robots and poses",
-            reference="mechanics written a second time, linear program",
+            reference="an independent second implementation of the mechanics, a linear program",
             metric="answers that violate them",
             acceptance="0",
             command="python -m benchmarks random-robots --seeds 0:10000 --workers 2 --out random-robots",
@@ -238,8 +238,8 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.random_robots,
         ),
         Row(
-            case="fuzzed robot, campaign and signal files",
-            reference="one sentence and exit code 2",
+            case="fuzzed files of every kind that the program reads",
+            reference="loaded, or refused in one sentence",
             metric="inputs that end otherwise",
             acceptance="0",
             command="python -m tests.fuzz --target all --seconds 60 --rounds 10",
@@ -249,8 +249,8 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.fuzzed_files,
         ),
         Row(
-            case="environment: locales, full disks, read-only folders",
-            reference="one sentence and exit code 2",
+            case="environment: locales, full disks, read-only folders, signals",
+            reference="outcome demanded on the page",
             metric="cases that end otherwise",
             acceptance="0",
             command="python -m pytest tests/robustness/test_environment.py",
@@ -261,8 +261,8 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
         ),
         Row(
             case="the test suite: mutants of the program",
-            reference="every mutant that is not equivalent must be noticed",
-            metric="mutation score",
+            reference="all mutants that are not equivalent",
+            metric="mutation score: share of them that the tests notice",
             acceptance="90 %",
             command="python -m benchmarks.mutation run --seed 4 --each 100 --budget 30",
             test="tests/benchmarks/test_mutation.py::test_every_mutant_of_a_sample_compiles",
@@ -293,9 +293,9 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.lowest,
         ),
         Row(
-            case="every result as JSON",
+            case="JSON results of all commands",
             reference="recorded keys of its schema version",
-            metric="keys that are gone",
+            metric="keys that are missing",
             acceptance="0",
             command="python -m pytest tests/cli/test_output_laws.py",
             test="tests/cli/test_output_laws.py::test_examples_run_and_every_cell_can_be_read",

@@ -98,14 +98,15 @@ DESCRIPTIONS = {
         "Lengths are off by amounts that depend on the wrap angle, so they change with height and distance",
     ),
     "missing_pulleys": Description(
-        "every cable that has no pulley in the robot file runs over one: it comes along the axis to the frame anchor, "
-        "bends over the wheel and leaves at a tangent. Axes point the way the cable runs: up, down, along a horizontal "
-        "axis of the world, outwards of the middle of the frame anchors, inwards, or left or right of outwards. They "
-        "may lean from there; the lean is reported as radius times angle. Where lengths were homed without pulleys, "
-        "each cable has a zero offset besides",
+        "every cable that has no pulley in the robot file runs over one. It arrives along the swivel axis at the frame "
+        "anchor, bends over the wheel and leaves it at a tangent. The axis points the way the cable runs: up, down, "
+        "along a horizontal axis of the world, outwards (away from the middle of the frame anchors), inwards, or to "
+        "the left or right of outwards. It may lean from these directions by two angles; each is reported as "
+        "radius times angle. If the winches were homed without pulleys in the model, each cable has a zero "
+        "offset in addition",
         "never negative",
-        "Lengths are off by radius times (wrap angle less its sine), so they change with the direction of the cable; "
-        "directions and lever arms change by the radius over the length",
+        "Lengths are off by the radius times (wrap angle minus its sine), so the error depends on the direction of the "
+        "cable. Directions and lever arms change by the radius over the cable's length",
         "Geometry of the swivelling pulley: [how to enter pulleys](../pulleys.md)",
     ),
     "tracker_frame": Description(
@@ -183,17 +184,20 @@ DESCRIPTIONS = {
         "Taut string, and [the closed form](../formulas/cable_dsm.md)",
     ),
     "bending_stiffness": Description(
-        "the cable resists bending with EI; ends are clamped in direction, or pinned (parameter _pinned), or "
-        "between: two sizes, whose sum is EI and whose first share is the fixity of the ends (0 pinned, 1 clamped)",
+        "the cable resists bending with the stiffness EI. Its ends are clamped in direction (bending_stiffness), "
+        "pinned (bending_stiffness_pinned), or something between. Then both sizes are fitted: their sum is EI, and "
+        "bending_stiffness over this sum is the fixity of the ends (0 pinned, 1 clamped)",
         "never negative: frequencies rise",
         "Cable frequencies rise, the higher modes more. Short and loose cables show it most",
         "Fletcher and Rossing, *The Physics of Musical Instruments*, 2nd edition, 1998, stiff string",
     ),
     "cable_added_mass": Description(
-        "a point mass sits on the cable, near 0.1, 0.22, 0.35 or 0.5 of its length from the platform, and how far from "
-        "there is fitted; the mirror place of the other half fits nearly as well",
+        "a point mass sits on the cable. The search starts at 0.1, 0.22, 0.35 and 0.5 of the cable's length from the "
+        "platform (added_mass alone is 0.5), and the distance from there is fitted (added_mass_beyond). The mirrored "
+        "place in the other half of the cable fits nearly as well",
         "never negative: frequencies fall",
-        "Modes of that cable fall, the more the farther they swing where the mass is; one with a node there does not",
+        "The frequencies of that cable fall, most for modes that move far where the mass sits. A mode with a node "
+        "there keeps its frequency",
     ),
     "load_cell_gain": Description(
         "load cell reading = gain times tension",
