@@ -21,12 +21,13 @@ NAMED = pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.case}: {row.
 
 
 def exists(node: str) -> bool:
-    """Whether a test is there, by its node id without parameters."""
+    """Whether a test, or a file of tests, is there, by its node id without parameters."""
     file, _, name = node.partition("::")
     if not (ROOT / file).is_file():
         return False
     tree = ast.parse((ROOT / file).read_text("utf-8"))
-    return name in {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
+    tests = {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name[:5] == "test_"}
+    return name in tests if name else bool(tests)
 
 
 def can_run(command: str) -> bool:
@@ -63,6 +64,7 @@ def test_each_row_can_be_repeated_and_has_a_test(row: Row):
 def test_what_is_not_there_is_seen():
     assert not exists("tests/published/test_published.py::test_nothing")
     assert not exists("tests/nowhere.py::test_nothing")
+    assert not exists("tests/verification/rows.py")  # a file without tests
     assert not any(map(can_run, ("python -m pytest tests/nowhere", "cdpr-struct nothing", "python -m benchmarks nil")))
 
 
