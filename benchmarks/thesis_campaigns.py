@@ -59,9 +59,8 @@ def draw() -> None:
     """The residuals of two campaigns, as `diagnose --out` draws them, beside the page."""
     for name, short in FIGURES.items():
         found = diagnosed(findings.example(name))
-        drawn = next(plate.svg for plate in plates(found, result_json(found)) if plate.name == "residuals")
-        text = drawn if isinstance(drawn, str) else drawn.decode("utf-8")
-        PAGE.with_name(f"{PAGE.stem}_{short}.svg").write_text(text, "utf-8")
+        drawn = next(plate.picture for plate in plates(found, result_json(found)) if plate.name == "residuals")
+        PAGE.with_name(f"{PAGE.stem}_{short}.svg").write_text(drawn.svg, "utf-8")
 
 
 def main(arguments: list[str]) -> int:

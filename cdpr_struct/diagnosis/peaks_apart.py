@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.association.detection import (
-    ROBOT_DETECTION_HIGHEST,
     SHARE_INVISIBLE,
     SHARE_RISE,
     SPURIOUS_PER_LIST,
@@ -166,7 +165,7 @@ def _drawn(lists: Sequence[_List], rng: np.random.Generator) -> list[np.ndarray]
     for one in lists:
         low, high = _band(one, one.peaks)
         spread = float(np.median(one.peaks[:, 1]))
-        kept = rng.random(len(one.modes)) < ROBOT_DETECTION_HIGHEST * one.detection
+        kept = rng.random(len(one.modes)) < one.detection
         own = (one.modes + one.columns @ z + spread * rng.standard_normal(len(one.modes)))[kept]
         peaks = np.concatenate([own, rng.uniform(low, high, rng.poisson(_beside(len(one.peaks))))])
         peaks = peaks[peaks < high] if (peaks < high).any() else one.modes[:1]
