@@ -17,6 +17,7 @@ from cdpr_struct.statics.holding_tensions import HoldingProblem
 
 MAX_ITERATIONS = 60
 _MISSED = 1e-6  # relative step above which the tension was not found
+_NOTHING = 1e-9  # of the first guess: less than this is no tension, to which weightless cables fall
 _MET = 1e-9  # relative step after which the next one would be below rounding
 _BISECTIONS = 12
 _TURNING = 0.02  # least growth of the tension with the chord tension that still counts as the taut side
@@ -54,7 +55,7 @@ def chord_tension_at(problem: HoldingProblem, wanted: Wanted) -> tuple[np.ndarra
     least = problem.model.least_chord_tension(problem.arrays, problem.arms.points)
     tau = np.maximum(6.0 * least, 1.0)
     tau = np.maximum(tau, _shallow_guess(problem, wanted(_held(problem, tau).states)))
-    lost = np.zeros(tau.shape, dtype=bool)
+    lost, nothing = np.zeros(tau.shape, dtype=bool), _NOTHING * tau
     for _ in range(MAX_ITERATIONS):
         held = _held(problem, tau)
         pull, growth = _pull_and_growth(held)
@@ -66,7 +67,7 @@ def chord_tension_at(problem: HoldingProblem, wanted: Wanted) -> tuple[np.ndarra
         if (np.abs(step) <= _MET * tau).all():
             break
     else:
-        missed = float((np.abs(step) / tau).max())
+        missed = float((np.abs(step) / np.maximum(tau, nothing)).max())
         if missed > _MISSED:
             hint = "The bound on the cable forces may be out of reach of some cable; try another one."
             raise ConvergenceError("chord tension at the bound of the cable forces", missed, MAX_ITERATIONS, hint)

@@ -103,6 +103,13 @@ def test_a_bound_of_force_that_is_not_found(monkeypatch):
         tension_bound.chord_tension_at(problem, tension_bound.constant(100.0))
 
 
+def test_weightless_cables_fall_to_no_tension_where_none_is_asked_for():
+    arrays = replace(RobotArrays.of(robot_with()), gravity=np.zeros(()))
+    problem = HoldingProblem.at(arrays, cable_model("sagging"), (PLACE[None], LEVEL[None]), np.zeros((1, 6)), NO_BOUNDS)
+    tau, pull = tension_bound.chord_tension_at(problem, tension_bound.constant(0.0))
+    assert max(tau.max(), pull.max()) < 1e-9
+
+
 def test_roots_of_irvines_equation(monkeypatch):
     monkeypatch.setattr(clamped_cable, "_ROOT_STEPS", 2)
     with pytest.raises(ConvergenceError, match="Irvine"):
