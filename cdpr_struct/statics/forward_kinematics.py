@@ -21,13 +21,11 @@ from cdpr_struct.statics.equilibrium import PlatformArms, tangent_stiffness
 from cdpr_struct.statics.locked_balance import LockedBalance
 from cdpr_struct.statics.lost_cables import lost
 from cdpr_struct.statics.neutral_freedoms import stability, turned_least
+from cdpr_struct.statics.stiffening import settled_stiffness
 from cdpr_struct.statics.tension_winches import pulls_as_held
 
 MAX_ITERATIONS = 500  # stiff cables, far from rest: of 10 000 random robots, eleven take more than 200, none 360
-_MOST_STIFFENINGS = 50
-_UNLIKE_STIFFNESS = 1e-8  # relative change of EA from which on that at the tension has not been found
 _PUSHES = 3  # off saddles, of a pose
-_SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
 
 
 class ForwardStatus(IntEnum):
@@ -148,17 +146,18 @@ def _stiffening(
     balance: LockedBalance, descent: EnergyDescent, sizes: tuple[float, float]
 ) -> tuple[LockedBalance, EnergyDescent, np.ndarray]:
     """Descents with the stiffness that the cables have at their tension, until it stays, and where (...) it did."""
-    entered = balance.arrays
-    for _ in range(_MOST_STIFFENINGS):
-        tension = balance.states(descent.position, descent.rotation).tension_at_platform
-        stiffness, before = entered.stiffness_at(tension), balance.arrays.axial_stiffness
-        change = np.abs(stiffness / before - 1.0)
-        if change.max() <= _SAME_STIFFNESS:
-            break
-        balance = replace(balance, arrays=replace(entered, axial_stiffness=stiffness))
+
+    def tension() -> np.ndarray:
+        return balance.states(descent.position, descent.rotation).tension_at_platform
+
+    def again(arrays: RobotArrays) -> np.ndarray:
+        nonlocal balance, descent
+        balance = replace(balance, arrays=arrays)
         descent = EnergyDescent(balance, descent.position, descent.rotation, *sizes)
         descent.run(MAX_ITERATIONS)
-    settled = ~(change > _UNLIKE_STIFFNESS).any(axis=-1)
+        return tension()
+
+    settled = settled_stiffness(balance.arrays, tension(), again)
     return balance, descent, settled
 
 

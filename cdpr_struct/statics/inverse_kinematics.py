@@ -25,13 +25,11 @@ from cdpr_struct.statics.guides import free_part
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.lost_cables import lost
 from cdpr_struct.statics.separating_wrench import separation
+from cdpr_struct.statics.stiffening import settled_stiffness
 from cdpr_struct.statics.taut_tensions import suits, taut_tensions
 from cdpr_struct.statics.unholdable_poses import no_length_error, unholdable, without_length
 
 BALANCED = 1e-8  # residual over load and tensions that counts as balanced
-_SAME_STIFFNESS = 1e-12  # relative change of EA that ends the search for that at the tension
-_UNLIKE_STIFFNESS = 1e-8  # from which on it has not been found
-_MOST_STIFFENINGS = 50
 _MOST_WINCH_STEPS = 12
 
 
@@ -172,15 +170,15 @@ def hung_solution(robot: Robot | RobotArrays, hung: FreeOrientation) -> InverseS
 
 def _stiffening(problem: HoldingProblem, solution: InverseSolution) -> tuple[HoldingProblem, InverseSolution]:
     """Solutions with the stiffness that the cables have at their tension, until it stays."""
-    entered = problem.arrays
-    for _ in range(_MOST_STIFFENINGS):
-        stiffness, before = entered.stiffness_at(solution.tensions), problem.arrays.axial_stiffness
-        change = np.abs(stiffness / before - 1.0)
-        if change.max() <= _SAME_STIFFNESS:
-            break
-        problem = replace(problem, arrays=replace(entered, axial_stiffness=stiffness))
+
+    def again(arrays: RobotArrays) -> np.ndarray:
+        nonlocal problem, solution
+        problem = replace(problem, arrays=arrays)
         solution = _solve(problem)
-    return problem, _cut_short(solution, (change > _UNLIKE_STIFFNESS).any(axis=-1))
+        return solution.tensions
+
+    settled = settled_stiffness(problem.arrays, solution.tensions, again)
+    return problem, _cut_short(solution, ~settled)
 
 
 def _cut_short(solution: InverseSolution, open_: np.ndarray) -> InverseSolution:

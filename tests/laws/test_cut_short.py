@@ -17,9 +17,9 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics import (
     cable_distance,
-    forward_kinematics,
     hanging_cables,
     inverse_kinematics,
+    stiffening,
     tension_bound,
     tensioned_cables,
 )
@@ -45,13 +45,16 @@ def robot_with(pulleys: bool = False, winch: float = 0.0, **extensions: float) -
 
 
 @pytest.mark.parametrize(
-    ("robot", "rounds"),
-    [(robot_with(winch=247.0), "_MOST_WINCH_STEPS"), (robot_with(nonlinearity=20.0), "_MOST_STIFFENINGS")],
+    ("robot", "search", "rounds"),
+    [
+        (robot_with(winch=247.0), inverse_kinematics, "_MOST_WINCH_STEPS"),
+        (robot_with(nonlinearity=20.0), stiffening, "MOST_ROUNDS"),
+    ],
     ids=["winches", "stiffening"],
 )
-def test_inverse_does_not_count_what_was_cut_short(robot, rounds, monkeypatch):
+def test_inverse_does_not_count_what_was_cut_short(robot, search, rounds, monkeypatch):
     assert inverse(robot, PLACE, LEVEL).held
-    monkeypatch.setattr(inverse_kinematics, rounds, 1)
+    monkeypatch.setattr(search, rounds, 1)
     found = inverse(robot, PLACE, LEVEL, allow_unheld=True)
     assert found.status == InverseStatus.NOT_CONVERGED
     assert rest_columns(found)["cut_short"]
@@ -79,7 +82,7 @@ def test_forward_does_not_count_a_stiffness_that_was_not_found(monkeypatch):
     robot = robot_with(nonlinearity=20.0)
     lengths = inverse(robot, PLACE, LEVEL).lengths
     assert forward(robot, lengths, PLACE, LEVEL).converged
-    monkeypatch.setattr(forward_kinematics, "_MOST_STIFFENINGS", 1)
+    monkeypatch.setattr(stiffening, "MOST_ROUNDS", 1)
     assert forward(robot, lengths, PLACE, LEVEL).status == ForwardStatus.NOT_CONVERGED
 
 
