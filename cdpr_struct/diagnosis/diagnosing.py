@@ -7,7 +7,7 @@ from cdpr_struct.diagnosis import stories
 from cdpr_struct.diagnosis.added_modes import least_evidence
 from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
 from cdpr_struct.diagnosis.decision import Decision, decided
-from cdpr_struct.diagnosis.detectable_sizes import detectable_by_pattern, minimum_detectable
+from cdpr_struct.diagnosis.detectable_sizes import detectable_sizes
 from cdpr_struct.diagnosis.diagnosis import (
     DAMPING,
     NULL_SPACE,
@@ -184,7 +184,7 @@ def _assembled(
     """Everything of a diagnosis."""
     story, null, chosen, campaign = said.story, said.null, said.chosen, said.campaign
     data, search, recorded = story.search.data, story.search, stories.as_recorded(found)
-    least = minimum_detectable(search, null)
+    least, by_pattern = detectable_sizes(search, null)
     unseen = {cause.name: TOO_SMALL for cause in search.causes if not (cause.name in least or cause.tuned)}
     noise, aside = noise_of_kinds(chosen), tuple(set_aside(data, search.where, chosen))
     fitted, decision = said.fitted, said.whole
@@ -205,7 +205,7 @@ def _assembled(
         fitted=fitted, recommendations=(*advice, *_again(aside)),
         sigmas=tuple(sigmas_used(campaign)), doubts=tuple(doubts(campaign, noise)),
         not_testable=search.hidden | unseen | ({} if campaign.identified else NEEDS_SIGNALS), minimum_detectable=least,
-        detectable_by_pattern=detectable_by_pattern(search, null),
+        detectable_by_pattern=by_pattern,
     )  # fmt: skip
 
 
