@@ -3,7 +3,8 @@
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-_CLUSTER_GAP = 5e-3
+CLUSTER_GAP = 5e-3
+"""Relative distance of neighbouring frequencies up to which their modes may mix."""
 _NEARNESS, _FAR = 0.1, 0.02
 
 
@@ -50,5 +51,5 @@ def shared_subspace(assurance: np.ndarray, second_hertz: np.ndarray, partner: np
 
 def _clusters(hertz: np.ndarray) -> np.ndarray:
     """Cluster number of each of the ascending frequencies: a new one starts after a relative gap of 0.5 %."""
-    gaps = np.diff(hertz) > _CLUSTER_GAP * hertz[1:]
+    gaps = np.diff(hertz) > CLUSTER_GAP * hertz[1:]
     return np.concatenate([[0], np.cumsum(gaps)])

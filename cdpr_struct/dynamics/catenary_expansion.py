@@ -17,7 +17,7 @@ from cdpr_struct.dynamics.catenary_coordinate import CatenaryCoordinate
 from cdpr_struct.dynamics.catenary_line import across, along, stiffness_density
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.piecewise_basis import PiecewiseBasis, PiecewiseCoordinate
-from cdpr_struct.dynamics.polynomial_basis import curvatures, on_gauss_nodes, polynomial_basis
+from cdpr_struct.dynamics.polynomial_basis import curvatures, on_gauss_nodes
 from cdpr_struct.dynamics.stiff_cable import shortening, slenderness
 from cdpr_struct.statics.cable_state import CableStates, cable_frame
 
@@ -118,11 +118,11 @@ def expand_catenaries(
     mass = _products(values, inertia)
     bending = None
     if extras is not None and extras.added_mass.any():
-        there, _ = polynomial_basis(coordinate.xi(1.0 - extras.added_mass_place[:, None])[:, 0], order)
-        mass = mass + extras.added_mass[:, None, None] * there.T[:, :, None] * there.T[:, None, :]
+        there, _ = basis.values(coordinate.xi(1.0 - extras.added_mass_place[:, None]))
+        mass = mass + _of_points(there, extras.added_mass[:, None])
     if extras is not None and lumped:
         there, _ = basis.values(coordinate.xi(1.0 - cables.lump_place / cables.length[:, None]))
-        mass = mass + np.einsum("imk,jmk,mk->mij", there, there, extras.lump_mass, optimize=True)
+        mass = mass + _of_points(there, extras.lump_mass)
     if extras is not None and extras.bending_stiffness.any():
         slender = slenderness(extras.bending_stiffness, cables.tension, cables.chord)
         density = stiffness_density(cables, arc, (1.0 + shortening(slender, extras.bending_fixity)) ** 2)
@@ -161,6 +161,11 @@ def expand_catenaries(
 def _products(functions: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """(..., i, j) weighted sums over q of products of functions (i, q), weights (..., q)."""
     return (functions * weights[..., None, :]) @ functions.T
+
+
+def _of_points(functions: np.ndarray, mass: np.ndarray) -> np.ndarray:
+    """(m, i, j) of masses (m, k) where functions have the values (i, m, k)."""
+    return np.asarray(np.einsum("imk,jmk,mk->mij", functions, functions, mass, optimize=True))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,9 +7,9 @@ import numpy as np
 
 from cdpr_struct.dynamics.trajectory_distribution import TrajectoryDistribution
 from cdpr_struct.reports.trust import Check, Trust
-from cdpr_struct.robot.plausibility import BREAKING_STRAIN
+from cdpr_struct.reports.trust_over_poses import largest_strain
 from cdpr_struct.statics.slack_cables import DEEP, hangs_slack, sag_over_chord
-from cdpr_struct.statics.strained_cables import strains, torn_sentence
+from cdpr_struct.statics.strained_cables import strains
 from cdpr_struct.statics.tension_distribution import TensionDistribution
 
 _OPTIMAL = 1e-6  # KKT residual from which on forces do not count as optimal; the solver ends below 1e-9
@@ -41,20 +41,18 @@ def distribution_json(found: TrajectoryDistribution, beside: Sequence[Trajectory
 def distribution_trust(found: TrajectoryDistribution) -> Trust:
     """Whether forces along a trajectory can be trusted: optimality and balance, slack and sag, strain."""
     shared, cables = found.distribution, found.distribution.cables
-    kkt, strain = float(shared.kkt_residual.max()), 100.0 * float(strains(cables).max())
+    kkt = float(shared.kkt_residual.max())
     slack = int(hangs_slack(cables).any(axis=-1).sum())
     sag = float(np.nan_to_num(sag_over_chord(cables)).max())
     least = f"the forces miss the least cost or the balance of the platform by {kkt:.2g}: the search was cut short."
     loose = f"Cables hang slack at {slack} instants (they pull with less than their own weight): raise the lower bound."
     deep = f"Deep sag: a cable sags by up to {sag:.2g} of its chord."
-    most = 100.0 * BREAKING_STRAIN
-    torn = torn_sentence("A cable is stretched, at most", 0.01 * strain) if strain > most else None
     return Trust(
         (
             Check.of("KKT residual", kkt, _OPTIMAL, least if kkt > _OPTIMAL else None),
             Check.of("instants with slack cables", slack, 0.0, loose if slack else None),
             Check.of("largest sag over chord", sag, DEEP, deep if sag >= DEEP else None),
-            Check.of("largest strain", strain, most, torn, "%"),
+            largest_strain(float(strains(cables).max()), "A cable is stretched, at most"),
         )
     )
 

@@ -86,7 +86,12 @@ def _strain(grid: Grid, columns: Columns) -> Check | None:
         return None
     most, count = float(np.nanmax(strain)), int((strain > BREAKING_STRAIN).sum())
     beyond = f"At {_where(count, grid)} a cable is stretched beyond {100.0 * BREAKING_STRAIN:g} %, at most"
-    said = torn_sentence(beyond, most) if count else None
+    return largest_strain(most, beyond)
+
+
+def largest_strain(most: float, stretched: str) -> Check:
+    """The largest strain of many states; `stretched` begins the sentence that is said where ropes break."""
+    said = torn_sentence(stretched, most) if most > BREAKING_STRAIN else None
     return Check.of("largest strain", 100.0 * most, 100.0 * BREAKING_STRAIN, said, "%")
 
 

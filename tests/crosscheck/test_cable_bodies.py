@@ -1,4 +1,4 @@
-"""Diagnosis of what is on cables: plucked cables by the FEM, with a mass off the middle, or stiff between hinges."""
+"""The diagnosis finds a mass on a cable and stiff cables on hinges: the FEM plucks the cables."""
 
 from dataclasses import replace
 

@@ -1,7 +1,7 @@
 """Coverage-guided fuzzing of everything that reads a file: `python -m tests.fuzz --target robot --seconds 600`.
 
-Needs the extra [fuzz] (atheris). No test: `pytest` collects nothing here. What a run found and was mended is kept as
-small tests in tests/robustness/test_fuzzed_files.py.
+It needs the extra `fuzz` (atheris); `pytest` collects nothing here. Each finding was mended and has a small test in
+tests/robustness/test_fuzzed_files.py.
 
 | file | answers |
 |---|---|

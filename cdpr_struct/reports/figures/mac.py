@@ -5,6 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
+from cdpr_struct.crosscheck.mode_pairing import CLUSTER_GAP
 from cdpr_struct.crosscheck.verdicts import Judged
 from cdpr_struct.crosscheck.verification import Verification
 from cdpr_struct.reports.figures.style import quiet
@@ -12,7 +13,6 @@ from cdpr_struct.reports.figures.style import quiet
 SIZE = (9.6, 4.4)
 _MODELS: tuple[tuple[Judged, str], ...] = (("exact", "exact catenary"), ("dsm", "closed form (DSM)"))
 _TICKS = 10
-_DOUBLE = 5e-3  # relative distance of frequencies whose modes mix
 
 
 def draw_mac(figure: Figure, trial: Verification) -> None:
@@ -46,7 +46,7 @@ def mac_caption(trial: Verification) -> str:
         worst = int(own.argmin())
         parts.append(f"{words}: at least {own.min():.3f} (mode {worst + 1}, {trial.fem_limit_hertz[worst]:.3f} Hz)")
     hertz = np.sort(trial.fem_limit_hertz)
-    double = bool((np.diff(hertz) < _DOUBLE * hertz[1:]).any())
+    double = bool((np.diff(hertz) < CLUSTER_GAP * hertz[1:]).any())
     return (
         "MAC (modal assurance criterion) of shapes, weighted by mass: 1 is the same shape, 0 another. Columns are the "
         f"model's modes in the order of their FEM partners, so a diagonal of ones is agreement. {'; '.join(parts)}."
