@@ -77,7 +77,7 @@ def _beside(best: Hypothesis) -> list[Hypothesis]:
     """
     causes = tuple(part for part in best.parts if part.law is None and not part.cause.tuned)
     kept = {tuple(part.key for part in parts): parts for parts in [(), *((part,) for part in causes), causes]}
-    return [Hypothesis(parts, best.drift if parts else 0.0) for parts in kept.values()]
+    return [Hypothesis(parts, best.drift if parts else None) for parts in kept.values()]
 
 
 def believed(found: Sequence[Explained]) -> list[Belief]:
