@@ -13,8 +13,8 @@ from cdpr_struct.diagnosis.recommended import Recommendation
 from cdpr_struct.diagnosis.sensor_sigmas import Doubt, NoiseOfKind, Used
 from cdpr_struct.diagnosis.unassigned import UncertainPeak
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
+from cdpr_struct.hypotheses.correction import Correction
 from cdpr_struct.hypotheses.explain import Belief, Explained
-from cdpr_struct.hypotheses.handling import Correction
 from cdpr_struct.hypotheses.hypothesis import Part
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.hypotheses.laws import UNKNOWN

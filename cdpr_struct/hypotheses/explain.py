@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
+from cdpr_struct.hypotheses.correction import Correction
 from cdpr_struct.hypotheses.handled import promising, readings_felt
-from cdpr_struct.hypotheses.handling import Correction, corrections, shortcuts
+from cdpr_struct.hypotheses.handling import corrections, shortcuts
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import judged
 from cdpr_struct.hypotheses.laws import UNKNOWN

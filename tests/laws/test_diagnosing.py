@@ -184,7 +184,7 @@ def walk_of(seed: int, states: int, sensors: int) -> np.ndarray:
 
 
 def test_a_drift_of_the_tracker_is_no_cause():
-    """Two millimetres and two milliradians wide at the end, of a tracker that reads to 0.3 mm: as wide as anchors err."""
+    """Two millimetres and two milliradians wide at the end."""
     campaign = measured(cogiro(), 9)
     states = campaign.states
     walk = walk_of(3, len(states.names), 6)
