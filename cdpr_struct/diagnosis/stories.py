@@ -9,7 +9,7 @@ from scipy.special import logsumexp
 from cdpr_struct.diagnosis.decision import Decision, fits
 from cdpr_struct.diagnosis.diagnosis import Candidate, Drifted, Tried
 from cdpr_struct.diagnosis.whole_sizes import whole_sizes
-from cdpr_struct.hypotheses.drift import TRACKER, WAVES, walk
+from cdpr_struct.hypotheses.drift import TRACKER
 from cdpr_struct.hypotheses.explain import Explained
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.hypotheses.laws import UNKNOWN
@@ -97,12 +97,10 @@ def p_value(found: Sequence[Explained]) -> float:
 
 def drift_of(story: Explained, chosen: Judged) -> Drifted | None:
     """Which sensors drift beside what was chosen, and how far; None where none do."""
-    drift = chosen.hypothesis.drift
-    if drift is None:
+    drift, zeros = chosen.hypothesis.drift, chosen.drifted(story.search.data)
+    if drift is None or zeros is None:
         return None
-    term, z = chosen.point.terms[1], chosen.split(chosen.fit.z_mean)[1]
-    numbers = (z * term.sigma).reshape((-1, WAVES))
-    spans = np.ptp(numbers @ walk(story.search.data.states).T, axis=1)
+    spans = np.ptp(zeros, axis=0)
     own, turn = (spans[:3], spans[3:]) if drift.sensor == TRACKER else (spans, np.zeros(1))
     return Drifted(drift.sensor, float(np.sqrt(np.mean(own**2))), float(np.sqrt(np.mean(turn**2))))
 

@@ -26,9 +26,27 @@ class Drift:
 
     def term(self, data: Recorded) -> Term:
         """What it changes of the robot's sensors in state after state."""
-        walk_of, sigma = _WALKS[self.sensor](data)
-        count = len(sigma)
-        return Term(walk_of, np.eye(count * WAVES), self.amplitude * np.repeat(sigma, WAVES))
+        sigma, waves, change = self._sigma(data), self._waves(data), _CHANGES[self.sensor](data)
+        return Term(
+            lambda arrays, theta: change(arrays, _walked(theta[..., 0, :], waves)), np.eye(len(sigma)), sigma
+        )  # fmt: skip
+
+    def zeros(self, data: Recorded, z: np.ndarray) -> np.ndarray:
+        """(S, n) zeros of the n sensors [N, m, rad] by the numbers z of the term; of a tracker, about the middle."""
+        return _walked(z * self._sigma(data), self._waves(data))
+
+    def _sigma(self, data: Recorded) -> np.ndarray:
+        own = np.median(data.sigma[:, _columns(self.sensor, data.cables)], axis=0)
+        return self.amplitude * np.repeat(own, WAVES)
+
+    def _waves(self, data: Recorded) -> np.ndarray:
+        """(S, WAVES); of encoders from one reading of lengths to the next: states of a lock share one."""
+        if self.sensor != ENCODERS:
+            return walk(data.states)
+        waves = np.zeros((data.states, WAVES))
+        for own, value in zip(data.blocks, walk(len(data.blocks)), strict=True):
+            waves[own] = value
+        return waves
 
 
 NO_DRIFT = 0.5  # probability
@@ -45,11 +63,11 @@ Sigmas of encoders are small, a tenth of a millimetre, against what belts, ropes
 
 def drifts(data: Recorded) -> list[Drift]:
     """Those of sensors that were read in two or more states."""
-    states, count = data.campaign.states, 6 + data.cables
+    m = data.cables
     read = {
-        CELLS: data.read[:, 6:count].any(axis=1),
-        TRACKER: data.read[:, :6].all(axis=1),
-        ENCODERS: np.isfinite(states.length).any(axis=1),
+        CELLS: data.read[:, _columns(CELLS, m)].any(axis=1),
+        TRACKER: data.read[:, _columns(TRACKER, m)].all(axis=1),
+        ENCODERS: np.isfinite(data.campaign.states.length).any(axis=1),
     }
     return [one for one in DRIFTS if read[one.sensor].sum() > 1]
 
@@ -66,45 +84,38 @@ def walk(states: int) -> np.ndarray:
     return np.asarray(np.sqrt(2.0) * np.sin(time[:, None] * rate) / rate)
 
 
-def walked(theta: np.ndarray, waves: np.ndarray) -> np.ndarray:
+def _walked(theta: np.ndarray, waves: np.ndarray) -> np.ndarray:
     """(..., S, n) zeros of n sensors in state after state from numbers (..., n * WAVES) and waves (S, WAVES)."""
     return np.einsum("...nw,sw->...sn", theta.reshape((*theta.shape[:-1], -1, WAVES)), waves)
 
 
-_Walk = tuple[Callable[[RobotArrays, np.ndarray], RobotArrays], np.ndarray]
+def _columns(sensor: str, m: int) -> slice:
+    """Of 6 + 2 m readings."""
+    return {TRACKER: slice(0, 6), CELLS: slice(6, 6 + m), ENCODERS: slice(6 + m, None)}[sensor]
 
 
-def _cells(data: Recorded) -> _Walk:
-    """Zeros of the load cells [N], from state to state."""
-    waves = walk(data.states)
-
-    def drifted(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
-        return plus(arrays, cell_bias=walked(theta[..., 0, :], waves))
-
-    return drifted, np.median(data.sigma[:, 6 : 6 + data.cables], axis=0)
+_Change = Callable[[RobotArrays, np.ndarray], RobotArrays]
 
 
-def _tracker(data: Recorded) -> _Walk:
-    """The tracker's frame, which shifts, and turns about the middle of the poses [m, rad]."""
-    waves, middle = walk(data.states), data.readings.position.mean(axis=0)
+def _cells(data: Recorded) -> _Change:
+    del data
+    return lambda arrays, zeros: plus(arrays, cell_bias=zeros)
 
-    def drifted(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
-        shift, turn = np.split(walked(theta[..., 0, :], waves), 2, axis=-1)
+
+def _encoders(data: Recorded) -> _Change:
+    del data
+    return lambda arrays, zeros: plus(arrays, length_offset=zeros)
+
+
+def _tracker(data: Recorded) -> _Change:
+    """The tracker's frame shifts, and turns about the middle of the poses."""
+    middle = data.readings.position.mean(axis=0)
+
+    def drifted(arrays: RobotArrays, zeros: np.ndarray) -> RobotArrays:
+        shift, turn = np.split(zeros, 2, axis=-1)
         return plus(arrays, tracker=np.concatenate([shift - np.cross(turn, middle), turn], axis=-1))
 
-    return drifted, np.median(data.sigma[:, :6], axis=0)
+    return drifted
 
 
-def _encoders(data: Recorded) -> _Walk:
-    """Zeros of the encoders [m], from one reading of lengths to the next: states of a lock share one."""
-    waves = np.zeros((data.states, WAVES))
-    for own, value in zip(data.blocks, walk(len(data.blocks)), strict=True):
-        waves[own] = value
-
-    def drifted(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
-        return plus(arrays, length_offset=walked(theta[..., 0, :], waves))
-
-    return drifted, np.median(data.sigma[:, 6 + data.cables :], axis=0)
-
-
-_WALKS: dict[str, Callable[[Recorded], _Walk]] = {CELLS: _cells, TRACKER: _tracker, ENCODERS: _encoders}
+_CHANGES: dict[str, Callable[[Recorded], _Change]] = {CELLS: _cells, TRACKER: _tracker, ENCODERS: _encoders}

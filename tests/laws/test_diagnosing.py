@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from cdpr_struct.diagnosis import diagnosing
 from cdpr_struct.diagnosis.decision import Decision, decided
@@ -184,22 +185,25 @@ def walk_of(seed: int, states: int, sensors: int) -> np.ndarray:
 
 
 def test_a_drift_of_the_tracker_is_no_cause():
-    """Two millimetres and two milliradians wide at the end."""
+    """Its frame shifts by four millimetres until the end, and turns about the middle by four milliradians."""
     campaign = measured(cogiro(), 9)
-    states = campaign.states
-    walk = walk_of(3, len(states.names), 6)
-    said = diagnosed(with_states(
-        campaign, position=states.position + 2e-3 * walk[:, :3], angles=states.angles + 2e-3 * walk[:, 3:]
-    ))  # fmt: skip
+    position, walk = campaign.states.position, 4e-3 * walk_of(3, len(campaign.states.names), 6)
+    turn, middle = Rotation.from_rotvec(walk[:, 3:]), position.mean(axis=0)
+    angles = (turn * Rotation.from_euler("xyz", campaign.states.angles)).as_euler("xyz")
+    read = middle + turn.apply(position - middle) + walk[:, :3]
+    said = diagnosed(with_states(campaign, position=read, angles=angles))
     assert said.decision.status == "adequate"
     assert said.null.hypothesis.drift.sensor == "tracker"
-    assert 0.5e-3 < said.drift.size < 4e-3
+    assert 1e-3 < said.drift.size < 8e-3
 
 
 def test_a_drift_of_the_encoders_is_no_cause():
+    """Two millimetres wide at the end; the last state has the lengths of the first, which are read once."""
     campaign = measured(cogiro(), 10)
     length = campaign.states.length
-    said = diagnosed(with_states(campaign, length=length + 2e-3 * walk_of(4, *length.shape)))
+    walk = 2e-3 * walk_of(4, *length.shape)
+    walk[-1] = walk[0]
+    said = diagnosed(with_states(campaign, length=length + walk))
     assert said.decision.status == "adequate"
     assert said.null.hypothesis.drift.sensor == "encoders"
     assert 0.5e-3 < said.drift.size < 4e-3
