@@ -23,6 +23,8 @@ class Cable:
     thermal_expansion : alpha [1/K] of its unstrained length, negative for fibres that shrink; default: steel
     winch_tension : tension at the frame anchor [N] that the winch holds, whatever length that takes; 0 where it holds
                     the length
+    winch : name of the winch that winds this cable together with others of the same name, by equal lengths; "": its own
+    home_length : unstrained length [m] when that winch is at home; 0: what holds the robot's home pose
     """
 
     axial_stiffness: float
@@ -32,6 +34,8 @@ class Cable:
     force_max: float = math.inf
     thermal_expansion: float = STEEL
     winch_tension: float = 0.0
+    winch: str = ""
+    home_length: float = 0.0
 
     def __post_init__(self) -> None:
         require_positive(self, "axial_stiffness", "linear_density")
@@ -42,6 +46,8 @@ class Cable:
             raise ValueError(f"Cable.thermal_expansion must be {expected}, got {self.thermal_expansion!r}")
         if not 0.0 <= self.winch_tension < math.inf:
             raise ValueError(f"Cable.winch_tension must be finite and >= 0 N, got {self.winch_tension!r}")
+        if not 0.0 <= self.home_length < math.inf:
+            raise ValueError(f"Cable.home_length must be finite and >= 0 m, got {self.home_length!r}")
         if not 0.0 <= self.force_min < math.inf:
             raise ValueError(f"Cable.force_min must be finite and >= 0 N, got {self.force_min!r}")
         if not self.force_max > self.force_min:

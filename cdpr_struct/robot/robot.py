@@ -12,6 +12,7 @@ from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.lump import Lump, lumps_fault
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
+from cdpr_struct.robot.winches import Winches, winches_fault
 
 _ROUNDING = 1e-15  # a vector whose length is one but for this is left as it is: files are read as written
 FREEDOMS = ("x", "y", "z", "rx", "ry", "rz")
@@ -74,6 +75,8 @@ class Robot:
             raise ValueError(fault)
         if fault := lumps_fault(self.lumps, m, self.extensions, self.gravity):
             raise ValueError(f"Robot.lumps: {fault}")
+        if fault := winches_fault(self.cables):
+            raise ValueError(fault)
 
     def _settle_gravity(self) -> None:
         """Size and direction of gravity, which may have been given as one vector."""
@@ -123,6 +126,17 @@ class Robot:
     def tension_winches(self) -> list[int]:
         """Numbers from 1 of the cables whose winches hold the tension."""
         return [number for number, cable in enumerate(self.cables, start=1) if cable.winch_tension]
+
+    @property
+    def winches(self) -> Winches:
+        """Those that hold lengths."""
+        return Winches.of(self.cables)
+
+    @property
+    def shared_winches(self) -> list[str]:
+        """Names of the winches that wind several cables."""
+        winches = self.winches
+        return [name for name, cables in zip(winches.names, winches.cables, strict=True) if len(cables) > 1]
 
     @property
     def weight_per_length(self) -> np.ndarray:
