@@ -107,7 +107,7 @@ def forward(
     CdprError : no equilibrium was found.
     """
     machine, chosen = (
-        read_robot(robot, payload, mass, wrench=wrench, temperature=temperature, lumps=True),
+        read_robot(robot, payload, mass, wrench=wrench, temperature=temperature, lumps=True, winches=True),
         one_of(model, "model", MODELS),
     )
     require_sagging(machine, chosen)

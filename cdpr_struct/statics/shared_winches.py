@@ -21,7 +21,7 @@ from cdpr_struct.robot.winches import Winches
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.equilibrium import platform_radius, rotation_from_vector
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
-from cdpr_struct.statics.free_orientation import FreeOrientation, turning_axes
+from cdpr_struct.statics.free_orientation import FreeOrientation, free_orientation, turning_axes
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.locked_balance import LockedBalance
 from cdpr_struct.statics.minimum_norm import QuadraticPrograms, solve_programs
@@ -108,6 +108,18 @@ def wound_rest(
     angles_found = angles_from_rotation(now.rotation)
     hung = FreeOrientation(angles_found, now.rotation, found, np.zeros((k, 3)), now.cables, now.residual_wrench)
     return WoundRest(hung, ends.said, ends.size)
+
+
+def resting_orientation(
+    robot: Robot, position: np.ndarray, angles: np.ndarray, free: npt.ArrayLike
+) -> FreeOrientation:
+    """Orientations of platforms whose free angles are not held: hanging freely, or on winches that are shared.
+
+    Arguments as for `wound_rest`.
+    """
+    if robot.shared_winches:
+        return wound_rest(robot, position, angles, free).hung
+    return free_orientation(robot, position, angles, free)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -220,13 +232,16 @@ class _Search:
         stretch = here.states(place, turn).elongation.mean(axis=1)
         step = (_DIFFERENCE * np.maximum(stretch, 1e-9))[:, None]
         moves, pulls = [], []
-        for way in np.eye(self.winches.count):
-            more, less = balance(ends.said + step * way), balance(ends.said - step * way)
+        for winch in np.eye(self.winches.count):
+            more, less = balance(ends.said + step * winch), balance(ends.said - step * winch)
             push = more.evaluate(place, turn).wrench - less.evaluate(place, turn).wrench
             move = np.linalg.solve(tangent, 0.5 * push[..., None])[..., 0]
-            ahead = more.states(place + move[:, :3], rotation_from_vector(move[:, 3:]) @ turn).tension_at_platform
+            ahead, back = (
+                side.states(place + way[:, :3], rotation_from_vector(way[:, 3:]) @ turn).tension_at_platform
+                for side, way in ((more, move), (less, -move))
+            )
             moves.append(move / step)
-            pulls.append((ahead - ends.tension) / step)
+            pulls.append(0.5 * (ahead - back) / step)
         return np.stack(moves, axis=-1), np.stack(pulls, axis=-1)
 
 
