@@ -215,7 +215,8 @@ def read_lengths(given: "Numbers | None", robot: "Robot") -> list[float]:
     InputError : missing, not one positive number per cable, or in mm.
     """
     count = len(robot.cables)
-    what = f"unstrained lengths in m, one per cable of {robot.name}"
+    each = "winch or cable" if robot.shared_winches else "cable"
+    what = f"unstrained lengths in m, one per {each} of {robot.name}"
     if given is None:
         raise InputError("lengths", "", "nothing", f"give {count} {what}")
     counts = (robot.winches.count, count) if robot.shared_winches else (count,)

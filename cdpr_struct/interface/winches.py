@@ -87,10 +87,11 @@ def lengths_of(robot: Robot, given: Sequence[float]) -> list[float]:
     worst = int(np.abs(apart).argmax())
     if abs(apart[worst]) > SAME_WINDING:
         name = robot.cables[worst].winch
+        own = np.flatnonzero([cable.winch == name for cable in robot.cables])
+        pair = sorted((own[apart[own].argmin()], own[apart[own].argmax()]))
         right = (
-            f"on winch {name} all cables change by equal lengths since home, but cable {worst + 1} is "
-            f"{1e3 * abs(apart[worst]):.3g} mm too {'long' if apart[worst] > 0.0 else 'short'}; or give what "
-            f"{winches.count} winches say"
+            f"on winch {name} all cables change by equal lengths since home, but those of cables {pair[0] + 1} and "
+            f"{pair[1] + 1} differ by {1e3 * np.ptp(apart[own]):.3g} mm; or give what {winches.count} winches say"
         )
         raise InputError("lengths", "", float(values[worst]), right)
     return list(np.where(winches.share.any(axis=1), winches.lengths(winches.said(values)), values).tolist())

@@ -28,6 +28,7 @@ from cdpr_struct.statics.minimum_norm import QuadraticPrograms, solve_programs
 from cdpr_struct.statics.neutral_freedoms import stability
 from cdpr_struct.statics.pose_error import reference_lengths
 
+_DECIMALS = 10  # of home lengths [m]: the rest is rounding of the search
 _ROUNDS = 60
 _LONGEST = 0.05  # of the mean length: of one step of a winch
 _DIFFERENCE = 1e-3  # of the cables' mean stretch: of a winch, for derivatives
@@ -54,7 +55,7 @@ def with_home_lengths(robot: Robot) -> Robot:
         hint = f"The cables of winch {missing[0]} are to be as long as the home pose needs: give each its home_length."
         raise CdprError(f"home pose: {error} {hint}") from error
     cables = (
-        replace(cable, home_length=float(length)) if cable.winch and not cable.home_length else cable
+        replace(cable, home_length=round(float(length), _DECIMALS)) if cable.winch and not cable.home_length else cable
         for cable, length in zip(robot.cables, lengths, strict=True)
     )
     return replace(robot, cables=tuple(cables))
