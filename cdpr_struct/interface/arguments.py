@@ -131,7 +131,7 @@ def read_robot(
     from cdpr_struct.robot.plausibility import implausible
     from cdpr_struct.robot.robot import Robot
     from cdpr_struct.robot.robot_file import load_robot
-    from cdpr_struct.statics.shared_winches import with_home_lengths
+    from cdpr_struct.statics.home_lengths import with_home_lengths
 
     if isinstance(payload, bool) or not isinstance(payload, Real) or not 0.0 <= payload < float("inf"):
         raise InputError("payload", "", payload, "give a mass in kg, zero or more")
@@ -144,7 +144,9 @@ def read_robot(
     if not lumps:
         require_no_lumps(entered, "this command knows no masses on cables; inverse, forward, modes, frf do")
     if not winches:
-        require_own_winches(entered, "this command knows a winch for each cable; inverse, forward, modes, verify, frf do")
+        require_own_winches(
+            entered, "this command knows a winch for each cable; inverse, forward, modes, verify, frf do"
+        )
     entered = with_home_lengths(entered)
     doubt(implausible(entered))
     try:

@@ -207,7 +207,10 @@ def map_question(
         raise InputError("grid", "", "nothing", "give X0:X1:NX,Y0:Y1:NY,Z, like -3:3:13,-3:3:13,0.5")
     if chunk is not None:
         whole(chunk, "chunk", 1, 100_000)
-    machine, poses = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, winches=True), read_grid(grid)
+    machine, poses = (
+        read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, winches=True),
+        read_grid(grid),
+    )
     require_given_free(machine, free, "a map of its poses")
     name = "nothing" if quantity is None else quantity
     if name.startswith("pose-error"):

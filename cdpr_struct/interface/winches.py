@@ -126,7 +126,7 @@ def _unreached(robot: Robot, found: WoundRest) -> UnholdablePoseError:
         limit = "below its force_min of" if low[worst] > high[worst] else "above its force_max of"
         bound = robot.force_min[worst] if low[worst] > high[worst] else robot.force_max[worst]
         return UnholdablePoseError(
-            f"cable {worst + 1}: with cables that share winches it has {pull[worst]:.4g} N there, {limit} {bound:.4g} N. "
+            f"cable {worst + 1}: as cables share winches it has {pull[worst]:.4g} N there, {limit} {bound:.4g} N. "
             "Move the pose, change the limits, or leave more angles free.",
             worst + 1,
             amount,
@@ -154,7 +154,8 @@ def held_on_shared_winches(robot: Robot, where: Pose, model: str) -> InverseSolu
     if apart > _SAME_TURN:
         rx, ry, rz = np.degrees(found.hung.angles[0])
         raise UnholdablePoseError(
-            f"{robot.winches.count} winches do not set the whole orientation: at this position the platform rests turned by "
-            f"({rx:.6f}, {ry:.6f}, {rz:.6f})\u00b0 about x, y, z. Ask for these angles, or leave them free (--free rx,ry,rz)."
+            f"{robot.winches.count} winches do not set the whole orientation: at this position the platform rests "
+            f"turned by ({rx:.6f}, {ry:.6f}, {rz:.6f})° about x, y, z. Ask for these angles, or leave them free "
+            "(--free rx,ry,rz)."
         )
     return hung_solution(robot, found.hung).at(0)

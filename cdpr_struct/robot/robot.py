@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -67,6 +68,11 @@ class Robot:
         if self.extensions is None or not self.extensions.active:
             causes = () if self.extensions is None else self.extensions.causes
             object.__setattr__(self, "extensions", Extensions.of(m, causes=causes))
+        self._check_parts()
+
+    def _check_parts(self) -> None:
+        """Extensions, lumps and winches that fit the cables."""
+        m = len(self.cables)
         if len(self.extensions.slip) != m:
             raise ValueError(f"Robot.extensions must be for {m} cables, got {len(self.extensions.slip)}")
         if fault := internal_mass_fault(self.platform, self.extensions):
@@ -155,7 +161,8 @@ class Robot:
         ------
         ValueError : a lower limit that is negative or not below the upper one.
         """
-        given = {name: value for name, value in (("force_min", lower), ("force_max", upper)) if value is not None}
+        limits = (("force_min", lower), ("force_max", upper))
+        given: dict[str, Any] = {name: value for name, value in limits if value is not None}
         return replace(self, cables=tuple(replace(cable, **given) for cable in self.cables)) if given else self
 
     def with_wrench(self, wrench: np.ndarray | Sequence[float]) -> "Robot":

@@ -15,8 +15,8 @@ class Winches:
     names  : (w,) as in the robot file; "cable 3" for the own winch of cable 3
     cables : (w,) tuples of the cables on it, numbers from 1
     share  : (m, w) 1 where a cable is on a winch
-    offset : (m,) unstrained length of a cable beyond that of the first one on its winch [m], which winding keeps; 1 m where a
-             winch holds a tension, which takes what length it needs
+    offset : (m,) unstrained length of a cable beyond that of the first one on its winch [m], which winding keeps; 1 m
+             where a winch holds a tension, which takes what length it needs
     home   : (w,) what the winch says at home [m], 0 where no home length is known
     """
 
@@ -58,8 +58,8 @@ class Winches:
         return np.asarray(((lengths - self.offset) @ self.share) / self.share.sum(axis=0))
 
     def apart(self, lengths: np.ndarray) -> np.ndarray:
-        """(..., m) by how much lengths (..., m) differ from what their winches can have wound [m]; 0 where a winch holds
-        a tension."""
+        """(..., m) by how much lengths (..., m) differ from what their winches can have wound [m]; 0 where a winch
+        holds a tension."""
         there = self.share.any(axis=1)
         return np.where(there, lengths - self.lengths(self.said(lengths)), 0.0)
 

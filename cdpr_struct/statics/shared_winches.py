@@ -12,7 +12,6 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
-from cdpr_struct.errors import CdprError
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
@@ -28,37 +27,12 @@ from cdpr_struct.statics.minimum_norm import QuadraticPrograms, solve_programs
 from cdpr_struct.statics.neutral_freedoms import stability
 from cdpr_struct.statics.pose_error import reference_lengths
 
-_DECIMALS = 10  # of home lengths [m]: the rest is rounding of the search
 _ROUNDS = 60
 _LONGEST = 0.05  # of the mean length: of one step of a winch
 _DIFFERENCE = 1e-3  # of the cables' mean stretch: of a winch, for derivatives
 _CLOSE = 1e-8  # of a position [m], or of a turn as an arc: what counts as reached
 _SETTLED = 1e-7  # of the largest tension: by less, tensions of least norm do not change any more
 _WITHIN = 1e-7  # of the largest tension: what counts as within the bounds
-
-
-def with_home_lengths(robot: Robot) -> Robot:
-    """The robot with a home length for each cable on a shared winch: those that hold the home pose, unless entered.
-
-    Raises
-    ------
-    CdprError : no home pose, or one that the cables do not hold.
-    """
-    missing = [cable.winch for cable in robot.cables if cable.winch and not cable.home_length]
-    if not missing:
-        return robot
-    if robot.home is None:
-        raise CdprError(f"winch {missing[0]}: give home_pose, or home_length for each of its cables")
-    try:
-        lengths = inverse(robot, robot.home.position, robot.home.rotation).lengths
-    except CdprError as error:
-        hint = f"The cables of winch {missing[0]} are to be as long as the home pose needs: give each its home_length."
-        raise CdprError(f"home pose: {error} {hint}") from error
-    cables = (
-        replace(cable, home_length=round(float(length), _DECIMALS)) if cable.winch and not cable.home_length else cable
-        for cable, length in zip(robot.cables, lengths, strict=True)
-    )
-    return replace(robot, cables=tuple(cables))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -80,40 +54,30 @@ def wound_rest(
     angles: npt.ArrayLike,
     free: npt.ArrayLike,
     model: str | CableModel = "sagging",
-    external_wrench: npt.ArrayLike | None = None,
 ) -> WoundRest:
-    """Where platforms rest whose winches set their position.
+    """Where platforms rest whose winches set their position, under the robot's load.
 
     Parameters
     ----------
     robot : with home lengths of the cables that share winches
     position, angles : (k, 3) [m]; (3,) or (k, 3) rx, ry, rz [rad], those that are kept, and where the search begins
     free : (3,) bool, which of rx, ry, rz follow from balance
-    external_wrench : (6,) on the platform beside its weight, world axes [N, N m]
     """
-    place, chosen = np.asarray(position, dtype=float), np.asarray(free, dtype=bool)
-    k, arrays, winches = len(place), RobotArrays.of(robot), robot.winches
-    turned = np.array(np.broadcast_to(np.asarray(angles, dtype=float), (k, 3)))
-    wrench = np.zeros(6) if external_wrench is None else np.asarray(external_wrench, dtype=float)
-    rotation = rotation_from_angles(*np.moveaxis(turned, -1, 0))
-    search = _Search(arrays, robot.winches, cable_model(model), wrench, place, turned, chosen)
-    held = inverse(arrays, place, rotation, model, wrench, allow_unheld=True)
-    begin = reference_lengths(arrays, place, rotation)
-    begin = np.where(held.held[:, None], np.minimum(held.lengths, begin), begin)  # none hangs in a deep sag
-    ends, settled = _searched(search, search.at(search.winches.said(begin), place, rotation))
+    place, arrays, chosen = np.asarray(position, dtype=float), RobotArrays.of(robot), np.asarray(free, dtype=bool)
+    turned = np.array(np.broadcast_to(np.asarray(angles, dtype=float), place.shape))
+    search = _Search(arrays, robot.winches, cable_model(model), place, turned, chosen)
+    ends, settled = _searched(search, search.begun())
     now = search.rest(ends.said, ends.position, ends.rotation)
     pull = now.tensions
     margin = _WITHIN * pull.max(axis=1, keepdims=True)
     inside = ((pull >= arrays.force_min - margin) & (pull <= arrays.force_max + margin)).all(axis=1)
-    found = settled & inside & now.converged
-    angles_found = angles_from_rotation(now.rotation)
-    hung = FreeOrientation(angles_found, now.rotation, found, np.zeros((k, 3)), now.cables, now.residual_wrench)
+    found, angles_found = settled & inside & now.converged, angles_from_rotation(now.rotation)
+    none = np.zeros(place.shape)
+    hung = FreeOrientation(angles_found, now.rotation, found, none, now.cables, now.residual_wrench)
     return WoundRest(hung, ends.said, ends.size)
 
 
-def resting_orientation(
-    robot: Robot, position: np.ndarray, angles: np.ndarray, free: npt.ArrayLike
-) -> FreeOrientation:
+def resting_orientation(robot: Robot, position: np.ndarray, angles: np.ndarray, free: npt.ArrayLike) -> FreeOrientation:
     """Orientations of platforms whose free angles are not held: hanging freely, or on winches that are shared.
 
     Arguments as for `wound_rest`.
@@ -156,7 +120,6 @@ class _Search:
     arrays: RobotArrays
     winches: Winches
     model: CableModel
-    wrench: np.ndarray
     position: np.ndarray
     angles: np.ndarray
     free: np.ndarray
@@ -171,7 +134,16 @@ class _Search:
 
     def rest(self, said: np.ndarray, position: np.ndarray, rotation: np.ndarray) -> ForwardSolution:
         lengths = self.winches.lengths(said)
-        return forward(self.arrays, lengths, position, rotation, self.model, self.wrench)
+        return forward(self.arrays, lengths, position, rotation, self.model)
+
+    def begun(self) -> _Wound:
+        """Balance at the lengths that hold the poses with a winch for each cable, as near as the winches come to them;
+        none longer than a straight cable, so that none hangs in a deep sag."""
+        rotation = rotation_from_angles(*np.moveaxis(self.angles, -1, 0))
+        held = inverse(self.arrays, self.position, rotation, self.model, allow_unheld=True)
+        straight = reference_lengths(self.arrays, self.position, rotation)
+        lengths = np.where(held.held[:, None], np.minimum(held.lengths, straight), straight)
+        return self.at(self.winches.said(lengths), self.position, rotation)
 
     def at(self, said: np.ndarray, position: np.ndarray, rotation: np.ndarray) -> _Wound:
         """Balance where the winches say `said` (k, w), sought from poses."""
@@ -222,7 +194,7 @@ class _Search:
     def _rates(self, ends: _Wound) -> tuple[np.ndarray, np.ndarray]:
         """Changes of balanced platforms (k, 6, w) and of their tensions (k, m, w) by what the winches say, per m."""
         seen, k = self.model.seen(self.arrays), len(ends.said)
-        load = np.broadcast_to(self.wrench, (k, 6))
+        load = np.zeros((k, 6))
 
         def balance(said: np.ndarray) -> LockedBalance:
             return LockedBalance(seen, seen.paid_out(self.winches.lengths(said)), load, self.model)

@@ -7,7 +7,8 @@ import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import to_fem
 from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.robot_file import load_robot
-from cdpr_struct.statics.shared_winches import with_home_lengths, wound_rest
+from cdpr_struct.statics.home_lengths import with_home_lengths
+from cdpr_struct.statics.shared_winches import wound_rest
 
 ROBOT = "examples/robots/paired-ropes/robot.toml"
 PLACE = np.array([1.0, 0.5, 1.5])

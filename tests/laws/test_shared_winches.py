@@ -1,6 +1,7 @@
 """Winches that wind several cables: laws of what they say, of the rest they lead to, files, and refusals."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,7 +18,8 @@ from cdpr_struct.robot.robot_file import load_robot, robot_of_text
 from cdpr_struct.robot.robot_writing import robot_toml
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
-from cdpr_struct.statics.shared_winches import with_home_lengths, wound_rest
+from cdpr_struct.statics.home_lengths import with_home_lengths
+from cdpr_struct.statics.shared_winches import wound_rest
 
 ROBOT = "examples/robots/paired-ropes/robot.toml"
 PLACE = np.array([1.0, 0.5, 1.5])
@@ -75,7 +77,7 @@ def test_forward_rests_where_the_winches_were_to_bring_the_platform(robot, model
 
 
 def test_parallel_ropes_keep_the_platform_level_but_for_their_stretch():
-    """A parallelogram: with inextensible weightless ropes the tilt is none, so it falls with 1/EA; lengths are chords."""
+    """A parallelogram: with inextensible weightless ropes there is no tilt, so it falls with 1/EA."""
     tilts = []
     for stiffness in (1e6, 1e7):
         robot = with_home_lengths(paired(stiffness))
@@ -178,9 +180,9 @@ def test_lengths_are_given_for_winches_or_for_cables_that_fit():
     np.testing.assert_allclose(one["pose"], all_["pose"], atol=1e-3)
     assert len(set(all_["lengths_m"])) == 3
     assert one["locked"]["other_equilibria"]
-    with pytest.raises(InputError, match="on winch west .* those of cables 3 and 4 differ by 1 mm"):
+    with pytest.raises(InputError, match=r"on winch west .* those of cables 3 and 4 differ by 1 mm"):
         cs.forward(ROBOT, [6.2, 6.2, 7.2, 7.201, 6.3, 6.3])
-    with pytest.raises(InputError, match="give 3 or 6 .* per winch or cable"):
+    with pytest.raises(InputError, match=r"give 3 or 6 .* per winch or cable"):
         cs.forward(ROBOT, [6.2, 6.2])
 
 
@@ -231,8 +233,7 @@ def test_a_robot_file_keeps_winches_and_home_lengths():
     ],
 )
 def test_a_robot_file_that_contradicts_itself_is_refused(old, new, said):
-    with open(ROBOT, encoding="utf-8") as file:
-        text = file.read()
+    text = Path(ROBOT).read_text("utf-8")
     with pytest.raises(InputError, match=said):
         robot_of_text(text.replace(old, new, 1), "robot.toml")
 
@@ -241,5 +242,5 @@ def test_home_lengths_need_a_home_pose_that_is_held():
     robot = load_robot(ROBOT)
     with pytest.raises(CdprError, match="give home_pose, or home_length"):
         cs.inverse(replace(robot, home=None), PLACE.tolist(), free="rx,ry,rz")
-    with pytest.raises(CdprError, match="home pose: .* give each its home_length"):
+    with pytest.raises(CdprError, match=r"home pose: .* give each its home_length"):
         cs.inverse(replace(robot, home=Pose(np.array([5.0, 5.0, 2.0]), np.zeros(3))), PLACE.tolist())
