@@ -17,8 +17,8 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot, robot_of_text
 from cdpr_struct.robot.robot_writing import robot_toml
 from cdpr_struct.statics.forward_kinematics import forward
-from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.home_lengths import with_home_lengths
+from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.shared_winches import wound_rest
 
 ROBOT = "examples/robots/paired-ropes/robot.toml"
