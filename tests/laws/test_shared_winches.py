@@ -48,10 +48,12 @@ def doubled() -> Robot:
     )
 
 
-def test_a_winch_for_each_cable_leaves_the_tensions_of_least_norm():
-    """The general search then has the unknowns of `inverse`: the same optimum by another way."""
-    robot = load_robot("thesis-3-1").with_force_limits(50.0)
-    place, angles = np.array([[0.5, -1.0, 0.8], [2.0, 1.0, 0.2]]), np.array([[0.02, -0.03, 0.05], [0.0, 0.0, 0.0]])
+@pytest.mark.parametrize("name", ["thesis-3-1", "examples/robots/planar-four-cables/robot.toml"])
+def test_a_winch_for_each_cable_leaves_the_tensions_of_least_norm(name):
+    """The general search then has the unknowns of `inverse`: the same optimum by another way, beside a guide, too."""
+    robot = load_robot(name).with_force_limits(50.0)
+    angles = np.array([[0.02, -0.03, 0.05], [0.0, 0.0, 0.0]]) * (0.0 if robot.guided else 1.0)
+    place = robot.home.position + np.array([[0.3, 0.0, 0.1], [0.4, 0.0, -0.2]])
     held = inverse(robot, place, rotation_from_angles(*angles.T))
     found = wound_rest(robot, place, angles, NONE)
     assert found.hung.found.all()
