@@ -225,7 +225,7 @@ def _winches_rows(result: Mapping[str, Any]) -> list[list[str]]:
     rows = []
     for winch in result.get("winches", ()):
         change = winch["paid_out_since_home_m"]
-        since = "-" if change is None else f"{change:+.5f}"
+        since = "-" if change is None else f"{round(change, 5) + 0.0:+.5f}"
         rows.append([winch["name"], ", ".join(map(str, winch["cables"])), f"{winch['length_m']:.5f}", since])
     return rows
 

@@ -67,6 +67,8 @@ class Winches:
 def winches_fault(cables: Sequence[Cable]) -> str:
     """What is wrong with the winches that several cables share, "" if nothing."""
     for number, cable in enumerate(cables, start=1):
+        if not cable.winch.isprintable():
+            return f"cables[{number}].winch: give a name of printable characters on one line"
         if cable.winch and cable.winch_tension:
             return f"cables[{number}]: a winch that holds a tension winds one cable; leave out winch or winch_tension"
         if cable.home_length and not cable.winch:

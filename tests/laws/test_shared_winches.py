@@ -11,6 +11,7 @@ from cdpr_struct.errors import CdprError, InputError, UnholdablePoseError
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.robot.cable import Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions
+from cdpr_struct.robot.fingerprint import fingerprint
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
@@ -224,6 +225,14 @@ def test_a_robot_file_keeps_winches_and_home_lengths():
     assert with_home_lengths(again) is again
 
 
+def test_the_fingerprint_of_results_knows_the_winches():
+    robot = with_home_lengths(load_robot(ROBOT))
+    own = replace(robot, cables=tuple(replace(cable, winch="", home_length=0.0) for cable in robot.cables))
+    longer = replace(robot.cables[0], home_length=6.4)
+    names = {fingerprint("map", r) for r in (robot, own, replace(robot, cables=(longer, *robot.cables[1:])))}
+    assert len(names) == 3
+
+
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
@@ -231,6 +240,7 @@ def test_a_robot_file_keeps_winches_and_home_lengths():
         ('winch = "north"', 'winch = "north"\nwinch_tension = 100.0', "holds a tension winds one cable"),
         ('winch = "north"', "home_length = 6.3", "belongs to `winch`"),
         ('winch = "north"', "winch = 3", "winch"),
+        ('winch = "north"', 'winch = "two\\nlines"', "printable"),
         ('winch = "north"', 'winch = "north"\nhome_length = -1.0', "home_length"),
     ],
 )
