@@ -82,7 +82,11 @@ def lengths_of(robot: Robot, given: Sequence[float]) -> list[float]:
     """
     winches, values = robot.winches, np.asarray(given, dtype=float)
     if len(values) == winches.count and not robot.tension_winches:
-        return list(winches.lengths(values).tolist())
+        lengths = winches.lengths(values)
+        if (short := int(lengths.argmin())) >= 0 and not lengths[short] > 0.0:
+            right = f"lengths that leave every cable some: cable {short + 1} would have {lengths[short]:.4g} m"
+            raise InputError("lengths", "", values.tolist(), right)
+        return list(lengths.tolist())
     apart = winches.apart(values)
     worst = int(np.abs(apart).argmax())
     if abs(apart[worst]) > SAME_WINDING:
@@ -90,8 +94,9 @@ def lengths_of(robot: Robot, given: Sequence[float]) -> list[float]:
         own = np.flatnonzero([cable.winch == name for cable in robot.cables])
         pair = sorted((own[apart[own].argmin()], own[apart[own].argmax()]))
         right = (
-            f"on winch {name} all cables change by equal lengths since home, but those of cables {pair[0] + 1} and "
-            f"{pair[1] + 1} differ by {1e3 * np.ptp(apart[own]):.3g} mm; or give what {winches.count} winches say"
+            f"on winch {name} cables change by equal lengths since home (or by their winch_ratio), but those of cables "
+            f"{pair[0] + 1} and {pair[1] + 1} differ by {1e3 * np.ptp(apart[own]):.3g} mm; or give what {winches.count} "
+            "winches say"
         )
         raise InputError("lengths", "", float(values[worst]), right)
     return list(np.where(winches.share.any(axis=1), winches.lengths(winches.said(values)), values).tolist())

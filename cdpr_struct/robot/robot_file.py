@@ -64,6 +64,7 @@ class CablesEntry(CableTable):
     platform_anchor: Vector
     frame_anchor: Vector
     winch: Annotated[str, Field(strict=True, min_length=1)] | None = None
+    winch_ratio: Number = 1.0
     home_length: Positive | None = None
 
 
@@ -266,7 +267,11 @@ def _cable(default: CableTable, entry: CablesEntry, source: str, number: int) ->
             raise InputError(source, f"cables[{number}].{name}", "nothing", "give it here or in the [cable] table")
     given = {name: value for name, value in values.items() if value is not None}
     _check_limits(given, entry, source, number)
-    return Cable(**given, winch=entry.winch or "", home_length=entry.home_length or 0.0)
+    if not 1e-3 <= abs(entry.winch_ratio) <= 1e3:
+        expected = "a ratio from 0.001 to 1000 in size, negative if the cable winds against the others of its winch"
+        raise InputError(source, f"cables[{number}].winch_ratio", entry.winch_ratio, expected)
+    home = entry.home_length or 0.0
+    return Cable(**given, winch=entry.winch or "", winch_ratio=entry.winch_ratio, home_length=home)
 
 
 def _check_limits(given: dict[str, float], entry: CablesEntry, source: str, number: int) -> None:

@@ -1,4 +1,4 @@
-"""Winches that hold lengths: one for each cable, or one that winds several cables by equal lengths."""
+"""Winches that hold lengths: one for each cable, or one that winds several cables together."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,9 +14,9 @@ class Winches:
 
     names  : (w,) as in the robot file; "cable 3" for the own winch of cable 3
     cables : (w,) tuples of the cables on it, numbers from 1
-    share  : (m, w) 1 where a cable is on a winch
-    offset : (m,) unstrained length of a cable beyond that of the first one on its winch [m], which winding keeps; 1 m
-             where a winch holds a tension, which takes what length it needs
+    share  : (m, w) length wound of a cable over that of the first one on its winch, 0 where it is on another
+    offset : (m,) unstrained length of a cable where its winch would say nothing [m]; 1 m where a winch holds a tension,
+             which takes what length it needs
     home   : (w,) what the winch says at home [m], 0 where no home length is known
     """
 
@@ -37,9 +37,9 @@ class Winches:
         offset = np.array([1.0 if cable.winch_tension else 0.0 for cable in cables])
         for column, numbers in enumerate(groups.values()):
             rows = np.array(numbers) - 1
-            share[rows, column] = 1.0
-            lengths = np.array([cables[row].home_length for row in rows])
-            offset[rows] = lengths - lengths[0]
+            ratio, home = np.array([(cables[row].winch_ratio, cables[row].home_length) for row in rows]).T
+            share[rows, column] = ratio / ratio[0]
+            offset[rows] = home - share[rows, column] * home[0]
         home = np.array([cables[numbers[0] - 1].home_length for numbers in groups.values()])
         names = tuple(key if isinstance(key, str) else f"cable {key}" for key in groups)
         return cls(names, tuple(map(tuple, groups.values())), share, offset, home)
@@ -54,8 +54,8 @@ class Winches:
         return said @ self.share.T + self.offset
 
     def said(self, lengths: np.ndarray) -> np.ndarray:
-        """(..., w) what winches say that fits unstrained lengths (..., m) best, the mean of their cables [m]."""
-        return np.asarray(((lengths - self.offset) @ self.share) / self.share.sum(axis=0))
+        """(..., w) what winches say that fits unstrained lengths (..., m) best, of equal ratios the mean [m]."""
+        return np.asarray(((lengths - self.offset) @ self.share) / (self.share**2).sum(axis=0))
 
     def apart(self, lengths: np.ndarray) -> np.ndarray:
         """(..., m) by how much lengths (..., m) differ from what their winches can have wound [m]; 0 where a winch
@@ -71,8 +71,9 @@ def winches_fault(cables: Sequence[Cable]) -> str:
             return f"cables[{number}].winch: give a name of printable characters on one line"
         if cable.winch and cable.winch_tension:
             return f"cables[{number}]: a winch that holds a tension winds one cable; leave out winch or winch_tension"
-        if cable.home_length and not cable.winch:
-            return f"cables[{number}].home_length belongs to `winch`; leave it out"
+        for name, own in (("home_length", 0.0), ("winch_ratio", 1.0)):
+            if getattr(cable, name) != own and not cable.winch:
+                return f"cables[{number}].{name} belongs to `winch`; leave it out"
     for name in dict.fromkeys(cable.winch for cable in cables if cable.winch):
         known = [bool(cable.home_length) for cable in cables if cable.winch == name]
         if any(known) and not all(known):

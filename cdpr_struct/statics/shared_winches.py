@@ -29,6 +29,7 @@ from cdpr_struct.statics.pose_error import reference_lengths
 
 _ROUNDS = 60
 _LONGEST = 0.05  # of the mean length: of one step of a winch
+_SHORTEST = 1e-3  # of a cable on the way [m]
 _DIFFERENCE = 1e-3  # of the cables' mean stretch: of a winch, for derivatives
 _CLOSE = 1e-8  # of a position [m], or of a turn as an arc: what counts as reached
 _SETTLED = 1e-7  # of the largest tension: by less, tensions of least norm do not change any more
@@ -133,7 +134,7 @@ class _Search:
         return replace(self, position=self.position[index], angles=self.angles[index])
 
     def rest(self, said: np.ndarray, position: np.ndarray, rotation: np.ndarray) -> ForwardSolution:
-        lengths = self.winches.lengths(said)
+        lengths = np.maximum(self.winches.lengths(said), _SHORTEST)
         return forward(self.arrays, lengths, position, rotation, self.model)
 
     def begun(self) -> _Wound:

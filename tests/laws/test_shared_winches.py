@@ -144,6 +144,24 @@ def test_a_guide_leaves_fewer_coordinates_to_the_winches():
     np.testing.assert_allclose(back["pose"][:3], [0.5, 0.0, 0.5], atol=1e-9)
 
 
+def test_two_cables_wound_against_each_other_keep_their_tension():
+    """A slide on a rail, two ropes on one drum: d1 / L1 = d2 / L2, L1 + L2 constant, so T = EA (D / L - 1) everywhere."""
+    anchors, guided = np.array([[-2.0, 0.0, 0.0], [3.0, 0.0, 0.0]]), ("y", "z", "rx", "ry", "rz")
+    one = Cable(1e5, 0.02, force_min=200.0, winch="drum")
+    robot = Robot(
+        "slide", Platform(5.0, np.zeros(3), np.eye(3)), (one, replace(one, winch_ratio=-1.0)), np.zeros((2, 3)),
+        anchors, gravity=0.0, home=Pose(np.zeros(3), np.zeros(3)), guided=guided,
+    )  # fmt: skip
+    for x in (0.0, 1.2, -0.7):
+        told = cs.inverse(robot, [x, 0.0, 0.0]).answer
+        np.testing.assert_allclose(told["tensions_N"], 200.0, rtol=1e-6)
+        np.testing.assert_allclose(told["lengths_m"], np.array([2.0 + x, 3.0 - x]) / (1.0 + 200.0 / 1e5), rtol=1e-9)
+    back = cs.forward(robot, [told["winches"][0]["length_m"]]).answer
+    assert back["pose"][0] == pytest.approx(-0.7, abs=1e-9)
+    with pytest.raises(InputError, match="cable 2 would have -"):
+        cs.forward(robot, [5.1])
+
+
 def test_a_whole_pose_is_refused_with_the_angles_at_which_the_platform_rests():
     with pytest.raises(UnholdablePoseError, match=r"3 winches do not set") as refused:
         cs.inverse(ROBOT, PLACE.tolist())
@@ -220,8 +238,9 @@ def test_commands_that_know_a_winch_for_each_cable_say_so(command, options, fiel
 
 def test_a_robot_file_keeps_winches_and_home_lengths():
     robot = with_home_lengths(load_robot(ROBOT))
+    robot = replace(robot, cables=(replace(robot.cables[0], winch_ratio=-2.0), *robot.cables[1:]))
     again = robot_of_text(robot_toml(robot, "again"), "again.toml")
-    assert [(c.winch, c.home_length) for c in again.cables] == [(c.winch, c.home_length) for c in robot.cables]
+    assert again.cables == robot.cables
     assert with_home_lengths(again) is again
 
 
@@ -239,6 +258,8 @@ def test_the_fingerprint_of_results_knows_the_winches():
         ('winch = "north"', 'winch = "north"\nhome_length = 6.3', "home_length for all"),
         ('winch = "north"', 'winch = "north"\nwinch_tension = 100.0', "holds a tension winds one cable"),
         ('winch = "north"', "home_length = 6.3", "belongs to `winch`"),
+        ('winch = "north"', "winch_ratio = 2.0", "belongs to `winch`"),
+        ('winch = "north"', 'winch = "north"\nwinch_ratio = 0.0', "winch_ratio: got 0.0; a ratio from"),
         ('winch = "north"', "winch = 3", "winch"),
         ('winch = "north"', 'winch = "two\\nlines"', "printable"),
         ('winch = "north"', 'winch = "north"\nhome_length = -1.0', "home_length"),
