@@ -95,8 +95,8 @@ def lengths_of(robot: Robot, given: Sequence[float]) -> list[float]:
         pair = sorted((own[apart[own].argmin()], own[apart[own].argmax()]))
         right = (
             f"on winch {name} cables change by equal lengths since home (or by their winch_ratio), but those of cables "
-            f"{pair[0] + 1} and {pair[1] + 1} differ by {1e3 * np.ptp(apart[own]):.3g} mm; or give what {winches.count} "
-            "winches say"
+            f"{pair[0] + 1} and {pair[1] + 1} differ by {1e3 * np.ptp(apart[own]):.3g} mm; or give what "
+            f"{winches.count} winches say"
         )
         raise InputError("lengths", "", float(values[worst]), right)
     return list(np.where(winches.share.any(axis=1), winches.lengths(winches.said(values)), values).tolist())
@@ -137,7 +137,7 @@ def _unreached(robot: Robot, found: WoundRest) -> UnholdablePoseError:
             amount,
         )
     return UnholdablePoseError(
-        f"no lengths of the {robot.winches.count} winches are found at which the platform rests there: "
+        f"{robot.name}: no lengths of its winches are found at which the platform rests there: "
         f"{found.miss[0]:.2g} m are left. Move the pose, or begin at another orientation."
     )
 

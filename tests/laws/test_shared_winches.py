@@ -145,7 +145,7 @@ def test_a_guide_leaves_fewer_coordinates_to_the_winches():
 
 
 def test_two_cables_wound_against_each_other_keep_their_tension():
-    """A slide on a rail, two ropes on one drum: d1 / L1 = d2 / L2, L1 + L2 constant, so T = EA (D / L - 1) everywhere."""
+    """A slide on a rail, two ropes on one drum: d1 / L1 = d2 / L2, L1 + L2 constant, so T = EA (D / L - 1) anywhere."""
     anchors, guided = np.array([[-2.0, 0.0, 0.0], [3.0, 0.0, 0.0]]), ("y", "z", "rx", "ry", "rz")
     one = Cable(1e5, 0.02, force_min=200.0, winch="drum")
     robot = Robot(
@@ -158,6 +158,8 @@ def test_two_cables_wound_against_each_other_keep_their_tension():
         np.testing.assert_allclose(told["lengths_m"], np.array([2.0 + x, 3.0 - x]) / (1.0 + 200.0 / 1e5), rtol=1e-9)
     back = cs.forward(robot, [told["winches"][0]["length_m"]]).answer
     assert back["pose"][0] == pytest.approx(-0.7, abs=1e-9)
+    with pytest.raises(UnholdablePoseError, match="no lengths of its winches"):
+        cs.inverse(robot, [4.0, 0.0, 0.0])  # beyond the end of the rail
     with pytest.raises(InputError, match="cable 2 would have -"):
         cs.forward(robot, [5.1])
 
@@ -176,7 +178,7 @@ def test_a_whole_pose_is_refused_with_the_angles_at_which_the_platform_rests():
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({"pose": [-2.0, 2.0, 1.5], "free": "rx,ry,rz"}, "no lengths of the 3 winches"),
+        ({"pose": [-2.0, 2.0, 1.5], "free": "rx,ry,rz"}, "no lengths of its winches"),
         ({"pose": PLACE.tolist(), "free": "rx,ry,rz", "lower_bound": 80.0}, "cable 4: .* below its force_min of 80 N"),
         ({"pose": PLACE.tolist(), "free": "rx,ry,rz", "upper_bound": 110.0}, "cable 5: .* above its force_max of 110"),
         ({"pose": PLACE.tolist(), "free": "rx,ry,rz", "model": "ideal"}, "inextensible"),
