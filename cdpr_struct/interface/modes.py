@@ -129,7 +129,7 @@ def modes(
     whole(count, "count", 1, 500)
     whole(elements, "elements", 2, 2000)
     way, name = one_of(assembly, "assembly", ASSEMBLIES), one_of(model, "model", MODELS)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True, winches=True)
     state = rest(machine, pose, lengths, start, free)
     point = state.point
     require_valid(name, point, force)
