@@ -217,6 +217,6 @@ def _require_no_half_turn(robot: Robot, starts: list[Pose]) -> None:
     """Raise where a cable would turn by more than 180 degrees on its pulley at each of the poses a search begins at."""
     arrays = RobotArrays.of(robot)
     place, turn = (np.array([getattr(one, name) for one in starts]) for name in ("position", "rotation"))
-    behind = behind_wheels(arrays, PlatformArms.at(arrays, place, turn).points).all(axis=0, keepdims=True)
+    behind = np.atleast_2d(behind_wheels(arrays, PlatformArms.at(arrays, place, turn).points).all(axis=0))
     if behind.any():
         raise half_turn_error(arrays, behind)

@@ -27,9 +27,8 @@ from cdpr_struct.statics.equilibrium import (
     rotation_from_vector,
 )
 from cdpr_struct.statics.guides import free_part
-from cdpr_struct.statics.holding_tensions import HoldingProblem
+from cdpr_struct.statics.holding_tensions import HoldingProblem, allowed_unbalance
 from cdpr_struct.statics.lost_cables import lost
-from cdpr_struct.statics.unbalanced_wrench import allowed_unbalance
 
 ANGLES = ("rx", "ry", "rz")
 _ITERATIONS = 25

@@ -15,6 +15,7 @@ _STALLED = 8  # iterations without the unbalanced wrench shrinking by a tenth en
 _TAUT = 0.8  # w chord / (2 tau) of a start well on the taut side of the tension minimum
 _REACH = 1e4  # largest tension over load that a search starts from
 _RISING = 0.05  # least growth of the platform tension with the chord tension at which its bounds are linearised
+_OF_WEIGHT = 1e-3  # of the platform: most that counts as balanced
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -202,6 +203,15 @@ class HoldingProblem:
             return scaled
         rows = scaled if scaled.ndim == 3 else scaled[..., None]
         return np.concatenate([rows[:, :3], self.kept @ rows[:, 3:]], axis=1).reshape(scaled.shape)
+
+
+def allowed_unbalance(arrays: RobotArrays, share: float, pulls: np.ndarray) -> np.ndarray:
+    """(...) wrench [N] that may be left where load and tensions, together `pulls` (...) [N], balance but for a share.
+
+    Never more than a thousandth of the platform's weight: tensions beyond all measure would else balance anything.
+    """
+    weight = arrays.mass * arrays.gravity
+    return np.asarray(np.where(weight > 0.0, np.minimum(share * pulls, _OF_WEIGHT * weight), share * pulls))
 
 
 def force_bounds(lower: npt.ArrayLike, upper: npt.ArrayLike, m: int) -> tuple[np.ndarray, np.ndarray]:

@@ -22,12 +22,11 @@ from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import cable_wrench
 from cdpr_struct.statics.free_orientation import FreeOrientation
 from cdpr_struct.statics.guides import free_part
-from cdpr_struct.statics.holding_tensions import HoldingProblem, force_bounds
+from cdpr_struct.statics.holding_tensions import HoldingProblem, allowed_unbalance, force_bounds
 from cdpr_struct.statics.lost_cables import lost
 from cdpr_struct.statics.separating_wrench import separation
 from cdpr_struct.statics.stiffening import settled_stiffness
 from cdpr_struct.statics.taut_tensions import suits, taut_tensions
-from cdpr_struct.statics.unbalanced_wrench import allowed_unbalance
 from cdpr_struct.statics.unholdable_poses import (
     behind_wheels,
     half_turn_error,

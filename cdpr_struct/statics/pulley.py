@@ -7,8 +7,8 @@ cable lies in its plane, so t alone fixes everything: with e the unit normal par
     t = sin(phi) e + cos(phi) a,      E = B + R (1 - cos(phi)) e + R sin(phi) a,      wrapped length R phi (strained).
 
 R = 0 is a fixed point, E = B. A cable that would turn by more than 180 degrees, to a point behind the wheel and nearer
-to the swivel axis than 2 R, is not covered; to a point on the axis the wheel might face any way. Weight of the wrapped piece and friction are left out, so the cable tension on the
-wheel is that at E.
+to the swivel axis than 2 R, is not covered; to a point on the axis the wheel might face any way. Weight of the wrapped
+piece and friction are left out, so the cable tension on the wheel is that at E.
 """
 
 from dataclasses import dataclass

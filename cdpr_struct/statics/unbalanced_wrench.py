@@ -10,17 +10,6 @@ from cdpr_struct.statics.guides import free_part
 MOST_UNBALANCED = 1e-7
 """Share from which on a platform does not count as balanced; searches end below 1e-8."""
 
-_OF_WEIGHT = 1e-3
-
-
-def allowed_unbalance(arrays: RobotArrays, share: float, pulls: np.ndarray) -> np.ndarray:
-    """(...) wrench [N] that may be left where load and tensions, together `pulls` (...) [N], balance but for a share.
-
-    Never more than a thousandth of the platform's weight: tensions beyond all measure would else balance anything.
-    """
-    weight = arrays.mass * arrays.gravity
-    return np.asarray(np.where(weight > 0.0, np.minimum(share * pulls, _OF_WEIGHT * weight), share * pulls))
-
 
 def unbalanced_share(
     arrays: RobotArrays, position: np.ndarray, rotation: np.ndarray, states: CableStates
