@@ -11,9 +11,12 @@ from cdpr_struct.interface.arguments import one_of
 from cdpr_struct.interface.winches import require_locked_lengths, require_own_winches, wound
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import FREEDOMS, Robot
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.equilibrium import PlatformArms
 from cdpr_struct.statics.even_orientation import even_orientation
 from cdpr_struct.statics.free_orientation import ANGLES, free_orientation, left_free, names_of, turn_with_guide
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, hung_solution
+from cdpr_struct.statics.unholdable_poses import behind_wheels, half_turn_error
 from cdpr_struct.workspace.margins import largest_tilt
 
 FreeAngles: TypeAlias = str | Iterable[str]
@@ -208,6 +211,7 @@ def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sag
         hung = wound(robot, where, free, model).hung
         pose = Pose(where.position, hung.angles[0])
         return HangingPose(pose, hung_solution(robot, hung).at(0), free, added, held_by="winches")
+    _require_no_half_turn(robot, [where, Pose(where.position, np.where(free, 0.0, where.angles))])
     found = free_orientation(robot, where.position[None], where.angles, free, model=model)
     if not found.found[0]:
         kept = [name for name in names_of(~free) if name not in robot.guided]
@@ -221,3 +225,12 @@ def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sag
             f"{hint}, or begin at another orientation."
         )
     return HangingPose(Pose(where.position, found.angles[0]), hung_solution(robot, found).at(0), free, added)
+
+
+def _require_no_half_turn(robot: Robot, starts: list[Pose]) -> None:
+    """Raise where a cable would turn by more than 180 degrees on its pulley at each of the poses a search begins at."""
+    arrays = RobotArrays.of(robot)
+    place, turn = (np.array([getattr(one, name) for one in starts]) for name in ("position", "rotation"))
+    behind = np.atleast_2d(behind_wheels(arrays, PlatformArms.at(arrays, place, turn).points).all(axis=0))
+    if behind.any():
+        raise half_turn_error(arrays, behind)

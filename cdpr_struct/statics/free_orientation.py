@@ -27,7 +27,8 @@ from cdpr_struct.statics.equilibrium import (
     rotation_from_vector,
 )
 from cdpr_struct.statics.guides import free_part
-from cdpr_struct.statics.holding_tensions import HoldingProblem
+from cdpr_struct.statics.holding_tensions import HoldingProblem, allowed_unbalance
+from cdpr_struct.statics.lost_cables import lost
 
 ANGLES = ("rx", "ry", "rz")
 _ITERATIONS = 25
@@ -163,7 +164,8 @@ class HangingProblem:
         left = cable_wrench(states, problem.arms) + problem.load
         pulls = np.linalg.norm(problem.load[:, :3], axis=1) + states.tension_at_platform.sum(axis=1)
         about = np.where(self.free, np.einsum("kij,kj->ki", axes, left[:, 3:]), 0.0)
-        carried = np.linalg.norm(problem.balanced(left / problem.unit), axis=1) <= _WITHIN * pulls
+        unbalanced = np.linalg.norm(problem.balanced(left / problem.unit), axis=1)
+        carried = (unbalanced <= allowed_unbalance(self.arrays, _WITHIN, pulls)) & ~lost(states).any(axis=1)
         return _Hung(angles, rotation, tension, about / (platform_radius(self.arrays) * pulls)[:, None], carried)
 
 
@@ -245,7 +247,8 @@ def _checked(problem: HangingProblem, ends: _Hung) -> FreeOrientation:
     margin = _WITHIN * size[:, None]
     inside = ((pull >= low - margin) & (pull <= high + margin)).all(axis=1)
     left = np.abs(np.concatenate([wrench[:, :3], wrench[:, 3:] / platform_radius(arrays)], axis=1)).max(axis=1)
-    found = (ends.size <= _BALANCED) & inside & (left <= _WITHIN * size)
+    found = (ends.size <= _BALANCED) & inside & (left <= allowed_unbalance(arrays, _WITHIN, size))
+    found &= ~lost(cables).any(axis=1)
     return FreeOrientation(ends.angles, ends.rotation, found, ends.moment, cables, wrench)
 
 
