@@ -15,8 +15,9 @@ import numpy as np
 
 from cdpr_struct.errors import ConvergenceError
 
-_STATIONS = 4  # sizes on the way from small to whole motion
-_ITERATIONS = 25
+_FIRST, _SMALLEST = 0.25, 1.0 / 64.0  # of the whole size, by which the motion grows
+_ITERATIONS = 12
+_ASTRAY = 10.0  # a step as many times the motion's size is the last
 _CONVERGED = 1e-8  # last step, of the size of the motion and of the frequencies
 _UNRESOLVED = 3  # samples per phase beyond twice the largest order
 
@@ -94,34 +95,49 @@ def free_motion(system: Swinging, omega: np.ndarray, modes: Sequence[int], sizes
     """
     harmonics = Harmonics.of(len(modes), order)
     found = FreeMotion(harmonics, np.asarray(omega)[list(modes)], np.zeros((len(harmonics.numbers), len(omega))))
-    for station in range(1, _STATIONS + 1):
-        part = np.asarray(sizes) * station / _STATIONS
-        grown = found.coefficients * (station / max(station - 1, 1)) ** np.abs(harmonics.numbers).sum(axis=1)[:, None]
-        for phase, mode in enumerate(modes):
-            grown[harmonics.fundamental(phase), mode] = part[phase]
-        found = _balanced(system, FreeMotion(harmonics, found.omega, grown), modes, part)
+    done, step = 0.0, _FIRST
+    while done < 1.0:
+        whole = min(1.0, done + step)
+        next_, left = _balanced(system, _grown(found, modes, np.asarray(sizes), done, whole), modes, sizes)
+        if next_ is None:
+            step *= 0.5
+            if step < _SMALLEST:
+                hint = "The motion is too large for its modes to stay apart: take a smaller amplitude."
+                raise ConvergenceError(f"free motion beyond {done:.3g} of the amplitude", left, _ITERATIONS, hint)
+        else:
+            found, done = next_, whole
     return found
 
 
-def _balanced(system: Swinging, start: FreeMotion, modes: Sequence[int], sizes: np.ndarray) -> FreeMotion:
-    """Newton's method at one size."""
+def _grown(found: FreeMotion, modes: Sequence[int], sizes: np.ndarray, done: float, share: float) -> FreeMotion:
+    """A guess at a share of the sizes, from the motion at the share that is done: harmonics grow by their order."""
+    harmonics, order = found.harmonics, np.abs(found.harmonics.numbers).sum(axis=1)
+    power = np.where(order == 0, 2, order)
+    grown = found.coefficients * ((share / done if done else 0.0) ** power)[:, None]
+    for phase, mode in enumerate(modes):
+        grown[harmonics.fundamental(phase), mode] = share * sizes[phase]
+    return FreeMotion(harmonics, found.omega, grown)
+
+
+def _balanced(
+    system: Swinging, start: FreeMotion, modes: Sequence[int], sizes: np.ndarray
+) -> tuple[FreeMotion | None, float]:
+    """Newton's method with the fundamentals as they are; None if it does not converge, and the last step's size."""
     harmonics, omega, coefficients = start.harmonics, start.omega, start.coefficients
     fixed = [harmonics.fundamental(a) * coefficients.shape[1] + mode for a, mode in enumerate(modes)]
-    free = np.setdiff1d(np.arange(coefficients.size), fixed)
-    left = np.inf
+    free, left = np.setdiff1d(np.arange(coefficients.size), fixed), np.inf
     for _ in range(_ITERATIONS):
         balance, by_coefficients, by_omega = _equations(system, harmonics, coefficients, omega)
         step = np.linalg.solve(np.concatenate([by_coefficients[:, free], by_omega], axis=1), -balance)
         changed = np.zeros(coefficients.size)
         changed[free] = step[: len(free)]
         coefficients, omega = coefficients + changed.reshape(coefficients.shape), omega + step[len(free) :]
-        left = max(np.abs(changed).max() / np.abs(sizes).max(), np.abs(step[len(free) :] / omega).max())
-        if not np.isfinite(left) or not (omega > 0.0).all():
+        left = float(max(np.abs(changed).max() / np.abs(sizes).max(), np.abs(step[len(free) :] / omega).max()))
+        if not left < _ASTRAY or not (omega > 0.0).all():
             break
         if left < _CONVERGED:
-            return FreeMotion(harmonics, omega, coefficients)
-    hint = "The motion is too large for its modes to stay apart: take a smaller amplitude, or integrate it in time."
-    raise ConvergenceError("free motion of this size", float(left), _ITERATIONS, hint)
+            return FreeMotion(harmonics, omega, coefficients), left
+    return None, left
 
 
 def _equations(
