@@ -27,7 +27,6 @@ NAME = "modes"
 EXAMPLES = (
     "cdpr-struct modes thesis-3-1 --count 20 --out results/modes",
     "cdpr-struct modes thesis-5 --pose 1,0.5,2 --lower-bound 150 --count 6 --json",
-    "cdpr-struct modes cogiro --count 8 --amplitude 0.001,0.002,0.005",
 )
 
 
