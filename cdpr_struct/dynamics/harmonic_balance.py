@@ -79,7 +79,9 @@ class FreeMotion:
     coefficients: np.ndarray
 
 
-def free_motion(system: Swinging, omega: np.ndarray, modes: Sequence[int], sizes: np.ndarray, order: int) -> FreeMotion:
+def free_motion(
+    system: Swinging, omega: np.ndarray, modes: Sequence[int], sizes: np.ndarray, order: int, first: float = _FIRST
+) -> FreeMotion:
     """The motion in which the fundamentals of some coordinates have given sizes.
 
     Parameters
@@ -87,7 +89,7 @@ def free_motion(system: Swinging, omega: np.ndarray, modes: Sequence[int], sizes
     omega : (f,) frequencies of small motion; the coordinates of `system` are its modes [rad/s]
     modes : n coordinates, each with a fundamental frequency of its own
     sizes : (n,) amplitudes of their fundamentals, in the unit of the coordinates
-    order : of the harmonics kept
+    order : of the harmonics kept;  first : share of the sizes that is tried first
 
     Raises
     ------
@@ -95,7 +97,7 @@ def free_motion(system: Swinging, omega: np.ndarray, modes: Sequence[int], sizes
     """
     harmonics = Harmonics.of(len(modes), order)
     found = FreeMotion(harmonics, np.asarray(omega)[list(modes)], np.zeros((len(harmonics.numbers), len(omega))))
-    done, step = 0.0, _FIRST
+    done, step = 0.0, first
     while done < 1.0:
         whole = min(1.0, done + step)
         next_, left = _balanced(system, _grown(found, modes, np.asarray(sizes), done, whole), modes, sizes)

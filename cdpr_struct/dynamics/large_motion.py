@@ -11,6 +11,7 @@ origin and a rotation vector, both from rest, world axes.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations_with_replacement
 
 import numpy as np
 import numpy.typing as npt
@@ -29,6 +30,7 @@ from cdpr_struct.statics.equilibrium import (
     cable_wrench,
     load_wrench,
     moment_skew,
+    platform_radius,
     rotation_from_vector,
     tangent_stiffness,
 )
@@ -36,6 +38,7 @@ from cdpr_struct.statics.potential_energy import potential_energy
 
 _ORDER = {1: 7, 2: 5}  # highest harmonic for one and two modes
 _MANY = 4  # for more
+_SMALL = 5e-4  # of the platform's radius: amplitude of the leading shifts, whose stiff directions need it so small
 _DIFFERENCE = 1e-5  # step of central differences of the inertia, of the motion's size
 
 
@@ -105,6 +108,30 @@ class LargeMotion:
     def shifts(self, modes: Sequence[int], amplitudes: npt.ArrayLike, order: int | None = None) -> np.ndarray:
         """(n,) by which share modes that swing together change their frequencies; arguments as of `swing`."""
         return np.asarray(self.swing(modes, amplitudes, order).omega / self.omega[list(modes)] - 1.0)
+
+    def leading(self, modes: Sequence[int]) -> np.ndarray:
+        """(n, n) by which share mode i shifts per squared amplitude of mode j [1/m^2], while amplitudes are small.
+
+        Amplitudes are those of `swing`. The second harmonics of every two modes are all that this order needs. In modal
+        amplitudes omega_i^2 times the matrix is symmetric, as a conservative system demands.
+
+        Raises
+        ------
+        ConvergenceError : two modes exchange energy.
+        """
+        size, count = _SMALL * platform_radius(self.point.arrays), len(modes)
+        sizes, omega = size / np.array([self.reach(mode) for mode in modes]), self.omega
+        found = np.zeros((count, count))
+        for i, j in combinations_with_replacement(range(count), 2):
+            own = [modes[i]] if i == j else [modes[i], modes[j]]
+            swing = free_motion(self, omega, own, sizes[[i]] if i == j else sizes[[i, j]], 2, first=1.0)
+            shift = swing.omega / omega[own] - 1.0
+            if i == j:
+                found[i, i] = shift[0]
+            else:
+                found[i, j], found[j, i] = shift
+        own_share = np.diag(found)[:, None] * (1.0 - np.eye(count))
+        return np.asarray((found - own_share) / size**2)
 
     def at(self, u: np.ndarray) -> PlatformAt:
         """The platform at modal coordinates (g, 6)."""
