@@ -90,7 +90,7 @@ def _readings(item: Identified, i: int, partner: int) -> list[tuple[float, float
     clear = np.isfinite(windows.damping[:, i])
     if not clear.any():
         return []
-    sigma, amplitude = windows.damping_sigma[clear, i], _modal_amplitudes(item, i, partner)[clear]
+    sigma, amplitude = windows.damping_sigma[clear, i], modal_amplitudes(item, i, partner)[clear]
     together = float(np.hypot(1.0 / np.sqrt((1.0 / sigma**2).sum()), doubt))
     if whole < _BETTER * together:
         return [(ratio, whole, float(np.exp(np.log(amplitude).mean())))]
@@ -105,8 +105,8 @@ def _duration(item: Identified) -> float:
     return np.inf if item.record.kind == "frf" else float(axis[-1] - axis[0])
 
 
-def _modal_amplitudes(item: Identified, i: int, partner: int) -> np.ndarray:
-    """(w,) of mode i in each window [sqrt(kg) m]."""
+def modal_amplitudes(item: Identified, i: int, partner: int) -> np.ndarray:
+    """(w,) of mode i in each window of a decay, for unit modal mass [sqrt(kg) m]; nan where it is not clear."""
     assert item.windows is not None
     assert item.state is not None
     weight = channel_weight(item.state, item.record)

@@ -50,7 +50,7 @@ def backbone_curves(
     CdprError : the robot has something that large motion does not know.
     """
     motion = LargeMotion.about(point)
-    pairs = _partners(motion, hertz, platform, energy)
+    pairs = platform_partners(motion, platform, energy)
     found, slack = np.full((len(pairs), len(amplitudes)), np.nan), np.zeros((len(pairs), len(amplitudes)), dtype=bool)
     for row, (mode, own) in enumerate(pairs):
         for column, amplitude in enumerate(amplitudes):
@@ -67,16 +67,16 @@ def backbone_curves(
     return BackboneCurves(modes, np.asarray(amplitudes, dtype=float), found, slack, ringing)
 
 
-def _partners(
-    motion: LargeMotion, hertz: np.ndarray, platform: np.ndarray, energy: np.ndarray
-) -> list[tuple[int, int]]:
-    """Mode of the list and mode of the large motion that have the same shape."""
-    inverse = np.linalg.inv(motion.shapes)
-    parts = (platform @ inverse.T) ** 2
+def platform_partners(motion: LargeMotion, platform: np.ndarray, energy: np.ndarray) -> list[tuple[int, int]]:
+    """Of k modes those that are the platform's, each with its number among those of the large motion.
+
+    platform : (k, 6) motion of origin and rotation, world axes, any size;  energy : (k,) the platform's share
+    """
+    parts = (platform @ np.linalg.inv(motion.shapes).T) ** 2
     share = parts / np.maximum(parts.sum(axis=1, keepdims=True), 1e-300)
     own = share.argmax(axis=1)
     same = (share.max(axis=1) >= _SAME_SHAPE) & (np.asarray(energy) >= _OF_PLATFORM)
-    return [(int(k), int(own[k])) for k in range(len(hertz)) if same[k]]
+    return [(int(k), int(own[k])) for k in np.flatnonzero(same)]
 
 
 def _lowest_string(point: OperatingPoint) -> float:

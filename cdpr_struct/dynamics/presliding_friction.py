@@ -64,40 +64,46 @@ def end_turns(point: OperatingPoint, twists: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RubbingModes:
-    """What friction does to b motions of k modes: share by which each shifts (b, k), and its damping ratio (b, k)."""
+    """What friction does to b motions of k modes, per N m at which each of e cable ends slides.
+
+    shift : (b, k, e) share by which the frequency shifts;  damping : (b, k, e) damping ratio; nan for modes at rest
+    """
 
     shift: np.ndarray
     damping: np.ndarray
 
 
-def rubbing_modes(
-    turns: np.ndarray, moment: np.ndarray, presliding: float, omega: np.ndarray, amplitudes: np.ndarray
-) -> RubbingModes:
-    """Equivalent linearisation of friction at e cable ends for motions in which k modes swing together.
+def rubbing_modes(turns: np.ndarray, presliding: float, omega: np.ndarray, amplitudes: np.ndarray) -> RubbingModes:
+    """Equivalent linearisation of friction at cable ends for motions in which k modes swing together.
 
     Parameters
     ----------
     turns : (b, k, e, d) of the ends per modal amplitude, for unit modal mass [rad]
-    moment : (b, e) at which an end slides [N m];  presliding : angle over which it builds up [rad]
-    omega : (b, k) [rad/s];  amplitudes : (b, k) modal, zero for a mode at rest, which gets nan
+    presliding : angle over which the moment builds up [rad]
+    omega : (b, k) [rad/s];  amplitudes : (b, k) modal, zero for a mode at rest
     """
-    duration = _PERIODS * 2.0 * np.pi / omega.min()
-    steps = int(np.ceil(duration * omega.max() / (2.0 * np.pi) * _STEPS))
-    time = duration / steps * np.arange(steps)
+    time, weight = _averaging(omega)
     begin = 2.0 * np.pi * _GOLDEN * np.arange(omega.shape[1])
-    weight = np.where(
-        time < _SETTLING * duration, 0.0, 1.0 - np.cos(2.0 * np.pi * (time - time[-1]) / (0.75 * duration))
-    )
-    weight /= weight.sum()
     state = np.zeros((len(omega), *turns.shape[2:]))
     before = np.einsum("bk,bked->bed", amplitudes * np.cos(begin), turns)
-    cosine, sine = np.zeros_like(amplitudes), np.zeros_like(amplitudes)
+    cosine, sine = np.zeros((2, *turns.shape[:3]))
     for instant, share in zip(time, weight, strict=True):
         phase = omega * instant + begin
         there = np.einsum("bk,bked->bed", amplitudes * np.cos(phase), turns)
         state, before = built_up(state, there - before, presliding), there
         if share > 0.0:
-            force = -np.einsum("be,bed,bked->bk", moment, state, turns)
-            cosine, sine = cosine + share * force * np.cos(phase), sine + share * force * np.sin(phase)
-    size = np.where(amplitudes > 0.0, amplitudes, np.nan) * omega**2
+            force = -share * np.einsum("bed,bked->bke", state, turns)
+            cosine += force * np.cos(phase)[..., None]
+            sine += force * np.sin(phase)[..., None]
+    size = (np.where(amplitudes > 0.0, amplitudes, np.nan) * omega**2)[..., None]
     return RubbingModes(-cosine / size, sine / size)
+
+
+def _averaging(omega: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Instants (n,) [s] and their weights (n,), which sum up to 1: none while the friction forgets its start."""
+    duration = _PERIODS * 2.0 * np.pi / omega.min()
+    steps = int(np.ceil(duration * omega.max() / (2.0 * np.pi) * _STEPS))
+    time = duration / steps * np.arange(steps)
+    late = (time / duration - _SETTLING) / (1.0 - _SETTLING)
+    weight = np.where(late < 0.0, 0.0, np.sin(np.pi * late) ** 2)
+    return time, weight / weight.sum()
