@@ -5,13 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import chdtrc
 
-from cdpr_struct.diagnosis.damping_rows import modal_amplitudes
 from cdpr_struct.dynamics.backbone import platform_partners
 from cdpr_struct.dynamics.large_motion import LargeMotion
 from cdpr_struct.dynamics.presliding_friction import end_turns, rubbing_modes
 from cdpr_struct.errors import CdprError
 from cdpr_struct.measurement.identified import Identified
-from cdpr_struct.measurement.signal_states import channel_weight
+from cdpr_struct.measurement.signal_states import channel_weight, modal_amplitudes
 
 _LABELS = 100  # numbers of modes a record
 BOTH, FRAME, PLATFORM_ENDS = "both ends of the cables", "frame ends of the cables", "platform ends of the cables"

@@ -6,7 +6,7 @@ import numpy as np
 
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.neighbours import crowded, pole_doubt
-from cdpr_struct.measurement.signal_states import channel_weight, model_shapes
+from cdpr_struct.measurement.signal_states import modal_amplitudes
 from cdpr_struct.measurement.state_modes import StateModes
 
 _BETTER = 0.5  # of the sigma of all windows together: a whole record so good speaks for itself, at its mean amplitude
@@ -103,17 +103,6 @@ def _duration(item: Identified) -> float:
     """[s], infinite for an FRF."""
     axis = item.record.axis
     return np.inf if item.record.kind == "frf" else float(axis[-1] - axis[0])
-
-
-def modal_amplitudes(item: Identified, i: int, partner: int) -> np.ndarray:
-    """(w,) of mode i in each window of a decay, for unit modal mass [sqrt(kg) m]; nan where it is not clear."""
-    assert item.windows is not None
-    assert item.state is not None
-    weight = channel_weight(item.state, item.record)
-    model = float(np.linalg.norm(model_shapes(item.state, item.record)[partner]))
-    fast = (2.0 * np.pi * item.modes.hertz[i]) ** 2 if item.record.kind == "free_decay" else 1.0
-    found: np.ndarray = np.linalg.norm(item.windows.amplitude[:, i] * weight, axis=1) / model / fast
-    return found
 
 
 def _laws(state: StateModes) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
