@@ -15,6 +15,7 @@ from cdpr_struct.hypotheses.judge import NEAR
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.planning.recommendations import Recommendation
 from cdpr_struct.reports.diagnose import signals
+from cdpr_struct.reports.diagnose.amplitudes import amplitude_json
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.sentences import finite, sentence
 from cdpr_struct.reports.diagnose.state_errors import state_errors
@@ -86,6 +87,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "peaks_apart": _apart(found),
         "internal_force": _forces(found),
         "damping": None if found.damped is None else signals.damping_json(found.damped),
+        "amplitude": None if found.damped is None else amplitude_json(found.damped.amplitude),
     }  # fmt: skip
 
 

@@ -9,6 +9,7 @@ from cdpr_struct.diagnosis.diagnosis import Diagnosis
 from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.drift import CELLS, ENCODERS, TRACKER
 from cdpr_struct.hypotheses.laws import UNKNOWN
+from cdpr_struct.reports.diagnose.amplitudes import amplitude_sentence
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.signals import damping_sentence
 from cdpr_struct.reports.diagnose.words import described, listed, place, plain, reading
@@ -39,6 +40,8 @@ def sentence(found: Diagnosis) -> str:
     parts += ["" if found.by_peaks else _peaks(found), _line(found), _aside(found), _drift(found)]
     if not found.by_damping:
         parts += [_forces(found) if status != "adequate" else "", _damping(found)]
+    if found.damped is not None:
+        parts.append(amplitude_sentence(found.damped.amplitude))
     return " ".join(filter(None, parts))
 
 
