@@ -159,6 +159,10 @@ EXTENSIONS: dict[str, Parameter] = {
                             least=0.0),
     "internal_frequency": _extra((), 0.0, "Hz", "of internal_mass on its mount, the platform held", least=0.0),
     "internal_direction": _extra((3,), (0.0, 0.0, 1.0), "1", "unit vector along which internal_mass moves, platform"),
+    "swinging_mass": _extra((), 0.0, "kg", "of the platform's mass, what hangs from a point of it and swings", least=0.0),
+    "swinging_frequency": _extra((), 0.0, "Hz", "of swinging_mass, the platform held: root of g / l of a pendulum",
+                                 least=0.0),
+    "swinging_place": _extra((3,), 0.0, "m", "where swinging_mass hangs and counts as a point mass, platform frame"),
 }  # fmt: skip
 """Those that the table [extensions] of a robot file holds under their own names."""
 PARAMETERS: dict[str, Parameter] = {**_RULES, **EXTENSIONS}
@@ -174,5 +178,7 @@ AUXILIARY = {
     "reference_tension": ("nonlinearity",),
     "internal_frequency": ("internal_mass",),
     "internal_direction": ("internal_mass",),
+    "swinging_frequency": ("swinging_mass",),
+    "swinging_place": ("swinging_mass",),
 }
 """Mean something only with one of the other parameters."""

@@ -48,6 +48,7 @@ class RobotArrays:
     cell_gain, cell_bias, friction, slip : (..., m);  tracker, accelerometer_gain : (..., 6)
     creep, sensor_mass : (...)
     internal_mass, internal_frequency : (...) [kg], [Hz];  internal_direction : (..., 3) unit, platform frame
+    swinging_mass, swinging_frequency : (...) [kg], [Hz];  swinging_place : (..., 3) platform frame [m]
     """
 
     platform_anchors: np.ndarray
@@ -105,6 +106,9 @@ class RobotArrays:
     internal_mass: np.ndarray = field(default_factory=PARAMETERS["internal_mass"].without_effect)
     internal_frequency: np.ndarray = field(default_factory=PARAMETERS["internal_frequency"].without_effect)
     internal_direction: np.ndarray = field(default_factory=PARAMETERS["internal_direction"].without_effect)
+    swinging_mass: np.ndarray = field(default_factory=PARAMETERS["swinging_mass"].without_effect)
+    swinging_frequency: np.ndarray = field(default_factory=PARAMETERS["swinging_frequency"].without_effect)
+    swinging_place: np.ndarray = field(default_factory=PARAMETERS["swinging_place"].without_effect)
 
     @classmethod
     def of(cls, robot: "Robot | RobotArrays", mass: np.ndarray | float | None = None) -> "RobotArrays":
@@ -203,6 +207,16 @@ class RobotArrays:
     def has_internal_mass(self) -> bool:
         """Whether a part of the platform sits on an elastic mount."""
         return bool(self.internal_mass.any())
+
+    @property
+    def has_swinging_mass(self) -> bool:
+        """Whether a part of the platform hangs from a point of it and swings."""
+        return bool(self.swinging_mass.any())
+
+    @property
+    def has_moving_parts(self) -> bool:
+        """Whether any part moves inside the platform."""
+        return self.has_internal_mass or self.has_swinging_mass
 
     @property
     def has_force_limits(self) -> bool:

@@ -86,6 +86,9 @@ tracker = [0, 0, 0, 0, 0, 0]
 internal_mass = 1.0
 internal_frequency = 9.0
 internal_direction = [0, 0, 1]
+swinging_mass = 0.5
+swinging_frequency = 0.8
+swinging_place = [0, 0, -0.1]
 drag_width = 0.01
 wind = [1, 2, 0]
 [[lumps]]

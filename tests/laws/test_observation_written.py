@@ -51,6 +51,10 @@ def fields_of(robot) -> dict[str, dict]:
             "internal_mass": 0.05 * robot.platform.mass, "internal_frequency": 7.0,
             "internal_direction": [0.6, 0.0, 0.8],
         },
+        "swinging_mass": {
+            "swinging_mass": 0.05 * robot.platform.mass, "swinging_frequency": 1.1,
+            "swinging_place": [0.05, -0.02, -0.1],
+        },
     }  # fmt: skip
 
 

@@ -45,7 +45,8 @@ def everything() -> RobotArrays:
         reference_tension=np.array(1000.0 / 3.0), tracker=np.array([0.001, 0.0, 0.002, 0.0, 0.001, 0.0]),
         creep=np.array(0.05), slip=1e-4 * each, sensor_mass=np.array(2.0), bending_stiffness=0.1 * each,
         added_mass=0.01 * each, internal_mass=np.array(20.0 / 3.0), internal_frequency=np.array(7.1),
-        internal_direction=np.array([0.48, 0.6, 0.64]),
+        internal_direction=np.array([0.48, 0.6, 0.64]), swinging_mass=np.array(5.0 / 3.0),
+        swinging_frequency=np.array(0.7), swinging_place=np.array([0.1, 0.0, -1.0 / 3.0]),
     )  # fmt: skip
 
 
