@@ -12,7 +12,7 @@ from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import FREEDOMS, Robot
 from cdpr_struct.statics.masts import carriers, of_each_mast
 
-NOT_IN_FEM = ("bending_stiffness", "added_mass", "internal_mass")
+NOT_IN_FEM = ("bending_stiffness", "added_mass", "internal_mass", "swinging_mass")
 """Extensions that the referee does not have: its bars neither bend nor carry masses, its platform is rigid."""
 
 

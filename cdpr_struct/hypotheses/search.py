@@ -110,9 +110,10 @@ class Search:
         rows = self._screened(menu, nulls, rich)
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
         self._bend(nulls)
-        large = beginnings(self.data, menu, base, self.budget.beginnings + 1)
+        significant = self.p_value < SIGNIFICANT
+        large = beginnings(self.data, menu, base, self.budget.beginnings + 1, significant)
         self._begin(large, base)
-        if self.p_value < SIGNIFICANT:
+        if significant:
             self._begin_alone(carriers(self.data, menu, base), base)
         self._transfer()
         singles = self._singles()

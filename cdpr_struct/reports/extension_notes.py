@@ -14,7 +14,7 @@ _VIBRATION = "this concerns vibration only"
 _NO_BENDING = "this cable model has none; --model exact does"
 _AT_REST = ("inverse", "forward", "pose-error")
 _CABLES_ONLY = ("bending_stiffness", "added_mass")
-_INTERNAL, _HEADS = "internal_mass", "mast_mass"
+_INTERNAL, _HEADS, _SWINGS = "internal_mass", "mast_mass", "swinging_mass"
 _ELASTIC = ("series_compliance", "frame_compliance", "mast_bending", "nonlinearity")
 
 
@@ -69,7 +69,7 @@ def _why_idle(name: str, command: str, model: str) -> str:
 
 
 def _why_rigid(command: str, model: str) -> str:
-    """Why the platform is rigid in a command although a part of it sits on an elastic mount."""
+    """Why the platform is rigid in a command although a part of it moves in it."""
     if command in (*_AT_REST, "distribute"):
         return _VIBRATION
     if command == "audit":
@@ -90,7 +90,7 @@ def _why_still(command: str, model: str) -> str:
     return _VIBRATION if command in (*_AT_REST, "distribute", "audit") else ""
 
 
-_OTHERWISE = {_INTERNAL: _why_rigid, _HEADS: _why_still, "drag_width": _why_straight}
+_OTHERWISE = {_INTERNAL: _why_rigid, _SWINGS: _why_rigid, _HEADS: _why_still, "drag_width": _why_straight}
 
 
 def _particulars(command: str, model: str) -> dict[str, str]:
@@ -113,6 +113,7 @@ def _particulars(command: str, model: str) -> dict[str, str]:
         said["added_mass"] = "added_mass takes part in vibration; its weight does not bend the cable."
     if command in ("frf", "transient"):
         said[_INTERNAL] = "The mount of internal_mass has no damping of its own."
+        said[_SWINGS] = "The swing of swinging_mass has no damping of its own."
         said[_HEADS] = "Masses on masts have the damping of the cable whose exit they move with."
     if command == "frf":
         still = "For excitation and response at points of cables, masts are taken as rigid."

@@ -171,6 +171,17 @@ DESCRIPTIONS = {
         "One peak more than the model has, and the modes on both sides of it are pushed apart. Nothing static changes",
         "Den Hartog, *Mechanical Vibrations*, 4th edition, 1956, dynamic vibration absorber",
     ),
+    "swinging_payload": Description(
+        "a part of the platform's mass hangs from a point of it and swings in both directions across gravity, with this "
+        "frequency when the platform is held: a pendulum of length l has sqrt(g / l) / (2 pi). At a frequency f the "
+        "platform feels m f_p^2 / (f_p^2 - f^2) across gravity and m along it. At rest the weight pulls at the hook, "
+        "whatever the tilt, and so the platform's mass, centre and inertia count it as a point there",
+        "mass and frequency are positive; the hook is a place of the platform's frame",
+        "Two slow peaks more than the model has, if one looked so low. Above them horizontal modes, and rotations that "
+        "move the hook, are as of a lighter platform: they rise together, vertical ones stay. Nothing static changes",
+        "Lamb, *Hydrodynamics*, 6th edition, 1932, art. 191, and Abramson, NASA SP-106, 1966, for liquids: each slosh "
+        "mode is such a pendulum",
+    ),
     "steady_disturbance": Description(
         "a line at this frequency is in the list of peaks and belongs to no mode",
         "a frequency is positive",
