@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csc_array, lil_array
+from scipy.sparse import block_diag, csc_array
 
 from cdpr_struct.fem_reference.arrays import fixed_array
 from cdpr_struct.fem_reference.bar_element import bar_stiffness
@@ -44,11 +44,10 @@ def with_pendulum(
     hook = point_motion(rotation @ pendulum.hook)
     ends = np.zeros((6, 9))
     ends[:3, :6], ends[3:, 6:] = hook, np.eye(3)
-    n = stiffness.shape[0] + 3
-    wide = [lil_array((n, n)), lil_array((n, n))]
-    for matrix, whole in zip((stiffness, inertia), wide, strict=True):
-        whole[:-3, :-3] = matrix
-    wide[0][-9:, -9:] += ends.T @ bar @ ends
-    wide[1][-9:-3, -9:-3] -= pendulum.mass * hook.T @ hook
-    wide[1][-3:, -3:] += pendulum.mass * np.eye(3)
-    return csc_array(wide[0]), csc_array(wide[1])
+    heavy = np.zeros((9, 9))
+    heavy[:6, :6], heavy[6:, 6:] = -pendulum.mass * hook.T @ hook, pendulum.mass * np.eye(3)
+    first = stiffness.shape[0] - 6
+    wide = (csc_array(block_diag([matrix, csc_array((3, 3))])) for matrix in (stiffness, inertia))
+    more = (csc_array(block_diag([csc_array((first, first)), own])) for own in (ends.T @ bar @ ends, heavy))
+    found = [csc_array(matrix + own) for matrix, own in zip(wide, more, strict=True)]
+    return found[0], found[1]

@@ -69,7 +69,11 @@ def internal_reaction(robot: RobotArrays, rotation: np.ndarray, omega_squared: n
 
     omega_squared : (...) [rad^2/s^2]. Exactly at a part's own frequency the reaction is that just below it.
     """
-    coupling, own, squared = internal_coupling(robot, rotation), internal_squared(robot), np.asarray(omega_squared)[..., None]
+    coupling, own, squared = (
+        internal_coupling(robot, rotation),
+        internal_squared(robot),
+        np.asarray(omega_squared)[..., None],
+    )
     gap = own - squared
     gain = squared**2 / np.where(gap == 0.0, np.finfo(float).eps * np.maximum(own, 1e-300), gap)
     return np.asarray((coupling * gain[..., None, :]) @ np.swapaxes(coupling, -1, -2))
@@ -84,7 +88,7 @@ def internal_count(robot: RobotArrays, omega_squared: np.ndarray) -> np.ndarray:
 def with_internal_mass(
     robot: RobotArrays, rotation: np.ndarray, stiffness: np.ndarray, mass: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Stiffness and mass (..., 6, 6) of the platform with y_k of its moving parts as further unknowns, if it has any."""
+    """Stiffness and mass (..., 6, 6) of the platform, with y_k of parts that move in it as further unknowns."""
     some = present(robot)
     if not some.size:
         return stiffness, mass

@@ -84,7 +84,8 @@ def natural_frequencies(
     Raises
     ------
     UnstableEquilibriumError : the lowest "frequencies" are not real.
-    CdprError : the model has fewer than `count` frequencies (massless cables: six, and one for each freedom of a moving part).
+    CdprError : the model has fewer than `count` frequencies (massless cables: six, and one for each freedom of a moving
+        part).
     """
     held = stability_at(point, assembly)
     if held.unstable:

@@ -46,9 +46,7 @@ class Beginning:
     gain: float
 
 
-def beginnings(
-    data: Recorded, menu: Sequence[Offered], about: Judged, most: int, significant: bool
-) -> list[Beginning]:
+def beginnings(data: Recorded, menu: Sequence[Offered], about: Judged, most: int, significant: bool) -> list[Beginning]:
     """The best large changes beside a judged one, and parts that move in the platform.
 
     Where its modes explain the peaks, only parts that swing so slowly that their own are not among them, and these only

@@ -3,7 +3,8 @@
 Of a mode of unit modal mass, d(omega^2) = dQ, with Q = displacement^T (stiffness - omega^2 mass) displacement. Each
 cable's field is held as a function of the fraction of its length; a ramp follows its lever arm. A frame end that gives
 way by C under its reaction g changes Q by -g' dC g, also where nothing gave way before: a mast does so under the
-reactions of all its cables. A part that moves in the platform adds -2 omega^2 (c . v) y + (omega_k^2 - omega^2) y^2, y its motion.
+reactions of all its cables. A part that moves in the platform adds -2 omega^2 (c . v) y + (omega_k^2 - omega^2) y^2,
+y its motion.
 """
 
 from dataclasses import dataclass

@@ -18,7 +18,7 @@ from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
 from tests.crosscheck.test_flexible_platform_fem import MODES as MANY
-from tests.crosscheck.test_flexible_platform_fem import POSES, SHARE, written
+from tests.crosscheck.test_flexible_platform_fem import SHARE, written
 
 MASS, LENGTH, HOOK = 20.0, 0.4, np.array([0.15, -0.1, -0.3])  # kg, m: 0.79 Hz, below the platform's modes
 ELEMENTS, MODES = (20, 40), 16
@@ -60,7 +60,9 @@ def test_modes_are_the_referees(referee):
 def test_another_pendulum_is_seen(referee, wrong):
     """The twins that must fail: 2 % of mass or length, 2 cm of the hook's height."""
     with pytest.raises(AssertionError):
-        np.testing.assert_allclose(certified_modes(point(**wrong), "exact", MODES).frequencies.hertz, referee, rtol=AGREED)
+        np.testing.assert_allclose(
+            certified_modes(point(**wrong), "exact", MODES).frequencies.hertz, referee, rtol=AGREED
+        )
 
 
 BOB, SLOW, BELOW = 30.0, 0.9, np.array([0.1, 0.0, -0.15])  # kg of 118.5, Hz, m: the payload of the campaigns below

@@ -195,7 +195,10 @@ def first_string(point: OperatingPoint) -> float:
 
 
 @pytest.mark.parametrize("assembly", ["consistent", "thesis"])
-@pytest.mark.parametrize(("case", "count"), [("six cables", 6), ("everything gives way", 6), ("a tool on a mount", 7), ("a swinging payload", 8)])
+@pytest.mark.parametrize(
+    ("case", "count"),
+    [("six cables", 6), ("everything gives way", 6), ("a tool on a mount", 7), ("a swinging payload", 8)],
+)
 def test_rates_on_massless_cables_are_derivatives_too(case, count, assembly):
     state = STATES[case]()
     modes = modes_at(single(state), np.array([1.0]), assembly, "static")

@@ -172,8 +172,8 @@ DESCRIPTIONS = {
         "Den Hartog, *Mechanical Vibrations*, 4th edition, 1956, dynamic vibration absorber",
     ),
     "swinging_payload": Description(
-        "a part of the platform's mass hangs from a point of it and swings in both directions across gravity, with this "
-        "frequency when the platform is held: a pendulum of length l has sqrt(g / l) / (2 pi). At a frequency f the "
+        "a part of the platform's mass hangs from a point of it and swings in both directions across gravity, with "
+        "this frequency when the platform is held: a pendulum of length l has sqrt(g / l) / (2 pi). At a frequency f the "
         "platform feels m f_p^2 / (f_p^2 - f^2) across gravity and m along it. At rest the weight pulls at the hook, "
         "whatever the tilt, and so the platform's mass, centre and inertia count it as a point there",
         "mass and frequency are positive; the hook is a place of the platform's frame",

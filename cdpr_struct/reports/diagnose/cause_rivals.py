@@ -11,7 +11,8 @@ _PAIRS = (
     "joint_mass platform_mass", "joint_mass hose_stiffness", "joint_mass external_force", "platform_mass "
     "hose_stiffness",
     "platform_mass external_force", "bending_stiffness cable_linear_density",
-    "accelerometer_mass cable_linear_density", "temperature drum_scale", "flexible_platform steady_disturbance", "swinging_payload steady_disturbance",
+    "accelerometer_mass cable_linear_density", "temperature drum_scale", "flexible_platform steady_disturbance",
+    "swinging_payload steady_disturbance",
     "swinging_payload flexible_platform", "swinging_payload platform_inertia", "swinging_payload platform_mass",
     "pose_mismatch sign_error", "viscous_damping hysteretic_damping",
 )  # fmt: skip
