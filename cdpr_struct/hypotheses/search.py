@@ -179,7 +179,8 @@ class Search:
         columns = {cause.cause.name: cause.columns for cause in menu}
         for i, row in enumerate(rows):
             if i < at_least or row.score > above:
-                for part, spread in row.gains.leading(_LAWS if row.gains.cause.name == UNKNOWN else 1):
+                cause = row.gains.cause
+                for part, spread in row.gains.leading(_LAWS if cause.name == UNKNOWN else cause.fitted):
                     more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
                     self.spread[more.key] = spread
                     sigma = part.scale * part.pattern.prior

@@ -39,6 +39,8 @@ class Extensions:
     air_density: float
     tilt: np.ndarray
     nonlinearity: float
+    stiffening_exponent: float
+    incremental_ratio: float
     reference_tension: float
     length_offset: np.ndarray
     length_scale: np.ndarray

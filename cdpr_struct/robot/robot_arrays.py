@@ -14,6 +14,7 @@ from cdpr_struct.robot.robot import FREEDOMS, Robot
 
 _KEPT = 16  # robots whose arrays are kept
 _LEAST_MODULUS = 0.05  # of E as entered: the law is a straight line and would end below zero
+_LEAST_TENSION = 1e-3  # of the reference: below it a power law stays as it is there, and a slack cable has some EA
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,7 +45,7 @@ class RobotArrays:
     hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  moment : (..., 3) [N m]
     tilt            : (..., 2) [rad];  temperature_change : (...) [K]
     drag_area       : (...) [m^2], drag_width : (..., m) [m] in wind (..., 3) [m/s] of air_density (...) [kg/m^3]
-    nonlinearity    : (...) k with reference_tension (...) [N]
+    nonlinearity, stiffening_exponent : (...) k and n with reference_tension (...) [N];  incremental_ratio : (...)
     cell_gain, cell_bias, friction, slip : (..., m);  tracker, accelerometer_gain : (..., 6)
     creep, sensor_mass : (...)
     internal_mass, internal_frequency : (...) [kg], [Hz];  internal_direction : (..., 3) unit, platform frame
@@ -89,6 +90,8 @@ class RobotArrays:
     air_density: np.ndarray = field(default_factory=PARAMETERS["air_density"].without_effect)
     tilt: np.ndarray = field(default_factory=PARAMETERS["tilt"].without_effect)
     nonlinearity: np.ndarray = field(default_factory=PARAMETERS["nonlinearity"].without_effect)
+    stiffening_exponent: np.ndarray = field(default_factory=PARAMETERS["stiffening_exponent"].without_effect)
+    incremental_ratio: np.ndarray = field(default_factory=PARAMETERS["incremental_ratio"].without_effect)
     reference_tension: np.ndarray = field(default_factory=PARAMETERS["reference_tension"].without_effect)
     temperature_change: np.ndarray = field(default_factory=PARAMETERS["temperature_change"].without_effect)
     bending_stiffness: np.ndarray = field(default_factory=PARAMETERS["bending_stiffness"].without_effect)
@@ -237,14 +240,23 @@ class RobotArrays:
         return (paid_out / self.thermal_growth - self.length_offset) / self.length_scale
 
     def stiffness_at(self, tension: np.ndarray) -> np.ndarray:
-        """(..., m) EA [N] of cables with tensions (..., m) at the platform [N]: E may change with the tension."""
-        factor = 1.0 + self.nonlinearity[..., None] * (tension / self.reference_tension[..., None] - 1.0)
-        return self.axial_stiffness * np.maximum(factor, _LEAST_MODULUS)
+        """(..., m) secant EA [N] of cables with tensions (..., m) at the platform [N]: E may change with the tension."""
+        relative = tension / self.reference_tension[..., None]
+        factor = np.maximum(1.0 + self.nonlinearity[..., None] * (relative - 1.0), _LEAST_MODULUS)
+        if self.stiffening_exponent.any():
+            factor = factor * np.maximum(relative, _LEAST_TENSION) ** self.stiffening_exponent[..., None]
+        return self.axial_stiffness * factor
+
+    @property
+    def stiffens(self) -> bool:
+        """Whether EA changes with the tension."""
+        return bool(self.nonlinearity.any() or self.stiffening_exponent.any())
 
     def with_rigid_ends(self) -> "RobotArrays":
         """Nothing elastic but the cables themselves, and these alike at all tensions."""
-        rigid, nothing = np.zeros(1), np.zeros(())
-        return replace(self, series_compliance=rigid, frame_compliance=rigid, mast_bending=rigid, nonlinearity=nothing)
+        rigid = np.zeros(1)
+        elastic = {name: PARAMETERS[name].without_effect() for name in ("nonlinearity", "stiffening_exponent")}
+        return replace(self, series_compliance=rigid, frame_compliance=rigid, mast_bending=rigid, **elastic)
 
     def stiffened(self, factor: float) -> "RobotArrays":
         """Cables, what is in line with them, and masts all `factor` times stiffer."""

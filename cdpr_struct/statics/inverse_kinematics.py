@@ -129,7 +129,7 @@ def inverse(
     solution = _solve(problem)
     if arrays.has_tension_winches:
         problem, solution = _with_winches(problem, solution)
-    if arrays.nonlinearity.any():
+    if arrays.stiffens:
         problem, solution = _stiffening(problem, solution)
     solution.status[degenerate] = InverseStatus.UNHOLDABLE
     if not allow_unheld and (solution.status == InverseStatus.NOT_CONVERGED).any():

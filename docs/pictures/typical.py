@@ -124,7 +124,14 @@ def theta_of(cause: Cause, arrays: RobotArrays) -> tuple[np.ndarray, str]:
     if cause.tuned:
         return np.array(_TUNED[cause.name]), ""
     own = _TIMES.get(cause.name, 1.0) * np.array([p.prior for p in cause.parameters])
-    if cause.name in ("accelerometer_gain", "tracker_frame", "pose_mismatch", "frame_compliance", "missing_pulleys"):
+    if cause.name in (
+        "accelerometer_gain",
+        "tracker_frame",
+        "pose_mismatch",
+        "frame_compliance",
+        "missing_pulleys",
+        "nonlinear_elasticity",
+    ):
         own = own * (np.arange(len(own)) < {"tracker_frame": 6, "pose_mismatch": 3}.get(cause.name, 1))
     count = {"cable": 8, "mast": carriers(arrays.masts).shape[1], "axis": 3, "state": 1}.get(cause.carrier, 1)
     every = np.tile(own, (count, 1))

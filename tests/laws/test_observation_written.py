@@ -35,6 +35,8 @@ def fields_of(robot) -> dict[str, dict]:
         "temperature_change": {"temperature_change": 15.0},
         "tilt": {"tilt": [4e-3, -3e-3]},
         "nonlinearity": {"nonlinearity": 0.15, "reference_tension": 400.0},
+        "stiffening_exponent": {"stiffening_exponent": 0.2, "reference_tension": 400.0},
+        "incremental_ratio": {"incremental_ratio": 1.3},
         "length_offset": {"length_offset": 4e-3 * (VARIED - 0.6)},
         "length_scale": {"length_scale": 1.0 + 2e-3 * (VARIED - 0.6)},
         "bending_stiffness": {"bending_stiffness": 0.5 * VARIED, "bending_fixity": 0.3 + 0.2 * VARIED},

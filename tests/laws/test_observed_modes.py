@@ -21,7 +21,7 @@ from cdpr_struct.statics.equilibrium import PlatformArms, rotation_from_vector
 from cdpr_struct.statics.inverse_kinematics import inverse
 
 IDLE = {
-    "force_min", "force_max", "damping_ratio", "length_offset", "length_scale", "hose_center", "force", "nonlinearity",
+    "force_min", "force_max", "damping_ratio", "length_offset", "length_scale", "hose_center", "force", "nonlinearity", "stiffening_exponent",
     "reference_tension", "cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain",
     "sensor_mass",
 }  # fmt: skip

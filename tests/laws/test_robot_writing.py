@@ -41,7 +41,7 @@ def everything() -> RobotArrays:
         hose_center=np.array([0.1, 0.2, 1.0 / 3.0]), tilt=np.array([0.002, -0.001]),
         moment=np.array([1.0, -2.0, 1.0 / 3.0]), drag_area=np.array(1.3), drag_width=np.array(0.012),
         wind=np.array([6.0, -5.0, 1.0 / 3.0]), air_density=np.array(1.1), temperature_change=np.array(-12.5),
-        nonlinearity=np.array(0.1),
+        nonlinearity=np.array(0.1), stiffening_exponent=np.array(0.2), incremental_ratio=np.array(1.25),
         reference_tension=np.array(1000.0 / 3.0), tracker=np.array([0.001, 0.0, 0.002, 0.0, 0.001, 0.0]),
         creep=np.array(0.05), slip=1e-4 * each, sensor_mass=np.array(2.0), bending_stiffness=0.1 * each,
         added_mass=0.01 * each, internal_mass=np.array(20.0 / 3.0), internal_frequency=np.array(7.1),

@@ -117,6 +117,7 @@ class Cause:
     carrier   : "" for parameters of the robot as a whole, else "cable", "mast", "axis" or "state": each has its own
     alike     : probability that all carriers have the same, 0 if that cannot be
     shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
+    fitted    : how many patterns are fitted, the likeliest first: more where slopes at zero do not tell them apart
     laws      : (words, which of its parameters, probability) where a carrier may follow one of several laws
     one_of    : words of the first parameters of each carrier, if these are ways to occur of which it has one; the last
                 ones bend that way, and are in no pattern to begin with (see `choices.py`)
@@ -135,6 +136,7 @@ class Cause:
     carrier: str = ""
     alike: float = 0.4
     shapes: tuple[tuple[str, slice | list[int], float], ...] = ()
+    fitted: int = 1
     laws: tuple[tuple[str, list[int], float], ...] = ()
     one_of: tuple[str, ...] = ()
     along: str = ""

@@ -54,9 +54,16 @@ DESCRIPTIONS = {
         "Euler-Bernoulli beam for masts that bend: [dynamics](../dynamics.md#extensions)",
     ),
     "nonlinear_elasticity": Description(
-        "EA becomes EA (1 + k (T / T0 - 1)), T the tension at the platform, T0 the mean tension of the campaign",
-        "k above 0: stiffer at high tension",
-        "Lengths of tight and of slack cables are off in opposite senses; at one preload it looks like another EA",
+        "EA becomes EA (1 + k (T / T0 - 1)), or level EA (T / T0)^exponent: this is the secant, tension over strain, and "
+        "small motion has the same. Or the law is elastic, and small motion has its slope: then level EA (T / T0)^n with n "
+        "= exponent_elastic is the tangent, dT over d strain, and the secant is (1 - n) times that. T is the tension at "
+        "the platform, T0 the mean tension of the campaign",
+        "k and exponents above 0: stiffer at high tension; level above 1: stiffer than entered at T0",
+        "Lengths of tight and of slack cables are off in opposite senses; at one preload it looks like another EA. Static "
+        "readings do not tell the last two laws apart: frequencies of the robot do, which in an elastic law are too high "
+        "for the stretch under load",
+        "Feyrer, *Wire Ropes*, 2nd edition, 2015, section 2.2: moduli of ropes between two stresses; the power is the "
+        "simplest law without a stress at which the modulus would vanish",
     ),
     "creep": Description(
         "EA becomes EA / (1 + creep log10(1 + t / 1 min))",
