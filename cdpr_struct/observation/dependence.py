@@ -2,8 +2,8 @@
 
 Per cable: tension vector at the frame end, weight, EA, unstrained length, density, stiffening by bending, EI, mass at
 mid-cable, compliance of the frame end, lever arm. Of each shape of the masts its
-compliance. Of the platform: mass matrix and the stiffness of weight, lever arms and hose; of each freedom of a part that
-moves in it the coupling (`internal_coupling`) and omega.
+compliance. Of the platform: mass matrix and the stiffness of weight, lever arms and hose; of each freedom of a part
+that moves in it the coupling (`internal_coupling`) and omega.
 """
 
 from dataclasses import dataclass

@@ -52,6 +52,9 @@ class Extensions:
     cell_gain: np.ndarray
     cell_bias: np.ndarray
     friction: np.ndarray
+    bearing_friction: np.ndarray
+    pulley_drag: np.ndarray
+    backlash: np.ndarray
     tracker: np.ndarray
     creep: float
     slip: np.ndarray

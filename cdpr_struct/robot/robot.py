@@ -68,9 +68,7 @@ class Robot:
             object.__setattr__(self, "extensions", Extensions.of(m, causes=causes))
         if len(self.extensions.slip) != m:
             raise ValueError(f"Robot.extensions must be for {m} cables, got {len(self.extensions.slip)}")
-        if fault := internal_mass_fault(self.platform, self.extensions):
-            raise ValueError(fault)
-        if fault := swinging_mass_fault(self.platform, self.extensions):
+        if fault := moving_parts_fault(self.platform, self.extensions):
             raise ValueError(fault)
         if fault := cable_drag_fault(self.extensions, self.gravity):
             raise ValueError(fault)
@@ -215,8 +213,13 @@ def internal_mass_fault(platform: Platform, more: Extensions) -> str:
     )
 
 
+def moving_parts_fault(platform: Platform, more: Extensions) -> str:
+    """What is wrong with parts that move in the platform, "" if nothing."""
+    return internal_mass_fault(platform, more) or swinging_mass_fault(platform, more)
+
+
 def swinging_mass_fault(platform: Platform, more: Extensions) -> str:
-    """What is wrong with the mass that swings, "" if nothing: it has a frequency, and a rigid body is left without it."""
+    """What is wrong with the mass that swings, "" if nothing: it has a frequency, and a body is left without it."""
     if more.swinging_mass == 0.0:
         return ""
     if more.swinging_frequency == 0.0:

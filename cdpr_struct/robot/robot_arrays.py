@@ -46,7 +46,8 @@ class RobotArrays:
     tilt            : (..., 2) [rad];  temperature_change : (...) [K]
     drag_area       : (...) [m^2], drag_width : (..., m) [m] in wind (..., 3) [m/s] of air_density (...) [kg/m^3]
     nonlinearity, stiffening_exponent : (...) k and n with reference_tension (...) [N];  incremental_ratio : (...)
-    cell_gain, cell_bias, friction, slip : (..., m);  tracker, accelerometer_gain : (..., 6)
+    cell_gain, cell_bias, friction, bearing_friction, pulley_drag, backlash, slip : (..., m)
+    tracker, accelerometer_gain : (..., 6)
     creep, sensor_mass : (...)
     internal_mass, internal_frequency : (...) [kg], [Hz];  internal_direction : (..., 3) unit, platform frame
     swinging_mass, swinging_frequency : (...) [kg], [Hz];  swinging_place : (..., 3) platform frame [m]
@@ -101,6 +102,9 @@ class RobotArrays:
     cell_gain: np.ndarray = field(default_factory=PARAMETERS["cell_gain"].without_effect)
     cell_bias: np.ndarray = field(default_factory=PARAMETERS["cell_bias"].without_effect)
     friction: np.ndarray = field(default_factory=PARAMETERS["friction"].without_effect)
+    bearing_friction: np.ndarray = field(default_factory=PARAMETERS["bearing_friction"].without_effect)
+    pulley_drag: np.ndarray = field(default_factory=PARAMETERS["pulley_drag"].without_effect)
+    backlash: np.ndarray = field(default_factory=PARAMETERS["backlash"].without_effect)
     tracker: np.ndarray = field(default_factory=PARAMETERS["tracker"].without_effect)
     creep: np.ndarray = field(default_factory=PARAMETERS["creep"].without_effect)
     slip: np.ndarray = field(default_factory=PARAMETERS["slip"].without_effect)
@@ -240,7 +244,7 @@ class RobotArrays:
         return (paid_out / self.thermal_growth - self.length_offset) / self.length_scale
 
     def stiffness_at(self, tension: np.ndarray) -> np.ndarray:
-        """(..., m) secant EA [N] of cables with tensions (..., m) at the platform [N]: E may change with the tension."""
+        """(..., m) secant EA [N] of cables with tensions (..., m) at the platform [N]: E may change with it."""
         relative = tension / self.reference_tension[..., None]
         factor = np.maximum(1.0 + self.nonlinearity[..., None] * (relative - 1.0), _LEAST_MODULUS)
         if self.stiffening_exponent.any():

@@ -36,9 +36,9 @@ def settled_stiffness(
 def in_small_motion(arrays: RobotArrays, states: CableStates) -> tuple[RobotArrays, CableStates]:
     """Robot and cables for motion about rest, in which the stiffness is the incremental one.
 
-    Each cable is the one of constant EA that is as long, as heavy and as tight at rest, and gains tension over length as
-    fast: q EA + (q - 1) T, q the ratio and EA the secant, on an unstrained length 1 + (1 - 1 / q) T / EA times its own.
-    Cables that are of this kind already stay.
+    Each cable is the one of constant EA that is as long, as heavy and as tight at rest, and gains tension over length
+    as fast: q EA + (q - 1) T, q the ratio and EA the secant, on an unstrained length 1 + (1 - 1 / q) T / EA times its
+    own. Cables that are of this kind already stay.
     """
     shape = np.broadcast_shapes(states.length.shape, (*arrays.incremental_ratio.shape, 1))
     ratio = np.broadcast_to(arrays.incremental_ratio[..., None], shape)

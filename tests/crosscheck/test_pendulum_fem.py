@@ -56,7 +56,9 @@ def test_modes_are_the_referees(referee):
     np.testing.assert_allclose(found.frequencies.hertz, referee, rtol=AGREED)
 
 
-@pytest.mark.parametrize("wrong", [{"mass": 0.98 * MASS}, {"length": 1.02 * LENGTH}, {"hook": HOOK + [0, 0, 0.02]}])
+@pytest.mark.parametrize(
+    "wrong", [{"mass": 0.98 * MASS}, {"length": 1.02 * LENGTH}, {"hook": HOOK + np.array([0, 0, 0.02])}]
+)
 def test_another_pendulum_is_seen(referee, wrong):
     """The twins that must fail: 2 % of mass or length, 2 cm of the hook's height."""
     with pytest.raises(AssertionError):

@@ -50,7 +50,9 @@ def rests(robot, place, exponent):
         data = to_fem(robot, lengths, own * lengths / natural, robot.linear_density * natural / lengths)
         rest = fem.solve_robot(data, place, np.eye(3), ELEMENTS)
         pull = np.array([np.linalg.norm(c.end_force) for c in rest.cables])
-        stretched = np.array([c.unstrained_length * (1.0 + t / c.axial_stiffness) for c, t in zip(data.cables, pull)])
+        stretched = np.array(
+            [c.unstrained_length * (1.0 + t / c.axial_stiffness) for c, t in zip(data.cables, pull, strict=True)]
+        )
     return rest, natural
 
 
@@ -101,7 +103,9 @@ def test_static_readings_name_it_and_tell_the_exponent(tmp_path):
     )
     assert said.decision.classes == (("nonlinear_elasticity",),)
     name, missed, sigma = exponent_told(said)
-    assert name.startswith("exponent") and missed < 3.0 and sigma < 0.05
+    assert name.startswith("exponent")
+    assert missed < 3.0
+    assert sigma < 0.05
 
 
 @pytest.mark.slow
@@ -110,7 +114,9 @@ def test_with_frequencies_it_is_the_slope_of_the_law_that_small_motion_has(tmp_p
     said = diagnosed(written(tmp_path, seed=1, exponent=EXPONENT))
     assert said.decision.classes == (("nonlinear_elasticity",),)
     name, missed, sigma = exponent_told(said)
-    assert name == "exponent_elastic" and missed < 3.0 and sigma < 0.01
+    assert name == "exponent_elastic"
+    assert missed < 3.0
+    assert sigma < 0.01
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""Cables that stiffen as a power of their tension against the referee, which adds up small increments of linear bars."""
+"""Cables that stiffen as a power of their tension against the referee, which adds up increments of linear bars."""
 
 from dataclasses import replace
 from functools import cache
@@ -101,7 +101,9 @@ def test_a_payload_sinks_as_the_sum_of_small_increments(point):
         for payload in PAYLOAD * np.arange(1, steps + 1) / steps:
             tension = pulls(rest)
             old = rest.robot.cables
-            stretched = np.array([c.unstrained_length * (1.0 + t / c.axial_stiffness) for c, t in zip(old, tension)])
+            stretched = np.array(
+                [c.unstrained_length * (1.0 + t / c.axial_stiffness) for c, t in zip(old, tension, strict=True)]
+            )
             lengths, stiff = linear(paid_out, stretched, tension)
             density = point.entered.linear_density * paid_out / lengths
             data = to_fem(point.entered.with_load(payload), lengths, stiff, density)

@@ -21,9 +21,10 @@ from cdpr_struct.statics.equilibrium import PlatformArms, rotation_from_vector
 from cdpr_struct.statics.inverse_kinematics import inverse
 
 IDLE = {
-    "force_min", "force_max", "damping_ratio", "length_offset", "length_scale", "hose_center", "force", "nonlinearity", "stiffening_exponent",
-    "reference_tension", "cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain",
-    "sensor_mass",
+    "force_min", "force_max", "damping_ratio", "length_offset", "length_scale", "hose_center", "force", "nonlinearity",
+    "stiffening_exponent", "reference_tension", "cell_gain", "cell_bias", "friction", "bearing_friction",
+    "pulley_drag", "backlash", "tracker", "creep", "slip",
+    "accelerometer_gain", "sensor_mass",
 }  # fmt: skip
 """Parameters that act on readings or on the state, not on the vibration about it; and what a winch holds, a switch."""
 STEPS = {

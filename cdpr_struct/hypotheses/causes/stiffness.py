@@ -116,7 +116,7 @@ CAUSES = (
         ),
         fitted=5,
         seen_in=("CO", "RF"),
-        sentence="the stiffness of the cables changes with tension, {parts}",
+        sentence="the stiffness of the cables changes with tension: {named}",
         separated_by="two preloads; a payload series",
         extension="nonlinearity",
     ),
