@@ -86,6 +86,7 @@ CAUSES = (
             ("constant", [2], 0.2),
             ("in the bearings and constant", [1, 2], 0.2),
         ),
+        fitted=4,
         seen_in=("EQ", "CO", "CF"),
         sentence="friction at the pulleys changes the tension: {named}",
         needs=_approach,
