@@ -110,9 +110,10 @@ class Search:
         rows = self._screened(menu, nulls, rich)
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
         self._bend(nulls)
-        large = beginnings(self.data, menu, base, self.budget.beginnings + 1)
+        significant = self.p_value < SIGNIFICANT
+        large = beginnings(self.data, menu, base, self.budget.beginnings + 1, significant)
         self._begin(large, base)
-        if self.p_value < SIGNIFICANT:
+        if significant:
             self._begin_alone(carriers(self.data, menu, base), base)
         self._transfer()
         singles = self._singles()
@@ -179,7 +180,8 @@ class Search:
         columns = {cause.cause.name: cause.columns for cause in menu}
         for i, row in enumerate(rows):
             if i < at_least or row.score > above:
-                for part, spread in row.gains.leading(_LAWS if row.gains.cause.name == UNKNOWN else 1):
+                cause = row.gains.cause
+                for part, spread in row.gains.leading(_LAWS if cause.name == UNKNOWN else cause.fitted):
                     more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
                     self.spread[more.key] = spread
                     sigma = part.scale * part.pattern.prior

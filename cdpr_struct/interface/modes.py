@@ -160,7 +160,7 @@ def modes(
         "platform_directions": shares,
         "motion_words": motion_words(found.platform_energy, shares),
         "tensions_N": point.cables.tension_at_platform,
-        "lengths_m": RobotArrays.of(machine).reading(point.cables.total_length),
+        "lengths_m": RobotArrays.of(machine).reading(point.cables.paid_out),
         **({} if curves is None else {"large_motion": backbone_told(curves)}),
         **state.told(
             *dropped_by(name, machine), *mode_checks(found.hertz, found.count_certified), *backbone_checks(curves)

@@ -135,7 +135,7 @@ def _cable_table(point: OperatingPoint, result: Mapping[str, Any]) -> HtmlTable:
         [str(i), f"{length:.5f}", f"{tension:.3f}", f"{straight:.4f}", f"{deep:.2f}"]
         for i, (length, tension, straight, deep) in enumerate(zip(*columns, strict=True), start=1)
     ]
-    scaled = not np.allclose(result["lengths_m"], point.cables.total_length, rtol=1e-12, atol=0.0)
+    scaled = not np.allclose(result["lengths_m"], point.cables.paid_out, rtol=1e-12, atol=0.0)
     note = "Lengths are what the encoders read: offset and scale of the robot file are included." if scaled else ""
     names = ["cable", "unstrained length [m]", "tension at the platform [N]", "chord [m]", "sag [mm]"]
     return HtmlTable("Cables at rest", names, rows, note)

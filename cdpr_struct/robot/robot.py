@@ -11,7 +11,7 @@ from cdpr_struct.robot.body import Body
 from cdpr_struct.robot.cable import Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.lump import Lump, lumps_fault
-from cdpr_struct.robot.platform import Platform
+from cdpr_struct.robot.platform import Platform, least_moved_mass
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.winches import Winches, winches_fault
 
@@ -75,7 +75,7 @@ class Robot:
         m = len(self.cables)
         if len(self.extensions.slip) != m:
             raise ValueError(f"Robot.extensions must be for {m} cables, got {len(self.extensions.slip)}")
-        if fault := internal_mass_fault(self.platform, self.extensions):
+        if fault := moving_parts_fault(self.platform, self.extensions):
             raise ValueError(fault)
         if fault := cable_drag_fault(self.extensions, self.gravity):
             raise ValueError(fault)
@@ -231,4 +231,25 @@ def internal_mass_fault(platform: Platform, more: Extensions) -> str:
     return (
         f"internal_mass = {more.internal_mass:g} kg must be a part of the platform's mass: below {most:.4g} kg, "
         "which its mass, centre of mass and inertia move along internal_direction at its origin"
+    )
+
+
+def moving_parts_fault(platform: Platform, more: Extensions) -> str:
+    """What is wrong with parts that move in the platform, "" if nothing."""
+    return internal_mass_fault(platform, more) or swinging_mass_fault(platform, more)
+
+
+def swinging_mass_fault(platform: Platform, more: Extensions) -> str:
+    """What is wrong with the mass that swings, "" if nothing: it has a frequency, and a body is left without it."""
+    if more.swinging_mass == 0.0:
+        return ""
+    if more.swinging_frequency == 0.0:
+        return f"swinging_mass = {more.swinging_mass:g} kg needs swinging_frequency, in Hz, above 0"
+    body = np.asarray(platform.mass), platform.center_of_mass, platform.inertia
+    most = float(least_moved_mass(*body, more.swinging_place))
+    if more.swinging_mass < most:
+        return ""
+    return (
+        f"swinging_mass = {more.swinging_mass:g} kg must be a part of the platform's mass: below {most:.4g} kg, "
+        "which its mass, centre of mass and inertia move at swinging_place"
     )

@@ -17,7 +17,7 @@ from cdpr_struct.robot.lump import LumpTable, lumps_fault
 from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
-from cdpr_struct.robot.robot import FREEDOMS, Robot, cable_drag_fault, internal_mass_fault
+from cdpr_struct.robot.robot import FREEDOMS, Robot, cable_drag_fault, internal_mass_fault, swinging_mass_fault
 from cdpr_struct.robot.toml_text import toml_table
 from cdpr_struct.robot.winches import winches_fault
 
@@ -128,6 +128,8 @@ def _build(table: RobotTable, source: str) -> Robot:
     platform, more = _with_joints(_platform(table.platform, source), table, source), _extensions(table, source)
     if fault := internal_mass_fault(platform, more):
         raise InputError(source, "extensions.internal_mass", more.internal_mass, fault)
+    if fault := swinging_mass_fault(platform, more):
+        raise InputError(source, "extensions.swinging_mass", more.swinging_mass, fault)
     gravity = _gravity(table.gravity, source)
     if fault := cable_drag_fault(more, float(np.linalg.norm(gravity))):
         raise InputError(source, "extensions.drag_width", table.extensions["drag_width"], fault)

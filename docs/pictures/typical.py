@@ -38,7 +38,9 @@ _ALONE = frozenset(
      "cable_added_mass")
 )  # fmt: skip
 _TIMES = {"accelerometer_gain": 4.0}  # sigmas of its prior: one is hardly seen on an axis of decades
-_LINE = 8.0  # Hz, of what is tuned
+_LINE = 8.0  # Hz
+_TUNED = {"flexible_platform": [0.0, 0.0, np.sqrt(3.0), _LINE], "swinging_payload": [np.sqrt(3.0), 1.0, 0.0, 0.0, -0.1]}
+"""Parameters of causes that add a mode: roots of masses [kg], frequencies [Hz], hook [m]."""
 _NEAR = 0.3  # of ln f: modes farther apart are not the same mode
 _KILOPOND = 9.80665  # N
 
@@ -121,11 +123,16 @@ def entered(pulleys: bool = True) -> Stand:
 def theta_of(cause: Cause, arrays: RobotArrays) -> tuple[np.ndarray, str]:
     """Basic parameters of a cause at one prior sigma, and where it acts."""
     if cause.tuned:
-        one = np.array([0.0] * (len(cause.parameters) - 1) + [_LINE])
-        one[2:3] = np.sqrt(3.0) if len(one) == 4 else one[2:3]
-        return one, ""
+        return np.array(_TUNED[cause.name]), ""
     own = _TIMES.get(cause.name, 1.0) * np.array([p.prior for p in cause.parameters])
-    if cause.name in ("accelerometer_gain", "tracker_frame", "pose_mismatch", "frame_compliance", "missing_pulleys"):
+    if cause.name in (
+        "accelerometer_gain",
+        "tracker_frame",
+        "pose_mismatch",
+        "frame_compliance",
+        "missing_pulleys",
+        "nonlinear_elasticity",
+    ):
         own = own * (np.arange(len(own)) < {"tracker_frame": 6, "pose_mismatch": 3}.get(cause.name, 1))
     count = {"cable": 8, "mast": carriers(arrays.masts).shape[1], "axis": 3, "state": 1}.get(cause.carrier, 1)
     every = np.tile(own, (count, 1))
@@ -207,7 +214,9 @@ def of_library(name: str, simulation: Stand) -> Effect:
     if cause.outside:
         return effect(simulation, simulation, f"{cause.parameters[0].name} {_LINE:g} Hz", peak=_LINE)
     real, size = real_robot(cause, simulation)
-    return effect(simulation, real, size, linear=not cause.tuned, peak=_LINE if cause.tuned else np.nan)
+    return effect(
+        simulation, real, size, linear=not cause.tuned, peak=_TUNED.get(name, [np.nan])[1 if cause.tried else -1]
+    )
 
 
 def _beside(entered_: Stand) -> dict[str, Effect]:
