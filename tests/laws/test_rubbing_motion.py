@@ -7,9 +7,12 @@ from scipy.integrate import solve_ivp
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.damping import Undamped
 from cdpr_struct.dynamics.modal_basis import modal_basis
+from cdpr_struct.dynamics.ports import platform_port
 from cdpr_struct.dynamics.presliding_friction import end_turns, rubbing_modes
-from cdpr_struct.dynamics.rubbing_motion import EndFriction, RubbingEnds, rubbed_motion
-from cdpr_struct.dynamics.transient import complex_modes
+from cdpr_struct.dynamics.rubbing_motion import EndFriction, RubbingEnds, rubbed_motion, rubbing_vibration
+from cdpr_struct.dynamics.transient import along_path, complex_modes
+from cdpr_struct.errors import InputError
+from cdpr_struct.interface.damping_law import read_end_friction
 from cdpr_struct.measurement.decay_modes import refine
 from tests.large_motion_robots import three_cables
 
@@ -87,3 +90,31 @@ def test_frequency_and_damping_read_from_the_motion_are_those_of_the_equivalent_
 def test_friction_refuses_what_is_none():
     with pytest.raises(ValueError, match="frame must be a radius"):
         EndFriction(frame=(-1.0, 0.1), platform=(0.0, 0.1))
+
+
+def test_friction_of_no_size_changes_nothing_after_a_stop_and_along_a_path(parts):
+    """The stepped motion is that of the closed form: both are exact for a drive that is linear between the instants."""
+    point, basis, _, _ = parts
+    none = RubbingEnds.of(point, basis, EndFriction((0.0, 1.0), (0.0, 1.0)))
+    time, ports = np.arange(0.0, 4.0, 1.0 / 16.0), (platform_port("x", np.array([1.0, 0.0, 0.0]), False, np.zeros(3)),)
+    still = np.zeros((len(time), 6))
+    path = np.outer(np.sin(3.0 * time) * (time < 2.0), TWIST)
+    for nominal, stop in ((still, 0), (path, 32)):
+        ours = rubbing_vibration(basis, none, nominal, (stop, TWIST), ports, time)
+        theirs = along_path(basis, nominal, TWIST, stop, ports, time)
+        for what in ("displacement", "velocity", "acceleration", "energy"):
+            expected = getattr(theirs, what)
+            np.testing.assert_allclose(getattr(ours, what), expected, atol=1e-10 * np.abs(expected).max())
+        assert ours.energy_share == pytest.approx(theirs.energy_share)
+
+
+@pytest.mark.parametrize("text", ["joint:0.1,0.1", "frame:0.1", "frame:-1,0.1", "both:1,0", "frame:1,1;both:1,1", ""])
+def test_end_friction_that_cannot_be_read_is_refused(text):
+    with pytest.raises(InputError, match="end_friction"):
+        read_end_friction(text)
+
+
+def test_end_friction_is_read():
+    both = read_end_friction("both:0.001,0.01")
+    assert both == EndFriction((0.001, 0.01), (0.001, 0.01))
+    assert read_end_friction("frame:0.002,0.02; platform:0.001,0.01").frame == (0.002, 0.02)
