@@ -82,7 +82,7 @@ def diagnosed(
 
 
 def _explained(campaign: Campaign, budget: str, progress: Callable[[str], None]) -> tuple[Campaign, list[Explained]]:
-    """The campaign with what may be wrong; without the robot's peaks where the robot cannot stand at the poses entered."""
+    """The campaign with what may be wrong; without the robot's peaks if it cannot stand at the poses entered."""
     try:
         return campaign, explained(campaign, BUDGETS[budget], progress)
     except UnstableEquilibriumError as error:
