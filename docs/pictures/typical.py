@@ -115,7 +115,7 @@ def entered(pulleys: bool = True) -> Stand:
     position, rotation = POSE.position[None], POSE.rotation[None]
     turns = exit_turns(robot, position, rotation)
     known = Circumstances(
-        np.zeros(1), np.ones(1), np.ones((1, 8)), turns, POSE.position, float(held.tensions.mean())
+        np.zeros(1), np.ones(1), np.full((1, 8, 2), 0.1), np.zeros(1), np.ones((1, 8)), turns, POSE.position, float(held.tensions.mean())
     )  # fmt: skip
     return Stand(RobotArrays.of(robot), known, Readings(position, rotation, held.tensions[None], held.lengths[None]))
 
