@@ -1,4 +1,4 @@
 """Ten thousand random robots and poses: does every answer stand up to mechanics that are written down a second time?
 
-python -m benchmarks random-robots [--seeds A:B] [--workers N] --out DIR
+python -m benchmarks random-robots [--seeds A:B[:N]] [--workers N] --out DIR
 """

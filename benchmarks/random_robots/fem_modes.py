@@ -1,6 +1,6 @@
 """The first frequencies of a robot by finite elements on meshes that double, and how certain their limit is."""
 
-from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,28 +15,39 @@ _SURE = 10.0  # times what the finest mesh changed
 _FLOOR = 1e-6  # of a frequency: rounding of fine meshes
 
 
-def fem_faults(point: OperatingPoint, hertz: np.ndarray) -> Iterator[str]:
-    """What is wrong with natural frequencies (k,), neutral ones among them [Hz].
+@dataclass(frozen=True, slots=True)
+class FemVerdict:
+    """faults : what is wrong with frequencies;  off : largest relative difference;  share : largest, of what is sure;
+    compared : how many frequencies."""
+
+    faults: tuple[str, ...]
+    off: float = 0.0
+    share: float = 0.0
+    compared: int = 0
+
+
+def fem_verdict(point: OperatingPoint, hertz: np.ndarray) -> FemVerdict:
+    """What the finite elements say of natural frequencies (k,), neutral ones among them [Hz].
 
     Raises
     ------
     FemError : the finite elements find no rest or no modes.
     """
-    said = list(_differences(point, hertz, _MESHES))
-    yield from _differences(point, hertz, _FINER) if said else ()
+    said = _compared(point, hertz, _MESHES)
+    return _compared(point, hertz, _FINER) if said.faults else said
 
 
-def _differences(point: OperatingPoint, hertz: np.ndarray, meshes: tuple[int, ...]) -> Iterator[str]:
+def _compared(point: OperatingPoint, hertz: np.ndarray, meshes: tuple[int, ...]) -> FemVerdict:
     rests = [solve_in_fem(point, elements) for elements in meshes]
     neutral = fem.neutral_freedoms(rests[-1])
     if neutral != (hertz == 0.0).sum():
-        yield f"neutral: {neutral} freedoms in the finite elements"
-        return
+        return FemVerdict((f"neutral: {neutral} freedoms in the finite elements",))
     asked = hertz[neutral:]
     values = [fem.robot_modes(rest, len(hertz)).frequencies_hz[neutral:] for rest in rests]
     best, coarser = romberg(values), romberg(values[:-1])
     tolerance = _FLOOR + _SURE * np.abs(coarser / best - 1.0)
     off = np.abs(asked / best - 1.0)
-    if (off > tolerance).any():
-        worst = int((off / tolerance).argmax())
-        yield f"frequency {worst + 1}: {off[worst]:.1e} from the finite elements, sure to {tolerance[worst]:.1e}"
+    share = off / tolerance
+    worst = int(share.argmax())
+    fault = f"frequency {worst + 1}: {off[worst]:.1e} from the finite elements, sure to {tolerance[worst]:.1e}"
+    return FemVerdict((fault,) if share[worst] > 1.0 else (), float(off.max()), float(share[worst]), len(asked))

@@ -18,7 +18,8 @@ _AHEAD = 64  # seeds a process has in hand
 def main(words: Sequence[str]) -> int:
     """Try seeds and print what came of them; 1 if any answer is wrong."""
     parser = argparse.ArgumentParser("python -m benchmarks random-robots", description=__doc__.splitlines()[0])
-    parser.add_argument("--seeds", type=_span, default=range(10_000), metavar="A:B", help="from A to B - 1 (0:10000)")
+    parser.add_argument("--seeds", type=_span, default=range(10_000), metavar="A:B[:N]",
+        help="from A to B - 1, every Nth (0:10000)")  # fmt: skip
     parser.add_argument("--workers", type=int, default=1, help="processes (1)")
     parser.add_argument("--out", type=Path, required=True, help=f"folder of {FILE}, which is continued")
     given = parser.parse_args(words)
@@ -53,11 +54,11 @@ def run(seeds: Sequence[int], workers: int, file: Path) -> None:
 
 
 def _span(text: str) -> range:
-    first, _, end = text.partition(":")
     try:
-        return range(int(first or 0), int(end))
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text!r}: give A:B, two whole numbers") from error
+        first, end, *step = (int(part or 0) for part in text.split(":"))
+        return range(first, end, *step)
+    except (ValueError, TypeError) as error:
+        raise argparse.ArgumentTypeError(f"{text!r}: give A:B or A:B:N, whole numbers") from error
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import numpy as np
 import cdpr_struct as cs
 from benchmarks.random_robots.case import Case
 from benchmarks.random_robots.drawing import drawn
-from benchmarks.random_robots.fem_modes import fem_faults
+from benchmarks.random_robots.fem_modes import fem_verdict
 from benchmarks.random_robots.further import distributed, distribution_faults, error_at, pose_error_faults, taut
 from benchmarks.random_robots.judging import (
     mode_faults,
@@ -91,9 +91,10 @@ def _judge_further(case: Case, held: Any, own: OwnRest, told: dict[str, Any], fa
 
 def _judge_by_fem(found: Any, told: dict[str, Any], faults: list[str]) -> None:
     try:
-        said = list(fem_faults(found.point, found.modes.hertz))
-        told["fem"] = "confirmed" if not said else "differs"
-        faults += [f"finite elements: {fault}" for fault in said]
+        said = fem_verdict(found.point, found.modes.hertz)
+        told["fem"] = "confirmed" if not said.faults else "differs"
+        told |= {"fem_off": said.off, "fem_share": said.share, "fem_compared": said.compared}
+        faults += [f"finite elements: {fault}" for fault in said.faults]
     except FemError as error:
         told["fem"] = f"{type(error).__name__}: {error}"
 

@@ -22,10 +22,13 @@ def pulled_cable(
     )  # fmt: skip
 
 
-def catenary_frequencies(cable: CableStates, density: float, count: int) -> dict[str, list[float]]:
-    """The first `count` of each plane [Hz], of the linearised elastic catenary: any sag, any inclination."""
+def catenary_frequencies(cable: CableStates, density: float, count: int, finer: float = 1.0) -> dict[str, list[float]]:
+    """The first `count` of each plane [Hz], of the linearised elastic catenary: any sag, any inclination.
+
+    finer : times the usual order of polynomials, to see what that changes
+    """
     slack = float((cable.weight * cable.length / cable.tension).max())
-    order = min(_HIGHEST, _ORDER + _PER_MODE * count + int(_SAG * slack))
+    order = int(finer * min(_HIGHEST, _ORDER + _PER_MODE * count + int(_SAG * slack)))
     in_plane, across = clamped_frequencies(cable, np.array([density]), order)
     hertz = {"out_of_plane": across, "in_plane": in_plane}
     return {plane: (omega[0, :count] / (2.0 * np.pi)).tolist() for plane, omega in hertz.items()}

@@ -1,6 +1,7 @@
 """Everything about one cable under one end force (thesis sections 2.1 and 2.3)."""
 
 import dataclasses
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,46 @@ from cdpr_struct.crosscheck.validity_limits import (
 )
 from cdpr_struct.dynamics.clamped_cable import symmetric_roots
 from cdpr_struct.generated import cable_compliance, cable_dsm, catenary
+from cdpr_struct.statics.catenary import solve_end_forces
 
 _MODES = 6
+_FINER = 1.5  # times the polynomials
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class CableCertainty:
+    """How well the numbers of one cable are known.
+
+    force_missed    : of the end force, by which that of a cable solved for the end point differs [-]
+    frequency_moved : largest relative change of the exact frequencies by half again as many polynomials
+    fem_apart       : their largest relative difference from the FEM's, None if it was not asked
+    strain          : largest T / EA [-]
+    """
+
+    force_missed: float
+    frequency_moved: float
+    fem_apart: float | None
+    strain: float
+
+
+def cable_certainty(told: Mapping[str, Any]) -> CableCertainty:
+    """Of what `describe_cable` tells: its shape solved the other way round, its frequencies by more polynomials."""
+    given, end = told["input"], (told["x_m"], told["z_m"])
+    (force_x, force_z), length = given["force_N"], given["length_m"]
+    stiff, density = given["axial_stiffness_N"], given["linear_density_kg_m"]
+    weight = density * given["gravity_m_s2"]
+    back = solve_end_forces(abs(end[0]), end[1], length, stiff, weight)
+    tension = np.hypot(force_x, [force_z, force_z - weight * length]).max()
+    missed = np.hypot(back.force_x - abs(force_x), back.force_z - force_z) / tension
+    cable = pulled_cable((force_x, force_z), end, length, stiff, weight)
+    finer = catenary_frequencies(cable, density, _MODES, _FINER)
+    exact = told["exact_frequencies_hz"]
+    moved = max(float(np.abs(np.divide(exact[plane], finer[plane]) - 1.0).max()) for plane in exact)
+    by_fem, apart = told.get("fem_frequencies_hz"), None
+    if by_fem is not None:  # six of either plane hold the six lowest of both
+        lowest = np.sort(np.concatenate([exact[plane] for plane in exact]))[:_MODES]
+        apart = float(np.abs(lowest / np.asarray(by_fem)[:_MODES] - 1.0).max())
+    return CableCertainty(float(missed), moved, apart, float(tension) / stiff)
 
 
 def describe_cable(

@@ -7,12 +7,15 @@ import numpy as np
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
+_PARALLEL = 1e-12  # sine of the angle to its swivel axis below which a cable lies on it
 _SHORT = 1e-9  # of a cable's length: what is shorter gives way no more than a fixed point
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrameGive:
-    """How far frame ends give way: directions (..., m, 3, q), orthonormal, and compliance (..., m, q) [m/N] along them.
+    """How far frame ends give way: directions (..., m, 3, q) and compliance (..., m, q) [m/N] along them.
+
+    Directions are orthonormal but for what leans the plane of a wheel by its cable's weight (`_leant`).
 
     least : (..., m, q) compliance that counts as none
     """
@@ -24,7 +27,7 @@ class FrameGive:
 
 def frame_give(point: OperatingPoint) -> FrameGive | None:
     """Along the cable, by what is elastic in line and the stretch of cable on a pulley, without limit where a winch
-    holds the tension; across it where pulleys swivel.
+    holds the tension; across it where pulleys swivel. Both lean where cable rolls on and off a pulley.
 
     None where all frame ends are fixed points.
     """
@@ -38,21 +41,51 @@ def frame_give(point: OperatingPoint) -> FrameGive | None:
     along = cables.wrapped_length / stiff + arrays.series_compliance / (1.0 + tension / stiff)
     gives = [np.where(arrays.winch_tension > 0.0, np.inf, along)]
     if arrays.has_pulleys:
-        across, per_arm, arm = _swivel(arrays, tension, tangent)
-        directions.append(across)
-        gives.append(per_arm * arm)
-        least.append(per_arm * short)
+        wheel = _Wheel.of(arrays, tangent)
+        directions = [_leant(point, wheel, tangent), _leant(point, wheel, wheel.across)]
+        gives.append(arrays.pulley_radius * wheel.half_tangent / tension)
+        least.append(short / tension)
     stacked = (np.stack(np.broadcast_arrays(*parts), axis=-1) for parts in (directions, gives, least))
     return FrameGive(*stacked)
 
 
-def _swivel(arrays: RobotArrays, tension: np.ndarray, tangent: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Direction (..., m, 3) across the wheel's plane; compliance there (..., m) [m/N] per lever arm, and that arm [m].
+@dataclass(frozen=True, slots=True, eq=False)
+class _Wheel:
+    """How cables leave their wheels: tan(phi / 2) (..., m), phi the angle to the swivel axis, and unit vectors
+    (..., m, 3) across the wheel's plane and, in that plane, the way in which the cable turns as it rolls on.
 
-    A cable that leaves the wheel at the angle phi from the axis pulls it back with T sin(phi) / (R (1 - cos(phi))). In
-    the wheel's plane, rolling on or off the wheel is of second order: the exit is a fixed point.
+    A cable that leaves at phi pulls the wheel back with T sin(phi) / (R (1 - cos(phi))) = T / (R tan(phi / 2)).
     """
-    cos = np.einsum("...mi,...mi->...m", tangent, arrays.pulley_axis)
-    across = np.cross(arrays.pulley_axis, tangent)
-    sin = np.linalg.norm(across, axis=-1)
-    return across / sin[..., None], 1.0 / (tension * sin), arrays.pulley_radius * (1.0 - cos)
+
+    half_tangent: np.ndarray
+    across: np.ndarray
+    turning: np.ndarray
+
+    @classmethod
+    def of(cls, arrays: RobotArrays, tangent: np.ndarray) -> "_Wheel":
+        """Of cables with unit tangents (..., m, 3) at their frame ends; along the axis, a wheel has any plane."""
+        axis = np.broadcast_to(arrays.pulley_axis, tangent.shape)
+        cos = np.einsum("...mi,...mi->...m", tangent, axis)
+        across = np.cross(axis, tangent)
+        sin = np.linalg.norm(across, axis=-1)
+        beside = np.cross(np.eye(3)[np.abs(tangent).argmin(axis=-1)], tangent)
+        across = np.where((sin > _PARALLEL)[..., None], across, beside)
+        across = across / np.linalg.norm(across, axis=-1)[..., None]
+        return cls(sin / np.maximum(1.0 + cos, 1e-300), across, np.cross(across, tangent))
+
+
+def _leant(point: OperatingPoint, wheel: _Wheel, direction: np.ndarray) -> np.ndarray:
+    """Directions (..., m, 3) in which frame ends give way, leant by the weight of what rolls on and off the wheel.
+
+    A cable that turns by u' in the wheel's plane rolls by R u' / (1 - k R), k its curvature there. Its exit stays where
+    it is, but the tension at the new exit has turned and changed by the weight w of what has rolled on: a force of
+    w . d R u' / (1 - k R) in the direction d. Without weight on the wheel nothing answers it, and the stiffness is not
+    symmetric; its symmetric part, which alone shifts frequencies to first order, is that of an end that gives way along
+    d + b n / 2, with n the way of turning and b = (w . d / T) R / (1 - k R).
+    """
+    cables, radius = point.cables, point.arrays.pulley_radius
+    stretched = cables.tension_at_frame * (1.0 + cables.tension_at_frame / cables.axial_stiffness)
+    upwards = (cables.weight / stretched)[..., None] * cables.up
+    rolled = radius / (1.0 - radius * np.einsum("...mi,...mi->...m", upwards, wheel.turning))
+    lean = 0.5 * rolled * np.einsum("...mi,...mi->...m", upwards, direction)
+    return np.asarray(direction + lean[..., None] * wheel.turning)

@@ -11,6 +11,7 @@ from cdpr_struct.interface.arguments import SMALLEST, read_numbers, real
 from cdpr_struct.interface.given import Numbers
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.reports.text import cable_text
+from cdpr_struct.reports.trust_without_robot import cable_trust, with_trust
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
@@ -76,4 +77,5 @@ def cable(
     if abs(force_x) < SMALLEST:
         expected = "give a horizontal force that is not zero (a vertical cable has no plane)"
         raise InputError("force", "FX", force_x, expected)
-    return CableResult(describe_cable(force_x, force_z, length, EA, rho, gravity, fem))
+    told = describe_cable(force_x, force_z, length, EA, rho, gravity, fem)
+    return CableResult(with_trust(told, cable_trust(told)))

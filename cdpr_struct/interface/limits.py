@@ -12,6 +12,7 @@ from cdpr_struct.interface.given import Progress
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.reports.audit_limits_result import cable_columns, limits_trial_json
 from cdpr_struct.reports.audit_limits_text import limits_trial_text, verdict
+from cdpr_struct.reports.trust_without_robot import limits_trust, with_trust
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
@@ -81,7 +82,7 @@ def limits(
     """
     real(tolerance, "tolerance", "give a ratio between 0 and 1, like 0.01", 0.0, 1.0)
     trial = try_limits(extent(small), tolerance, executor, progress)
-    return LimitsResult(limits_trial_json(trial), trial)
+    return LimitsResult(with_trust(limits_trial_json(trial), limits_trust(trial)), trial)
 
 
 def extent(small: bool) -> Extent:

@@ -11,6 +11,7 @@ from cdpr_struct.interface.given import Progress
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.reports import reproduce_page
 from cdpr_struct.reports.figures.reproductions import FIGURES
+from cdpr_struct.reports.trust_without_robot import reproduction_trust, with_trust
 from cdpr_struct.thesis.catalogue import ITEMS
 from cdpr_struct.thesis.reproduction import Reproduction
 
@@ -83,4 +84,4 @@ def reproduce(*items: str, progress: Progress = silent) -> ReproduceResult:
         progress(name)
         found.append(ITEMS[name]())
     told = {"items": [reproduce_page.reproduction_json(item) for item in found]}
-    return ReproduceResult(told, tuple(found))
+    return ReproduceResult(with_trust(told, reproduction_trust(found)), tuple(found))

@@ -11,6 +11,7 @@ from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.written import write_text
 from cdpr_struct.reports.robots_result import robots_columns, robots_json, robots_sentence, robots_text
+from cdpr_struct.reports.trust_without_robot import robots_trust, with_trust
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import builtin_names, load_robot
 from cdpr_struct.robot.robot_writing import robot_toml
@@ -62,7 +63,7 @@ class RobotsResult(Result):
 def robots() -> RobotsResult:
     """List the robots that come with the package."""
     found = tuple(load_robot(name) for name in builtin_names())
-    return RobotsResult(robots_json(found), found)
+    return RobotsResult(with_trust(robots_json(found), robots_trust(found)), found)
 
 
 def write_robot(robot: Robot, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:

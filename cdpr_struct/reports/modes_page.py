@@ -7,6 +7,7 @@ import numpy as np
 
 from cdpr_struct.crosscheck.mode_motion import ModeMotion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.reports.backbone_text import backbone_columns
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import mode_ladder, mode_shapes, robot_drawing
 from cdpr_struct.reports.figures.drawing import Drawing
@@ -25,9 +26,12 @@ def modes_files(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMo
     """
     plates = _plates(point, result, motion)
     lengths, tensions = result["lengths_m"], result["tensions_N"]
+    curves = result.get("large_motion")
+    large = {} if curves is None else {"large_motion.csv": csv_text(backbone_columns(curves))}
     return {
         "modes.csv": csv_text(modes_columns(result)),
         "platform_motion.csv": csv_text(motion_columns(result)),
+        **large,
         "cables.csv": csv_text({"cable": range(1, len(lengths) + 1), "length_m": lengths, "tension_N": tensions}),
         **page_files(_page(point, result, plates)),
     }

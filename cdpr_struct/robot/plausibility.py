@@ -110,11 +110,19 @@ def _cables(robot: Robot) -> list[str]:
     if strain[i] > BREAKING_STRAIN:
         by = f"{share[i]:.3g} N, its share of the weight or force_min, stretch it by {100.0 * strain[i]:.3g} %"
         return [f"axial_stiffness = {stiff[i]:g} N of cable {i + 1}: {by} (is it in kN?)."]
-    usual = "ropes have 1e6 to 1e8"
-    if ratio[low] < _SOFTEST:
-        beside = f"linear_density = {heavy[low]:g} kg/m of cable {low + 1} beside EA = {stiff[low]:g} N"
-        return [f"{beside}: their ratio is {ratio[low]:.2g} N m/kg, and {usual} (is it in g/m, or EA in kN?)."]
-    if ratio[high] > _STIFFEST:
-        beside = f"axial_stiffness = {stiff[high]:g} N of cable {high + 1} beside {heavy[high]:g} kg/m"
-        return [f"{beside}: their ratio is {ratio[high]:.2g} N m/kg, and {usual} (is it Young's modulus in Pa?)."]
-    return []
+    named = odd_ratio(stiff[low], heavy[low], f"cable {low + 1}") or odd_ratio(
+        stiff[high], heavy[high], f"cable {high + 1}"
+    )
+    return [named] if named else []
+
+
+def odd_ratio(axial_stiffness: float, linear_density: float, whose: str) -> str:
+    """A sentence on EA [N] and mass per length [kg/m] that no rope has beside each other; "" if they are plausible."""
+    ratio, usual = axial_stiffness / linear_density, "ropes have 1e6 to 1e8"
+    if ratio < _SOFTEST:
+        beside = f"linear_density = {linear_density:g} kg/m of {whose} beside EA = {axial_stiffness:g} N"
+        return f"{beside}: their ratio is {ratio:.2g} N m/kg, and {usual} (is it in g/m, or EA in kN?)."
+    if ratio > _STIFFEST:
+        beside = f"axial_stiffness = {axial_stiffness:g} N of {whose} beside {linear_density:g} kg/m"
+        return f"{beside}: their ratio is {ratio:.2g} N m/kg, and {usual} (is it Young's modulus in Pa?)."
+    return ""

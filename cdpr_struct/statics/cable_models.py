@@ -15,8 +15,9 @@ from cdpr_struct.statics.cable_state import CableStates, heading_and_span, span_
 from cdpr_struct.statics.catenary import CableStatus
 from cdpr_struct.statics.catenary_length import SLACKEST, force_z_curvature
 from cdpr_struct.statics.hanging_cables import hanging, held_hanging
+from cdpr_struct.statics.lost_cables import counted_lost
 from cdpr_struct.statics.masts import with_settled_masts
-from cdpr_struct.statics.pulley import pulley_exit, straight_exit
+from cdpr_struct.statics.pulley import behind_wheel, pulley_exit, straight_exit
 from cdpr_struct.statics.tension_winches import with_winches
 
 IDEAL_STIFFENING = 1e6  # an ideal cable at given length: spring with EA this many times larger
@@ -203,18 +204,19 @@ class _StraightCables:
     offset: np.ndarray
     chord: np.ndarray
     wrapped: np.ndarray  # strained
+    lost: np.ndarray  # bool: a cable behind its wheel
 
 
 def _straight(arrays: RobotArrays, points: np.ndarray) -> _StraightCables:
     offset = points - arrays.frame_anchors
+    wrapped, lost = np.zeros(offset.shape[:-1]), np.zeros(offset.shape[:-1], dtype=bool)
     if arrays.has_pulleys:
-        direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
-        exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
+        wheel = arrays.pulley_axis, arrays.pulley_radius
+        lost = behind_wheel(offset, *wheel)
+        exit_ = pulley_exit(straight_exit(offset, *wheel), *wheel)
         offset = offset - exit_.point
         wrapped = arrays.pulley_radius * exit_.wrap_angle
-    else:
-        wrapped = np.zeros(offset.shape[:-1])
-    return _StraightCables(offset, np.linalg.norm(offset, axis=-1), wrapped)
+    return _StraightCables(offset, np.linalg.norm(offset, axis=-1), wrapped, lost)
 
 
 def _straight_states(
@@ -226,7 +228,8 @@ def _straight_states(
     share = tension / exit_.chord
     stiff = np.broadcast_to(arrays.axial_stiffness, length.shape)
     passed = np.broadcast_to(let_out(arrays, tension, stiff), length.shape)
-    return CableStates(
+    states = CableStates(
         exit_.offset, heading, length, wrapped, share * span, share * rise, stiff,
         np.zeros_like(length), status, passed, up,
     )  # fmt: skip
+    return counted_lost(states, exit_.lost & (tension > 0.0))

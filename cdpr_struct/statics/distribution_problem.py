@@ -23,7 +23,8 @@ from cdpr_struct.statics.tension_cost import TensionCost
 MAX_ITERATIONS = 60
 SETTLED = 1e-11  # last step over the largest chord tension
 BALANCED = 1e-9  # unbalanced wrench over load and tensions that counts as none
-_STALLED = 4  # rounds in a row that do not reduce an unbalanced wrench end the search
+_STALLED = 4  # rounds in a row that neither reduce an unbalanced wrench nor slacken a cable to the limit end the search
+_FALL = 0.7  # of a chord tension: most that a step takes from it
 _GAIN = 1e4  # a relative gain of 1e-15 counts as a relative step of 1e-11
 _STRIDE = 8  # every eighth pose of a batch is solved first
 _HALVINGS = 8
@@ -163,14 +164,16 @@ class DistributionProblem:
             before = end.chord_tension[items]
             last = np.minimum(np.abs(step).max(axis=1) / before.max(axis=1), tangent.improvement(step, multiplier))
             moved, off = before + step, tangent.unbalanced
-            going = (last > SETTLED) | ((off > 1e-3 * BALANCED) & (round_ < 8))
+            going = (last > SETTLED) | (off > (1e-3 * BALANCED if round_ < 8 else BALANCED))
             if going.any():
                 part, tangent = part.take(going), tangent.take(going)
                 moved[going], tangent = part._advance(before[going], step[going], tangent, multiplier[going])
                 off[going] = tangent.unbalanced
             iterations = np.full(len(items), round_)
             end = end.replaced(items, Optimum(moved, multiplier, last, off, iterations))
-            stalled[items] = np.where((off > 0.9 * least[items]) & (off > BALANCED), stalled[items] + 1, 0)
+            falling = (step <= -0.99 * _FALL * before).any(axis=1)
+            idle = (off > 0.9 * least[items]) & (off > BALANCED) & ~falling
+            stalled[items] = np.where(idle, stalled[items] + 1, 0)
             least[items] = np.minimum(off, least[items])
             rest = stalled[items[going]] < _STALLED
             items, tangent = items[going][rest], tangent.take(rest)
@@ -224,7 +227,7 @@ class DistributionProblem:
     def room(self, tension: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """How far each chord tension may change in one step."""
         share = _INSIDE if self.cost.interior else 1.0
-        low = np.maximum(share * (self.floor - tension), -0.7 * tension)
+        low = np.maximum(share * (self.floor - tension), -_FALL * tension)
         return np.minimum(low, 0.0), np.minimum(share * (self.ceiling - tension), 4.0 * tension + 10.0 * self.size)
 
     def _program(self, tension: np.ndarray, tangent: Tangent, dual: np.ndarray) -> QuadraticPrograms:

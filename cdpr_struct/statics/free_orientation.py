@@ -27,7 +27,8 @@ from cdpr_struct.statics.equilibrium import (
     rotation_from_vector,
 )
 from cdpr_struct.statics.guides import free_part
-from cdpr_struct.statics.holding_tensions import HoldingProblem
+from cdpr_struct.statics.holding_tensions import HoldingProblem, allowed_unbalance
+from cdpr_struct.statics.lost_cables import lost
 
 ANGLES = ("rx", "ry", "rz")
 _ITERATIONS = 25
@@ -89,10 +90,16 @@ def names_of(free: Sequence[bool] | np.ndarray) -> list[str]:
     return [name for name, chosen in zip(ANGLES, free, strict=True) if chosen]
 
 
-def left_free(free: npt.ArrayLike, cables: int, guided: npt.ArrayLike = (0,) * 6) -> np.ndarray:
+def left_free(
+    free: npt.ArrayLike,
+    cables: int,
+    guided: npt.ArrayLike = (0,) * 6,
+    named: tuple[str, str] = ("cable", "cables"),
+) -> np.ndarray:
     """(3,) bool: the angles that are free if those of `free` (3,) are asked for: as many as the cables cannot hold too.
 
     guided : (6,) bool, what a guide holds of x, y, z, rx, ry, rz
+    named : one and several of what holds the platform: winches, where these are fewer
 
     Raises
     ------
@@ -102,7 +109,7 @@ def left_free(free: npt.ArrayLike, cables: int, guided: npt.ArrayLike = (0,) * 6
     missing = 6 - int(held.sum()) - cables - int(chosen.sum())
     others = np.flatnonzero(~chosen & ~held[3:])
     if missing > len(others):
-        many = f"{cables} cable" + ("s" if cables > 1 else "")
+        many = f"{cables} {named[cables > 1]}"
         raise ValueError(f"{many} cannot place this platform; at least {cables + missing - len(others)} are needed")
     chosen[others[: max(missing, 0)]] = True
     return chosen
@@ -157,7 +164,8 @@ class HangingProblem:
         left = cable_wrench(states, problem.arms) + problem.load
         pulls = np.linalg.norm(problem.load[:, :3], axis=1) + states.tension_at_platform.sum(axis=1)
         about = np.where(self.free, np.einsum("kij,kj->ki", axes, left[:, 3:]), 0.0)
-        carried = np.linalg.norm(problem.balanced(left / problem.unit), axis=1) <= _WITHIN * pulls
+        unbalanced = np.linalg.norm(problem.balanced(left / problem.unit), axis=1)
+        carried = (unbalanced <= allowed_unbalance(self.arrays, _WITHIN, pulls)) & ~lost(states).any(axis=1)
         return _Hung(angles, rotation, tension, about / (platform_radius(self.arrays) * pulls)[:, None], carried)
 
 
@@ -239,7 +247,8 @@ def _checked(problem: HangingProblem, ends: _Hung) -> FreeOrientation:
     margin = _WITHIN * size[:, None]
     inside = ((pull >= low - margin) & (pull <= high + margin)).all(axis=1)
     left = np.abs(np.concatenate([wrench[:, :3], wrench[:, 3:] / platform_radius(arrays)], axis=1)).max(axis=1)
-    found = (ends.size <= _BALANCED) & inside & (left <= _WITHIN * size)
+    found = (ends.size <= _BALANCED) & inside & (left <= allowed_unbalance(arrays, _WITHIN, size))
+    found &= ~lost(cables).any(axis=1)
     return FreeOrientation(ends.angles, ends.rotation, found, ends.moment, cables, wrench)
 
 

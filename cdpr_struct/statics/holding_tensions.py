@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel, HeldCables
@@ -14,6 +15,7 @@ _STALLED = 8  # iterations without the unbalanced wrench shrinking by a tenth en
 _TAUT = 0.8  # w chord / (2 tau) of a start well on the taut side of the tension minimum
 _REACH = 1e4  # largest tension over load that a search starts from
 _RISING = 0.05  # least growth of the platform tension with the chord tension at which its bounds are linearised
+_OF_WEIGHT = 1e-3  # of the platform: most that counts as balanced
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -201,3 +203,32 @@ class HoldingProblem:
             return scaled
         rows = scaled if scaled.ndim == 3 else scaled[..., None]
         return np.concatenate([rows[:, :3], self.kept @ rows[:, 3:]], axis=1).reshape(scaled.shape)
+
+
+def allowed_unbalance(arrays: RobotArrays, share: float, pulls: np.ndarray) -> np.ndarray:
+    """(...) wrench [N] that may be left where load and tensions, together `pulls` (...) [N], balance but for a share.
+
+    Never more than a thousandth of the platform's weight: tensions beyond all measure would else balance anything.
+    """
+    weight = arrays.mass * arrays.gravity
+    return np.asarray(np.where(weight > 0.0, np.minimum(share * pulls, _OF_WEIGHT * weight), share * pulls))
+
+
+def force_bounds(lower: npt.ArrayLike, upper: npt.ArrayLike, m: int) -> tuple[np.ndarray, np.ndarray]:
+    """Bounds of the tensions of m cables, each (..., m) [N].
+
+    Raises
+    ------
+    ValueError : bounds that are negative or crossed, or of another number of cables.
+    """
+    low, high = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
+    if not ((low >= 0.0).all() and np.isfinite(low).all()):
+        raise ValueError(f"lower_bound must be finite and >= 0 N, got {low.min()!r}")
+    pair = []
+    for name, bound in (("lower_bound", low), ("upper_bound", high)):
+        if bound.ndim and bound.shape[-1] not in (1, m):
+            raise ValueError(f"{name} must have one entry per cable ({m}), got shape {bound.shape}")
+        pair.append(np.broadcast_to(bound, (*bound.shape[:-1], m)))
+    if not (low < high).all():
+        raise ValueError(f"upper_bound must be above lower_bound, got {high.min()!r} N and {low.max()!r} N")
+    return pair[0], pair[1]

@@ -22,12 +22,18 @@ from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import cable_wrench
 from cdpr_struct.statics.free_orientation import FreeOrientation
 from cdpr_struct.statics.guides import free_part
-from cdpr_struct.statics.holding_tensions import HoldingProblem
+from cdpr_struct.statics.holding_tensions import HoldingProblem, allowed_unbalance, force_bounds
 from cdpr_struct.statics.lost_cables import lost
 from cdpr_struct.statics.separating_wrench import separation
 from cdpr_struct.statics.stiffening import settled_stiffness
 from cdpr_struct.statics.taut_tensions import suits, taut_tensions
-from cdpr_struct.statics.unholdable_poses import no_length_error, unholdable, without_length
+from cdpr_struct.statics.unholdable_poses import (
+    behind_wheels,
+    half_turn_error,
+    no_length_error,
+    unholdable,
+    without_length,
+)
 
 BALANCED = 1e-8  # residual over load and tensions that counts as balanced
 _MOST_WINCH_STEPS = 12
@@ -102,14 +108,14 @@ def inverse(
     Raises
     ------
     UnholdablePoseError : a pose cannot be held (unless `allow_unheld`); it names cable or direction, and the amount,
-        or a cable that has no length there.
+        or a cable that has no length there, or would turn by more than 180 degrees on its pulley.
     ConvergenceError : the iteration was cut short (unless `allow_unheld`).
     ValueError : bounds that are negative or crossed.
     """
     arrays = RobotArrays.of(robot, None if mass is None else np.asarray(mass, dtype=float))
     place, turn = np.asarray(position, dtype=float), np.asarray(rotation, dtype=float)
     load = np.zeros(6) if external_wrench is None else np.asarray(external_wrench, dtype=float)
-    low, high = _bounds(
+    low, high = force_bounds(
         arrays.force_min if lower_bound is None else lower_bound,
         arrays.force_max if upper_bound is None else upper_bound,
         arrays.cable_count,
@@ -132,6 +138,9 @@ def inverse(
     if arrays.stiffens:
         problem, solution = _stiffening(problem, solution)
     solution.status[degenerate] = InverseStatus.UNHOLDABLE
+    behind = behind_wheels(problem.arrays, problem.arms.points) & ~solution.held[:, None]
+    if not allow_unheld and behind.any():
+        raise half_turn_error(arrays, behind)
     if not allow_unheld and (solution.status == InverseStatus.NOT_CONVERGED).any():
         left = float(np.abs(solution.residual_wrench).max())
         hint = "Raise the lower bound: the tensions may lie where cable weight and tension balance."
@@ -237,7 +246,7 @@ def _judged(
 ) -> InverseSolution:
     residual = free_part(cable_wrench(states, problem.arms) + problem.load, problem.arrays)
     size = np.linalg.norm(problem.load / problem.unit, axis=1) + states.tension_at_platform.sum(axis=1)
-    balanced = np.linalg.norm(residual / problem.unit, axis=1) <= BALANCED * size
+    balanced = np.linalg.norm(residual / problem.unit, axis=1) <= allowed_unbalance(problem.arrays, BALANCED, size)
     pull = states.tension_at_platform
     margin = BALANCED * size[:, None]
     inside = ((pull >= problem.low - margin) & (pull <= problem.high + margin)).all(axis=1)
@@ -275,20 +284,6 @@ def _moved_off(problem: HoldingProblem, items: np.ndarray) -> HoldingProblem:
     """Poses `items` (k,) moved by a metre, so that all cables have a direction; for what is not held anyway."""
     arms = problem.arms
     return replace(problem, arms=replace(arms, points=arms.points + items[:, None, None] * np.array([1.0, 1.0, 1.0])))
-
-
-def _bounds(lower: npt.ArrayLike, upper: npt.ArrayLike, m: int) -> tuple[np.ndarray, np.ndarray]:
-    low, high = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
-    if not ((low >= 0.0).all() and np.isfinite(low).all()):
-        raise ValueError(f"lower_bound must be finite and >= 0 N, got {low.min()!r}")
-    pair = []
-    for name, bound in (("lower_bound", low), ("upper_bound", high)):
-        if bound.ndim and bound.shape[-1] not in (1, m):
-            raise ValueError(f"{name} must have one entry per cable ({m}), got shape {bound.shape}")
-        pair.append(np.broadcast_to(bound, (*bound.shape[:-1], m)))
-    if not (low < high).all():
-        raise ValueError(f"upper_bound must be above lower_bound, got {high.min()!r} N and {low.max()!r} N")
-    return pair[0], pair[1]
 
 
 def _reshaped(flat: InverseSolution, shape: tuple[int, ...]) -> InverseSolution:

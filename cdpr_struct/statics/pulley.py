@@ -6,8 +6,9 @@ cable lies in its plane, so t alone fixes everything: with e the unit normal par
 
     t = sin(phi) e + cos(phi) a,      E = B + R (1 - cos(phi)) e + R sin(phi) a,      wrapped length R phi (strained).
 
-R = 0 is a fixed point, E = B. Weight of the wrapped piece and friction are left out, so the cable tension on the
-wheel is that at E.
+R = 0 is a fixed point, E = B. A cable that would turn by more than 180 degrees, to a point behind the wheel and nearer
+to the swivel axis than 2 R, is not covered; to a point on the axis the wheel might face any way. Weight of the wrapped
+piece and friction are left out, so the cable tension on the wheel is that at E.
 """
 
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 _SMALL = 1e-12
+_ON_AXIS = 1e-9  # sine of the angle to the swivel axis below which a wheel has no plane
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,6 +53,19 @@ def exit_rates(direction: np.ndarray, axis: np.ndarray, radius: np.ndarray) -> t
     return radius[..., None, None] * rate, -(radius / sin)[..., None] * axis
 
 
+def turned_back(direction: np.ndarray, axis: np.ndarray, radius: np.ndarray) -> np.ndarray:
+    """(...) bool: cables that leave in `direction` (..., 3) come straight back along the axis of their wheel, which
+    might face any way."""
+    cos, sin, _ = _in_plane(direction, axis)
+    return np.asarray((radius > 0.0) & (cos < 0.0) & (sin <= _ON_AXIS))
+
+
+def behind_wheel(offset: np.ndarray, axis: np.ndarray, radius: np.ndarray) -> np.ndarray:
+    """(...) bool: straight cables to points `offset` (..., 3) from B [m] would turn by more than 180 degrees."""
+    along, distance, _ = _in_plane(offset, axis)
+    return np.asarray((radius > 0.0) & (along < 0.0) & (distance < 2.0 * radius))
+
+
 def straight_exit(offset: np.ndarray, axis: np.ndarray, radius: np.ndarray) -> np.ndarray:
     """Exit direction (..., 3) of a straight cable from the pulley to a point; `offset` (..., 3) is point minus B [m].
 
@@ -66,7 +81,7 @@ def straight_exit(offset: np.ndarray, axis: np.ndarray, radius: np.ndarray) -> n
 
 
 def _in_plane(direction: np.ndarray, axis: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """cos(phi), sin(phi) and e."""
+    """cos(phi), sin(phi) and e, of unit directions; of others, times their length."""
     cos = np.einsum("...i,...i->...", direction, axis)
     across = direction - cos[..., None] * axis
     sin = np.linalg.norm(across, axis=-1)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import locked
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.dynamics.damping import DampingLaw, Hysteretic, Viscous
@@ -226,6 +227,7 @@ def _beside(entered_: Stand) -> dict[str, Effect]:
     files = {
         "unit_error": (lambda r: replace(r, tension=r.tension / _KILOPOND), "tensions in kgf"),
         "sign_error": (lambda r: replace(r, position=r.position * [1.0, -1.0, 1.0]), "y of the pose, 0.3 m"),
+        "rotation_convention": (_zyx, "angles about z, then y, then x"),
         "swapped_channels": (lambda r: replace(r, tension=r.tension[:, swapped]), "load cells 2 and 3"),
     }
     found = {n: effect(entered_, replace(entered_, misread=change), said) for n, (change, said) in files.items()}
@@ -242,6 +244,12 @@ def _beside(entered_: Stand) -> dict[str, Effect]:
     other, newtons = _preloaded(entered_, pull), internal_force.PRIOR
     found["internal_force"] = effect(entered_, other, f"{newtons:g} N along the first direction of the null space")
     return found
+
+
+def _zyx(read: Readings) -> Readings:
+    """Rotations whose angles are entered as if they were about x, then y, then z."""
+    angles = Rotation.from_matrix(read.rotation).as_euler("zyx")[:, ::-1]
+    return replace(read, rotation=Rotation.from_euler("xyz", angles).as_matrix())
 
 
 def _preloaded(simulation: Stand, pull: Readings) -> Stand:

@@ -136,6 +136,7 @@ CAUSES = {"bearing_friction": "pulley_friction", "power_elasticity": "nonlinear_
 BEYOND = {**OUTSIDE, **UNSEEN, **STATIC_OUTSIDE}  # what no cause of the library explains
 
 HANDLING = ("swapped_channels", "unit_error", "sign_error", "pose_mismatch")
+CONVENTION = "rotation_convention"  # in a set of its own
 STATICS_ONLY = ("platform_mass",)  # filed without robot frequencies; weighing the platform separates
 ONE_SIDED = ("pulley_friction",)  # equivalent if every cable is always approached from the same side
 

@@ -12,7 +12,17 @@ from pathlib import Path
 import numpy as np
 
 from tests.blind.case_drawing import CaseKind
-from tests.blind.catalogue import EQUIVALENT, HANDLING, LAWS, LIBRARY, OUTSIDE, OUTSIDE_DEV, OUTSIDE_HELD, UNSEEN
+from tests.blind.catalogue import (
+    CONVENTION,
+    EQUIVALENT,
+    HANDLING,
+    LAWS,
+    LIBRARY,
+    OUTSIDE,
+    OUTSIDE_DEV,
+    OUTSIDE_HELD,
+    UNSEEN,
+)
 
 FULL = {"null": 40, "single": 80, "pair": 24, "ambiguous": 20, "outside": 20, "handling": 16}
 CI = {"null": 3, "single": 3, "pair": 1, "ambiguous": 2, "outside": 2, "handling": 1}
@@ -26,6 +36,7 @@ SET_SEEDS |= {"messy": 31_201, "peaks": 31_202, "sizes": 31_203}
 SET_SEEDS |= {"messy-dev": 31_301, "peaks-dev": 31_302, "sizes-dev": 31_303}
 SET_SEEDS |= {"few": 31_204, "few-dev": 31_304}
 SET_SEEDS |= {"outside-dev": 31_401, "outside-held": 31_402}
+SET_SEEDS |= {"conventions": 31_205}
 USES = Path(__file__).with_name("final_uses.json")
 
 
@@ -59,6 +70,7 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
         "laws": {"law": total},
         "outside-dev": {"outside_dev": total},
         "outside-held": {"outside_held": total},
+        "conventions": {"convention": total},
         "rates": {"null": nulls, "just": total - nulls},
         "final-rates": counts(total, FINAL_RATES),
     }
@@ -71,6 +83,7 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
         "ambiguous": _ambiguous,
         "outside": _outside,
         "handling": _handling,
+        "convention": _conventions,
         "unseen": _unseen,
         "law": _laws,
         "outside_dev": partial(_static_outside, [*OUTSIDE_DEV]),
@@ -130,6 +143,11 @@ def _static_outside(names: Sequence[str], count: int, rng: np.random.Generator) 
 
 def _handling(count: int, rng: np.random.Generator) -> list[CaseKind]:
     return [CaseKind("handling", ((name, CLEAR),)) for name in _dealt(HANDLING, count, rng)]
+
+
+def _conventions(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    del rng
+    return [CaseKind("handling", ((CONVENTION, CLEAR),))] * count
 
 
 def record_final_use(release: str, uses: Path = USES) -> None:

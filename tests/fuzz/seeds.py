@@ -70,6 +70,8 @@ thermal_expansion = 1.2e-5
 platform_anchor = [0.1, 0, 0]
 frame_anchor = [3, 0, 4]
 pulley = { radius = 0.05, axis = [0, 0, 1] }
+winch = "left"
+home_length = 4.2
 [[cables]]
 platform_anchor = [-0.1, 0, 0]
 frame_anchor = [-3, 0, 4]

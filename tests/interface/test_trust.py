@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -14,8 +15,10 @@ from cdpr_struct.reports.trust import Check, Trust
 from cdpr_struct.reports.trust_at_rest import trust_at_rest
 from cdpr_struct.reports.trust_of_modes import mode_checks
 from cdpr_struct.reports.trust_over_poses import trust_over_poses
+from cdpr_struct.reports.trust_without_robot import cable_trust, limits_trust, reproduction_trust, robots_trust
 from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.thesis.reproduction import Cell, Reproduction
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.quantities import evaluate
 
@@ -141,3 +144,46 @@ def test_a_map_tells_searches_that_were_cut_short_and_strain():
     first, second = trust_over_poses(robot, GRID, columns).warnings
     assert "at 1 of 2 poses the search for tensions ended before" in first
     assert "At 1 of 2 poses a cable is stretched beyond 2 %, at most by 5 %" in second
+
+
+def test_one_cable_says_whether_shape_and_frequencies_are_found():
+    given = {"force": (500.0, 100.0), "length": 10.0, "EA": 250e3, "rho": 0.067}
+    assert cs.cable(**given).to_json()["trust"]["holds"]
+    assert set(failing(cs.cable(**given | {"EA": 250.0, "rho": 67.0}))) >= {
+        "implausible numbers of the cable",
+        "strain",
+    }
+    slack = cs.cable(**given | {"force": (5.0, 1.0)}, fem=True)
+    assert slack.to_json()["trust"]["holds"], "what the closed form's limits say is a note"
+    assert set(failing(slack)) == {"printed limits broken"}
+    told = dict(slack.answer)
+    told["fem_frequencies_hz"] = [1.01 * f for f in told["fem_frequencies_hz"]]
+    told["exact_frequencies_hz"] = {p: [1.0001 * f for f in hertz] for p, hertz in told["exact_frequencies_hz"].items()}
+    told["z_m"] += 1e-3
+    doubted = {check.what for check in cable_trust(told).doubted}
+    assert doubted == {
+        "force that the shape misses",
+        "change of frequencies by more polynomials",
+        "difference from the FEM",
+    }
+
+
+def test_the_list_of_robots_and_the_thesis_say_whether_they_are_sound():
+    assert cs.robots().to_json()["trust"]["sentences"] == [
+        "Trust: the check holds (no implausible numbers of the robots)."
+    ]
+    robot = load_robot(NAME)
+    thin = replace(robot, cables=tuple(replace(c, axial_stiffness=1e-3 * c.axial_stiffness) for c in robot.cables))
+    assert NAME in robots_trust([robot, thin]).warnings[0]
+    told = cs.reproduce("table-2.2").to_json()["trust"]
+    assert told["holds"]
+    lost = Reproduction("x", "", (Cell("a", "b", "1.0", float("nan")),), "")
+    assert reproduction_trust([lost]).warnings == ["1 numbers could not be computed."]
+
+
+def test_the_trial_of_the_limits_doubts_judges_that_are_not_sure():
+    sure, unsure = (SimpleNamespace(uncertainty=u, catenary=1e-5, stiffness=1e-3) for u in (1e-5, 5e-3))
+    assert limits_trust(SimpleNamespace(tolerance=0.01, verdicts=[sure])).holds
+    (warning,) = limits_trust(SimpleNamespace(tolerance=0.01, verdicts=[sure, unsure])).warnings
+    assert "uncertainty of the FEM is up to 0.005" in warning
+    assert not limits_trust(SimpleNamespace(tolerance=0.01, verdicts=[])).holds

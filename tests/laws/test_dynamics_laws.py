@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import cdpr_struct.dynamics.certified_modes as certified_modes_module
+import cdpr_struct.dynamics.frame_give as frame_give_module
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics, damped, expand_catenaries_at, polynomial_order
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.clamped_cable import clamped_count, symmetric_roots
@@ -99,6 +100,20 @@ def test_pulleys_in_the_dynamics_are_those_of_the_statics(radius, allowed, axis)
     assert relative_gap(force_of_static_shapes(held), static_ends(held)) < allowed
     pinned = relative_gap(cable_stiffness(held.cables), static_ends(held))
     assert pinned > 100.0 * allowed or radius < 0.01, "a fixed exit point must not pass for a pulley"
+
+
+def test_weight_that_rolls_off_a_leaning_wheel_couples_its_swivel_with_turns_of_the_cable(monkeypatch):
+    """Deep sag on large wheels: the symmetric part of the statics' stiffness, up to the square of what couples."""
+    robot = load_robot("six-cable-8mm")
+    wheels = tuple(Pulley(0.3, np.array([0.4, 0.2, 1.0])) for _ in robot.cables)
+    robot = dataclasses.replace(robot, pulleys=wheels, platform=dataclasses.replace(robot.platform, mass=10.0))
+    position = robot.home.position
+    held = OperatingPoint(robot, position, np.eye(3), inverse(robot, position, np.eye(3)).cables)
+    statics = static_ends(held)
+    statics = 0.5 * (statics + np.swapaxes(statics, 1, 2))
+    assert relative_gap(force_of_static_shapes(held), statics) < 1e-5  # measured 4.5e-6
+    monkeypatch.setattr(frame_give_module, "_leant", lambda point, wheel, direction: direction)
+    assert relative_gap(force_of_static_shapes(held), statics) > 1e-4, "ends that do not lean must be seen"
 
 
 def static_ends(point):

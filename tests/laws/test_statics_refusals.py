@@ -1,14 +1,21 @@
 """What statics takes and refuses, at the limits of every number."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+import cdpr_struct as cs
+from cdpr_struct.errors import UnholdablePoseError
+from cdpr_struct.robot.cable import Pulley
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.catenary import solve_end_forces
 from cdpr_struct.statics.catenary_length import length_at_chord_tension, solve_length
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.free_orientation import left_free
+from cdpr_struct.statics.holding_tensions import allowed_unbalance
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.sufficient_load import sufficient_load
 from cdpr_struct.statics.tension_cost import Centre, EuclideanNorm, Middle, PowerNorm
@@ -118,3 +125,28 @@ def test_totals_of_costs_by_hand():
     assert Middle().total(tension, low, high) == pytest.approx(np.hypot(1.0, 0.5))
     assert Centre().total(tension, low, high) == pytest.approx((2.0 * 3.0 * 4.0 * 2.0) ** -0.25)
     assert [cost.name for cost in (EuclideanNorm(), EuclideanNorm(np.ones(1)))] == ["norm", "weighted-norm"]
+
+
+def test_a_cable_behind_its_wheel_is_refused():
+    """Its exit is taken from the pull alone, which cannot tell 170 degrees to one side from 190 to the other."""
+    robot = replace(ROBOT, pulleys=(Pulley(0.1),) * len(ROBOT.cables))
+    under = ROBOT.frame_anchors[0] - ROBOT.platform_anchors[0] - [0.0, 0.0, 1.0]
+    for aside in (0.0, 1e-6, 0.19):
+        for model in ("sagging", "spring"):
+            with pytest.raises(UnholdablePoseError, match=r"cable 1 would turn by more than 180° .*0\.2 m"):
+                inverse(robot, under + aside * np.eye(3)[0], np.eye(3), model)
+    hanging = cs.load_robot("cogiro")
+    wheels = replace(hanging, pulleys=(Pulley(0.1),) * len(hanging.cables))
+    below = hanging.frame_anchors[0] - hanging.platform_anchors[0] - [0.0, 0.0, 1.0]
+    with pytest.raises(UnholdablePoseError, match="cable 1 would turn by more than 180°"):
+        cs.inverse(wheels, cs.Pose(below, np.zeros(3)), free="rx,ry,rz")
+
+
+def test_tensions_beyond_all_measure_balance_nothing():
+    """A share of the tensions alone would allow an unbalance of the platform's whole weight."""
+    arrays = RobotArrays.of(ROBOT)
+    weight = float(arrays.mass * arrays.gravity)
+    assert allowed_unbalance(arrays, 1e-8, np.array(2.0 * weight)) == pytest.approx(2e-8 * weight)
+    assert allowed_unbalance(arrays, 1e-8, np.array(1e12 * weight)) == pytest.approx(1e-3 * weight)
+    weightless = RobotArrays.of(replace(ROBOT, gravity=0.0))
+    assert allowed_unbalance(weightless, 1e-8, np.array(1e12)) == pytest.approx(1e4)

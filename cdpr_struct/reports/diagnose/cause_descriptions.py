@@ -289,6 +289,14 @@ DESCRIPTIONS = {
         "more than "
         "any tolerance",
     ),
+    "rotation_convention": Description(
+        "the same numbers mean another pose: angles about fixed axes in another order, the angle about z in the column "
+        "of x, rotation vectors, the transposed rotation, quaternions with the real part at the other end, a frame "
+        "whose y points up or z down, or a left-handed frame",
+        "",
+        "Lengths and balance are off where the platform is tilted about two axes or more, by the product of the angles "
+        "for another order, and not at all where it is level",
+    ),
     "swapped_channels": Description(
         "readings of two cables change places",
         "",
