@@ -58,8 +58,9 @@ def _pulley_friction(arrays: RobotArrays, wrap: np.ndarray) -> np.ndarray:
     slips = arrays.friction * wrap
     if not arrays.bearing_friction.any():
         return np.asarray(slips)
+    angle = 0.5 * np.pi * wrap
     b = np.clip(arrays.bearing_friction, -_STUCK, _STUCK)
-    return np.asarray(slips + 2.0 * np.arcsinh(b * np.sin(0.25 * np.pi * wrap) / np.sqrt(1.0 - b**2)))
+    return np.asarray(slips + 2.0 * np.arcsinh(b * np.sin(0.5 * angle) / np.sqrt(1.0 - b**2)))
 
 
 def paid_out(arrays: RobotArrays, readings: Readings, known: Circumstances) -> np.ndarray:

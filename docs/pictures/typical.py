@@ -132,6 +132,7 @@ def theta_of(cause: Cause, arrays: RobotArrays) -> tuple[np.ndarray, str]:
         "frame_compliance",
         "missing_pulleys",
         "nonlinear_elasticity",
+        "pulley_friction",
     ):
         own = own * (np.arange(len(own)) < {"tracker_frame": 6, "pose_mismatch": 3}.get(cause.name, 1))
     count = {"cable": 8, "mast": carriers(arrays.masts).shape[1], "axis": 3, "state": 1}.get(cause.carrier, 1)

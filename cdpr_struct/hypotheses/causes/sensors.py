@@ -6,6 +6,10 @@ from cdpr_struct.hypotheses.causes.cause import A_MINUTE, Cause, Parameter, Seen
 from cdpr_struct.robot.changed_arrays import plus, times
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
+_BEARING = 0.02  # mu r / R: a plain bearing of mu = 0.1 and r / R = 0.2; ball bearings have less
+_DRAG = 2.0  # N: a seal of 0.08 N m on a wheel of 40 mm
+_PLAY = 2e-3  # m: 2 degrees of a gear on a drum of 60 mm
+
 
 def _gain(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
     return times(arrays, cell_gain=np.exp(theta))
@@ -83,8 +87,8 @@ CAUSES = (
         "friction between cable and load cell",
         (
             Parameter("friction", "1", 0.03, positive=True),
-            Parameter("bearing_friction", "1", 0.02, positive=True),
-            Parameter("drag", "N", 2.0, positive=True),
+            Parameter("bearing_friction", "1", _BEARING, positive=True),
+            Parameter("drag", "N", _DRAG, positive=True),
         ),
         _friction,
         carrier="cable",
@@ -104,7 +108,7 @@ CAUSES = (
     Cause(
         "backlash",
         "play of the drives",
-        (Parameter("backlash", "m", 2e-3, positive=True),),
+        (Parameter("backlash", "m", _PLAY, positive=True),),
         _backlash,
         carrier="cable",
         seen_in=("CO",),

@@ -9,6 +9,7 @@ from cdpr_struct.robot.changed_arrays import plus, times
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.masts import carriers
 
+_POWER = 0.15  # exponent: a modulus that rises by a fifth where the tension grows by a factor of three
 _STEEPEST = 0.8  # exponent: at 1 a cable of no strain would hold any tension
 
 
@@ -107,8 +108,8 @@ CAUSES = (
         "cables stiffen with tension",
         (
             Parameter("k", "1", 0.15),
-            Parameter("exponent", "1", 0.15),
-            Parameter("exponent_elastic", "1", 0.15),
+            Parameter("exponent", "1", _POWER),
+            Parameter("exponent_elastic", "1", _POWER),
             Parameter("level", "ratio", 0.15, True),
         ),
         _nonlinear,
