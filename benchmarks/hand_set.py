@@ -123,7 +123,7 @@ HAND_SET: Sequence[Constant] = (
              "nulls of simulated campaigns", beside=True),
     Constant("hypotheses", "significant", "_OUTSIDE", "log weight of all laws outside the library, against one cause, "
              "in that p-value [nat]", CHOICE, beside=True),
-    Constant("hypotheses", "handling", "_TILTED", "share of the largest angle above which a pose counts as tilted",
+    Constant("hypotheses", "correction", "_TILTED", "share of the largest angle above which a pose counts as tilted",
              CHOICE, acts_by=_corrected),
     Constant("hypotheses", "laws", "_LEAST_LENGTHS", "different lengths of a cable that periodic errors need", CHOICE,
              acts_by=_laws),

@@ -47,6 +47,15 @@ def run(
     elements: Annotated[int, typer.Option("--elements", parser=whole_number, help="Per cable, for --model fem.")] = 80,
     count: Annotated[int, typer.Option("--count", parser=whole_number, help="How many eigenfrequencies.")] = 40,
     force: Annotated[bool, typer.Option("--force", help="Use the dsm outside its validity limits.")] = False,
+    amplitude: Annotated[
+        str | None,
+        typer.Option(
+            "--amplitude",
+            metavar="A1,A2,..",
+            help="Frequencies of the platform's modes in large motion, too, at these amplitudes [m] of the cables' "
+            "platform end that moves most.",
+        ),
+    ] = None,
     uff: UniversalFile = False,
     *,
     output: Output,
@@ -56,7 +65,7 @@ def run(
         robot, pose, free=free, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
         payload=payload, mass=mass,
         wrench=wrench, temperature=temperature,
-        model=model, assembly=assembly, elements=elements, count=count, force=force,
+        model=model, assembly=assembly, elements=elements, count=count, force=force, amplitude=amplitude,
     )  # fmt: skip
     output.give(found, lambda: {"modes.uff": found.universal_file()} if uff else {})
     return 0

@@ -70,7 +70,12 @@ PoseText = Annotated[
     typer.Option("--pose", metavar="X,Y,Z[,RX,RY,RZ]", help="Pose [m, deg]; default: the robot's home pose."),
 ]
 Lengths = Annotated[
-    str | None, typer.Option("--lengths", metavar="L1,..,Lm", help="Locked unstrained lengths [m], in place of --pose.")
+    str | None,
+    typer.Option(
+        "--lengths",
+        metavar="L1,..,Lm",
+        help="Locked unstrained lengths [m], one a cable (or a winch, if shared), in place of --pose.",
+    ),
 ]
 Start = Annotated[
     str | None,

@@ -12,14 +12,16 @@ from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.robot.robot import FREEDOMS, Robot
 from cdpr_struct.statics.masts import carriers, of_each_mast
 
-NOT_IN_FEM = ("bending_stiffness", "added_mass", "internal_mass")
+NOT_IN_FEM = ("bending_stiffness", "added_mass", "internal_mass", "swinging_mass")
 """Extensions that the referee does not have: its bars neither bend nor carry masses, its platform is rigid."""
 
 
-def to_fem(robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None = None) -> fem.RobotData:
+def to_fem(
+    robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None = None, density: np.ndarray | None = None
+) -> fem.RobotData:
     """The referee's description of the robot with unstrained cable lengths paid out (m,) [m].
 
-    axial_stiffness : (m,) EA [N] at the tension at hand, None for that of the robot
+    axial_stiffness, density : (m,) EA [N] and mu [kg/m] at the tension at hand, None for those of the robot
 
     Raises
     ------
@@ -38,13 +40,12 @@ def to_fem(robot: Robot, lengths: np.ndarray, axial_stiffness: np.ndarray | None
             "mast_bending, to check the rest; the model exact computes both"
         )
     stiffness = robot.axial_stiffness if axial_stiffness is None else axial_stiffness
+    heavy = robot.linear_density if density is None else density
     lumps = [tuple((p.from_platform, p.mass) for p in robot.lumps if p.cable == i + 1) for i in range(len(lengths))]
     cables = tuple(
-        fem.CableData(
-            float(length), float(ea), cable.linear_density, float(give), cable.winch_tension, float(width), held
-        )
-        for length, ea, cable, give, width, held in zip(
-            lengths, stiffness, robot.cables, more.series_compliance, more.drag_width, lumps, strict=True
+        fem.CableData(float(length), float(ea), float(mu), float(give), cable.winch_tension, float(width), held)
+        for length, ea, mu, cable, give, width, held in zip(
+            lengths, stiffness, heavy, robot.cables, more.series_compliance, more.drag_width, lumps, strict=True
         )
     )
     body = robot.platform
@@ -75,7 +76,8 @@ def push_of(robot: Robot) -> fem.PointForce | None:
 
 def solve_in_fem(point: OperatingPoint, elements: int) -> fem.RobotEquilibrium:
     """Equilibrium that the referee finds at the same unstrained lengths, started from the point's pose."""
-    data = to_fem(point.entered, point.cables.total_length, point.cables.axial_stiffness)
+    states = point.cables
+    data = to_fem(point.entered, states.total_length, states.axial_stiffness, point.arrays.linear_density)
     return fem.solve_robot(data, point.position, point.rotation, elements, external_force=push_of(point.entered))
 
 

@@ -18,8 +18,9 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.taut_cables import taut_cables
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.free_orientation import free_orientation, names_of
+from cdpr_struct.statics.free_orientation import names_of
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, InverseStatus, hung_solution, inverse
+from cdpr_struct.statics.shared_winches import resting_orientation
 from cdpr_struct.workspace.pose_batches import PoseBatches
 from cdpr_struct.workspace.work_list import Columns
 
@@ -107,7 +108,7 @@ def _batch(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> Columns:
 
 def _hanging_batch(free: tuple[bool, ...], robot: Robot, position: np.ndarray, rotation: np.ndarray) -> Columns:
     """The same where the platform hangs freely about some of its angles; `rotation` (k, 3, 3) is where."""
-    hung = free_orientation(robot, position, angles_from_rotation(np.asarray(rotation)), free)
+    hung = resting_orientation(robot, position, angles_from_rotation(np.asarray(rotation)), free)
     return _audited(robot, position, hung.rotation, hung_solution(robot, hung)) | {"rotation": hung.rotation}
 
 

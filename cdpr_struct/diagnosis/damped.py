@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.diagnosis.amplitude_law import AmplitudeFinding, amplitude_finding
 from cdpr_struct.diagnosis.damping_law import DampingFinding, damping_finding
 from cdpr_struct.diagnosis.damping_rows import damping_rows, left_out
 from cdpr_struct.diagnosis.decision import Decision
@@ -26,11 +27,13 @@ class Damped:
     """Identified modes beside those of a robot, the law that damps them, and modes that say nothing of it.
 
     left_out : case, frequency [Hz] and reason of each
+    amplitude : why frequencies change with the amplitude of decays; None where no decay was read in windows
     """
 
     identified: tuple[Identified, ...]
     finding: DampingFinding
     left_out: tuple[tuple[str, float, str], ...]
+    amplitude: AmplitudeFinding | None = None
 
     @property
     def stands_out(self) -> bool:
@@ -58,4 +61,4 @@ def damped(campaign: Campaign, robot: Robot | None, loss: Loss | None = None) ->
         identified = tuple(held_against(item, robot, campaign.model) for item in identified)
     costs = campaign.loss if loss is None else loss
     finding = damping_finding(damping_rows(identified), campaign.tolerances.damping, costs)
-    return Damped(identified, finding, tuple(left_out(identified)))
+    return Damped(identified, finding, tuple(left_out(identified)), amplitude_finding(identified))

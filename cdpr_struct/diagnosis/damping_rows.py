@@ -6,7 +6,7 @@ import numpy as np
 
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.neighbours import crowded, pole_doubt
-from cdpr_struct.measurement.signal_states import channel_weight, model_shapes
+from cdpr_struct.measurement.signal_states import modal_amplitudes
 from cdpr_struct.measurement.state_modes import StateModes
 
 _BETTER = 0.5  # of the sigma of all windows together: a whole record so good speaks for itself, at its mean amplitude
@@ -90,7 +90,7 @@ def _readings(item: Identified, i: int, partner: int) -> list[tuple[float, float
     clear = np.isfinite(windows.damping[:, i])
     if not clear.any():
         return []
-    sigma, amplitude = windows.damping_sigma[clear, i], _modal_amplitudes(item, i, partner)[clear]
+    sigma, amplitude = windows.damping_sigma[clear, i], modal_amplitudes(item, i, partner)[clear]
     together = float(np.hypot(1.0 / np.sqrt((1.0 / sigma**2).sum()), doubt))
     if whole < _BETTER * together:
         return [(ratio, whole, float(np.exp(np.log(amplitude).mean())))]
@@ -103,17 +103,6 @@ def _duration(item: Identified) -> float:
     """[s], infinite for an FRF."""
     axis = item.record.axis
     return np.inf if item.record.kind == "frf" else float(axis[-1] - axis[0])
-
-
-def _modal_amplitudes(item: Identified, i: int, partner: int) -> np.ndarray:
-    """(w,) of mode i in each window [sqrt(kg) m]."""
-    assert item.windows is not None
-    assert item.state is not None
-    weight = channel_weight(item.state, item.record)
-    model = float(np.linalg.norm(model_shapes(item.state, item.record)[partner]))
-    fast = (2.0 * np.pi * item.modes.hertz[i]) ** 2 if item.record.kind == "free_decay" else 1.0
-    found: np.ndarray = np.linalg.norm(item.windows.amplitude[:, i] * weight, axis=1) / model / fast
-    return found
 
 
 def _laws(state: StateModes) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

@@ -13,8 +13,8 @@ from cdpr_struct.diagnosis.recommended import Recommendation
 from cdpr_struct.diagnosis.sensor_sigmas import Doubt, NoiseOfKind, Used
 from cdpr_struct.diagnosis.unassigned import UncertainPeak
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
+from cdpr_struct.hypotheses.correction import Correction
 from cdpr_struct.hypotheses.explain import Belief, Explained
-from cdpr_struct.hypotheses.handling import Correction
 from cdpr_struct.hypotheses.hypothesis import Part
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.hypotheses.laws import UNKNOWN
@@ -128,6 +128,15 @@ class Peaks:
     uncertain: tuple[UncertainPeak, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Drifted:
+    """Sensors whose zeros drift: rms over them of their largest change [N or m], of a tracker's frame also [rad]."""
+
+    sensor: str
+    size: float
+    turn: float = 0.0
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Diagnosis:
     """Everything found.
@@ -138,7 +147,7 @@ class Diagnosis:
     p_value : of nothing being wrong with the data as recorded: no likelihood ratio exceeds 1 / p more often than p
     piled_up : the sensor whose outliers are no chance, for which the decision is `unknown`; None without any
     p_adequate : of noise as large as what the choice leaves, sigmas being known as well as they usually are
-    sizes : of the chosen causes;  drift : of the load cells' zeros, rms over the cells of their largest change [N]
+    sizes : of the chosen causes;  drift : of sensors beside them, None where none drift
     candidates : sets of causes that were fitted, best first, those without a size or below the null among them
     tried : corrections of the data, the believed one first
     recorded, residuals : rows with their sigmas under the null, of the data as recorded, and as believed with causes
@@ -166,7 +175,7 @@ class Diagnosis:
     chosen: Judged
     null: Judged
     sizes: tuple[WholeSize, ...]
-    drift: float
+    drift: Drifted | None
     candidates: tuple[Candidate, ...]
     tried: tuple[Tried, ...]
     set_aside: tuple[SetAside, ...]

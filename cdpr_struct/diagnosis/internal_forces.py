@@ -8,7 +8,7 @@ so, in more states than a fifth that are left out: those that contradict most.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import logsumexp
@@ -16,6 +16,7 @@ from scipy.special import logsumexp
 from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind
 from cdpr_struct.hypotheses.causes.internal_force import PRIOR
 from cdpr_struct.hypotheses.detectable import NAMED
+from cdpr_struct.hypotheses.drift import ENCODERS
 from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.observation.readings import cell_reading, true_tension
@@ -95,7 +96,7 @@ def internal_forces(
     if split is None:
         return None
     factor = {one.kind: max(1.0, one.factor) for one in noise}
-    lengths, state = _by_lengths(data, factor.get("length", 1.0))
+    lengths, state = _by_lengths(_without_drift(data, found), factor.get("length", 1.0))
     if len(state) < _LEAST:
         return InternalForces(split, None, 0.0)
     forces = _by_forces(data, where, found, state, factor.get("tension", 1.0))
@@ -161,6 +162,14 @@ def _density(value: np.ndarray, covariance: np.ndarray) -> float:
     """Sum of the logs of Gaussian densities, constants left out."""
     square = np.einsum("ki,kij,kj->", value, np.linalg.inv(covariance), value)
     return -0.5 * float(square + np.linalg.slogdet(covariance)[1].sum())
+
+
+def _without_drift(data: Recorded, found: Judged) -> Recorded:
+    """The campaign with the lengths that its encoders would have read without their drift."""
+    drift, zeros = found.hypothesis.drift, found.drifted(data)
+    if drift is None or zeros is None or drift.sensor != ENCODERS:
+        return data
+    return replace(data, readings=replace(data.readings, length=data.readings.length + zeros))
 
 
 def _by_lengths(data: Recorded, factor: float) -> tuple[_Deviation, np.ndarray]:

@@ -10,6 +10,7 @@ from cdpr_struct.hypotheses.laws import UNKNOWN
 _OF_HANDLING = {
     "unit_error": "asking who recorded the data for the unit of each column",
     "sign_error": "asking who recorded the data for the axes of the pose",
+    "rotation_convention": "entering one pose that is turned by a large angle about a single axis",
     "swapped_channels": "pulling one cable by hand and watching its load cell and encoder",
     "pose_mismatch": "measuring that pose again",
     "cable_sag": "simulating with the model dsm or exact",

@@ -7,9 +7,9 @@ import numpy as np
 from scipy.special import logsumexp
 
 from cdpr_struct.diagnosis.decision import Decision, fits
-from cdpr_struct.diagnosis.diagnosis import Candidate, Tried
+from cdpr_struct.diagnosis.diagnosis import Candidate, Drifted, Tried
 from cdpr_struct.diagnosis.whole_sizes import whole_sizes
-from cdpr_struct.hypotheses.causes.drift import WAVES, walk
+from cdpr_struct.hypotheses.drift import TRACKER
 from cdpr_struct.hypotheses.explain import Explained
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.hypotheses.laws import UNKNOWN
@@ -95,13 +95,14 @@ def p_value(found: Sequence[Explained]) -> float:
     return min(bound, as_recorded(found).search.p_value)
 
 
-def drift_of(story: Explained, chosen: Judged) -> float:
-    """Root mean square over the load cells of the largest change of their zeros [N]; 0 where they do not drift."""
-    if chosen.hypothesis.drift == 0.0:
-        return 0.0
-    term, z = chosen.point.terms[1], chosen.split(chosen.fit.z_mean)[1]
-    bias = walk(story.search.data.states) @ (z * term.sigma).reshape((-1, WAVES)).T
-    return float(np.sqrt(np.mean(np.ptp(bias, axis=0) ** 2)))
+def drift_of(story: Explained, chosen: Judged) -> Drifted | None:
+    """Which sensors drift beside what was chosen, and how far; None where none do."""
+    drift, zeros = chosen.hypothesis.drift, chosen.drifted(story.search.data)
+    if drift is None or zeros is None:
+        return None
+    spans = np.ptp(zeros, axis=0)
+    own, turn = (spans[:3], spans[3:]) if drift.sensor == TRACKER else (spans, np.zeros(1))
+    return Drifted(drift.sensor, float(np.sqrt(np.mean(own**2))), float(np.sqrt(np.mean(turn**2))))
 
 
 def _share(found: Judged, null: Judged) -> float:

@@ -51,7 +51,7 @@ def reasons_against(point: OperatingPoint) -> list[str]:
         "masts": robot.has_masts,
         "bending stiffness": bool(robot.bending_stiffness.any()),
         "masses at mid-cable": bool(robot.added_mass.any()),
-        "an internal mass": robot.has_internal_mass,
+        "parts that move in the platform": robot.has_moving_parts,
         "winches that hold tensions": robot.has_tension_winches,
         "a guided platform": robot.has_guides,
         "tilted gravity": robot.is_tilted,

@@ -40,7 +40,7 @@ def certified_modes(
     Raises
     ------
     UnstableEquilibriumError : a small motion of the platform would grow.
-    CdprError : the model has fewer modes (massless cables: six, seven with an internal mass).
+    CdprError : the model has fewer modes (massless cables: six, and one for each freedom of a moving part).
     """
     return certified(point, *_enough_modes(point, model, count, assembly), assembly)
 
@@ -122,11 +122,11 @@ def _expected_highest(point: OperatingPoint, model: CableModel, count: int) -> f
 def _corrected(point: OperatingPoint, cables: CableDynamics, shapes: RitzModes, assembly: Assembly) -> np.ndarray:
     """One step of Newton's method on shape^T D(omega^2) shape, whose slope is minus the unit modal mass.
 
-    The motion of an internal mass is an unknown of its own in it.
+    Motions of parts inside the platform are unknowns of their own in it.
     """
     squared = shapes.omega**2
     stiffness = platform_dynamic_stiffness(point, cables, squared[:, None], assembly)
     residual = np.einsum("ki,kij,kj->k", shapes.platform, stiffness, shapes.platform)
-    residual += internal_squared(point.arrays) * shapes.internal**2
+    residual += (internal_squared(point.arrays) * shapes.internal**2).sum(axis=-1)
     step = residual - squared * shapes.platform_energy
     return np.sqrt(np.where(np.abs(step) < 1e-5 * squared, squared + step, squared))

@@ -28,7 +28,7 @@ def knows(point: OperatingPoint) -> bool:
     """One pose of a robot whose cables run from fixed points, uniform and fully flexible, to a rigid body."""
     robot = point.arrays
     ends = robot.has_yielding_frame_ends or robot.has_masts
-    more = robot.bending_stiffness.any() or robot.added_mass.any() or robot.has_internal_mass or robot.has_lumps
+    more = robot.bending_stiffness.any() or robot.added_mass.any() or robot.has_moving_parts or robot.has_lumps
     turned = robot.is_tilted or robot.has_cable_drag
     return not (ends or more or robot.has_guides or turned or robot.batch_shape or point.position.ndim > 1)
 

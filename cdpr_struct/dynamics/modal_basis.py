@@ -46,7 +46,7 @@ class ModalBasis:
         """
         modes = self.modes
         ramp_end, ramp_modal, ramp_mass = _ramp_products(modes.expansion)
-        coordinates = modes.platform @ modes.platform_mass + modes.internal[:, None] * modes.internal_coupling
+        coordinates = modes.platform @ modes.platform_mass + modes.internal @ modes.internal_coupling.T
         coordinates += np.einsum("kma,mab,mbi->ki", modes.end, ramp_end, modes.to_cable, optimize=True)
         coordinates += np.einsum("kmp,mpa,mai->ki", modes.modal, ramp_modal, modes.to_cable, optimize=True)
         shared = np.einsum("ma,mai,maj->ij", ramp_mass, modes.to_cable, modes.to_cable)

@@ -10,16 +10,18 @@ import numpy as np
 
 from cdpr_struct.dynamics.cables_of_poses import HangingCables
 from cdpr_struct.dynamics.condensed_robot import Platform
+from cdpr_struct.dynamics.internal_mass import PARTS
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import RitzModes
 from cdpr_struct.dynamics.string_functions import StringFunctions
 
 _MORE_NODES = 4
+_RIGID = 6 + PARTS
 
 
 def shape_size(cables: int, harmonics: int) -> int:
-    """Numbers of a shape: six of the platform, one of an internal mass, three a cable and harmonic."""
-    return 7 + 3 * cables * harmonics
+    """Numbers of a shape: six of the platform, those of parts moving in it, three a cable and harmonic."""
+    return _RIGID + 3 * cables * harmonics
 
 
 def condensed_shapes(
@@ -40,7 +42,7 @@ def condensed_shapes(
     shapes[..., :6] = rigid
     across = np.moveaxis(platform.motion[1:, :3], -1, 0)  # (n, 2, 3, m): unit vectors n and y
     moved = np.einsum("npam,npkms->nsmka", across, of_lead, optimize=True)
-    shapes[..., 7:].reshape(n, s, m, harmonics, 3)[..., :used, :] = moved
+    shapes[..., _RIGID:].reshape(n, s, m, harmonics, 3)[..., :used, :] = moved
     return shapes
 
 
@@ -54,11 +56,12 @@ def ritz_shapes(point: OperatingPoint, modes: RitzModes, harmonics: int) -> np.n
     """Shapes (n, k, d) of modes of the general solver at a flat batch of poses."""
     n, count = modes.omega.shape
     m = modes.end.shape[-2]
-    moved = np.concatenate([modes.platform, modes.internal[..., None]], axis=-1)
-    mass = np.zeros((n, 7, 7))
+    moved = np.concatenate([modes.platform, modes.internal], axis=-1)
+    mass = np.zeros((n, _RIGID, _RIGID))
     mass[:, :6, :6] = modes.platform_mass
-    mass[:, :6, 6] = mass[:, 6, :6] = modes.internal_coupling
-    mass[:, 6, 6] = 1.0
+    mass[:, :6, 6:] = modes.internal_coupling
+    mass[:, 6:, :6] = np.swapaxes(modes.internal_coupling, 1, 2)
+    mass[:, range(6, _RIGID), range(6, _RIGID)] = 1.0
     mass[:, range(6), range(6)] += point.arrays.guided  # where a guide holds the platform it has no motion
     nodes, weights = np.polynomial.legendre.leggauss(2 * harmonics + _MORE_NODES)
     stations, weights = 0.5 * (nodes + 1.0), 0.5 * weights
@@ -69,8 +72,8 @@ def ritz_shapes(point: OperatingPoint, modes: RitzModes, harmonics: int) -> np.n
     states = point.cables
     heavy = np.sqrt(2.0 * np.broadcast_to(point.arrays.linear_density, states.length.shape) * states.length)
     shapes = np.zeros((n, count, shape_size(m, harmonics)))
-    shapes[..., :7] = moved @ np.linalg.cholesky(mass)
-    shapes[..., 7:] = (parts * heavy[:, None, :, None, None]).reshape(n, count, -1)
+    shapes[..., :_RIGID] = moved @ np.linalg.cholesky(mass)
+    shapes[..., _RIGID:] = (parts * heavy[:, None, :, None, None]).reshape(n, count, -1)
     return shapes
 
 

@@ -2,7 +2,7 @@
 
 Wittrick and Williams: the number of natural frequencies below omega is the number of those of the clamped cables
 plus the number of negative eigenvalues of the platform's dynamic stiffness, and of the masts' if they give way, plus
-the mount of an internal mass if its frequency is below.
+the freedoms of parts that move in the platform whose own frequencies are below.
 Bisection on this count isolates each frequency, whatever its multiplicity; a scan for determinant minima cannot.
 """
 
@@ -84,7 +84,8 @@ def natural_frequencies(
     Raises
     ------
     UnstableEquilibriumError : the lowest "frequencies" are not real.
-    CdprError : the model has fewer than `count` frequencies (massless cables: six, seven with an internal mass).
+    CdprError : the model has fewer than `count` frequencies (massless cables: six, and one for each freedom of a moving
+        part).
     """
     held = stability_at(point, assembly)
     if held.unstable:
@@ -123,8 +124,8 @@ def highest_omega(point: OperatingPoint, cables: CableDynamics, count: int, asse
 
 
 def static_frequencies(point: OperatingPoint, assembly: Assembly = "consistent") -> np.ndarray:
-    """Frequencies [Hz] of the platform on massless cables (K_static), one a free direction, one more with an internal
-    mass; zero for neutral freedoms, nan where the stiffness is negative."""
+    """Frequencies [Hz] of the platform on massless cables (K_static), one a free direction and one more for each
+    freedom of a moving part; zero for neutral freedoms, nan where the stiffness is negative."""
     rigid = platform_static_stiffness(point, assembly), platform_mass_matrix(point.arrays, point.rotation)
     pencil = with_internal_mass(point.arrays, point.rotation, *rigid)
     stiffness, mass = (free_block(matrix, point.arrays) for matrix in pencil)

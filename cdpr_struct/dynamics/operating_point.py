@@ -8,6 +8,7 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_response import end_stiffness
 from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.stiffening import in_small_motion
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -17,8 +18,9 @@ class OperatingPoint:
     robot    : as entered, or as arrays with batch axes (...)
     position : (..., 3) r [m]
     rotation : (..., 3, 3) platform to world
-    cables   : `CableStates` of shape (..., m) in equilibrium with the platform's load
-    arrays   : the robot's; made here
+    cables   : `CableStates` of shape (..., m) in equilibrium with the platform's load; kept here as they are in small
+        motion, see `in_small_motion`
+    arrays   : the robot's, in small motion; made here
     """
 
     robot: Robot | RobotArrays
@@ -28,7 +30,9 @@ class OperatingPoint:
     arrays: RobotArrays = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "arrays", RobotArrays.of(self.robot))
+        arrays, cables = in_small_motion(RobotArrays.of(self.robot), self.cables)
+        object.__setattr__(self, "arrays", arrays)
+        object.__setattr__(self, "cables", cables)
 
     @property
     def end_stiffness(self) -> np.ndarray:

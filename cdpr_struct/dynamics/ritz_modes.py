@@ -1,11 +1,11 @@
-"""The robot's modes as an ordinary eigenproblem: platform motion, the clamped cables' modal coordinates, and that of
-an internal mass."""
+"""The robot's modes as an ordinary eigenproblem: platform motion, the clamped cables' modal coordinates, and motions of
+parts inside the platform."""
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cdpr_struct.dynamics.internal_mass import internal_coupling, internal_squared
+from cdpr_struct.dynamics.internal_mass import PARTS, internal_coupling, internal_squared, part_masses, present
 from cdpr_struct.dynamics.modal_expansion import ModalExpansion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import (
@@ -28,8 +28,8 @@ class RitzModes:
     end           : (..., k, m, 3) motion of the cables' platform ends against their masts, local axes of `expansion`
     mast          : (..., k, m, 3) motion of the cables' masts, local axes; zero where masts stand still
     modal         : (..., k, m, p) coordinates of the clamped cables' modes
-    internal      : (..., k) motion of an internal mass against the platform, times the root of the mass; zero without
-    platform_mass : (..., 6, 6) world axes;  internal_coupling : (..., 6) see `internal_mass`
+    internal      : (..., k, PARTS) motions of parts against the platform, times the root of their mass; zero without
+    platform_mass : (..., 6, 6) world axes;  internal_coupling : (..., 6, PARTS) see `internal_mass`
     to_cable      : (..., m, 3, 6) platform motion to `end`
     """
 
@@ -52,18 +52,18 @@ class RitzModes:
 
     def modes(self, index: slice | np.ndarray) -> "RitzModes":
         """Some modes, or all of them in another order."""
-        own = {name: getattr(self, name)[..., index] for name in ("omega", "internal")}
-        own["platform"] = self.platform[..., index, :]
+        own = {name: getattr(self, name)[..., index, :] for name in ("platform", "internal")}
+        own["omega"] = self.omega[..., index]
         own |= {name: getattr(self, name)[..., index, :, :] for name in ("end", "mast", "modal")}
         return replace(self, **own)
 
     @property
     def platform_energy(self) -> np.ndarray:
-        """(..., k) share of the kinetic energy in the platform, its internal mass included [-]."""
+        """(..., k) share of the kinetic energy in the platform, parts that move in it included [-]."""
         moved, mass = self.platform, self.platform_mass
         rigid = np.einsum("...ki,...ij,...kj->...k", moved, mass, moved, optimize=True)
-        carried = np.einsum("...ki,...i->...k", moved, self.internal_coupling)
-        return np.asarray(rigid + (2.0 * carried + self.internal) * self.internal)
+        carried = moved @ self.internal_coupling
+        return np.asarray(rigid + ((2.0 * carried + self.internal) * self.internal).sum(axis=-1))
 
     @property
     def cable_energy(self) -> np.ndarray:
@@ -102,14 +102,15 @@ def ritz_modes(
     mass[..., n:, :] *= stretch[..., :, None]
     mass[..., :, n:] *= stretch[..., None, :]
     coupling, slow = _internal(point, mass.shape[:-2])
-    if slow is not None:
-        mass = _with_internal(mass, turn, coupling, slow)
+    if slow.size:
+        mass = _with_internal(mass, turn, coupling[..., present(point.arrays)], slow)
     count = min(count, mass.shape[-1] - int(point.arrays.guided.sum(axis=-1).max()))
     omega, vectors = _modes(mass, count) if neutral is None else _beside_neutral(mass, neutral, count)
     moved = np.swapaxes(turn @ vectors[..., :n, :], -1, -2)
     inner = n + stretch.shape[-1]
     modal = np.swapaxes(stretch[..., None] * vectors[..., n:inner, :], -1, -2)
-    internal = np.zeros(omega.shape) if slow is None else slow[..., None] * vectors[..., inner, :]
+    internal = np.zeros((*omega.shape, PARTS))
+    internal[..., present(point.arrays)] = np.swapaxes(slow[..., None] * vectors[..., inner:, :], -1, -2)
     modal = modal.reshape((*omega.shape, *expansion.omega_squared.shape[-2:]))
     end, mast = (np.einsum("...mai,...ki->...kma", motion, moved) for motion in (to_cable, to_mast))
     return RitzModes(
@@ -147,28 +148,28 @@ def _beside_neutral(mass: np.ndarray, neutral: np.ndarray, count: int) -> tuple[
     return np.take_along_axis(omega, order, axis=-1), np.take_along_axis(both, order[..., None, :], axis=-1)
 
 
-def _internal(point: OperatingPoint, lead: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray | None]:
-    """Coupling (..., 6) of the internal mass, and 1 / omega_i (...) of its mount, None if no robot has one.
+def _internal(point: OperatingPoint, lead: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Coupling (..., 6, PARTS) of moving parts, and 1 / omega_k (..., q) of those that any robot of a batch has.
 
-    Where some robots of a batch have none, 1 / omega_i is zero: a mode of infinite frequency.
+    Where others have none, 1 / omega_k is zero: a mode of infinite frequency.
     """
     robot = point.arrays
-    coupling = np.broadcast_to(internal_coupling(robot, point.rotation), (*lead, 6))
-    if not robot.has_internal_mass:
-        return coupling, None
-    there = (robot.internal_mass > 0.0) & (robot.internal_frequency > 0.0)
-    slow = np.where(there, 1.0, 0.0) / np.sqrt(np.where(there, internal_squared(robot), 1.0))
-    return coupling, np.broadcast_to(slow, lead)
+    coupling = np.broadcast_to(internal_coupling(robot, point.rotation), (*lead, 6, PARTS))
+    squared = internal_squared(robot)
+    there = (part_masses(robot) > 0.0) & (squared > 0.0)
+    slow = np.where(there, 1.0, 0.0) / np.sqrt(np.where(there, squared, 1.0))
+    return coupling, slow[..., present(robot)]
 
 
 def _with_internal(mass: np.ndarray, turn: np.ndarray, coupling: np.ndarray, slow: np.ndarray) -> np.ndarray:
-    """The mass matrix with a row and a column for the internal mass, in the coordinate of unit stiffness."""
+    """The mass matrix with a row and a column for each moving part, in coordinates of unit stiffness."""
     n, count = turn.shape[-1], mass.shape[-1]
-    wide = np.zeros((*mass.shape[:-2], count + 1, count + 1))
+    whole = count + slow.shape[-1]
+    wide = np.zeros((*mass.shape[:-2], whole, whole))
     wide[..., :count, :count] = mass
-    row = slow[..., None] * np.einsum("...ij,...i->...j", turn[..., :6, :], coupling)
-    wide[..., count, :n] = wide[..., :n, count] = row
-    wide[..., count, count] = slow**2
+    columns = np.swapaxes(turn[..., :6, :], -1, -2) @ coupling * slow[..., None, :]
+    wide[..., :n, count:], wide[..., count:, :n] = columns, np.swapaxes(columns, -1, -2)
+    wide[..., range(count, whole), range(count, whole)] = slow**2
     return wide
 
 

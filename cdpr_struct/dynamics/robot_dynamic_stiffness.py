@@ -34,13 +34,13 @@ def platform_mass_matrix(robot: Robot | RobotArrays, rotation: np.ndarray) -> np
 
 
 def inertia_of_platform(point: OperatingPoint, omega_squared: np.ndarray) -> np.ndarray:
-    """(..., 6, 6) what the platform's inertia takes from its stiffness, omega^2 M, with an internal mass on its mount.
+    """(..., 6, 6) what the platform's inertia takes from its stiffness, omega^2 M, with the parts that move in it.
 
     omega_squared : (...) [rad^2/s^2]
     """
     squared = np.asarray(omega_squared)
     rigid = squared[..., None, None] * platform_mass_matrix(point.arrays, point.rotation)
-    if not point.arrays.has_internal_mass:
+    if not point.arrays.has_moving_parts:
         return np.asarray(rigid)
     return np.asarray(rigid + internal_reaction(point.arrays, point.rotation, squared))
 

@@ -57,7 +57,7 @@ def dynamic_stiffness(
 def _of_rigid_platform(
     point: OperatingPoint, cables: CableDynamics, law: DampingLaw, omega: np.ndarray, assembly: Assembly
 ) -> np.ndarray:
-    """The same with an internal mass held fast, so that cables have all the poles."""
+    """The same with moving parts held fast, so that cables have all the poles."""
     matrices = np.empty((len(omega), 6, 6), dtype=complex)
     for start in range(0, len(omega), _BLOCK):
         part = omega[start : start + _BLOCK]
@@ -109,7 +109,7 @@ class SweptStiffness:
         left |= omega <= self.low
         if left.any():
             entries[:, left] = self._in_full(factors[left])
-        if self.point.arrays.has_internal_mass:
+        if self.point.arrays.has_moving_parts:
             entries -= internal_reaction(self.point.arrays, self.point.rotation, omega**2)[:, *UPPER].T
         return entries
 

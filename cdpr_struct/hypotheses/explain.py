@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
+from cdpr_struct.hypotheses.correction import Correction
 from cdpr_struct.hypotheses.handled import promising, readings_felt
-from cdpr_struct.hypotheses.handling import Correction, corrections, shortcuts
+from cdpr_struct.hypotheses.handling import corrections, shortcuts
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import judged
 from cdpr_struct.hypotheses.laws import UNKNOWN
@@ -77,7 +78,7 @@ def _beside(best: Hypothesis) -> list[Hypothesis]:
     """
     causes = tuple(part for part in best.parts if part.law is None and not part.cause.tuned)
     kept = {tuple(part.key for part in parts): parts for parts in [(), *((part,) for part in causes), causes]}
-    return [Hypothesis(parts, best.drift if parts else 0.0) for parts in kept.values()]
+    return [Hypothesis(parts, best.drift if parts else None) for parts in kept.values()]
 
 
 def believed(found: Sequence[Explained]) -> list[Belief]:

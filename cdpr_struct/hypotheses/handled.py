@@ -11,7 +11,7 @@ import numpy as np
 
 from cdpr_struct.association.detection import SHARE_INVISIBLE
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
-from cdpr_struct.hypotheses.handling import Correction
+from cdpr_struct.hypotheses.correction import Correction
 from cdpr_struct.inference.scale_mixture import TAU_DEGREES
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.readings import Readings

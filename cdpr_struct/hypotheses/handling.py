@@ -1,55 +1,26 @@
-"""What people do to data and models: units, signs, exchanged channels and poses, effects left out.
+"""What people do to data and models: units, signs, exchanged channels and poses, conventions, effects left out.
 
 Each hypothesis is a corrected campaign: a transformation of its readings, or a switch of the simulation under test.
 """
 
-import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 
-from cdpr_struct.hypotheses.hypothesis import PRICE
+from cdpr_struct.hypotheses.conventions import conventions
+from cdpr_struct.hypotheses.correction import Correction, several_tilted, with_states
 from cdpr_struct.measurement.campaign import Campaign, States
 
 TENSION_UNITS = {"kgf": 9.80665, "lbf": 4.4482216, "kN": 1000.0, "daN": 10.0}
 LENGTH_UNITS = {"mm": 1e-3, "ft": 0.3048}
-_TILTED = 0.05  # of the largest angle
 PAIRS_OF_STATES = 2000  # static ones: all of 63
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Correction:
-    """A corrected campaign: what was wrong with the recorded one, in words, and how many alternatives its kind has.
-
-    stretched : the factor in another unit, and which readings (S, 6 + 2 m) had it; None where no density changes
-    """
-
-    cause: str
-    sentence: str
-    campaign: Campaign
-    alternatives: int = 1
-    stretched: tuple[float, np.ndarray] | None = None
-    parameters: dict[str, Any] = field(default_factory=dict)
-
-    @property
-    def log_prior(self) -> float:
-        """ln of its probability against that of data as they are."""
-        return -PRICE - math.log(self.alternatives)
-
-    def log_stretch(self, felt: np.ndarray) -> float:
-        """ln of by how much all readings together were stretched, which is part of their density.
-
-        felt (S, 6 + 2 m) : readings that the model holds against others: the rest has a density in no unit
-        """
-        return 0.0 if self.stretched is None else math.log(self.stretched[0]) * int((felt & self.stretched[1]).sum())
 
 
 def corrections(campaign: Campaign) -> list[Correction]:
     """Every hypothesis about the handling of the data, with the number of its kind filled in."""
-    families = [list(f(campaign)) for f in (_units, _signs, _swaps, _exchanged_poses)]
+    families = [list(f(campaign)) for f in (_units, _signs, _swaps, _exchanged_poses, conventions)]
     return [replace(c, alternatives=len(family)) for family in families for c in family]
 
 
@@ -71,10 +42,6 @@ def shortcuts(campaign: Campaign) -> list[Correction]:
     return found
 
 
-def _with(campaign: Campaign, **changes: Any) -> Campaign:
-    return replace(campaign, states=replace(campaign.states, **changes))
-
-
 def _units(campaign: Campaign) -> Iterator[Correction]:
     states, m = campaign.states, campaign.states.tension.shape[1]
     whole = range(-1, m)
@@ -85,19 +52,19 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
                 scale = np.ones(m)
                 scale[slice(None) if which < 0 else which] = size
                 who = "the tensions" if which < 0 else f"the tensions of cable {which + 1}"
-                new = _with(campaign, tension=states.tension * scale, tension_sigma=states.tension_sigma)
+                new = with_states(campaign, tension=states.tension * scale, tension_sigma=states.tension_sigma)
                 said, own = f"{who} {wrong}", np.concatenate([np.zeros(6, bool), scale != 1.0, np.zeros(m, bool)])
                 yield _in_unit(said, new, size, own)
     for unit, factor in LENGTH_UNITS.items():
         for what in ("length", "position"):
-            new = _with(campaign, **{what: getattr(states, what) * factor})
+            new = with_states(campaign, **{what: getattr(states, what) * factor})
             yield _in_unit(f"the {what}s are in {unit}", new, factor, _columns(what, m))
     turned = ((np.degrees(1.0), "are in rad"), (np.radians(1.0), "were converted from rad, though in deg"))
-    for factor, wrong in turned if _several_tilted(states) else ():
-        new = _with(campaign, angles=states.angles * factor)
+    for factor, wrong in turned if several_tilted(states) else ():
+        new = with_states(campaign, angles=states.angles * factor)
         yield _in_unit(f"the pose angles {wrong}", new, factor, _columns("angles", m))
     for factor, unit in ((0.45359237, "lb"), (1.0 / 9.80665, "N")) if np.any(states.payload) else ():
-        new = _with(campaign, payload=states.payload * factor)
+        new = with_states(campaign, payload=states.payload * factor)
         yield Correction("unit_error", f"the payloads are in {unit}", new, parameters={"factor": factor})
     for what in ("cable_frequencies", "robot_frequencies"):
         rows = getattr(campaign, what)
@@ -123,13 +90,6 @@ def _columns(what: str, m: int) -> np.ndarray:
     return found
 
 
-def _several_tilted(states: States) -> bool:
-    """Whether more than one orientation is of the largest's order: a single one may be any slip of the pen."""
-    size = np.abs(states.angles).max(axis=1, initial=0.0)
-    tilted = states.angles[(size > 0.0) & (size > _TILTED * size.max(initial=0.0))]
-    return len(np.unique(tilted, axis=0)) > 1
-
-
 def _signs(campaign: Campaign) -> Iterator[Correction]:
     states = campaign.states
     for who in range(-1, len(states.names)):
@@ -141,7 +101,7 @@ def _signs(campaign: Campaign) -> Iterator[Correction]:
                 if not np.any(np.abs(values[rows, axis]) > 1e-3):
                     continue
                 values[rows, axis] *= -1.0
-                new = _with(campaign, **{what: values})
+                new = with_states(campaign, **{what: values})
                 yield Correction("sign_error", f"the sign of {name}{where} is wrong", new, parameters={"column": name})
 
 
@@ -154,7 +114,7 @@ def _swaps(campaign: Campaign) -> Iterator[Correction]:
         for i, j in combinations(range(values.shape[1]), 2):
             order = np.arange(values.shape[1])
             order[[i, j]] = j, i
-            new = _with(
+            new = with_states(
                 campaign, **{what: values[:, order], f"{what}_sigma": getattr(states, f"{what}_sigma")[:, order]}
             )
             says = f"the {what} channels of cables {i + 1} and {j + 1} are swapped"
@@ -167,12 +127,12 @@ def _exchanged_poses(campaign: Campaign) -> Iterator[Correction]:
     for step in (1, -1) if rows.size > 2 else ():
         order = np.arange(len(states.names))
         order[rows] = np.roll(rows, step)
-        new = _with(campaign, position=states.position[order], angles=states.angles[order])
+        new = with_states(campaign, position=states.position[order], angles=states.angles[order])
         says = f"the poses of the static states are entered one row too {'early' if step > 0 else 'late'}"
         yield Correction("pose_mismatch", says, new, parameters={"rows": step})
     for i, j in list(combinations(rows.tolist(), 2))[:PAIRS_OF_STATES]:
         order = np.arange(len(states.names))
         order[[i, j]] = j, i
-        new = _with(campaign, position=states.position[order], angles=states.angles[order])
+        new = with_states(campaign, position=states.position[order], angles=states.angles[order])
         says = f"the poses of cases {states.names[i]} and {states.names[j]} are swapped"
         yield Correction("pose_mismatch", says, new, parameters={"first": i + 1, "second": j + 1})

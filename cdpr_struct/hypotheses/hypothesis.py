@@ -1,11 +1,11 @@
-"""A hypothesis: which causes at which scale, and how far the load cells drift."""
+"""A hypothesis: which causes at which scale, and which sensors drift how far."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import Cause, Pattern
-from cdpr_struct.hypotheses.causes.drift import AMPLITUDES, WAVES, drifted, walk
+from cdpr_struct.hypotheses.drift import Drift, probability
 from cdpr_struct.residuals.linearised import Outside, Point, Term
 from cdpr_struct.residuals.recorded import Recorded
 
@@ -47,10 +47,10 @@ class Part:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hypothesis:
-    """Causes, and the amplitude of the load cells' drift in sigmas of a reading (0: none)."""
+    """Causes, and sensors that drift."""
 
     parts: tuple[Part, ...] = ()
-    drift: float = 0.0
+    drift: Drift | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -61,7 +61,7 @@ class Hypothesis:
     def log_prior(self) -> float:
         """ln of its probability against that of nothing being wrong, drift included."""
         own = sum(part.log_weight - PRICE for part in self.parts)
-        return own + float(np.log(dict(AMPLITUDES)[self.drift]))
+        return own + float(np.log(probability(self.drift)))
 
     @property
     def key(self) -> tuple[object, ...]:
@@ -71,7 +71,7 @@ class Hypothesis:
     def terms(self, data: Recorded) -> tuple[Term, ...]:
         """What it changes of the robot, beside the tolerances."""
         found = tuple(part.term for part in self.parts)
-        return found if self.drift == 0.0 else (drift_term(data, self.drift), *found)
+        return found if self.drift is None else (self.drift.term(data), *found)
 
     def positive(self, point: Point) -> np.ndarray:
         """(t,) bool, of all numbers of a point with these terms: which cannot be negative."""
@@ -84,13 +84,3 @@ class Hypothesis:
         own = [np.full(len(part.pattern.prior), _TUNED if part.cause.tuned else 1.0) for part in self.parts]
         count = sum(len(term.sigma) for term in point.terms) - sum(len(values) for values in own)
         return np.concatenate([np.ones(count), *own])
-
-
-def drift_term(data: Recorded, amplitude: float) -> Term:
-    """Walks of the load cells' zeros, of so many sigmas of a reading."""
-    waves, m = walk(data.states), data.cables
-    sigma = np.median(data.sigma[:, 6 : 6 + m], axis=0)
-    return Term(
-        lambda arrays, theta: drifted(arrays, theta, waves),
-        np.eye(m * WAVES), amplitude * np.repeat(sigma, WAVES),
-    )  # fmt: skip

@@ -74,6 +74,11 @@ class Judged:
         """z of each cause, in sigmas of its prior at its scale."""
         return self.split(self.fit.z_mean)[len(self.point.terms) - len(self.hypothesis.parts) :]
 
+    def drifted(self, data: Recorded) -> np.ndarray | None:
+        """(S, n) zeros of the sensors that drift [N, m, rad]; None where none do."""
+        drift = self.hypothesis.drift
+        return None if drift is None else drift.zeros(data, self.split(self.fit.z_mean)[1])
+
     def likeliest(self, data: Recorded, where: Layout) -> Point:
         """The point of the likeliest numbers."""
         noise = noise_of_states(data, where, self.fit.noise_mean)

@@ -46,11 +46,19 @@ class Beginning:
     gain: float
 
 
-def beginnings(data: Recorded, menu: Sequence[Offered], about: Judged, most: int) -> list[Beginning]:
-    """The best large changes beside a judged one, and parts on mounts; none where its modes explain the peaks."""
-    if about.lists is None or about.lists.left < _LEFT or data.campaign.model == "static":
+def beginnings(data: Recorded, menu: Sequence[Offered], about: Judged, most: int, significant: bool) -> list[Beginning]:
+    """The best large changes beside a judged one, and parts that move in the platform.
+
+    Where its modes explain the peaks, only parts that swing so slowly that their own are not among them, and these only
+    if something is wrong.
+    """
+    explained = about.lists is None or about.lists.left < _LEFT
+    slow = [cause for cause in menu if cause.cause.tried] if significant else []
+    if about.lists is None or data.campaign.model == "static" or (explained and not slow):
         return []
     scan = _Scan(data, about)
+    if explained:
+        return [one for cause in slow for one in scan.tuned(cause, [])]
     best: list[Beginning] = []
     mounted: list[Beginning] = []
     places = _steady_places(about.lists)
@@ -130,7 +138,7 @@ class _Scan:
         """
         found = []
         for i, pattern in enumerate(cause.patterns):
-            rows = self._sizes(pattern, places)
+            rows = self._sizes(pattern, places, cause.cause.tried)
             for some in np.array_split(rows, 1 + len(rows) // _BLOCK) if len(rows) else []:
                 theta = ((some * pattern.prior) @ pattern.basis.T)[:, None, :]
                 gains = self._of_peaks(cause.cause.apply(self.arrays, theta)) - self.level
@@ -138,7 +146,7 @@ class _Scan:
         best = sorted(found, key=lambda one: -one.gain)[:_OF_A_CAUSE]
         return [*best, *(wide for one in best[:1] for wide in _widened(cause, one))]
 
-    def _sizes(self, pattern: Pattern, places: Sequence[float]) -> np.ndarray:
+    def _sizes(self, pattern: Pattern, places: Sequence[float], tried: Sequence[float]) -> np.ndarray:
         """(n, d) frequencies, and masses along one axis if the pattern has any, to be tried, in prior sigmas."""
         d, total = len(pattern.prior), float(np.max(self.arrays.mass))
         rows = [np.zeros((0, d))]
@@ -146,7 +154,7 @@ class _Scan:
             share = (size * pattern.prior[0]) ** 2 / total
             if share < _HEAVY:
                 steps = np.exp(np.arange(0.5 * np.log(1.0 - share) - _BEYOND, _BEYOND, _FINE))
-                hertz = np.outer(places, steps).ravel() / pattern.prior[-1]
+                hertz = np.array([*np.outer(places, steps).ravel(), *tried]) / pattern.prior[-1]
                 rows.append(np.stack([np.full(len(hertz), size), hertz], axis=1)[:, -d:])
         return np.concatenate(rows)
 

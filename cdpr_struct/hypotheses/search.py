@@ -14,10 +14,10 @@ from scipy.special import logsumexp
 from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.hypotheses.alternatives import Gains, Offered, gains, offered
 from cdpr_struct.hypotheses.causes import internal_force
-from cdpr_struct.hypotheses.causes.drift import AMPLITUDES
 from cdpr_struct.hypotheses.causes.library import testable
 from cdpr_struct.hypotheses.choices import bent, occurs, same, with_choices
-from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES, Hypothesis, drift_term
+from cdpr_struct.hypotheses.drift import drifts
+from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES, Hypothesis
 from cdpr_struct.hypotheses.judge import NEAR, SETTLED, Judged, again, begun, converged, extended, judged, settled
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.hypotheses.scan import Beginning, beginnings, carriers
@@ -110,9 +110,10 @@ class Search:
         rows = self._screened(menu, nulls, rich)
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
         self._bend(nulls)
-        large = beginnings(self.data, menu, base, self.budget.beginnings + 1)
+        significant = self.p_value < SIGNIFICANT
+        large = beginnings(self.data, menu, base, self.budget.beginnings + 1, significant)
         self._begin(large, base)
-        if self.p_value < SIGNIFICANT:
+        if significant:
             self._begin_alone(carriers(self.data, menu, base), base)
         self._transfer()
         singles = self._singles()
@@ -138,14 +139,15 @@ class Search:
         return sorted(rows, key=lambda row: -row.score)
 
     def _nulls(self) -> list[Judged]:
-        """Nothing wrong, load cells drifting or not."""
+        """Nothing wrong, sensors drifting or not: those that may be what is wrong, and that none do."""
         first, found = self.keep(judged(self.data, self.where, Hypothesis())), []
         local = Local.about(self.data, first.point)
-        for size in (size for size, _ in AMPLITUDES if size > 0.0):
-            columns = stacked(self.where, local.columns(drift_term(self.data, size)))
-            more = extended(self.data, self.where, first, Hypothesis(drift=size), columns, first.fit.noise)
+        for drift in drifts(self.data):
+            columns = stacked(self.where, local.columns(drift.term(self.data)))
+            more = extended(self.data, self.where, first, Hypothesis(drift=drift), columns, first.fit.noise)
             found.append(self.keep(settled(self.data, self.where, more)))
-        return [first, *found]
+        best = max(one.score for one in [first, *found])
+        return [first, *(one for one in found if one.score > best - self.budget.near)]
 
     def _rich(self, menu: Sequence[Offered], base: Judged, scale: float) -> NoiseState:
         """Sizes of the noise where all causes act at once at a scale, but those of several ways: what none explains."""
@@ -178,7 +180,8 @@ class Search:
         columns = {cause.cause.name: cause.columns for cause in menu}
         for i, row in enumerate(rows):
             if i < at_least or row.score > above:
-                for part, spread in row.gains.leading(_LAWS if row.gains.cause.name == UNKNOWN else 1):
+                cause = row.gains.cause
+                for part, spread in row.gains.leading(_LAWS if cause.name == UNKNOWN else cause.fitted):
                     more = Hypothesis((*row.base.hypothesis.parts, part), row.base.hypothesis.drift)
                     self.spread[more.key] = spread
                     sigma = part.scale * part.pattern.prior

@@ -28,6 +28,7 @@ def seen_in(data: Recorded) -> Seen:
         states=states.names,
         highest=float(campaign.robot_frequencies.hertz.max(initial=0.0)),
         internal=data.arrays.has_internal_mass,
+        swinging=data.arrays.has_swinging_mass,
         relative=campaign.relative_lengths,
         poses=bool(data.read[:, :6].any()),
         wheels=data.arrays.has_pulleys,

@@ -105,6 +105,7 @@ def read_robot(
     wrench: "Numbers | None" = None,
     temperature: float | None = None,
     lumps: bool = False,
+    winches: bool = False,
 ) -> "Robot":
     """The robot with its load and temperature, its force limits replaced where arguments give others.
 
@@ -115,18 +116,22 @@ def read_robot(
     lower_bound, upper_bound : of the cable forces at the platform [N]; None keeps each cable's own
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
     temperature : of the cables, above that at which lengths are entered [K]; None keeps the robot's own
-    lumps : whether the command knows masses on cables
+    lumps, winches : whether the command knows masses on cables, and winches that wind several cables each
 
     What can hardly be meant in it is said behind an error; every result says it by `with_extensions`.
 
     Raises
     ------
-    InputError : no such robot, a number out of range, or masses on cables that the command does not know.
+    InputError : no such robot, a number out of range, or masses on cables or shared winches that the command does not
+        know.
+    CdprError : cables on one winch without home lengths, and no home pose that says them.
     """
     from cdpr_struct.interface.lumps import require_no_lumps
+    from cdpr_struct.interface.winches import require_own_winches
     from cdpr_struct.robot.plausibility import implausible
     from cdpr_struct.robot.robot import Robot
     from cdpr_struct.robot.robot_file import load_robot
+    from cdpr_struct.statics.home_lengths import with_home_lengths
 
     if isinstance(payload, bool) or not isinstance(payload, Real) or not 0.0 <= payload < float("inf"):
         raise InputError("payload", "", payload, "give a mass in kg, zero or more")
@@ -138,6 +143,11 @@ def read_robot(
     entered = robot if isinstance(robot, Robot) else load_robot(os.fspath(robot))
     if not lumps:
         require_no_lumps(entered, "this command knows no masses on cables; inverse, forward, modes, frf do")
+    if not winches:
+        require_own_winches(
+            entered, "this command knows a winch for each cable; inverse, forward, modes, verify, frf do"
+        )
+    entered = with_home_lengths(entered)
     doubt(implausible(entered))
     try:
         loaded = entered.with_load(payload, mass)
@@ -200,21 +210,27 @@ def read_pose(given: "PoseLike | None", robot: "Robot", name: str = "pose") -> "
 
 
 def read_lengths(given: "Numbers | None", robot: "Robot") -> list[float]:
-    """Unstrained lengths [m], one a cable.
+    """Unstrained lengths [m], one a cable; or one a winch, where one winds several cables.
 
     Raises
     ------
     InputError : missing, not one positive number per cable, or in mm.
     """
     count = len(robot.cables)
-    what = f"unstrained lengths in m, one per cable of {robot.name}"
+    each = "winch or cable" if robot.shared_winches else "cable"
+    what = f"unstrained lengths in m, one per {each} of {robot.name}"
     if given is None:
         raise InputError("lengths", "", "nothing", f"give {count} {what}")
-    values = read_numbers(given, "lengths", (count,), what)
+    counts = (robot.winches.count, count) if robot.shared_winches else (count,)
+    values = read_numbers(given, "lengths", counts, what)
     if min(values) <= 0.0:
         raise InputError("lengths", "", _shown(given), "lengths must be above zero")
     _require_metres(values, robot)
-    return values
+    if not robot.shared_winches:
+        return values
+    from cdpr_struct.interface.winches import lengths_of
+
+    return lengths_of(robot, values)
 
 
 def _require_metres(values: list[float], robot: "Robot") -> None:

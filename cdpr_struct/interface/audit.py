@@ -17,7 +17,7 @@ from cdpr_struct.interface.operating_point import rest
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
 from cdpr_struct.interface.trajectory import read_trajectory
-from cdpr_struct.interface.winches import require_locked_lengths
+from cdpr_struct.interface.winches import require_given_free, require_locked_lengths
 from cdpr_struct.reports.audit_result import audit_checks, audit_columns, audit_json, audit_text, sentences
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.trust import Trust
@@ -196,11 +196,12 @@ def audit_question(
     CdprError : the robot cannot be at rest at the one pose.
     """
     require_one({"pose": pose, "lengths": lengths, "grid": grid, "trajectory": trajectory})
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, winches=True)
     require_locked_lengths(machine, "the printed limits are those of cables of locked lengths")
     if grid is not None or trajectory is not None:
         if start is not None:
             raise InputError("start", "", start, "it belongs to `lengths`; leave it out")
+        require_given_free(machine, free, "an audit of many poses")
         return _of_many(machine, grid, trajectory, free)
     state = rest(machine, pose, lengths, start, free)
     found = audit_rest(state.point)

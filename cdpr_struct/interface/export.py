@@ -82,7 +82,7 @@ def export(
     CdprError : the robot cannot be at rest there.
     """
     form = one_of(to, "to", FORMATS)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, winches=True)
     _require_free_body(machine, form)
     if form != "gltf":
         require_locked_lengths(machine, "the files of MoorPy and MoorDyn hold locked lengths only")

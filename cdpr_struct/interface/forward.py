@@ -93,7 +93,7 @@ def forward(
     Parameters
     ----------
     robot : Robot, built-in name, or path of a robot file
-    lengths : unstrained, one a cable [m]
+    lengths : unstrained, one a cable, or one a winch where cables share winches [m]
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
     temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
@@ -107,7 +107,7 @@ def forward(
     CdprError : no equilibrium was found.
     """
     machine, chosen = (
-        read_robot(robot, payload, mass, wrench=wrench, temperature=temperature, lumps=True),
+        read_robot(robot, payload, mass, wrench=wrench, temperature=temperature, lumps=True, winches=True),
         one_of(model, "model", MODELS),
     )
     require_sagging(machine, chosen)

@@ -8,7 +8,7 @@ import numpy as np
 
 from cdpr_struct.errors import InputError, UnholdablePoseError
 from cdpr_struct.interface.arguments import one_of
-from cdpr_struct.interface.winches import require_locked_lengths
+from cdpr_struct.interface.winches import require_locked_lengths, require_own_winches, wound
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import FREEDOMS, Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
@@ -32,6 +32,7 @@ class HangingPose:
 
     free : (3,) bool, of rx, ry, rz;  added : names of angles that were not asked for, but are free, too
     solution : the tensions there;  spread : of the tensions [-] if the angles are those of the most even ones, or None
+    held_by : what holds the platform, in words
     """
 
     pose: Pose
@@ -39,6 +40,7 @@ class HangingPose:
     free: np.ndarray
     added: tuple[str, ...]
     spread: float | None = None
+    held_by: str = "cables"
 
     def json(self) -> dict[str, Any]:
         """The key `free` of results."""
@@ -55,7 +57,7 @@ class HangingPose:
             return (
                 f"{', '.join(names_of(self.free))} were chosen: the tensions are {most} (the nearest such orientation)."
             )
-        many = f"; {', '.join(self.added)} because so few cables cannot hold more" if self.added else ""
+        many = f"; {', '.join(self.added)} because so few {self.held_by} cannot hold more" if self.added else ""
         hangs = f"the platform hangs at ({rx:.4g}, {ry:.4g}, {rz:.4g})° about x, y, z."
         return f"{_were_left_free(self.free)}{many}: {hangs}"
 
@@ -133,13 +135,20 @@ def read_free(given: FreeAngles, robot: Robot, angles: np.ndarray) -> tuple[np.n
         raise InputError("free", "", given, f"leave out {', '.join(held)}: a guide of {robot.name} holds {what}")
     guided = np.array([name in robot.guided for name in FREEDOMS])
     try:
-        free = left_free(asked, len(robot.cables), guided)
+        free = left_free(asked, *_holding(robot, guided))
     except ValueError as error:
         raise InputError("free", "", given, str(error)) from error
     if not turn_with_guide(free, angles, guided):
         right = "beside guided rotations only the last one can be free, with the other angles zero; or give lengths"
         raise InputError("free", "", given, right)
     return free, tuple(names_of(free & ~asked))
+
+
+def _holding(robot: Robot, guided: np.ndarray) -> tuple[int, np.ndarray, tuple[str, str]]:
+    """How many hold the platform, beside a guide (6,), and what they are called."""
+    if robot.shared_winches:
+        return robot.winches.count, guided, ("winch", "winches")
+    return len(robot.cables), guided, ("cable", "cables")
 
 
 def _range(robot: Robot) -> str:
@@ -175,6 +184,7 @@ def even_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "saggin
     InputError : unusable names, or fewer than six cables, which turn the platform nowhere.
     UnholdablePoseError : no such orientation is found from that of the pose.
     """
+    require_own_winches(robot, "the most even tensions are chosen for a winch of each cable")
     if len(robot.cables) < 6:
         raise InputError("orient", "", EVEN, "it needs six cables or more; with fewer the platform hangs: leave it out")
     free, _ = read_free(given, robot, where.angles)
@@ -197,6 +207,10 @@ def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sag
     UnholdablePoseError : no such orientation is found from that of the pose.
     """
     free, added = read_free(given, robot, where.angles)
+    if robot.shared_winches:
+        hung = wound(robot, where, free, model).hung
+        pose = Pose(where.position, hung.angles[0])
+        return HangingPose(pose, hung_solution(robot, hung).at(0), free, added, held_by="winches")
     _require_no_half_turn(robot, [where, Pose(where.position, np.where(free, 0.0, where.angles))])
     found = free_orientation(robot, where.position[None], where.angles, free, model=model)
     if not found.found[0]:

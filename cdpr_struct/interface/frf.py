@@ -126,7 +126,7 @@ def frf(
     """
     hertz = read_band(band)
     cable_model, way = read_model(model), one_of(assembly, "assembly", ASSEMBLIES)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True, winches=True)
     law, massless = read_damping(damping, machine, cable_model == "static"), cable_model == "static"
     what = one_of(quantity, "quantity", QUANTITIES)
     state = rest(machine, pose, lengths, start)

@@ -106,7 +106,7 @@ def inverse(
     UnholdablePoseError : the cables cannot hold the pose.
     """
     chosen = one_of(model, "model", MODELS)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True, winches=True)
     require_sagging(machine, chosen)
     where = read_pose(pose, machine)
     hanging = chosen_pose(machine, where, free, orient, chosen)

@@ -13,7 +13,7 @@ from cdpr_struct.interface.free_angles import FreeAngles, found_angles, read_fre
 from cdpr_struct.interface.given import GridLike, Numbers, Progress, RobotLike
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
-from cdpr_struct.interface.winches import require_locked_lengths
+from cdpr_struct.interface.winches import require_given_free, require_locked_lengths, require_own_winches
 from cdpr_struct.interface.workspace import (
     WORKSPACE,
     WorkspaceQuestion,
@@ -38,6 +38,7 @@ from cdpr_struct.workspace.work_list import Columns
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
 
+_ERRORS = "a pose error is that of lengths which each cable has of its own"
 _ONCE = 1  # halving of the grid where a workspace ends, if nothing else is asked
 Three: TypeAlias = tuple[bool, bool, bool]
 More: TypeAlias = tuple[str | Iterable[str] | None, WrenchesLike | None, int, float]
@@ -206,10 +207,17 @@ def map_question(
         raise InputError("grid", "", "nothing", "give X0:X1:NX,Y0:Y1:NY,Z, like -3:3:13,-3:3:13,0.5")
     if chunk is not None:
         whole(chunk, "chunk", 1, 100_000)
-    machine, poses = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature), read_grid(grid)
+    machine, poses = (
+        read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, winches=True),
+        read_grid(grid),
+    )
+    require_given_free(machine, free, "a map of its poses")
     name = "nothing" if quantity is None else quantity
     if name.startswith("pose-error"):
         require_locked_lengths(machine, "a pose error is that of locked lengths")
+        require_own_winches(machine, _ERRORS)
+    if more[1] is not None:
+        require_own_winches(machine, "further wrenches are held by a winch of each cable")
     if name == WORKSPACE or more[0] is not None:
         return _workspace_question(machine, poses, name, chunk, free, more)
     try:
@@ -260,6 +268,7 @@ def _workspace_question(
     errors = any(one.startswith("pose-error") for one in names)
     if errors:
         require_locked_lengths(robot, "a pose error is that of locked lengths")
+        require_own_winches(robot, _ERRORS)
     if free is not None and errors:
         raise InputError("free", "", free, "pose errors are computed at the orientation of the grid; leave it out")
     compute = ManyQuantities(names, NO_WRENCH if asked is None else asked, _zone(zone))

@@ -4,20 +4,24 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args
 
+import numpy as np
+
 from cdpr_struct.crosscheck.mode_motion import ModeMotion, mode_motion
 from cdpr_struct.crosscheck.robot_modes import MODELS, RobotModes, robot_modes
+from cdpr_struct.dynamics.backbone import BackboneCurves, backbone_curves
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.platform_directions import direction_shares
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
-from cdpr_struct.interface.arguments import one_of, read_robot, whole
+from cdpr_struct.interface.arguments import one_of, read_numbers, read_robot, whole
 from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import pose_in_degrees, rest
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.vibration_model import dropped_by, require_valid
+from cdpr_struct.reports.backbone_text import backbone_checks, backbone_told
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.mode_words import motion_words
 from cdpr_struct.reports.modes_text import modes_columns, modes_sentence, modes_text
@@ -27,6 +31,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
 
+MOST_AMPLITUDES = 20
 ASSEMBLIES: tuple[Assembly, ...] = get_args(Assembly)
 
 
@@ -105,6 +110,7 @@ def modes(
     count: int = 40,
     force: bool = False,
     free: FreeAngles | None = None,
+    amplitude: Numbers | None = None,
 ) -> ModesResult:
     """Compute the eigenfrequencies of a robot at rest, none missing, with their kind.
 
@@ -120,6 +126,8 @@ def modes(
     model : static, dsm, exact or fem;  assembly : consistent, or thesis (eq. 3.8 as printed)
     free : angles of the pose that hang freely, some of rx, ry, rz; they are found from those given
     elements : a cable, for fem;  count : how many eigenfrequencies;  force : dsm outside its validity limits, too
+    amplitude : up to 20, of the cables' platform end that moves most [m]; adds `large_motion`: frequencies of the
+        platform's modes when each swings alone with these amplitudes
 
     Raises
     ------
@@ -129,7 +137,7 @@ def modes(
     whole(count, "count", 1, 500)
     whole(elements, "elements", 2, 2000)
     way, name = one_of(assembly, "assembly", ASSEMBLIES), one_of(model, "model", MODELS)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True, winches=True)
     state = rest(machine, pose, lengths, start, free)
     point = state.point
     require_valid(name, point, force)
@@ -137,6 +145,7 @@ def modes(
         most = 6 - len(machine.guided) if name == "static" else count
         found = robot_modes(point, name, min(count, most), way, elements)
     motion, shares = mode_motion(point, found), direction_shares(point, found.platform)
+    curves = None if amplitude is None else _curves(point, found, amplitude)
     told = {
         "robot": machine.name,
         "pose": pose_in_degrees(point),
@@ -151,7 +160,18 @@ def modes(
         "platform_directions": shares,
         "motion_words": motion_words(found.platform_energy, shares),
         "tensions_N": point.cables.tension_at_platform,
-        "lengths_m": RobotArrays.of(machine).reading(point.cables.total_length),
-        **state.told(*dropped_by(name, machine), *mode_checks(found.hertz, found.count_certified)),
+        "lengths_m": RobotArrays.of(machine).reading(point.cables.paid_out),
+        **({} if curves is None else {"large_motion": backbone_told(curves)}),
+        **state.told(
+            *dropped_by(name, machine), *mode_checks(found.hertz, found.count_certified), *backbone_checks(curves)
+        ),
     }
     return ModesResult(with_extensions(told, machine, "modes", name), point, found, motion)
+
+
+def _curves(point: OperatingPoint, found: RobotModes, amplitude: Numbers) -> BackboneCurves:
+    """Frequencies of the platform's modes at the amplitudes asked for."""
+    asked = read_numbers(amplitude, "amplitude", None, "amplitudes in m")
+    if not 0 < len(asked) <= MOST_AMPLITUDES or min(asked) <= 0.0:
+        raise InputError("amplitude", "", asked, f"give 1 to {MOST_AMPLITUDES} amplitudes in m, all above zero")
+    return backbone_curves(point, found.hertz, found.platform, found.platform_energy, np.array(asked))

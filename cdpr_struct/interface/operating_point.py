@@ -13,6 +13,7 @@ from cdpr_struct.interface.arguments import read_lengths, read_pose
 from cdpr_struct.interface.free_angles import FreeAngles, HangingPose, hanging_pose
 from cdpr_struct.interface.given import Numbers, PoseLike
 from cdpr_struct.interface.lumps import require_lumps_on_cables
+from cdpr_struct.interface.winches import held_on_shared_winches, winches_json
 from cdpr_struct.reports.locked_rest import locked_json
 from cdpr_struct.reports.platform_freedoms import freedoms_json
 from cdpr_struct.reports.trust import Check
@@ -48,11 +49,13 @@ class AtRest:
 
     def told(self, *more: Check, warnings: Sequence[str] = (), moves: bool = True) -> dict[str, Any]:
         """What every result says of the state of rest: `trust` with checks of the command's own, deep sag, neutral
-        freedoms, what a guide holds, `locked` if the lengths were given, and `warnings` that are no checks.
+        freedoms, what a guide holds, `winches` if cables share some, `locked` if the lengths were given, and `warnings`
+        that are no checks.
 
         moves : whether the command lets the robot vibrate
         """
         state = {"sagging_cables": sagging_cables(self.point.cables), **freedoms_json(self.point)}
+        state |= winches_json(self.point.entered, self.point.cables)
         state |= {"trust": trust_at_rest(self.point, self.locked, *more, moves=moves), "warnings": list(warnings)}
         if self.locked is not None:
             return {**state, "locked": locked_json(self.locked)}
@@ -107,6 +110,8 @@ def held(robot: Robot, where: Pose, model: str = "sagging") -> InverseSolution:
     ------
     CdprError : the pose cannot be held, or the search for tensions was cut short.
     """
+    if robot.shared_winches:
+        return held_on_shared_winches(robot, where, model)
     try:
         return inverse(robot, where.position, where.rotation, model)
     except (UnholdablePoseError, ConvergenceError) as error:

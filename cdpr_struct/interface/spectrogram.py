@@ -109,7 +109,7 @@ def spectrogram(
         raise InputError("window", "", window, f"between {4.0 / half_rate:.4g} and {time[-1] - time[0]:.4g} s")
     cable_model, machine = (
         read_model(model),
-        read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True),
+        read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True, winches=True),
     )
     state = rest(machine, pose, lengths, start)
     require_valid(cable_model, state.point, force)

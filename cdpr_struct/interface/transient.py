@@ -18,7 +18,7 @@ from cdpr_struct.interface.ports import read_ports
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.trajectory import read_trajectory
 from cdpr_struct.interface.vibration_model import dropped_by, read_model, require_valid
-from cdpr_struct.interface.winches import require_locked_lengths
+from cdpr_struct.interface.winches import require_locked_lengths, require_own_winches
 from cdpr_struct.reports.damping_note import ENDLESS_VIBRATION, damping_note
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.transient_result import transient_columns, transient_json
@@ -142,9 +142,10 @@ def transient(
         given = "nothing" if initial_velocity is None else initial_velocity
         raise InputError("initial_velocity", "", given, "give either `initial_velocity` or `trajectory`")
     cable_model, way = read_model(model), one_of(assembly, "assembly", ASSEMBLIES)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, winches=True)
     if trajectory is not None:
         require_locked_lengths(machine, "along a trajectory all winches hold lengths; initial_velocity is computed")
+        require_own_winches(machine, "along a trajectory each cable has its winch; initial_velocity is computed")
     law = read_damping(damping, machine, cable_model == "static")
     motion, assumed = (None, []) if trajectory is None else read_trajectory(trajectory, None, _FEWEST)
     seconds = _duration(duration, motion)

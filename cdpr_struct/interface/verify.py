@@ -129,7 +129,7 @@ def verify(
         real(tolerance, "tolerance", "give a ratio between 0 and 1, like 0.01", 0.0, 1.0)
         criteria = Criteria(relative_error=tolerance, exact_error=tolerance)
     way = one_of(assembly, "assembly", ASSEMBLIES)
-    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
+    machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, winches=True)
     require_locked_lengths(
         machine, "the closed-form DSM knows no such winch; compare modes --model exact and --model fem"
     )

@@ -236,7 +236,7 @@ def _other_length(rows: Rows, i: int, state: _State, length: np.ndarray) -> Inpu
 
 def _twice(rows: Rows, i: int, case: str) -> InputError:
     """A cable of a case that is given again in row i."""
-    if rows.headings:
+    if rows.row:
         expected = "one row a pose; give a repeated measurement a case of its own (column case)"
         return InputError(rows.file, f"{rows.place(i)}, case {case}", "a second row of this case", expected)
     cable = int(rows.numbers["cable"][i])

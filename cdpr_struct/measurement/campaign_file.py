@@ -309,7 +309,7 @@ def _require_known(robot: Robot, source: Path) -> None:
 
     Raises
     ------
-    InputError : guides, other gravity than along -z, winches that hold tensions, masses or wind on cables.
+    InputError : guides, other gravity than along -z, winches that hold tensions or are shared, masses or wind on cables
     """
     level = robot.down.tolist() == [0.0, 0.0, -1.0] and robot.gravity > 0.0
     if robot.guided or not level:
@@ -323,6 +323,11 @@ def _require_known(robot: Robot, source: Path) -> None:
         expected = "winches that hold lengths: those that hold a tension are not among what is diagnosed"
         what = f"{robot.name} with cables[{held}].winch_tension = {robot.cables[held - 1].winch_tension:g}"
         raise InputError(str(source), "robot", what, expected)
+    if robot.shared_winches:
+        what = f"{robot.name} with cables on one winch, {robot.shared_winches[0]}"
+        raise InputError(
+            str(source), "robot", what, "a winch for each cable: shared ones are not among what is diagnosed"
+        )
     if robot.lumps:
         what = f"{robot.name} with {len(robot.lumps)} lumps"
         raise InputError(str(source), "robot", what, "no [[lumps]]: masses on cables are not among what is diagnosed")

@@ -11,6 +11,7 @@ from cdpr_struct.measurement.assumed_angles import ANGLES
 from cdpr_struct.measurement.cable_columns import EITHER, LENGTH, QUANTITIES
 from cdpr_struct.measurement.column_names import renaming
 from cdpr_struct.measurement.data_table import DataTable, read_table
+from cdpr_struct.measurement.quaternions import QUATERNION, quaternion_headings, with_angles
 from cdpr_struct.measurement.universal_rows import is_universal, universal_columns
 from cdpr_struct.measurement.wide_table import check_wide, headings, is_wide, one_row_a_cable
 from cdpr_struct.robot.robot_file import LARGEST
@@ -33,7 +34,7 @@ _ALSO: dict[str, tuple[str, ...]] = {
 }
 _WIDE_NEEDED = POSITION  # where a row is a pose
 _WIDE_ALSO = {"static_state": (), "cable_frequency": ("mode", "plane")}
-_ALWAYS = ("case", *POSE, "payload_kg", "sigma", "temperature_K", "approach", "time_s")
+_ALWAYS = ("case", *POSE, *QUATERNION, "payload_kg", "sigma", "temperature_K", "approach", "time_s")
 _WORDS = ("case", "respond", "excite", "plane", "body")
 _POSITIVE = ("tension", "length", "frequency", "sigma", "temperature", "mode", "cable")  # first words of columns
 COMMENTS = ("comment", "note", "remark")  # columns for people, not read
@@ -49,7 +50,7 @@ class Rows:
     """A checked table: numbers by column (n,), words by column, and the file it came from.
 
     row      : n numbers of the file's rows that these are, from 1; () if each is one
-    headings : where a row of the file is a pose: of each column that it has once per cable, these columns in short
+    headings : of numbers in several columns of the file, these in short: one a cable, or a quaternion
     """
 
     kind: str
@@ -95,7 +96,7 @@ def read_rows(kind: str, path: Path, cables: int, planned: bool = False, relativ
     above = tuple(word for word in _POSITIVE if not (relative and word == "length"))
     numbers = {c: _numbers(str(path), c, table.column(c), c in blank, above) for c in names if c not in _WORDS}
     words = {c: table.column(c) for c in names if c in _WORDS}
-    rows = Rows(kind, str(path), numbers, words)
+    rows = Rows(kind, str(path), with_angles(str(path), numbers), words, headings=quaternion_headings(numbers))
     _check_values(rows, cables)
     if "case" not in words:
         words["case"] = [path.stem] * len(rows) if kind == "platform_motion" else _cases_from_poses(rows)
@@ -128,7 +129,7 @@ def _long(rows: Rows, cables: int) -> Rows:
     numbers, words, source = one_row_a_cable(rows.kind, rows.numbers, rows.words, cables)
     if not len(source):
         raise InputError(rows.file, "", "no readings", "at least one reading of a cable")
-    shown = headings(rows.kind, list(rows.numbers), cables)
+    shown = {**rows.headings, **headings(rows.kind, list(rows.numbers), cables)}
     return Rows(rows.kind, rows.file, numbers, words, tuple((source + 1).tolist()), shown)
 
 
@@ -199,8 +200,13 @@ def _blank_allowed(kind: str, cables: int) -> set[str]:
     if kind not in _READINGS_MAY_LACK:
         return set(_BLANK_ALLOWED)
     if kind == "robot_frequency":
-        return {*_BLANK_ALLOWED, *POSE, "mode"}
-    return {*_BLANK_ALLOWED, *POSE, *(name for q in QUANTITIES.get(kind, ()) for name in q.columns(cables))}
+        return {*_BLANK_ALLOWED, *POSE, *QUATERNION, "mode"}
+    return {
+        *_BLANK_ALLOWED,
+        *POSE,
+        *QUATERNION,
+        *(name for q in QUANTITIES.get(kind, ()) for name in q.columns(cables)),
+    }
 
 
 def _unknown(kind: str, name: str, known: Sequence[str], cables: int) -> str:

@@ -138,7 +138,7 @@ Columns = Mapping[str, Sequence[str]]
 
 def _static(plan: PlannedPoses, quantities: Sequence[CableQuantity]) -> Columns:
     cables = plan.point.cables
-    values = {TENSION: cables.tension_at_platform, LENGTH: plan.point.arrays.reading(cables.total_length)}
+    values = {TENSION: cables.tension_at_platform, LENGTH: plan.point.arrays.reading(cables.paid_out)}
     columns = _poses(plan)
     for quantity in quantities:
         columns |= _open(quantity, values[quantity])
@@ -172,7 +172,7 @@ def _loaded(plan: PlannedPoses, payload: float, read_before: bool) -> Columns:
     read_before : the lengths without payload stand in another file
     """
     robot, point = plan.point.entered, plan.point
-    lengths = point.cables.total_length
+    lengths = point.cables.paid_out
     moved = forward(robot.with_load(payload), lengths, point.position, point.rotation)
     angles = np.degrees(angles_from_rotation(moved.rotation))
     bare, count = _poses(plan), len(plan.names)

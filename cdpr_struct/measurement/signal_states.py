@@ -189,3 +189,14 @@ def channel_weight(state: StateModes, record: SignalRecord) -> np.ndarray:
     if record.kind != "platform_motion":
         return np.ones(len(record.channels))
     return np.array([1.0] * 3 + [arm_scale(RobotArrays.of(state.point.entered))] * 3)
+
+
+def modal_amplitudes(item: Identified, i: int, partner: int) -> np.ndarray:
+    """(w,) of mode i in each window of a decay, for unit modal mass [sqrt(kg) m]; nan where it is not clear."""
+    assert item.windows is not None
+    assert item.state is not None
+    weight = channel_weight(item.state, item.record)
+    model = float(np.linalg.norm(model_shapes(item.state, item.record)[partner]))
+    fast = (2.0 * np.pi * item.modes.hertz[i]) ** 2 if item.record.kind == "free_decay" else 1.0
+    found: np.ndarray = np.linalg.norm(item.windows.amplitude[:, i] * weight, axis=1) / model / fast
+    return found

@@ -6,6 +6,7 @@ from typing import Literal
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
+from cdpr_struct.dynamics.internal_mass import present
 from cdpr_struct.dynamics.natural_frequencies import count_below
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import RitzModes, ritz_modes
@@ -56,7 +57,7 @@ def state_modes(
     omega = 2.0 * np.pi * highest * _MARGIN
     name: Literal["static", "exact"] = "static" if model == "static" else "exact"
     cables = cable_dynamics(point, name, omega)
-    most = 6 + point.arrays.has_internal_mass
+    most = 6 + len(present(point.arrays))
     count = most if name == "static" else int(count_below(point, cables, np.array([omega]), "consistent")[0])
     if count == 0:
         raise CdprError(f"the model has no mode below {highest * _MARGIN:.3g} Hz at this state")

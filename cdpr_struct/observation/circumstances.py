@@ -39,7 +39,9 @@ class Circumstances:
             approach=np.where(np.isfinite(states.approach), states.approach, 0.0),
             wrap=exit_turns(campaign.robot, position, rotation),
             center=more.hose_center if more.hose else position.mean(axis=0),
-            mean_tension=more.reference_tension if more.nonlinearity else _mean_tension(campaign),
+            mean_tension=more.reference_tension
+            if more.nonlinearity or more.stiffening_exponent
+            else _mean_tension(campaign),
             sagging=campaign.model != "spring",
         )
 

@@ -2,8 +2,8 @@
 
 Per cable: tension vector at the frame end, weight, EA, unstrained length, density, stiffening by bending, EI, mass at
 mid-cable, compliance of the frame end, lever arm. Of each shape of the masts its
-compliance. Of the platform: mass matrix and the
-stiffness of weight, lever arms and hose; of its internal mass the coupling (`internal_coupling`) and omega.
+compliance. Of the platform: mass matrix and the stiffness of weight, lever arms and hose; of each freedom of a part
+that moves in it the coupling (`internal_coupling`) and omega.
 """
 
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class Dependence:
     cables : (..., m, CABLE_COLUMNS), in the order of the constants above
     masts  : (..., q) compliances of `MastShapes` [m/N]
     mass, stiffness : (..., 6, 6) of the platform without cables, world axes
-    internal : (..., 7) coupling (6) [kg^(1/2)] and omega [rad/s] of an internal mass
+    internal : (..., 7 PARTS) coupling (6) [kg^(1/2), kg^(1/2) m] and omega [rad/s] of each freedom of a moving part
     """
 
     cables: np.ndarray
@@ -49,7 +49,9 @@ class Dependence:
         stiffness = np.zeros((*np.broadcast_shapes(held.shape, turned.shape)[:-2], 6, 6))
         stiffness[..., :3, :3], stiffness[..., 3:, 3:] = held, turned
         mass = platform_mass_matrix(arrays, point.rotation)
-        internal = _joined(internal_coupling(arrays, point.rotation), internal_omega(arrays)[..., None])
+        coupling = np.swapaxes(internal_coupling(arrays, point.rotation), -1, -2)
+        internal = _joined(coupling, internal_omega(arrays)[..., None])
+        internal = internal.reshape((*internal.shape[:-2], -1))
         masts = MastShapes.of(arrays)
         return cls(cable_dependence(point), masts.compliance, mass, stiffness, internal)
 

@@ -3,7 +3,8 @@
 Of a mode of unit modal mass, d(omega^2) = dQ, with Q = displacement^T (stiffness - omega^2 mass) displacement. Each
 cable's field is held as a function of the fraction of its length; a ramp follows its lever arm. A frame end that gives
 way by C under its reaction g changes Q by -g' dC g, also where nothing gave way before: a mast does so under the
-reactions of all its cables. An internal mass adds -2 omega^2 (c . v) y + (omega_i^2 - omega^2) y^2, y its motion.
+reactions of all its cables. A part that moves in the platform adds -2 omega^2 (c . v) y + (omega_k^2 - omega^2) y^2,
+y its motion.
 """
 
 from dataclasses import dataclass
@@ -74,15 +75,16 @@ def cable_gradient(
 
 
 def whole_gradient(own: CableGradient, masts: MastShapes, modes: RitzModes, mount: np.ndarray) -> np.ndarray:
-    """(..., n, k) gradient by `Dependence.vector`; mount (...) omega_i of an internal mass [rad/s]."""
+    """(..., n, k) gradient by `Dependence.vector`; mount (..., PARTS) omega_k of moving parts [rad/s]."""
     platform, squared = modes.platform, modes.omega**2
     columns = np.moveaxis(own.columns, -2, -1)
     cables = columns.reshape((*columns.shape[:-3], -1, columns.shape[-1]))
     pulled = np.einsum("maq,...mka->...qk", masts.shapes, own.reaction)
     twice = (platform[..., :, None] * platform[..., None, :]).reshape((*platform.shape[:-1], 36))
     body = np.swapaxes(np.concatenate([-squared[..., None] * twice, twice], axis=-1), -1, -2)
-    by_coupling = (-2.0 * squared * modes.internal)[..., None] * platform
-    inner = np.concatenate([by_coupling, (2.0 * mount[..., None] * modes.internal**2)[..., None]], axis=-1)
+    by_coupling = (-2.0 * squared[..., None] * modes.internal)[..., None] * platform[..., None, :]
+    inner = np.concatenate([by_coupling, (2.0 * mount[..., None, :] * modes.internal**2)[..., None]], axis=-1)
+    inner = inner.reshape((*squared.shape, -1))
     return np.concatenate([cables, -(pulled**2), body, np.swapaxes(inner, -1, -2)], axis=-2)
 
 

@@ -92,6 +92,7 @@ def _rigid(state: Rest, tension: np.ndarray) -> RobotArrays:
         frame_compliance=np.zeros(1),
         mast_bending=np.zeros(1),
         nonlinearity=np.zeros(()),
+        stiffening_exponent=np.zeros(()),
     )
 
 

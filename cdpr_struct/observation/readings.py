@@ -8,6 +8,7 @@ from cdpr_struct.observation.circumstances import Circumstances
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.equilibrium import rotation_from_vector
 
+_STUCK = 0.99  # b of a bearing, bound: at 1 a wheel no longer turns whatever the tensions
 LEAST_TENSION = 1.0  # [N] a reading that means less is taken as this: a slack cable has no direction
 
 
@@ -43,16 +44,35 @@ def true_pose(arrays: RobotArrays, readings: Readings) -> tuple[np.ndarray, np.n
 
 def true_tension(arrays: RobotArrays, readings: Readings, known: Circumstances) -> np.ndarray:
     """(..., S, m) tensions at the platform that the load cells' readings mean [N]."""
-    read = (readings.tension - arrays.cell_bias) / arrays.cell_gain
-    return np.maximum(read * np.exp(-arrays.friction * known.approach * known.wrap), LEAST_TENSION)
+    read = (readings.tension - arrays.cell_bias) / arrays.cell_gain - arrays.pulley_drag * known.approach
+    return np.maximum(read * np.exp(-known.approach * _pulley_friction(arrays, known.wrap)), LEAST_TENSION)
+
+
+def _pulley_friction(arrays: RobotArrays, wrap: np.ndarray) -> np.ndarray:
+    """(..., m) ln of a wheel's larger over its smaller tension, at a wrap (..., m) [right angles].
+
+    Of a cable that slips, friction times wrap (Euler and Eytelwein). Of a bearing with b = mu r / R, the balance of
+    moments (T1 - T2) R = mu r F with F the resultant of both, F^2 = T1^2 + T2^2 - 2 T1 T2 cos(angle), is solved by
+    ln(T1 / T2) = 2 asinh(b sin(angle / 2) / sqrt(1 - b^2)).
+    """
+    slips = arrays.friction * wrap
+    if not arrays.bearing_friction.any():
+        return np.asarray(slips)
+    b = np.clip(arrays.bearing_friction, -_STUCK, _STUCK)
+    return np.asarray(slips + 2.0 * np.arcsinh(b * np.sin(0.25 * np.pi * wrap) / np.sqrt(1.0 - b**2)))
 
 
 def paid_out(arrays: RobotArrays, readings: Readings, known: Circumstances) -> np.ndarray:
-    """(..., S, m) unstrained length that the encoders' readings mean [m]."""
-    return arrays.paid_out(readings.length) + arrays.slip * known.hours[:, None] * arrays.thermal_growth
+    """(..., S, m) unstrained length that the encoders' readings mean [m].
+
+    A drive with play lags behind its encoder by half of the play: the drum has wound in less, or paid out less.
+    """
+    more = arrays.slip * known.hours[:, None] + 0.5 * arrays.backlash * known.approach
+    return arrays.paid_out(readings.length) + more * arrays.thermal_growth
 
 
 def cell_reading(arrays: RobotArrays, tension: np.ndarray, approach: np.ndarray, wrap: np.ndarray) -> np.ndarray:
     """(..., m) what load cells say at tensions (..., m) at the platform [N]: the inverse of `true_tension`."""
     last = np.where(np.isfinite(approach), approach, 0.0)
-    return np.asarray(tension * np.exp(arrays.friction * last * wrap) * arrays.cell_gain + arrays.cell_bias)
+    pulled = tension * np.exp(last * _pulley_friction(arrays, wrap)) + last * arrays.pulley_drag
+    return np.asarray(pulled * arrays.cell_gain + arrays.cell_bias)

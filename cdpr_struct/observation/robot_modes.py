@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import CableModel, StaticCables, expand_catenaries_at, polynomial_order
-from cdpr_struct.dynamics.internal_mass import internal_omega
+from cdpr_struct.dynamics.internal_mass import internal_omega, present
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import RitzModes, ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
@@ -27,7 +27,7 @@ _STATIC_ORDER = 16  # of Gauss points along massless cables
 class VibratingModes:
     """Up to M modes of the robot in each of F states, ascending; where `mask` is False there is none, all else is 0.
 
-    log_hertz (F, M) : ln f [Hz];  share (F, M) : of the kinetic energy in the platform, its internal mass included
+    log_hertz (F, M) : ln f [Hz];  share (F, M) : of the kinetic energy in the platform, parts that move in it included
     platform (F, M, 6) : motion of the platform in modes of unit modal mass, world axes
     dependence (F, n) : what they depend on, `Dependence.vector`;  gradient (F, n, M) : of ln f by it
     """
@@ -57,7 +57,7 @@ def modes_at(
     limit = BEYOND * np.asarray(highest_omega, dtype=float)
     now = Dependence.of(point, assembly)
     if model == "static":
-        inner = int(point.arrays.has_internal_mass)
+        inner = len(present(point.arrays))
         shapes = ritz_modes(point, StaticCables(point).expansion(0.0), 6 + inner, assembly).above_zero
         own = _massless_gradient(point, shapes, now.cables)
         limit = np.full_like(limit, np.inf)
@@ -153,7 +153,7 @@ def _catenary_modes(
 def _beyond_cables(point: OperatingPoint) -> int:
     """By how many the robot's modes below a frequency exceed those of its clamped cables at most: Wittrick's count."""
     arrays = point.arrays
-    return 6 + 3 * arrays.cable_count * int(arrays.has_masts) + int(arrays.has_internal_mass)
+    return 6 + 3 * arrays.cable_count * int(arrays.has_masts) + len(present(arrays))
 
 
 def _massless_gradient(point: OperatingPoint, shapes: RitzModes, cables: np.ndarray) -> CableGradient:

@@ -14,8 +14,9 @@ _VIBRATION = "this concerns vibration only"
 _NO_BENDING = "this cable model has none; --model exact does"
 _AT_REST = ("inverse", "forward", "pose-error")
 _CABLES_ONLY = ("bending_stiffness", "added_mass")
-_INTERNAL, _HEADS = "internal_mass", "mast_mass"
-_ELASTIC = ("series_compliance", "frame_compliance", "mast_bending", "nonlinearity")
+_INTERNAL, _HEADS, _SWINGS = "internal_mass", "mast_mass", "swinging_mass"
+_STIFFENS = ("nonlinearity", "stiffening_exponent")
+_ELASTIC = ("series_compliance", "frame_compliance", "mast_bending", *_STIFFENS)
 
 
 def with_extensions(result: Mapping[str, Any], robot: "Robot", command: str, model: str = "") -> dict[str, Any]:
@@ -54,7 +55,7 @@ def _why_idle(name: str, command: str, model: str) -> str:
     if name in _OTHERWISE:
         return _OTHERWISE[name](command, model)
     if command == "distribute":
-        return "forces are distributed with EA as entered" if name == "nonlinearity" else ""
+        return "forces are distributed with EA as entered" if name in _STIFFENS else ""
     if name not in _CABLES_ONLY:
         return "inextensible cables on rigid masts know none" if model == "ideal" and name in _ELASTIC else ""
     if command in _AT_REST:
@@ -69,7 +70,7 @@ def _why_idle(name: str, command: str, model: str) -> str:
 
 
 def _why_rigid(command: str, model: str) -> str:
-    """Why the platform is rigid in a command although a part of it sits on an elastic mount."""
+    """Why the platform is rigid in a command although a part of it moves in it."""
     if command in (*_AT_REST, "distribute"):
         return _VIBRATION
     if command == "audit":
@@ -86,11 +87,17 @@ def _why_straight(command: str, model: str) -> str:
 
 
 def _why_still(command: str, model: str) -> str:
-    """Why masses on masts have no effect in a command: nothing vibrates."""
+    """Why what concerns vibration only has no effect in a command: nothing vibrates."""
     return _VIBRATION if command in (*_AT_REST, "distribute", "audit") else ""
 
 
-_OTHERWISE = {_INTERNAL: _why_rigid, _HEADS: _why_still, "drag_width": _why_straight}
+_OTHERWISE = {
+    "incremental_ratio": _why_still,
+    _INTERNAL: _why_rigid,
+    _SWINGS: _why_rigid,
+    _HEADS: _why_still,
+    "drag_width": _why_straight,
+}
 
 
 def _particulars(command: str, model: str) -> dict[str, str]:
@@ -113,6 +120,7 @@ def _particulars(command: str, model: str) -> dict[str, str]:
         said["added_mass"] = "added_mass takes part in vibration; its weight does not bend the cable."
     if command in ("frf", "transient"):
         said[_INTERNAL] = "The mount of internal_mass has no damping of its own."
+        said[_SWINGS] = "The swing of swinging_mass has no damping of its own."
         said[_HEADS] = "Masses on masts have the damping of the cable whose exit they move with."
     if command == "frf":
         still = "For excitation and response at points of cables, masts are taken as rigid."

@@ -7,6 +7,7 @@ import numpy as np
 
 from cdpr_struct.crosscheck.mode_motion import ModeMotion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.reports.backbone_text import backbone_columns
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import mode_ladder, mode_shapes, robot_drawing
 from cdpr_struct.reports.figures.drawing import Drawing
@@ -25,9 +26,12 @@ def modes_files(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMo
     """
     plates = _plates(point, result, motion)
     lengths, tensions = result["lengths_m"], result["tensions_N"]
+    curves = result.get("large_motion")
+    large = {} if curves is None else {"large_motion.csv": csv_text(backbone_columns(curves))}
     return {
         "modes.csv": csv_text(modes_columns(result)),
         "platform_motion.csv": csv_text(motion_columns(result)),
+        **large,
         "cables.csv": csv_text({"cable": range(1, len(lengths) + 1), "length_m": lengths, "tension_N": tensions}),
         **page_files(_page(point, result, plates)),
     }
@@ -131,7 +135,7 @@ def _cable_table(point: OperatingPoint, result: Mapping[str, Any]) -> HtmlTable:
         [str(i), f"{length:.5f}", f"{tension:.3f}", f"{straight:.4f}", f"{deep:.2f}"]
         for i, (length, tension, straight, deep) in enumerate(zip(*columns, strict=True), start=1)
     ]
-    scaled = not np.allclose(result["lengths_m"], point.cables.total_length, rtol=1e-12, atol=0.0)
+    scaled = not np.allclose(result["lengths_m"], point.cables.paid_out, rtol=1e-12, atol=0.0)
     note = "Lengths are what the encoders read: offset and scale of the robot file are included." if scaled else ""
     names = ["cable", "unstrained length [m]", "tension at the platform [N]", "chord [m]", "sag [mm]"]
     return HtmlTable("Cables at rest", names, rows, note)

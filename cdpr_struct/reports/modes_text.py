@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from cdpr_struct.reports.backbone_text import backbone_text
 from cdpr_struct.reports.text import paragraphs, plain_table
 
 _AXES = ("x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad")
@@ -26,9 +27,9 @@ def modes_text(result: Mapping[str, Any]) -> str:
         if result["count_certified"]
         else "The count could not be certified."
     )
-    return paragraphs(
-        plain_table(title, ["mode", "[Hz]", "platform energy [%]", "kind", "platform motion"], rows), certified
-    )
+    table = plain_table(title, ["mode", "[Hz]", "platform energy [%]", "kind", "platform motion"], rows)
+    large = [backbone_text(result["large_motion"])] if "large_motion" in result else []
+    return paragraphs(table, *large, certified)
 
 
 def modes_sentence(result: Mapping[str, Any]) -> str:

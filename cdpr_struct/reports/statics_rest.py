@@ -20,6 +20,7 @@ from cdpr_struct.statics.locked_rest import LockedRest
 from cdpr_struct.statics.strained_cables import strains
 
 _COLUMNS = ["cable", "unstrained length [m]", "tension at the platform [N]", "sag [mm]", "stretch [mm]"]
+_WINCHES = ["winch", "cables", "length [m]", "paid out since home [m]"]
 _MODEL_NOTES = {
     "sagging": "Sagging model: each cable is an elastic catenary, exact for any sag.",
     "spring": "Spring model: straight massless springs that cannot push.",
@@ -62,12 +63,12 @@ def forward_json(robot: Robot, model: str, lengths: Sequence[float], solution: F
 
 def inverse_text(result: Mapping[str, Any]) -> str:
     """Lengths and tensions for a terminal."""
-    return paragraphs(_cable_text(result), residual_sentence(result))
+    return paragraphs(_cable_text(result), *_winches_text(result), residual_sentence(result))
 
 
 def forward_text(result: Mapping[str, Any]) -> str:
     """Pose, stability and tensions for a terminal."""
-    return paragraphs(pose_sentence(result), _cable_text(result), residual_sentence(result))
+    return paragraphs(pose_sentence(result), _cable_text(result), *_winches_text(result), residual_sentence(result))
 
 
 def pose_sentence(result: Mapping[str, Any]) -> str:
@@ -160,7 +161,7 @@ def _files(
         holds=holds,
         facts=_facts(result, point.cables),
         plates=[plate, *more],
-        tables=[HtmlTable("Cables", _COLUMNS, _rows(point.cables))],
+        tables=[HtmlTable("Cables", _COLUMNS, _rows(point.cables)), *_winches_table(result)],
         notes=[("How it was computed", how)],
     )
     return {
@@ -217,3 +218,23 @@ def _cable_text(result: Mapping[str, Any]) -> str:
         for i, (length, tension) in enumerate(zip(result["lengths_m"], result["tensions_N"], strict=True), start=1)
     ]
     return plain_table(f"{result['robot']}, {result['model']} cables", ["", "length [m]", "tension [N]"], rows)
+
+
+def _winches_rows(result: Mapping[str, Any]) -> list[list[str]]:
+    """What each winch says, if any winds several cables: the length of its first cable, and its change since home."""
+    rows = []
+    for winch in result.get("winches", ()):
+        change = winch["paid_out_since_home_m"]
+        since = "-" if change is None else f"{round(change, 5) + 0.0:+.5f}"
+        rows.append([winch["name"], ", ".join(map(str, winch["cables"])), f"{winch['length_m']:.5f}", since])
+    return rows
+
+
+def _winches_text(result: Mapping[str, Any]) -> list[str]:
+    rows = _winches_rows(result)
+    return [plain_table("Winches", _WINCHES, rows)] if rows else []
+
+
+def _winches_table(result: Mapping[str, Any]) -> list[HtmlTable]:
+    rows = _winches_rows(result)
+    return [HtmlTable("Winches", _WINCHES, rows)] if rows else []

@@ -29,9 +29,14 @@ from cdpr_struct.observation.robot_modes import (
 )
 from cdpr_struct.observation.vibrating import of_states, vibrating
 from cdpr_struct.residuals.modal_sizes import ModalSizes, measured_sizes
+from cdpr_struct.robot.parameters import PARAMETERS
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import VECTORS
 
+_BODY = (
+    "mass", "center_of_mass", "inertia", "internal_mass", "internal_frequency", "internal_direction", "swinging_mass",
+    "swinging_frequency", "swinging_place",
+)  # fmt: skip
 _BELOW = 0.7  # of the lowest peak: where somebody who picked it began to look
 _ABOVE = 1.02  # of the highest: the list ends there, and modes beyond were not looked for
 _BELOW_LABELLED = 0.2  # of the lowest peak, where labels say which mode a peak is: it may be far off
@@ -221,9 +226,7 @@ def _whole(point: OperatingPoint) -> OperatingPoint:
     shape = np.broadcast_shapes(point.position.shape[:-1], point.cables.length.shape[:-1], point.arrays.batch_shape)
     cables = {f.name: getattr(point.cables, f.name) for f in fields(point.cables)}
     full = {n: np.broadcast_to(v, shape + v.shape[-(1 + (n in VECTORS)) :]) for n, v in cables.items()}
-    lengths = {"center_of_mass": (3,), "inertia": (3, 3), "internal_direction": (3,)}
-    names = ("mass", "center_of_mass", "inertia", "internal_mass", "internal_frequency", "internal_direction")
-    body = {n: np.broadcast_to(getattr(point.arrays, n), shape + lengths.get(n, ())) for n in names}
+    body = {n: np.broadcast_to(getattr(point.arrays, n), shape + PARAMETERS[n].shape) for n in _BODY}
     arrays = replace(point.arrays, **body)
     place, turn = np.broadcast_to(point.position, (*shape, 3)), np.broadcast_to(point.rotation, (*shape, 3, 3))
     return OperatingPoint(arrays, place, turn, type(point.cables)(**full))

@@ -23,6 +23,10 @@ class Cable:
     thermal_expansion : alpha [1/K] of its unstrained length, negative for fibres that shrink; default: steel
     winch_tension : tension at the frame anchor [N] that the winch holds, whatever length that takes; 0 where it holds
                     the length
+    winch : name of the winch that winds this cable together with others of the same name; "": its own
+    winch_ratio : length of this cable per what that winch winds of a cable of ratio 1; negative if it winds against
+        the others
+    home_length : unstrained length [m] when that winch is at home; 0: what holds the robot's home pose
     """
 
     axial_stiffness: float
@@ -32,6 +36,9 @@ class Cable:
     force_max: float = math.inf
     thermal_expansion: float = STEEL
     winch_tension: float = 0.0
+    winch: str = ""
+    winch_ratio: float = 1.0
+    home_length: float = 0.0
 
     def __post_init__(self) -> None:
         require_positive(self, "axial_stiffness", "linear_density")
@@ -42,6 +49,10 @@ class Cable:
             raise ValueError(f"Cable.thermal_expansion must be {expected}, got {self.thermal_expansion!r}")
         if not 0.0 <= self.winch_tension < math.inf:
             raise ValueError(f"Cable.winch_tension must be finite and >= 0 N, got {self.winch_tension!r}")
+        if not 1e-3 <= abs(self.winch_ratio) <= 1e3:
+            raise ValueError(f"Cable.winch_ratio must be from 0.001 to 1000 in size, got {self.winch_ratio!r}")
+        if not 0.0 <= self.home_length < math.inf:
+            raise ValueError(f"Cable.home_length must be finite and >= 0 m, got {self.home_length!r}")
         if not 0.0 <= self.force_min < math.inf:
             raise ValueError(f"Cable.force_min must be finite and >= 0 N, got {self.force_min!r}")
         if not self.force_max > self.force_min:

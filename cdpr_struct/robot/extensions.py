@@ -19,8 +19,8 @@ _ROUNDING = 1e-15  # a vector whose length is one but for this is left as it is:
 class Extensions:
     """Extensions of a robot with m cables, SI; `EXTENSIONS` says what each field means and what its neutral value is.
 
-    Per-cable fields are (m,), force, moment, wind, hose_center and internal_direction (3,; the last is normalised at
-    birth), tilt (2,), tracker and accelerometer_gain (6,), the others single numbers.
+    Per-cable fields are (m,), force, moment, wind, hose_center, swinging_place and internal_direction (3,; the last is
+    normalised at birth), tilt (2,), tracker and accelerometer_gain (6,), the others single numbers.
     causes : names of the diagnosed causes that they stand for
     """
 
@@ -39,6 +39,8 @@ class Extensions:
     air_density: float
     tilt: np.ndarray
     nonlinearity: float
+    stiffening_exponent: float
+    incremental_ratio: float
     reference_tension: float
     length_offset: np.ndarray
     length_scale: np.ndarray
@@ -50,6 +52,9 @@ class Extensions:
     cell_gain: np.ndarray
     cell_bias: np.ndarray
     friction: np.ndarray
+    bearing_friction: np.ndarray
+    pulley_drag: np.ndarray
+    backlash: np.ndarray
     tracker: np.ndarray
     creep: float
     slip: np.ndarray
@@ -58,6 +63,9 @@ class Extensions:
     internal_mass: float
     internal_frequency: float
     internal_direction: np.ndarray
+    swinging_mass: float
+    swinging_frequency: float
+    swinging_place: np.ndarray
     causes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

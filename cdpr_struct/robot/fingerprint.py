@@ -25,4 +25,7 @@ def _arrays(part: Robot | np.ndarray | bytes) -> list[np.ndarray]:
     if isinstance(part, np.ndarray):
         return [part]
     arrays = RobotArrays.of(part)
-    return [np.asarray(getattr(arrays, f.name), dtype=float) for f in fields(arrays)]
+    found = [np.asarray(getattr(arrays, f.name), dtype=float) for f in fields(arrays)]
+    if part.shared_winches:
+        found += [part.winches.share, part.winches.offset]
+    return found

@@ -135,7 +135,11 @@ EXTENSIONS: dict[str, Parameter] = {
     "air_density": _extra((), 1.225, "kg/m^3", "of drag_area and drag_width", least=0.0),
     "tilt": _extra((2,), 0.0, "rad", "of the platform's weight: m g (tilt_x, tilt_y, -1)"),
     "nonlinearity": _extra((), 0.0, "1", "k in EA (1 + k (T / T0 - 1)), T the tension at the platform"),
-    "reference_tension": _extra((), 1.0, "N", "T0 of nonlinearity", above=0.0),
+    "stiffening_exponent": _extra((), 0.0, "1", "n in EA (T / T0)^n, secant, T the tension at the platform",
+                                  least=-0.9, most=0.9),
+    "incremental_ratio": _extra((), 1.0, "1", "EA of small motion over the secant, 1 / (1 - n) of a power law",
+                                above=0.0),
+    "reference_tension": _extra((), 1.0, "N", "T0 of nonlinearity and stiffening_exponent", above=0.0),
     "length_offset": _extra(_EACH, 0.0, "m", "length paid out = encoder length * length_scale + length_offset"),
     "length_scale": _extra(_EACH, 1.0, "1", "see length_offset", above=0.0),
     "temperature_change": _extra((), 0.0, "K", "of the cables, above that at which their lengths are entered",
@@ -149,6 +153,10 @@ EXTENSIONS: dict[str, Parameter] = {
     "cell_gain": _extra(_EACH, 1.0, "1", "load cell reading = cell_gain * tension + cell_bias", above=0.0),
     "cell_bias": _extra(_EACH, 0.0, "N", "see cell_gain"),
     "friction": _extra(_EACH, 0.0, "1", "load cell = tension * exp(friction * last direction * turn at the exit)"),
+    "bearing_friction": _extra(_EACH, 0.0, "1", "mu r / R of the pulley at the exit, mu and r of its bearing",
+                               least=0.0, most=0.9),
+    "pulley_drag": _extra(_EACH, 0.0, "N", "constant friction at the rim of the pulley at the exit"),
+    "backlash": _extra(_EACH, 0.0, "m", "of the drive: paid out is longer by half of it times the last direction"),
     "tracker": _extra((6,), 0.0, "m, rad", "true pose = tracker's pose, turned and shifted by this"),
     "creep": _extra((), 0.0, "1", "share of the elastic strain per decade of time after 1 min"),
     "slip": _extra(_EACH, 0.0, "m/h", "of the winch"),
@@ -159,10 +167,17 @@ EXTENSIONS: dict[str, Parameter] = {
                             least=0.0),
     "internal_frequency": _extra((), 0.0, "Hz", "of internal_mass on its mount, the platform held", least=0.0),
     "internal_direction": _extra((3,), (0.0, 0.0, 1.0), "1", "unit vector along which internal_mass moves, platform"),
+    "swinging_mass": _extra((), 0.0, "kg", "of the platform's mass, what hangs from a point and swings", least=0.0),
+    "swinging_frequency": _extra((), 0.0, "Hz", "of swinging_mass, the platform held: root of g / l of a pendulum",
+                                 least=0.0),
+    "swinging_place": _extra((3,), 0.0, "m", "where swinging_mass hangs and counts as a point mass, platform frame"),
 }  # fmt: skip
 """Those that the table [extensions] of a robot file holds under their own names."""
 PARAMETERS: dict[str, Parameter] = {**_RULES, **EXTENSIONS}
-SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain", "sensor_mass")
+SENSORS = (
+    "cell_gain", "cell_bias", "friction", "bearing_friction", "pulley_drag", "backlash", "tracker", "creep", "slip",
+    "accelerometer_gain", "sensor_mass",
+)  # fmt: skip
 """Act only where readings are compared: they describe sensors, or need the time of a reading."""
 AUXILIARY = {
     "bending_fixity": ("bending_stiffness",),
@@ -171,8 +186,10 @@ AUXILIARY = {
     "wind": ("drag_area", "drag_width"),
     "air_density": ("drag_area", "drag_width"),
     "hose_center": ("hose",),
-    "reference_tension": ("nonlinearity",),
+    "reference_tension": ("nonlinearity", "stiffening_exponent"),
     "internal_frequency": ("internal_mass",),
     "internal_direction": ("internal_mass",),
+    "swinging_frequency": ("swinging_mass",),
+    "swinging_place": ("swinging_mass",),
 }
 """Mean something only with one of the other parameters."""

@@ -70,6 +70,14 @@ def moved_mass(mass: np.ndarray, center: np.ndarray, inertia: np.ndarray, direct
     return np.asarray(1.0 / (1.0 / mass + (turning * turned).sum(axis=-1)))
 
 
+def least_moved_mass(mass: np.ndarray, center: np.ndarray, inertia: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """(...) apparent mass [kg] of free bodies, as in `joined_masses`, at places (..., 3) along the direction in which
+    it is least."""
+    arm = np.cross(np.eye(3), (place - center)[..., None, :])  # row k: turned by the arm, unit force along axis k
+    turned = arm @ np.linalg.solve(inertia, np.swapaxes(arm, -1, -2))
+    return np.asarray(1.0 / (1.0 / mass + np.linalg.eigvalsh(turned)[..., -1]))
+
+
 def _about(arm: np.ndarray) -> np.ndarray:
     """(..., 3, 3) inertia of one kilogram at `arm` (..., 3)."""
     square: np.ndarray = (arm**2).sum(axis=-1)[..., None, None] * np.eye(3)

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -10,8 +11,9 @@ from cdpr_struct.robot.body import Body
 from cdpr_struct.robot.cable import Cable, Pulley
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.lump import Lump, lumps_fault
-from cdpr_struct.robot.platform import Platform
+from cdpr_struct.robot.platform import Platform, least_moved_mass
 from cdpr_struct.robot.pose import Pose
+from cdpr_struct.robot.winches import Winches, winches_fault
 
 _ROUNDING = 1e-15  # a vector whose length is one but for this is left as it is: files are read as written
 FREEDOMS = ("x", "y", "z", "rx", "ry", "rz")
@@ -66,14 +68,21 @@ class Robot:
         if self.extensions is None or not self.extensions.active:
             causes = () if self.extensions is None else self.extensions.causes
             object.__setattr__(self, "extensions", Extensions.of(m, causes=causes))
+        self._check_parts()
+
+    def _check_parts(self) -> None:
+        """Extensions, lumps and winches that fit the cables."""
+        m = len(self.cables)
         if len(self.extensions.slip) != m:
             raise ValueError(f"Robot.extensions must be for {m} cables, got {len(self.extensions.slip)}")
-        if fault := internal_mass_fault(self.platform, self.extensions):
+        if fault := moving_parts_fault(self.platform, self.extensions):
             raise ValueError(fault)
         if fault := cable_drag_fault(self.extensions, self.gravity):
             raise ValueError(fault)
         if fault := lumps_fault(self.lumps, m, self.extensions, self.gravity):
             raise ValueError(f"Robot.lumps: {fault}")
+        if fault := winches_fault(self.cables):
+            raise ValueError(fault)
 
     def _settle_gravity(self) -> None:
         """Size and direction of gravity, which may have been given as one vector."""
@@ -125,6 +134,17 @@ class Robot:
         return [number for number, cable in enumerate(self.cables, start=1) if cable.winch_tension]
 
     @property
+    def winches(self) -> Winches:
+        """Those that hold lengths."""
+        return Winches.of(self.cables)
+
+    @property
+    def shared_winches(self) -> list[str]:
+        """Names of the winches that wind several cables."""
+        winches = self.winches
+        return [name for name, cables in zip(winches.names, winches.cables, strict=True) if len(cables) > 1]
+
+    @property
     def weight_per_length(self) -> np.ndarray:
         """(m,) mu g [N/m]."""
         return self.linear_density * self.gravity
@@ -141,7 +161,8 @@ class Robot:
         ------
         ValueError : a lower limit that is negative or not below the upper one.
         """
-        given = {name: value for name, value in (("force_min", lower), ("force_max", upper)) if value is not None}
+        limits = (("force_min", lower), ("force_max", upper))
+        given: dict[str, Any] = {name: value for name, value in limits if value is not None}
         return replace(self, cables=tuple(replace(cable, **given) for cable in self.cables)) if given else self
 
     def with_wrench(self, wrench: np.ndarray | Sequence[float]) -> "Robot":
@@ -210,4 +231,25 @@ def internal_mass_fault(platform: Platform, more: Extensions) -> str:
     return (
         f"internal_mass = {more.internal_mass:g} kg must be a part of the platform's mass: below {most:.4g} kg, "
         "which its mass, centre of mass and inertia move along internal_direction at its origin"
+    )
+
+
+def moving_parts_fault(platform: Platform, more: Extensions) -> str:
+    """What is wrong with parts that move in the platform, "" if nothing."""
+    return internal_mass_fault(platform, more) or swinging_mass_fault(platform, more)
+
+
+def swinging_mass_fault(platform: Platform, more: Extensions) -> str:
+    """What is wrong with the mass that swings, "" if nothing: it has a frequency, and a body is left without it."""
+    if more.swinging_mass == 0.0:
+        return ""
+    if more.swinging_frequency == 0.0:
+        return f"swinging_mass = {more.swinging_mass:g} kg needs swinging_frequency, in Hz, above 0"
+    body = np.asarray(platform.mass), platform.center_of_mass, platform.inertia
+    most = float(least_moved_mass(*body, more.swinging_place))
+    if more.swinging_mass < most:
+        return ""
+    return (
+        f"swinging_mass = {more.swinging_mass:g} kg must be a part of the platform's mass: below {most:.4g} kg, "
+        "which its mass, centre of mass and inertia move at swinging_place"
     )

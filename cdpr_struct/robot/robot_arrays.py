@@ -14,6 +14,7 @@ from cdpr_struct.robot.robot import FREEDOMS, Robot
 
 _KEPT = 16  # robots whose arrays are kept
 _LEAST_MODULUS = 0.05  # of E as entered: the law is a straight line and would end below zero
+_LEAST_TENSION = 1e-3  # of the reference: below it a power law stays as it is there, and a slack cable has some EA
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,10 +45,12 @@ class RobotArrays:
     hose            : (...) [N/m], relaxed at hose_center (..., 3) [m];  force : (..., 3) [N];  moment : (..., 3) [N m]
     tilt            : (..., 2) [rad];  temperature_change : (...) [K]
     drag_area       : (...) [m^2], drag_width : (..., m) [m] in wind (..., 3) [m/s] of air_density (...) [kg/m^3]
-    nonlinearity    : (...) k with reference_tension (...) [N]
-    cell_gain, cell_bias, friction, slip : (..., m);  tracker, accelerometer_gain : (..., 6)
+    nonlinearity, stiffening_exponent : (...) k and n with reference_tension (...) [N];  incremental_ratio : (...)
+    cell_gain, cell_bias, friction, bearing_friction, pulley_drag, backlash, slip : (..., m)
+    tracker, accelerometer_gain : (..., 6)
     creep, sensor_mass : (...)
     internal_mass, internal_frequency : (...) [kg], [Hz];  internal_direction : (..., 3) unit, platform frame
+    swinging_mass, swinging_frequency : (...) [kg], [Hz];  swinging_place : (..., 3) platform frame [m]
     """
 
     platform_anchors: np.ndarray
@@ -88,6 +91,8 @@ class RobotArrays:
     air_density: np.ndarray = field(default_factory=PARAMETERS["air_density"].without_effect)
     tilt: np.ndarray = field(default_factory=PARAMETERS["tilt"].without_effect)
     nonlinearity: np.ndarray = field(default_factory=PARAMETERS["nonlinearity"].without_effect)
+    stiffening_exponent: np.ndarray = field(default_factory=PARAMETERS["stiffening_exponent"].without_effect)
+    incremental_ratio: np.ndarray = field(default_factory=PARAMETERS["incremental_ratio"].without_effect)
     reference_tension: np.ndarray = field(default_factory=PARAMETERS["reference_tension"].without_effect)
     temperature_change: np.ndarray = field(default_factory=PARAMETERS["temperature_change"].without_effect)
     bending_stiffness: np.ndarray = field(default_factory=PARAMETERS["bending_stiffness"].without_effect)
@@ -97,6 +102,9 @@ class RobotArrays:
     cell_gain: np.ndarray = field(default_factory=PARAMETERS["cell_gain"].without_effect)
     cell_bias: np.ndarray = field(default_factory=PARAMETERS["cell_bias"].without_effect)
     friction: np.ndarray = field(default_factory=PARAMETERS["friction"].without_effect)
+    bearing_friction: np.ndarray = field(default_factory=PARAMETERS["bearing_friction"].without_effect)
+    pulley_drag: np.ndarray = field(default_factory=PARAMETERS["pulley_drag"].without_effect)
+    backlash: np.ndarray = field(default_factory=PARAMETERS["backlash"].without_effect)
     tracker: np.ndarray = field(default_factory=PARAMETERS["tracker"].without_effect)
     creep: np.ndarray = field(default_factory=PARAMETERS["creep"].without_effect)
     slip: np.ndarray = field(default_factory=PARAMETERS["slip"].without_effect)
@@ -105,6 +113,9 @@ class RobotArrays:
     internal_mass: np.ndarray = field(default_factory=PARAMETERS["internal_mass"].without_effect)
     internal_frequency: np.ndarray = field(default_factory=PARAMETERS["internal_frequency"].without_effect)
     internal_direction: np.ndarray = field(default_factory=PARAMETERS["internal_direction"].without_effect)
+    swinging_mass: np.ndarray = field(default_factory=PARAMETERS["swinging_mass"].without_effect)
+    swinging_frequency: np.ndarray = field(default_factory=PARAMETERS["swinging_frequency"].without_effect)
+    swinging_place: np.ndarray = field(default_factory=PARAMETERS["swinging_place"].without_effect)
 
     @classmethod
     def of(cls, robot: "Robot | RobotArrays", mass: np.ndarray | float | None = None) -> "RobotArrays":
@@ -205,6 +216,16 @@ class RobotArrays:
         return bool(self.internal_mass.any())
 
     @property
+    def has_swinging_mass(self) -> bool:
+        """Whether a part of the platform hangs from a point of it and swings."""
+        return bool(self.swinging_mass.any())
+
+    @property
+    def has_moving_parts(self) -> bool:
+        """Whether any part moves inside the platform."""
+        return self.has_internal_mass or self.has_swinging_mass
+
+    @property
     def has_force_limits(self) -> bool:
         """Whether any cable must do more than pull."""
         return bool(self.force_min.any() or np.isfinite(self.force_max).any())
@@ -223,14 +244,23 @@ class RobotArrays:
         return (paid_out / self.thermal_growth - self.length_offset) / self.length_scale
 
     def stiffness_at(self, tension: np.ndarray) -> np.ndarray:
-        """(..., m) EA [N] of cables with tensions (..., m) at the platform [N]: E may change with the tension."""
-        factor = 1.0 + self.nonlinearity[..., None] * (tension / self.reference_tension[..., None] - 1.0)
-        return self.axial_stiffness * np.maximum(factor, _LEAST_MODULUS)
+        """(..., m) secant EA [N] of cables with tensions (..., m) at the platform [N]: E may change with it."""
+        relative = tension / self.reference_tension[..., None]
+        factor = np.maximum(1.0 + self.nonlinearity[..., None] * (relative - 1.0), _LEAST_MODULUS)
+        if self.stiffening_exponent.any():
+            factor = factor * np.maximum(relative, _LEAST_TENSION) ** self.stiffening_exponent[..., None]
+        return self.axial_stiffness * factor
+
+    @property
+    def stiffens(self) -> bool:
+        """Whether EA changes with the tension."""
+        return bool(self.nonlinearity.any() or self.stiffening_exponent.any())
 
     def with_rigid_ends(self) -> "RobotArrays":
         """Nothing elastic but the cables themselves, and these alike at all tensions."""
-        rigid, nothing = np.zeros(1), np.zeros(())
-        return replace(self, series_compliance=rigid, frame_compliance=rigid, mast_bending=rigid, nonlinearity=nothing)
+        rigid = np.zeros(1)
+        elastic = {name: PARAMETERS[name].without_effect() for name in ("nonlinearity", "stiffening_exponent")}
+        return replace(self, series_compliance=rigid, frame_compliance=rigid, mast_bending=rigid, **elastic)
 
     def stiffened(self, factor: float) -> "RobotArrays":
         """Cables, what is in line with them, and masts all `factor` times stiffer."""

@@ -17,8 +17,9 @@ from cdpr_struct.robot.lump import LumpTable, lumps_fault
 from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
-from cdpr_struct.robot.robot import FREEDOMS, Robot, cable_drag_fault, internal_mass_fault
+from cdpr_struct.robot.robot import FREEDOMS, Robot, cable_drag_fault, internal_mass_fault, swinging_mass_fault
 from cdpr_struct.robot.toml_text import toml_table
+from cdpr_struct.robot.winches import winches_fault
 
 LARGEST, SMALLEST = 1e12, 1e-12  # of any number; beyond them squares and products leave what can be computed
 Number = Annotated[float, Field(strict=True, ge=-LARGEST, le=LARGEST)]
@@ -62,6 +63,9 @@ class CableTable(CableNumbers):
 class CablesEntry(CableTable):
     platform_anchor: Vector
     frame_anchor: Vector
+    winch: Annotated[str, Field(strict=True, min_length=1)] | None = None
+    winch_ratio: Number = 1.0
+    home_length: Positive | None = None
 
 
 class RobotTable(_Table):
@@ -124,9 +128,14 @@ def _build(table: RobotTable, source: str) -> Robot:
     platform, more = _with_joints(_platform(table.platform, source), table, source), _extensions(table, source)
     if fault := internal_mass_fault(platform, more):
         raise InputError(source, "extensions.internal_mass", more.internal_mass, fault)
+    if fault := swinging_mass_fault(platform, more):
+        raise InputError(source, "extensions.swinging_mass", more.swinging_mass, fault)
     gravity = _gravity(table.gravity, source)
     if fault := cable_drag_fault(more, float(np.linalg.norm(gravity))):
         raise InputError(source, "extensions.drag_width", table.extensions["drag_width"], fault)
+    if fault := winches_fault(cables):
+        first = next(cable for cable in cables if cable.winch or cable.home_length)
+        raise InputError(source, "cables.winch", first.winch or "nothing", fault)
     lumps = tuple(entry.lump for entry in table.lumps)
     if fault := lumps_fault(lumps, len(cables), more, float(np.linalg.norm(gravity))):
         raise InputError(source, "lumps", f"{len(lumps)} of them", fault)
@@ -260,7 +269,11 @@ def _cable(default: CableTable, entry: CablesEntry, source: str, number: int) ->
             raise InputError(source, f"cables[{number}].{name}", "nothing", "give it here or in the [cable] table")
     given = {name: value for name, value in values.items() if value is not None}
     _check_limits(given, entry, source, number)
-    return Cable(**given)
+    if not 1e-3 <= abs(entry.winch_ratio) <= 1e3:
+        expected = "a ratio from 0.001 to 1000 in size, negative if the cable winds against the others of its winch"
+        raise InputError(source, f"cables[{number}].winch_ratio", entry.winch_ratio, expected)
+    home = entry.home_length or 0.0
+    return Cable(**given, winch=entry.winch or "", winch_ratio=entry.winch_ratio, home_length=home)
 
 
 def _check_limits(given: dict[str, float], entry: CablesEntry, source: str, number: int) -> None:

@@ -55,6 +55,9 @@ def _cable(robot: Robot, i: int) -> list[str]:
         *_expansion(cable),
         *_force_limits(cable),
         *([f"winch_tension = {float(cable.winch_tension)!r}"] if cable.winch_tension else []),
+        *([f'winch = "{_quotable(cable.winch)}"'] if cable.winch else []),
+        *([f"winch_ratio = {float(cable.winch_ratio)!r}"] if cable.winch_ratio != 1.0 else []),
+        *([f"home_length = {float(cable.home_length)!r}"] if cable.home_length else []),
         f"platform_anchor = {robot.platform_anchors[i].tolist()}",
         f"frame_anchor = {robot.frame_anchors[i].tolist()}",
     ]

@@ -28,6 +28,7 @@ class CableStates:
     weight          : (..., m) w [N/m]; 0 for a straight, weightless cable
     status          : (..., m) `CableStatus` values
     up              : (..., m, 3) unit vector against gravity, world; along z if not given
+    incremental_ratio : (..., m) EA over the secant that the tension has strained it by; 1 if not given
     lump_place, lump_weight : (..., m, k) of masses, unstrained from the platform end on [m], [N]; none if not given
     """
 
@@ -44,12 +45,15 @@ class CableStates:
     up: np.ndarray = None  # type: ignore[assignment]
     lump_place: np.ndarray = None  # type: ignore[assignment]
     lump_weight: np.ndarray = None  # type: ignore[assignment]
+    incremental_ratio: np.ndarray = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
         if self.lump_place is None:
             none = np.broadcast_to(np.zeros(1), (*np.shape(self.length), 1))
             object.__setattr__(self, "lump_place", none)
             object.__setattr__(self, "lump_weight", none)
+        if self.incremental_ratio is None:
+            object.__setattr__(self, "incremental_ratio", np.ones(np.shape(self.length)))
         if self.up is None:
             object.__setattr__(self, "up", np.broadcast_to(_UP, self.heading.shape))
 
@@ -82,6 +86,11 @@ class CableStates:
     def total_length(self) -> np.ndarray:
         """(..., m) unstrained length that the winch has paid out beyond the frame anchor [m]."""
         return self.length + self.wrapped_length - self.let_out
+
+    @property
+    def paid_out(self) -> np.ndarray:
+        """(..., m) `total_length` of the cable that was put at rest [m], where this is one in small motion."""
+        return self.total_length * (1.0 - (self.incremental_ratio - 1.0) * self.tension / self.axial_stiffness)
 
     @property
     def tension_at_platform(self) -> np.ndarray:

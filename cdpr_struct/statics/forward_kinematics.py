@@ -129,7 +129,7 @@ def forward(
     )
     begun, entered, sizes = turns.copy(), balance.arrays, (arm_scale(arrays), longest_step(float(length.mean())))
     *first, last = balance.model.approach()
-    stiffens = balance.arrays.nonlinearity.any()
+    stiffens = balance.arrays.stiffens
     for station in (*first, last):
         balance = replace(balance, arrays=station.seen(entered), model=station)
         descent = EnergyDescent(balance, place, turns, *sizes)

@@ -90,10 +90,16 @@ def names_of(free: Sequence[bool] | np.ndarray) -> list[str]:
     return [name for name, chosen in zip(ANGLES, free, strict=True) if chosen]
 
 
-def left_free(free: npt.ArrayLike, cables: int, guided: npt.ArrayLike = (0,) * 6) -> np.ndarray:
+def left_free(
+    free: npt.ArrayLike,
+    cables: int,
+    guided: npt.ArrayLike = (0,) * 6,
+    named: tuple[str, str] = ("cable", "cables"),
+) -> np.ndarray:
     """(3,) bool: the angles that are free if those of `free` (3,) are asked for: as many as the cables cannot hold too.
 
     guided : (6,) bool, what a guide holds of x, y, z, rx, ry, rz
+    named : one and several of what holds the platform: winches, where these are fewer
 
     Raises
     ------
@@ -103,7 +109,7 @@ def left_free(free: npt.ArrayLike, cables: int, guided: npt.ArrayLike = (0,) * 6
     missing = 6 - int(held.sum()) - cables - int(chosen.sum())
     others = np.flatnonzero(~chosen & ~held[3:])
     if missing > len(others):
-        many = f"{cables} cable" + ("s" if cables > 1 else "")
+        many = f"{cables} {named[cables > 1]}"
         raise ValueError(f"{many} cannot place this platform; at least {cables + missing - len(others)} are needed")
     chosen[others[: max(missing, 0)]] = True
     return chosen

@@ -135,7 +135,7 @@ def inverse(
     solution = _solve(problem)
     if arrays.has_tension_winches:
         problem, solution = _with_winches(problem, solution)
-    if arrays.nonlinearity.any():
+    if arrays.stiffens:
         problem, solution = _stiffening(problem, solution)
     solution.status[degenerate] = InverseStatus.UNHOLDABLE
     behind = behind_wheels(problem.arrays, problem.arms.points) & ~solution.held[:, None]

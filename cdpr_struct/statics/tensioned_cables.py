@@ -29,7 +29,7 @@ def tensioned(model: CableModel, arrays: RobotArrays, points: np.ndarray, tensio
     cables with the same tension the taut one; where no cable between these points pulls so little, the status is
     `TENSION_TOO_LOW`, and the cable is that of least tension.
     """
-    stiff = replace(arrays, axial_stiffness=arrays.stiffness_at(tension)) if arrays.nonlinearity.any() else arrays
+    stiff = replace(arrays, axial_stiffness=arrays.stiffness_at(tension)) if arrays.stiffens else arrays
     if model.name != "sagging":
         return model.hold(stiff, points, tension).states
     return with_settled_masts(stiff, lambda moved: _hanging(moved, points, tension), locked=False)[0]

@@ -9,6 +9,7 @@ from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.free_orientation import ANGLES, FreeOrientation, free_orientation, names_of
 from cdpr_struct.statics.inverse_kinematics import hung_solution
+from cdpr_struct.statics.shared_winches import resting_orientation
 from cdpr_struct.workspace.margins import stable_where_held
 from cdpr_struct.workspace.pose_batches import PoseBatches
 from cdpr_struct.workspace.quantities import pose_errors
@@ -39,7 +40,7 @@ class HangingFreely:
 
     def __call__(self, robot: Robot, position: np.ndarray, rotation: np.ndarray) -> Columns:
         began = angles_from_rotation(np.asarray(rotation))
-        hung = free_orientation(robot, position, began, self.free)
+        hung = resting_orientation(robot, position, began, self.free)
         solution = hung_solution(robot, hung)
         columns = self.compute(robot, position, hung.rotation, solution)
         if "stable" not in columns:

@@ -4,7 +4,7 @@ import numpy as np
 
 from cdpr_struct.dynamics.batched_modes import Batch, first_mode, fits
 from cdpr_struct.dynamics.cable_dynamics import expand_catenaries_at
-from cdpr_struct.dynamics.internal_mass import with_internal_mass
+from cdpr_struct.dynamics.internal_mass import present, with_internal_mass
 from cdpr_struct.dynamics.lowest_clamped import lowest_clamped
 from cdpr_struct.dynamics.many_poses import poses_of
 from cdpr_struct.dynamics.mode_shapes import ritz_shapes, shape_size
@@ -114,7 +114,7 @@ def _points(
 
 def _first_static_mode(point: OperatingPoint, neutral: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """omega^2 (n,) of the platform's first mode above zero on massless cables, negative where it is unstable, and its
-    momentum (n, 6), with an internal mass (n, 7).
+    momentum (n, 6 + q), q of parts that move in the platform.
 
     neutral : (n,) number of neutral freedoms
     """
@@ -175,7 +175,7 @@ def _general(point: OperatingPoint, momentum: np.ndarray, neutral: np.ndarray) -
     clamped = full.omega_squared[..., 0]
     highest = _HALF_WAVES * float(np.sqrt(clamped.max()))
     modes = ritz_modes(point, full.reduced(highest, factor=1.2), AMONG)
-    moved = np.concatenate([modes.platform, modes.internal[..., None]], axis=-1)[..., : momentum.shape[-1]]
+    moved = np.concatenate([modes.platform, modes.internal[..., present(point.arrays)]], axis=-1)
     alike = np.einsum("nki,ni->nk", moved, momentum) ** 2
     best = alike.argmax(axis=-1)[:, None]
     omega, share = (np.take_along_axis(values, best, axis=-1)[:, 0] for values in (modes.omega, alike))

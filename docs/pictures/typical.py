@@ -10,6 +10,7 @@ from pathlib import Path
 
 import locked
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.dynamics.damping import DampingLaw, Hysteretic, Viscous
@@ -37,7 +38,9 @@ _ALONE = frozenset(
      "cable_added_mass")
 )  # fmt: skip
 _TIMES = {"accelerometer_gain": 4.0}  # sigmas of its prior: one is hardly seen on an axis of decades
-_LINE = 8.0  # Hz, of what is tuned
+_LINE = 8.0  # Hz
+_TUNED = {"flexible_platform": [0.0, 0.0, np.sqrt(3.0), _LINE], "swinging_payload": [np.sqrt(3.0), 1.0, 0.0, 0.0, -0.1]}
+"""Parameters of causes that add a mode: roots of masses [kg], frequencies [Hz], hook [m]."""
 _NEAR = 0.3  # of ln f: modes farther apart are not the same mode
 _KILOPOND = 9.80665  # N
 
@@ -120,11 +123,16 @@ def entered(pulleys: bool = True) -> Stand:
 def theta_of(cause: Cause, arrays: RobotArrays) -> tuple[np.ndarray, str]:
     """Basic parameters of a cause at one prior sigma, and where it acts."""
     if cause.tuned:
-        one = np.array([0.0] * (len(cause.parameters) - 1) + [_LINE])
-        one[2:3] = np.sqrt(3.0) if len(one) == 4 else one[2:3]
-        return one, ""
+        return np.array(_TUNED[cause.name]), ""
     own = _TIMES.get(cause.name, 1.0) * np.array([p.prior for p in cause.parameters])
-    if cause.name in ("accelerometer_gain", "tracker_frame", "pose_mismatch", "frame_compliance", "missing_pulleys"):
+    if cause.name in (
+        "accelerometer_gain",
+        "tracker_frame",
+        "pose_mismatch",
+        "frame_compliance",
+        "missing_pulleys",
+        "nonlinear_elasticity",
+    ):
         own = own * (np.arange(len(own)) < {"tracker_frame": 6, "pose_mismatch": 3}.get(cause.name, 1))
     count = {"cable": 8, "mast": carriers(arrays.masts).shape[1], "axis": 3, "state": 1}.get(cause.carrier, 1)
     every = np.tile(own, (count, 1))
@@ -206,7 +214,9 @@ def of_library(name: str, simulation: Stand) -> Effect:
     if cause.outside:
         return effect(simulation, simulation, f"{cause.parameters[0].name} {_LINE:g} Hz", peak=_LINE)
     real, size = real_robot(cause, simulation)
-    return effect(simulation, real, size, linear=not cause.tuned, peak=_LINE if cause.tuned else np.nan)
+    return effect(
+        simulation, real, size, linear=not cause.tuned, peak=_TUNED.get(name, [np.nan])[1 if cause.tried else -1]
+    )
 
 
 def _beside(entered_: Stand) -> dict[str, Effect]:
@@ -216,6 +226,7 @@ def _beside(entered_: Stand) -> dict[str, Effect]:
     files = {
         "unit_error": (lambda r: replace(r, tension=r.tension / _KILOPOND), "tensions in kgf"),
         "sign_error": (lambda r: replace(r, position=r.position * [1.0, -1.0, 1.0]), "y of the pose, 0.3 m"),
+        "rotation_convention": (_zyx, "angles about z, then y, then x"),
         "swapped_channels": (lambda r: replace(r, tension=r.tension[:, swapped]), "load cells 2 and 3"),
     }
     found = {n: effect(entered_, replace(entered_, misread=change), said) for n, (change, said) in files.items()}
@@ -232,6 +243,12 @@ def _beside(entered_: Stand) -> dict[str, Effect]:
     other, newtons = _preloaded(entered_, pull), internal_force.PRIOR
     found["internal_force"] = effect(entered_, other, f"{newtons:g} N along the first direction of the null space")
     return found
+
+
+def _zyx(read: Readings) -> Readings:
+    """Rotations whose angles are entered as if they were about x, then y, then z."""
+    angles = Rotation.from_matrix(read.rotation).as_euler("zyx")[:, ::-1]
+    return replace(read, rotation=Rotation.from_euler("xyz", angles).as_matrix())
 
 
 def _preloaded(simulation: Stand, pull: Readings) -> Stand:

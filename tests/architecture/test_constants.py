@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks.hand_set import HAND_SET, changed
-from cdpr_struct.hypotheses import alternatives, handling
+from cdpr_struct.hypotheses import alternatives, correction
 from cdpr_struct.planning import recommendations
 
 ROOT = Path(__file__).parents[2]
@@ -111,9 +111,9 @@ def test_a_bare_number_is_seen():
 
 def test_a_change_reaches_every_module_and_what_is_computed_from_it_and_is_undone():
     price, scales = (next(one for one in HAND_SET if one.name == name) for name in ("PRICE", "SCALES"))
-    before = alternatives.PRICE, handling.PRICE, alternatives.SCALES, recommendations.WIDE
+    before = alternatives.PRICE, correction.PRICE, alternatives.SCALES, recommendations.WIDE
     with changed(price, 2.0), changed(scales, 2.0):
-        assert alternatives.PRICE == handling.PRICE == 2.0 * before[0]
+        assert alternatives.PRICE == correction.PRICE == 2.0 * before[0]
         assert tuple(2.0 * scale for scale in before[2]) == alternatives.SCALES
         assert pytest.approx(2.0 * before[3]) == recommendations.WIDE
-    assert before == (alternatives.PRICE, handling.PRICE, alternatives.SCALES, recommendations.WIDE)
+    assert before == (alternatives.PRICE, correction.PRICE, alternatives.SCALES, recommendations.WIDE)

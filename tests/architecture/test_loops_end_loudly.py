@@ -22,6 +22,7 @@ DEFENDED = {
     "cdpr_struct/dynamics/batched_modes.py:first_mode": LEFT + "nan goes to the general solver",
     "cdpr_struct/dynamics/bracketed_search.py:bracketed_crossings": "a budget of rounds; brackets stay brackets",
     "cdpr_struct/dynamics/bracketed_search.py:bracketed_minima": "a budget of rounds; brackets stay brackets",
+    "cdpr_struct/dynamics/harmonic_balance.py:_balanced": HALVED,
     "cdpr_struct/dynamics/lowest_clamped.py:_on_springs": LEFT + "nan goes to the general solver",
     "cdpr_struct/dynamics/natural_frequencies.py:bisect_count": LEFT + "brackets say how wide they are",
     "cdpr_struct/dynamics/pose_frequencies.py:quick_frequencies": LEFT + "None goes to the certified modes",

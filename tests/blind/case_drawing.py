@@ -13,6 +13,7 @@ from tests.blind.beside_checks import CHECKED, BesideCheck
 from tests.blind.catalogue import (
     BEYOND,
     EQUIVALENT,
+    LAWS,
     LIBRARY,
     ONE_SIDED,
     STATICS_ONLY,
@@ -40,7 +41,7 @@ ATTEMPTS = 60
 class CaseKind:
     """What a case is to hold.
 
-    kind     : null, single, pair, ambiguous, outside or handling
+    kind     : null, single, pair, ambiguous, outside, handling, or law: a single one of `LAWS`
     effects  : (name, multiple of the smallest detectable size) of each hidden effect
     noise    : white, coloured or outlier
     lengths  : whether lengths are filed
@@ -149,12 +150,13 @@ def _hidden(
     catalogue = {**EQUIVALENT, **BEYOND, **LIBRARY} | (EQUIVALENT if kind.kind == "ambiguous" else {})
     deviations = tolerances
     for name, multiple in kind.effects:
-        effect = catalogue[name]
+        effect = LAWS[name] if kind.kind == "law" else catalogue[name]
         seen_as = "load_cell_gain" if kind.kind == "ambiguous" and name in ONE_SIDED else name
         shape, pattern, size, reached = sized(effect, robot.name, multiple, rng, seen_as, kind.statics)
         deviations = deviations.plus(name, size * pattern)
         record = {"cause": name, "multiple": reached, "size": size, "unit": effect.unit, "shape": shape}
-        record["sigmas_left"] = sigmas_left(robot.name, name, size * pattern, kind.statics)
+        if not effect.typical:
+            record["sigmas_left"] = sigmas_left(robot.name, name, size * pattern, kind.statics)
         effects.append(record | {"change": (size * pattern).tolist(), "rivals": list(effect.rivals)})
     for record in effects:
         record["total"] = deviations[str(record["cause"])].tolist()
@@ -173,7 +175,7 @@ def sized(
     if effect.name == "internal_force" and robot not in SUSPENDED:
         raise RejectedDrawError
     shape, pattern = drawn_pattern(effect, entered_robot(robot).cables, rng)
-    reference = reference_size(robot, seen_as, pattern, unknowns(shape, pattern), statics)
+    reference = effect.typical or reference_size(robot, seen_as, pattern, unknowns(shape, pattern), statics)
     if reference is None:
         raise RejectedDrawError
     size = min(multiple * reference, effect.largest)

@@ -20,6 +20,7 @@ class Effect:
     signed  : may also be negative
     largest : size beyond which it would be absurd
     rivals  : names that all data of a campaign leave equally likely
+    typical : size to be multiplied where no smallest detectable one was measured
     """
 
     name: str
@@ -28,6 +29,7 @@ class Effect:
     signed: bool = True
     largest: float = np.inf
     rivals: tuple[str, ...] = ()
+    typical: float = 0.0
 
 
 LIBRARY = {
@@ -119,9 +121,22 @@ OUTSIDE_HELD = {
 
 STATIC_OUTSIDE = {**OUTSIDE_DEV, **OUTSIDE_HELD}  # of sets without frequencies
 
+LAWS = {
+    effect.name: effect
+    for effect in (
+        Effect("bearing_friction", "mu r / R", ("common",), signed=False, typical=0.03),
+        Effect("backlash", "m", ("common",), signed=False, typical=1e-3),
+        Effect("swinging_payload", "share of the mass", ("common",), signed=False, largest=0.4, typical=0.25),
+        Effect("power_elasticity", "exponent", ("common",), signed=False, largest=0.5, typical=0.25),
+    )
+}  # of a set of its own: causes, or shapes of causes, that came into the library after the other sets had been drawn
+
+CAUSES = {"bearing_friction": "pulley_friction", "power_elasticity": "nonlinear_elasticity"}  # where the name differs
+
 BEYOND = {**OUTSIDE, **UNSEEN, **STATIC_OUTSIDE}  # what no cause of the library explains
 
 HANDLING = ("swapped_channels", "unit_error", "sign_error", "pose_mismatch")
+CONVENTION = "rotation_convention"  # in a set of its own
 STATICS_ONLY = ("platform_mass",)  # filed without robot frequencies; weighing the platform separates
 ONE_SIDED = ("pulley_friction",)  # equivalent if every cable is always approached from the same side
 

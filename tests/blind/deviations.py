@@ -26,6 +26,7 @@ NUMBERS_PER_CABLE = {
     "load_cell_gain": 1,  # ratio - 1
     "load_cell_bias": 1,  # N
     "pulley_friction": 1,  # ln of the ratio winch side : platform side, per 90 degrees of wrap
+    "bearing_friction": 1,  # mu r / R of the wheel at the exit, mu and r of its bearing
 }
 NUMBERS_PER_ROBOT = {
     "drum_scale": 1,  # ratio - 1
@@ -39,7 +40,9 @@ NUMBERS_PER_ROBOT = {
     "gravity_tilt": 2,  # rad, gravity turned about x, y
     "tracker_frame": 6,  # m, rad: shift and turn of what the tracker calls the world
     "internal_force": 2,  # N, along two directions of the null space
-    # outside the library of causes
+    "swinging_payload": 1,  # share of the platform's mass that hangs on a cord from its origin
+    "power_elasticity": 1,  # exponent of EA over the tension, of an elastic rope
+    # outside the library of causes when the sets were drawn
     "backlash": 1,  # m, with the sign of the last motion of the winch
     "wind_gradient": 3,  # N a metre from home, squared distance
     "cell_quadratic": 1,  # N at 300 N

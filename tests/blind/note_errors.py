@@ -1,15 +1,25 @@
-"""Mistakes of whoever wrote the files: swapped channels, wrong units, wrong signs, poses of another state."""
+"""Mistakes of whoever wrote the files: swapped channels, wrong units, signs or conventions, poses of another state."""
 
 from __future__ import annotations
 
 import numpy as np
 import pandas as pd
+from scipy.spatial.transform import Rotation
 
 from tests.blind.sensors import POSE, Tables
 
 KILOGRAM_FORCE = 9.80665
 CLEAR_DIFFERENCE = 30.0  # N rms between two swapped channels
 FEWEST_DIFFERENT = 2
+ORDERS = ("xzy", "yxz", "yzx", "zxy", "zyx")  # of fixed axes, that the files should have as xyz
+FRAMES = {
+    "y up": [[1, 0, 0], [0, 0, 1], [0, -1, 0]],  # rows: axes of the writer's frame in the robot's
+    "z down": [[1, 0, 0], [0, -1, 0], [0, 0, -1]],
+    "x mirrored": [[-1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    "y mirrored": [[1, 0, 0], [0, -1, 0], [0, 0, 1]],
+    "z mirrored": [[1, 0, 0], [0, 1, 0], [0, 0, -1]],
+    "x and y exchanged": [[0, 1, 0], [1, 0, 0], [0, 0, 1]],
+}
 
 
 def spoiled(name: str, tables: Tables, rng: np.random.Generator) -> str:
@@ -19,6 +29,7 @@ def spoiled(name: str, tables: Tables, rng: np.random.Generator) -> str:
         "unit_error": mistake_unit,
         "sign_error": flip_sign,
         "pose_mismatch": mix_poses,
+        "rotation_convention": other_convention,
     }[name](tables, rng)
 
 
@@ -74,3 +85,35 @@ def mix_poses(tables: Tables, rng: np.random.Generator) -> str:
         table: pd.DataFrame = tables[kind]
         table[POSE] = poses.loc[[source.get(case, case) for case in table["case"]]].to_numpy()
     return said
+
+
+def other_convention(tables: Tables, rng: np.random.Generator) -> str:
+    """All poses are written in another convention than Rz Ry Rx in a right-handed frame whose z points up."""
+    way = str(rng.choice([*ORDERS, *FRAMES, "columns", "vectors", "transposed", "wxyz", "xyzw"]))
+    for table in tables.values():
+        degrees = table[POSE[3:]].to_numpy(dtype=float)
+        if way in FRAMES:
+            axes = np.array(FRAMES[way], dtype=float)
+            turn = Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
+            table[POSE[:3]] = table[POSE[:3]].to_numpy(dtype=float) @ axes.T
+            degrees = Rotation.from_matrix(axes @ turn @ axes.T).as_euler("xyz", degrees=True)
+        else:
+            degrees = _written(way, degrees)
+        table[POSE[3:]] = degrees
+    return way
+
+
+def _written(way: str, degrees: np.ndarray) -> np.ndarray:
+    """Numbers in the columns of the angles, from angles about fixed axes x, then y, then z."""
+    turn = Rotation.from_euler("xyz", degrees, degrees=True)
+    if way in ORDERS:
+        return turn.as_euler(way, degrees=True)[:, [way.index(axis) for axis in "xyz"]]
+    if way == "columns":
+        return degrees[:, ::-1]
+    if way == "vectors":
+        return turn.as_rotvec(degrees=True)
+    if way == "transposed":
+        return turn.inv().as_euler("xyz", degrees=True)
+    x, y, z, w = turn.as_quat().T
+    columns = (y, z, w, x) if way == "wxyz" else (w, x, y, z)  # files of w, x, y, z read the other way round, or not
+    return Rotation.from_quat(np.stack(columns, axis=1)).as_euler("xyz", degrees=True)

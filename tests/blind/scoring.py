@@ -14,6 +14,7 @@ from tests.blind.answers import (
     ANY_SIZE,
     LARGEST_AMBIGUOUS_CLASS,
     Answer,
+    kind_in_truth,
     names_in_truth,
     read_answer,
     right_answer,
@@ -34,7 +35,7 @@ CLEARLY = 2.0  # multiple of the smallest detectable size from which a name is o
 SEPARABLE = 3.0  # sigmas that the nearest other cause leaves; half its square are nats of evidence
 BINS = ((0.5, 0.25, 0.75), (1.0, 0.75, 1.5), (2.0, 1.5, 3.0), (4.0, 3.0, math.inf))  # (label, from, below)
 PLAIN_UNITS = {"m", "N"}  # a number in one of them is none in the other
-IN_LIBRARY = ("single", "pair", "ambiguous", "handling")
+IN_LIBRARY = ("single", "pair", "ambiguous", "handling", "law")
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +49,7 @@ class Scored:
     @property
     def kind(self) -> str:
         """Kind of the case."""
-        return str(self.truth["kind"])
+        return kind_in_truth(self.truth)
 
     @property
     def hidden(self) -> tuple[str, ...]:

@@ -24,6 +24,7 @@ POSE_READ, INCLINATION_READ = slice(0, 6), slice(3, 5)  # numbers of a pose that
 COLOUR = 0.7  # correlation of one reading with the next in coloured noise
 OUTLIER = 7.0  # sigma
 PICTURE = 3.0  # m, from the middle of the tracker's picture, where its lens error is given
+BEARING_ROUNDS = 40
 TILT = 0.1  # rad, where the cells' error with the platform's tilt is given
 TAILS = 3.0  # degrees of freedom of `student` noise
 
@@ -62,13 +63,25 @@ class Noise:
 def cell_readings(deviations: Deviations, command: Command, rest: Rest) -> np.ndarray:
     """What the cells would show (m,) [N] without noise."""
     drag = deviations["pulley_friction"] * command.approach * rest.exit_angles / (0.5 * np.pi)
-    pulled = rest.tensions * np.exp(drag)
+    pulled = before_wheels(deviations, command, rest, rest.tensions * np.exp(drag))
     pulled = pulled + deviations["cell_crosstalk"] * np.roll(pulled, -1)
     pulled = pulled + deviations["cell_quadratic"] * (pulled / 300.0) ** 2
     turns = np.where(np.arange(len(pulled)) % 2, -1.0, 1.0)
     pulled = pulled + deviations["cell_tilt"] * turns * rest.rotation[2, 0] / TILT
     pulled = pulled * (1.0 + deviations["cell_fading"] * command.day)
     return np.asarray(pulled * (1.0 + deviations["load_cell_gain"]) + deviations["load_cell_bias"])
+
+
+def before_wheels(deviations: Deviations, command: Command, rest: Rest, pulled: np.ndarray) -> np.ndarray:
+    """Tensions (m,) [N] on the winch's side of wheels whose bearings carry what both ends of the cable pull.
+
+    Moments about the axle, (T1 - T2) R = mu r F, solved by repetition: each round is mu r / R of the one before.
+    """
+    before = pulled
+    for _ in range(BEARING_ROUNDS):
+        pulls = before**2 + pulled**2 - 2.0 * before * pulled * np.cos(rest.exit_angles)
+        before = pulled + command.approach * deviations["bearing_friction"] * np.sqrt(pulls)
+    return np.asarray(before)
 
 
 def settled_readings(plan: Plan, seen: Observation, deviations: Deviations) -> list[np.ndarray]:

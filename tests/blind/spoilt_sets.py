@@ -34,7 +34,7 @@ from tests.blind.spoiled_peaks import PeakSpoiler, spoil_peak_tables
 from tests.blind.spoiled_readings import spoil_readings
 
 DEVELOPMENT = "-dev"
-MESSY = ("clean", "student", "outliers", "poses", "missing", "drift", "rounded")
+MESSY = ("clean", "student", "outliers", "poses", "missing", "drift", "rounded", "tracker", "encoders")
 PEAKS = ("clean", "missing", "spurious", "merged", "line", "exchanged", "student", "all", "all")
 SIZES = (2.0, 4.0, 8.0, 16.0)
 CLEAR = 4.0  # multiple of effects whose size is not the question

@@ -12,7 +12,17 @@ from pathlib import Path
 import numpy as np
 
 from tests.blind.case_drawing import CaseKind
-from tests.blind.catalogue import EQUIVALENT, HANDLING, LIBRARY, OUTSIDE, OUTSIDE_DEV, OUTSIDE_HELD, UNSEEN
+from tests.blind.catalogue import (
+    CONVENTION,
+    EQUIVALENT,
+    HANDLING,
+    LAWS,
+    LIBRARY,
+    OUTSIDE,
+    OUTSIDE_DEV,
+    OUTSIDE_HELD,
+    UNSEEN,
+)
 
 FULL = {"null": 40, "single": 80, "pair": 24, "ambiguous": 20, "outside": 20, "handling": 16}
 CI = {"null": 3, "single": 3, "pair": 1, "ambiguous": 2, "outside": 2, "handling": 1}
@@ -21,10 +31,12 @@ CLEAR = 4.0  # multiple of effects whose size is not the question
 FINAL_RATES = {"null": 60, "just": 150, "pair": 56}  # beside a final set, which has few of each
 NULLS = 0.6  # share of nulls in a set of rates; the rest is just detectable
 SET_SEEDS = {"dev": 20_101, "ci": 20_102, "unseen": 20_103, "rates": 20_104}
+SET_SEEDS |= {"laws": 20_105}
 SET_SEEDS |= {"messy": 31_201, "peaks": 31_202, "sizes": 31_203}
 SET_SEEDS |= {"messy-dev": 31_301, "peaks-dev": 31_302, "sizes-dev": 31_303}
 SET_SEEDS |= {"few": 31_204, "few-dev": 31_304}
 SET_SEEDS |= {"outside-dev": 31_401, "outside-held": 31_402}
+SET_SEEDS |= {"conventions": 31_205}
 USES = Path(__file__).with_name("final_uses.json")
 
 
@@ -55,8 +67,10 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
     special = {
         "ci": CI,
         "unseen": {"unseen": total},
+        "laws": {"law": total},
         "outside-dev": {"outside_dev": total},
         "outside-held": {"outside_held": total},
+        "conventions": {"convention": total},
         "rates": {"null": nulls, "just": total - nulls},
         "final-rates": counts(total, FINAL_RATES),
     }
@@ -69,7 +83,9 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
         "ambiguous": _ambiguous,
         "outside": _outside,
         "handling": _handling,
+        "convention": _conventions,
         "unseen": _unseen,
+        "law": _laws,
         "outside_dev": partial(_static_outside, [*OUTSIDE_DEV]),
         "outside_held": partial(_static_outside, [*OUTSIDE_HELD]),
     }
@@ -117,12 +133,21 @@ def _unseen(count: int, rng: np.random.Generator) -> list[CaseKind]:
     return [CaseKind("outside", ((name, CLEAR),)) for name in _dealt([*UNSEEN], count, rng)]
 
 
+def _laws(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    return [CaseKind("law", ((name, 1.0),)) for name in _dealt([*LAWS], count, rng)]
+
+
 def _static_outside(names: Sequence[str], count: int, rng: np.random.Generator) -> list[CaseKind]:
     return [CaseKind("outside", ((name, CLEAR),), statics=True) for name in _dealt(names, count, rng)]
 
 
 def _handling(count: int, rng: np.random.Generator) -> list[CaseKind]:
     return [CaseKind("handling", ((name, CLEAR),)) for name in _dealt(HANDLING, count, rng)]
+
+
+def _conventions(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    del rng
+    return [CaseKind("handling", ((CONVENTION, CLEAR),))] * count
 
 
 def record_final_use(release: str, uses: Path = USES) -> None:

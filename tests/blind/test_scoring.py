@@ -67,7 +67,7 @@ def test_a_wrong_name_counts_only_when_it_is_confident():
     [("null", "adequate", True), ("null", "unknown", False), ("outside", "unknown", True), ("outside", "named", False)],
 )
 def test_right_answers_without_a_name(kind, status, right):
-    effects = [("backlash", 4.0)] if kind == "outside" else []
+    effects = [("wind_gradient", 4.0)] if kind == "outside" else []
     assert right_answer(said(status, ["drum_scale"]), truth(kind, *effects)) is right
 
 
@@ -92,7 +92,7 @@ def test_figures_of_a_small_set():
             said("named", ["center_of_mass"], result={"gain": {"ratio": 3}}),
         ),
         Scored("c4", truth("single", ("drum_scale", 0.5)), said("adequate")),
-        Scored("c5", truth("outside", ("backlash", 4.0)), said("unknown")),
+        Scored("c5", truth("outside", ("wind_gradient", 4.0)), said("unknown")),
         Scored("c6", truth("handling", ("unit_error", None)), said("failed", probability=float("nan"))),
     ]
     cases[2].truth["effects"][0] |= {"total": [0.001], "shape": "common"}

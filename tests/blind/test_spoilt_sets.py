@@ -49,7 +49,7 @@ def changed(cases: dict[str, Case], way: str, file: str = "static_state") -> pd.
 
 def test_every_way_changes_its_own_columns_and_no_other(messy):
     columns = {"outliers": {"tension_N"}, "drift": {"tension_N"}, "rounded": {"tension_N"}, "poses": set(POSE)}
-    columns["missing"] = {"tension_N", "length_m"}
+    columns |= {"missing": {"tension_N", "length_m"}, "tracker": set(POSE), "encoders": {"length_m"}}
     for way, expected in columns.items():
         share = changed(messy, way)
         assert set(share.index[share > 0.0]) == expected, way
@@ -76,6 +76,27 @@ def test_a_drift_begins_with_nothing(messy):
     assert not by_state[0].any()
     assert (np.abs(by_state[1:]) > 0.0).all()
     assert 0.5 < by_state[-1].std() < 8.0
+
+
+def test_a_drift_of_the_tracker_moves_all_poses_a_little_more_each_time(messy):
+    before, after = (messy[way].tables["static_state"].groupby("case")[POSE].first() for way in ("clean", "tracker"))
+    shift = np.linalg.norm((after - before)[POSE[:3]].to_numpy(), axis=1)
+    assert shift[0] == pytest.approx(0.0, abs=1e-12)
+    assert 1e-4 < shift.max() < 10e-3
+    assert np.degrees(1e-5) < np.abs((after - before)[POSE[3:]].to_numpy()).max() < np.degrees(10e-3)
+
+
+def test_a_drift_of_the_encoders_is_the_same_within_a_lock(messy):
+    before, after = (messy[way].tables["static_state"]["length_m"] for way in ("clean", "encoders"))
+    change = (after - before).to_numpy().reshape((SMALL.static_states, -1))
+    assert (change[0] == 0.0).all()
+    assert 1e-4 < np.abs(change).max() < 8e-3
+    loaded = [
+        messy[way].tables["loaded_pose"].groupby(lambda i: i // SMALL.loads_per_lock) for way in ("clean", "encoders")
+    ]
+    one, other = (table["length_1_m"].agg(["min", "max"]) for table in loaded)
+    assert (other["min"] == other["max"]).all()
+    assert (other["min"] != one["min"]).all()
 
 
 def test_rounded_tensions_are_steps_and_missing_ones_are_blank(messy, tmp_path):
@@ -161,7 +182,7 @@ def test_the_same_cause_in_four_sizes_on_the_same_robot():
 
 def test_sets_have_their_composition_and_seeds_of_their_own():
     messy, peaks, sizes = (
-        spoilt_kinds(name, count, 5) for name, count in (("messy", 210), ("peaks", 180), ("sizes", 224))
+        spoilt_kinds(name, count, 5) for name, count in (("messy", 270), ("peaks", 180), ("sizes", 224))
     )
     assert Counter(kind.way for kind in messy) == dict.fromkeys(MESSY, 30)
     assert Counter(kind.way for kind in peaks) == {way: 20 * PEAKS.count(way) for way in PEAKS}

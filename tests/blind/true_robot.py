@@ -74,6 +74,17 @@ def bedding(deviations: Deviations, tensions: np.ndarray) -> tuple[np.ndarray, n
     return np.asarray(deviations["construction_stretch"] - left - slope * tensions), np.asarray(slope)
 
 
+def powers(deviations: Deviations, tensions: np.ndarray, stiffness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Tangent EA (m,) [N] of ropes whose strain grows with T^(1 - n), and what its line has at no tension (m,).
+
+    stiffness : of the tangent at `BEDDED`
+    """
+    exponent = deviations["power_elasticity"]
+    about = np.where(tensions > 0.0, tensions, BEDDED)
+    tangent = stiffness * (about / BEDDED) ** exponent
+    return np.asarray(tangent), np.asarray(about / tangent * exponent / (1.0 - exponent))
+
+
 def true_cables(
     robot: EnteredRobot, deviations: Deviations, paid: np.ndarray, tensions: np.ndarray
 ) -> tuple[CableData, ...]:
@@ -82,8 +93,10 @@ def true_cables(
     paid, tensions : unstrained lengths (m,) [m], and tensions (m,) [N] about which a rope that beds down is linear
     """
     stretch, slope = bedding(deviations, tensions)
-    lengths = paid * (1.0 + stretch) + deviations["dead_length"] * stretch
     stiffness = robot.axial_stiffness * np.exp(deviations["axial_stiffness"])
+    stiffness, more = powers(deviations, tensions, stiffness)
+    stretch = stretch + more
+    lengths = paid * (1.0 + stretch) + deviations["dead_length"] * stretch
     stiffness = stiffness / (1.0 + slope * stiffness)
     density = robot.linear_density * np.exp(deviations["cable_linear_density"])
     give = deviations["joint_compliance"] + deviations["dead_length"] / stiffness
@@ -221,6 +234,5 @@ def at_rest(robot: EnteredRobot, deviations: Deviations, command: Command, eleme
 
 def _depends_on_pose(deviations: Deviations) -> bool:
     forces = ("hose_stiffness", "wind_gradient", "tool_balancer", "floor_magnet", "cubic_hose")
-    return any(
-        np.any(deviations[name]) for name in (*forces, "platform_hinge", "frame_compliance", "construction_stretch")
-    )
+    yielding = ("platform_hinge", "frame_compliance", "construction_stretch", "power_elasticity")
+    return any(np.any(deviations[name]) for name in (*forces, *yielding))

@@ -7,16 +7,18 @@ from scipy.sparse import block_array, csc_array, diags_array, lil_array
 
 from cdpr_struct.fem_reference import RobotEquilibrium, cable_modes
 from cdpr_struct.fem_reference.eigen_solver import frequencies_hz, lowest_eigenpairs
+from cdpr_struct.fem_reference.pendulum import PendulumData, with_pendulum
 from cdpr_struct.fem_reference.rigid_platform import platform_mass_matrix
 from cdpr_struct.fem_reference.robot_modes import robot_matrices
 from tests.blind.bending_masts import exit_blocks, mast_motion, mast_springs
 from tests.blind.deviations import Deviations
 from tests.blind.entered_robot import EnteredRobot
-from tests.blind.true_robot import balancer_stiffness
+from tests.blind.true_robot import balancer_stiffness, true_gravity
 
 CABLE_MODES = 4
 ROBOT_MODES = 48
 VISIBLE_SHARE = 0.3  # of the kinetic energy in the platform: what an accelerometer on it shows as a clear peak
+CORD = 0.25  # m, of a payload that swings below the platform origin
 SHIFT = -0.4  # (rad/s)^2, far below every mode of these robots
 
 
@@ -43,6 +45,9 @@ def whole_matrices(
         line = lil_array(stiffness.shape)
         line[-6:-3, -6:-3] = balancer_stiffness(robot, deviations, equilibrium.position)
         stiffness = csc_array(stiffness + line)
+    if bob := swinging_mass(robot, deviations):
+        gravity, hung = true_gravity(robot, deviations), PendulumData(bob, CORD, np.zeros(3))
+        stiffness, mass = with_pendulum(stiffness, mass, equilibrium.rotation, gravity, hung)
     compliance = deviations["frame_compliance"]
     if not np.any(compliance):
         return stiffness, mass
@@ -57,6 +62,11 @@ def whole_matrices(
     )
 
 
+def swinging_mass(robot: EnteredRobot, deviations: Deviations) -> float:
+    """[kg] of the platform's mass that hangs from its origin."""
+    return float(robot.mass * deviations["swinging_payload"][0])
+
+
 def robot_frequencies(
     robot: EnteredRobot, deviations: Deviations, equilibrium: RobotEquilibrium
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -66,4 +76,5 @@ def robot_frequencies(
     end = 3 * len(equilibrium.cables) * (equilibrium.elements - 1)
     moved = vectors[end : end + 6]
     body = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
+    body = body - swinging_mass(robot, deviations) * np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
     return frequencies_hz(values), np.einsum("ak,ab,bk->k", moved, body, moved)

@@ -21,6 +21,7 @@ from cdpr_struct.fem_reference.cable_modes import cable_modes, end_dynamic_stiff
 from cdpr_struct.fem_reference.cable_statics import solve_cable
 from cdpr_struct.fem_reference.extrapolation import extrapolate
 from cdpr_struct.fem_reference.inner_mass import InnerMassData
+from cdpr_struct.fem_reference.pendulum import PendulumData
 from cdpr_struct.fem_reference.surroundings import SurroundingsData
 
 CABLE, BODY = CableData(5.1, 1e5, 0.05), PlatformData(20.0, np.zeros(3), np.eye(3))
@@ -71,6 +72,10 @@ NUMBERS = [  # what is made, field, whether zero is taken
         lambda **one: InnerMassData(**({"mass": 1.0, "spring": 1.0, "place": np.zeros(3), "axis": [0, 0, 1]} | one)),
         "spring",
         False,
+    ),
+    *(
+        (lambda **one: PendulumData(**({"mass": 1.0, "length": 1.0, "hook": np.zeros(3)} | one)), name, False)
+        for name in ("mass", "length", "axial_stiffness")
     ),
     (lambda **one: SurroundingsData(masts=((0, 1), (2,)), **one), "mast_compliance", True),
     (lambda **one: SurroundingsData(masts=((0, 1), (2,)), **one), "mast_bending", True),

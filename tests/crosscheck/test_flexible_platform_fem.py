@@ -88,10 +88,11 @@ def built(generator, inertia):
     )  # fmt: skip
 
 
-def written(folder, seed, mass=0.0, hertz=0.0, inertia=1.0, missed=()):
+def written(folder, seed, mass=0.0, hertz=0.0, inertia=1.0, missed=(), peaks_of=peaks_of):
     """Campaign of the FEM's states and peaks with noise, and the internal mode's true frequency at each pose.
 
     missed : poses at which the peak of the mass was not picked
+    peaks_of : frequencies of a state with such a mass, and that of the mass
     """
     generator = np.random.default_rng(seed)
     robot, states, peaks, inner = built(generator, inertia), [], [], []

@@ -17,6 +17,8 @@ from scipy.optimize import linear_sum_assignment
 from scipy.spatial.transform import Rotation
 
 from cdpr_struct.cli.main import run
+from cdpr_struct.diagnosis.amplitude_law import amplitude_finding, changes, held_out_rms
+from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.pose_error import reference_lengths
 
@@ -152,3 +154,24 @@ def test_pulleys_nobody_entered_are_found_in_six_recordings(setup, tmp_path, cap
     paths = (robot_file(config, turn, tmp_path / "entered.toml"), tmp_path / "out" / "extended_robot.toml")
     entered, extended = (deviations_of(path, turn, left_out, "consistent", capsys)[0] for path in paths)
     assert np.median(np.abs(extended)) < 1.2 * np.median(np.abs(entered))
+
+
+@pytest.mark.slow
+def test_large_motion_and_friction_explain_how_frequencies_change_with_amplitude(tmp_path):
+    """The figures of docs/signal_records.md; tolerances are half of the last digit there, twice that for friction."""
+    script = Path(__file__).parents[2] / "examples" / "free_motion_campaign.py"
+    subprocess.run([sys.executable, script, FOLDER, tmp_path], check=True)
+    found = amplitude_finding(load_campaign(tmp_path / "campaign.toml").identified)
+    rows, best = found.rows, found.fits[0]
+    recorded, large, both = (
+        100.0 * changes(rows, values) for values in (rows.log_hertz, rows.large, rows.large + best.held_out)
+    )
+    assert found.status == "friction"
+    assert len(recorded) == 33
+    assert np.median(recorded) == pytest.approx(0.69, abs=0.005)
+    assert np.median(large) == pytest.approx(0.28, abs=0.005)
+    assert np.median(both) == pytest.approx(0.59, abs=0.01)
+    assert np.median(recorded - both) == pytest.approx(-0.01, abs=0.01)
+    assert [fit.gain for fit in found.fits] == pytest.approx([76, 66, 62, 48], abs=1.0)
+    error = [100.0 * held_out_rms(rows, shift) for shift in (0.0, rows.large, rows.large + best.held_out)]
+    assert error == pytest.approx([1.00, 0.82, 0.47], abs=0.01)

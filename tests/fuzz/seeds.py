@@ -70,6 +70,8 @@ thermal_expansion = 1.2e-5
 platform_anchor = [0.1, 0, 0]
 frame_anchor = [3, 0, 4]
 pulley = { radius = 0.05, axis = [0, 0, 1] }
+winch = "left"
+home_length = 4.2
 [[cables]]
 platform_anchor = [-0.1, 0, 0]
 frame_anchor = [-3, 0, 4]
@@ -86,6 +88,14 @@ tracker = [0, 0, 0, 0, 0, 0]
 internal_mass = 1.0
 internal_frequency = 9.0
 internal_direction = [0, 0, 1]
+stiffening_exponent = 0.1
+incremental_ratio = 1.1
+bearing_friction = 0.02
+pulley_drag = 1.0
+backlash = 0.001
+swinging_mass = 0.5
+swinging_frequency = 0.8
+swinging_place = [0, 0, -0.1]
 drag_width = 0.01
 wind = [1, 2, 0]
 [[lumps]]

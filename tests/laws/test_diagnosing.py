@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from cdpr_struct.diagnosis import diagnosing
 from cdpr_struct.diagnosis.decision import Decision, decided
@@ -174,7 +175,38 @@ def test_a_drift_of_load_cells_is_no_cause(seed):
     walk = 3.0 * SIGMA_TENSION * np.cumsum(steps, axis=0) / np.sqrt(len(steps))
     said = diagnosed(with_states(campaign, tension=tension + walk - walk[0]))
     assert said.decision.status == "adequate"
-    assert said.null.hypothesis.drift > 0.0
+    assert said.null.hypothesis.drift.sensor == "load_cells"
+
+
+def walk_of(seed: int, states: int, sensors: int) -> np.ndarray:
+    """(S, n) random walks from zero at the first state to one sigma at the last."""
+    steps = np.random.default_rng(seed).normal(size=(states, sensors)) / np.sqrt(states - 1)
+    return np.cumsum(steps, axis=0) - steps[0]
+
+
+def test_a_drift_of_the_tracker_is_no_cause():
+    """Its frame shifts by four millimetres until the end, and turns about the middle by four milliradians."""
+    campaign = measured(cogiro(), 9)
+    position, walk = campaign.states.position, 4e-3 * walk_of(3, len(campaign.states.names), 6)
+    turn, middle = Rotation.from_rotvec(walk[:, 3:]), position.mean(axis=0)
+    angles = (turn * Rotation.from_euler("xyz", campaign.states.angles)).as_euler("xyz")
+    read = middle + turn.apply(position - middle) + walk[:, :3]
+    said = diagnosed(with_states(campaign, position=read, angles=angles))
+    assert said.decision.status == "adequate"
+    assert said.null.hypothesis.drift.sensor == "tracker"
+    assert 1e-3 < said.drift.size < 8e-3
+
+
+def test_a_drift_of_the_encoders_is_no_cause():
+    """Two millimetres wide at the end; the last state has the lengths of the first, which are read once."""
+    campaign = measured(cogiro(), 10)
+    length = campaign.states.length
+    walk = 2e-3 * walk_of(4, *length.shape)
+    walk[-1] = walk[0]
+    said = diagnosed(with_states(campaign, length=length + walk))
+    assert said.decision.status == "adequate"
+    assert said.null.hypothesis.drift.sensor == "encoders"
+    assert 0.5e-3 < said.drift.size < 4e-3
 
 
 @pytest.mark.parametrize(

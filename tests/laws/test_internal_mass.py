@@ -26,6 +26,7 @@ from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
 
+SWINGING = {"swinging_mass": 5.0, "swinging_frequency": 0.9, "swinging_place": [0.1, -0.05, -0.2]}
 INNER = {"internal_mass": 5.0, "internal_frequency": 6.5, "internal_direction": [0.0, 0.6, 0.8]}
 TURN = rotation(0.05, -0.04, 0.1)
 
@@ -48,7 +49,7 @@ def by_hand(point: OperatingPoint) -> np.ndarray:
     carried = np.column_stack([np.eye(3), np.zeros((3, 4))])  # of a point there that does not slide
     whole = np.zeros((7, 7))
     arm = turn @ body.center_of_mass
-    of_center = np.column_stack([np.eye(3), np.cross(np.eye(3), arm), np.zeros(3)])
+    of_center = np.column_stack([np.eye(3), np.cross(np.eye(3), arm).T, np.zeros(3)])
     whole += body.mass * of_center.T @ of_center
     whole[3:6, 3:6] += turn @ body.inertia @ turn.T
     mass = whole - m * carried.T @ carried + m * moved.T @ moved
@@ -79,11 +80,45 @@ def test_the_apparent_mass_is_that_of_the_mount():
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12)
 
 
+def test_a_pendulum_by_hand():
+    """Lagrange's equations of a rigid body on springs and of a bob on a cord of length l, with eight unknowns.
+
+    With the hook's motion h and the bob's x against it, both horizontal, 2 V has m g / l x^2, and 2 T m (h' + x')^2.
+    """
+    length, hook, m = 0.3, np.array([0.1, -0.05, -0.2]), 5.0
+    hertz = np.sqrt(9.81 / length) / (2.0 * np.pi)
+    point = at_rest({"swinging_mass": m, "swinging_frequency": hertz, "swinging_place": hook})
+    body, arm = point.entered.platform, TURN @ hook
+    of_hook = np.column_stack([np.eye(3), np.cross(np.eye(3), arm).T])
+    of_bob = np.column_stack([of_hook, np.eye(3)[:, :2]])
+    of_center = np.column_stack([np.eye(3), np.cross(np.eye(3), TURN @ body.center_of_mass).T])
+    mass, stiffness = np.zeros((8, 8)), np.zeros((8, 8))
+    mass[:6, :6] = body.mass * of_center.T @ of_center - m * of_hook.T @ of_hook
+    mass[3:6, 3:6] += TURN @ body.inertia @ TURN.T
+    mass += m * of_bob.T @ of_bob
+    stiffness[:6, :6] = platform_static_stiffness(point)
+    stiffness[[6, 7], [6, 7]] = m * 9.81 / length
+    expected = np.sqrt(eigh(stiffness, mass, eigvals_only=True)) / (2.0 * np.pi)
+    np.testing.assert_allclose(certified_modes(point, "static", 8).frequencies.hertz, expected, rtol=1e-11)
+    np.testing.assert_allclose(static_frequencies(point), expected, rtol=1e-11)
+
+
+def test_far_above_its_frequency_a_pendulum_leaves_its_weight_alone():
+    """The apparent mass across gravity is that without it, along gravity that with it."""
+    point, fast = at_rest({**SWINGING, "swinging_place": [0.0, 0.0, 0.0]}), np.array(1e8)
+    rigid, found = platform_mass_matrix(point.arrays, TURN), inertia_of_platform(point, fast) / fast
+    np.testing.assert_allclose(np.diag(rigid - found)[:3], [5.0, 5.0, 0.0], rtol=1e-5, atol=1e-9)
+
+
+PARTS = {"a mount": INNER, "a pendulum": SWINGING, "both": {**INNER, **SWINGING}}
+
+
 @pytest.mark.parametrize("model", ["dsm", "exact"])
 @pytest.mark.parametrize("name", ["thesis-3-1", "cogiro"])
-def test_eigenproblem_and_count_agree(name, model):
-    """The count knows the condensed stiffness and the mount's own frequency; the eigenproblem has an unknown more."""
-    point = at_rest(name=name)
+@pytest.mark.parametrize("parts", PARTS)
+def test_eigenproblem_and_count_agree(parts, name, model):
+    """The count knows the condensed stiffness and the parts' own frequencies; the eigenproblem has unknowns more."""
+    point = at_rest(PARTS[parts], name=name)
     found = certified_modes(point, model, 14)
     assert found.frequencies.certified
     counted = natural_frequencies(point, found.cables, 14).hertz
@@ -109,8 +144,9 @@ def test_a_stiff_mount_is_rigid():
     np.testing.assert_allclose(stiff.frequencies.hertz, rigid.frequencies.hertz, rtol=1e-6)
 
 
-def test_a_swept_stiffness_is_the_full_one():
-    point, law = at_rest(), Viscous(0.02)
+@pytest.mark.parametrize("parts", ["a mount", "both"])
+def test_a_swept_stiffness_is_the_full_one(parts):
+    point, law = at_rest(PARTS[parts]), Viscous(0.02)
     omega = np.sort(np.append(2.0 * np.pi * np.linspace(0.1, 20.0, 997), 2.0 * np.pi * INNER["internal_frequency"]))
     for model in ("dsm", "exact"):
         cables = cable_dynamics(point, model, omega[-1])
@@ -120,26 +156,28 @@ def test_a_swept_stiffness_is_the_full_one():
         assert (np.abs(swept - full).max(axis=(1, 2)) < 1e-8 * size).all()
 
 
-def test_a_response_is_the_sum_over_the_modes():
+@pytest.mark.parametrize("parts", PARTS)
+def test_a_response_is_the_sum_over_the_modes(parts):
     """Statics included: far below the first mode, all modes of an expansion together."""
-    point, hertz = at_rest(), np.array([0.5, 2.2, 5.9, 6.4, 7.9])
+    point, hertz = at_rest(PARTS[parts]), np.array([0.5, 2.2, 5.9, 6.4, 7.9])
     port = platform_port("p", TURN @ np.array([0.0, 0.6, 0.8]), False, np.array([0.1, 0.0, 0.2]))
     top = 2.0 * np.pi * 60.0
     cables = cable_dynamics(point, "exact", top)
     direct = frequency_response(point, cables, Undamped(), port, (port,), hertz, "displacement").response[:, 0]
-    every = 7 + cables.expansion(top).omega_squared.size
+    every = {"a mount": 7, "a pendulum": 8, "both": 9}[parts] + cables.expansion(top).omega_squared.size
     basis = modal_basis(point, cables, Undamped(), every, top)
     shape = basis.shape_at(port)
     summed = (shape**2 / (basis.omega**2 - (2.0 * np.pi * hertz[:, None]) ** 2)).sum(axis=1)
     np.testing.assert_allclose(direct.real, summed, rtol=1e-6)
 
 
-def test_a_stop_excites_the_internal_mass():
-    """All of the kinetic energy before the stop is in the modes, the part that slides included."""
-    point = at_rest()
+@pytest.mark.parametrize(("parts", "modes"), [("a mount", 7), ("both", 9)])
+def test_a_stop_excites_the_internal_mass(parts, modes):
+    """All of the kinetic energy before the stop is in the modes, the parts that move included."""
+    point = at_rest(PARTS[parts])
     top = 2.0 * np.pi * 300.0
     cables = cable_dynamics(point, "static")
-    basis = modal_basis(point, cables, Undamped(), 7, top)
+    basis = modal_basis(point, cables, Undamped(), modes, top)
     port, twist = (
         platform_port("p", np.array([0.0, 0.0, 1.0]), False, np.zeros(3)),
         np.array([0.1, 0.2, 0.3, 0.0, 0.1, 0.0]),
@@ -156,6 +194,8 @@ def test_a_stop_excites_the_internal_mass():
         ({"internal_mass": 5.0}, "internal_mass = 5 kg needs internal_frequency, in Hz, above 0"),
         ({"internal_mass": 500.0, "internal_frequency": 3.0}, "must be a part of the platform's mass: below"),
         ({"internal_mass": -1.0, "internal_frequency": 3.0}, "internal_mass must be in kg, not below 0"),
+        ({"swinging_mass": 5.0}, "swinging_mass = 5 kg needs swinging_frequency, in Hz, above 0"),
+        ({**SWINGING, "swinging_mass": 110.0}, "swinging_mass = 110 kg must be a part of the platform's mass: below"),
         ({**INNER, "internal_direction": [0.0, 0.0, 0.0]}, "internal_direction must not be the zero vector"),
     ],
 )

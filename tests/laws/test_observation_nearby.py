@@ -19,7 +19,7 @@ SHARE = 2e-5  # of the largest slope: one-sided differences over a hundred-thous
 UNSEEN = 1e-5 * np.repeat([0.05, 2e-5], (6, 8))  # N, m, a sigma of the cause: of what evidence can see at all
 MISSING = {
     "bending_stiffness", "cable_added_mass", "accelerometer_gain", "accelerometer_mass", "platform_inertia",
-    "flexible_platform", "steady_disturbance",
+    "flexible_platform", "steady_disturbance", "swinging_payload",
 }  # fmt: skip
 """Act in vibration only."""
 

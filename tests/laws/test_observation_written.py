@@ -35,6 +35,8 @@ def fields_of(robot) -> dict[str, dict]:
         "temperature_change": {"temperature_change": 15.0},
         "tilt": {"tilt": [4e-3, -3e-3]},
         "nonlinearity": {"nonlinearity": 0.15, "reference_tension": 400.0},
+        "stiffening_exponent": {"stiffening_exponent": 0.2, "reference_tension": 400.0},
+        "incremental_ratio": {"incremental_ratio": 1.3},
         "length_offset": {"length_offset": 4e-3 * (VARIED - 0.6)},
         "length_scale": {"length_scale": 1.0 + 2e-3 * (VARIED - 0.6)},
         "bending_stiffness": {"bending_stiffness": 0.5 * VARIED, "bending_fixity": 0.3 + 0.2 * VARIED},
@@ -42,6 +44,9 @@ def fields_of(robot) -> dict[str, dict]:
         "cell_gain": {"cell_gain": 1.0 + 0.05 * (VARIED - 0.6)},
         "cell_bias": {"cell_bias": 10.0 * (VARIED - 0.6)},
         "friction": {"friction": 0.05 * VARIED},
+        "bearing_friction": {"bearing_friction": 0.04 * VARIED},
+        "pulley_drag": {"pulley_drag": 3.0 * VARIED},
+        "backlash": {"backlash": 3e-3 * VARIED},
         "tracker": {"tracker": [3e-3, -2e-3, 1e-3, 2e-3, -3e-3, 4e-3]},
         "creep": {"creep": 0.1},
         "slip": {"slip": 2e-3 * (VARIED - 0.6)},
@@ -50,6 +55,10 @@ def fields_of(robot) -> dict[str, dict]:
         "internal_mass": {
             "internal_mass": 0.05 * robot.platform.mass, "internal_frequency": 7.0,
             "internal_direction": [0.6, 0.0, 0.8],
+        },
+        "swinging_mass": {
+            "swinging_mass": 0.05 * robot.platform.mass, "swinging_frequency": 1.1,
+            "swinging_place": [0.05, -0.02, -0.1],
         },
     }  # fmt: skip
 
@@ -68,6 +77,9 @@ OF_READINGS = (
     "cell_gain",
     "cell_bias",
     "friction",
+    "bearing_friction",
+    "pulley_drag",
+    "backlash",
     "tracker",
     "slip",
     "accelerometer_gain",

@@ -22,8 +22,9 @@ from cdpr_struct.statics.inverse_kinematics import inverse
 
 IDLE = {
     "force_min", "force_max", "damping_ratio", "length_offset", "length_scale", "hose_center", "force", "nonlinearity",
-    "reference_tension", "cell_gain", "cell_bias", "friction", "tracker", "creep", "slip", "accelerometer_gain",
-    "sensor_mass",
+    "stiffening_exponent", "reference_tension", "cell_gain", "cell_bias", "friction", "bearing_friction",
+    "pulley_drag", "backlash", "tracker", "creep", "slip",
+    "accelerometer_gain", "sensor_mass",
 }  # fmt: skip
 """Parameters that act on readings or on the state, not on the vibration about it; and what a winch holds, a switch."""
 STEPS = {
@@ -111,11 +112,16 @@ INTERNAL = {
     "internal_mass": 5.0, "internal_frequency": 6.0, "internal_direction": np.array([0.0, 0.6, 0.8]),
     "center_of_mass": np.array([0.05, -0.02, 0.08]),
 }  # fmt: skip
+SWINGING = {
+    "swinging_mass": 12.0, "swinging_frequency": 0.9, "swinging_place": np.array([0.1, -0.05, -0.2]),
+    "center_of_mass": np.array([0.05, -0.02, 0.08]),
+}  # fmt: skip
 STATES: dict[str, Callable[[], State]] = {
     "six cables": lambda: state_of("six-cable-4mm"),
     "everything gives way": lambda: state_of("thesis-3-1", **EXTENDED),
     "cogiro on pulleys": lambda: state_of("cogiro", pulley_radius=0.05),
     "a tool on a mount": lambda: state_of("cogiro", **INTERNAL),
+    "a swinging payload": lambda: state_of("cogiro", **SWINGING),
 }
 READINGS = ("position", "rotation", "tension")
 AS_ENTERED = (
@@ -179,6 +185,8 @@ def skipped(state: State) -> set[str]:
     none |= set() if arrays.added_mass.any() else {"added_mass_place"}
     none |= set() if arrays.has_pulleys else {"pulley_axis", "pulley_radius"}
     none |= set() if arrays.has_internal_mass else {"internal_mass", "internal_frequency", "internal_direction"}
+    swinging = {"swinging_mass", "swinging_frequency", "swinging_place"}
+    none |= set() if arrays.has_swinging_mass else swinging
     return none | (set() if arrays.center_of_mass.any() else {"tilt"})
 
 
@@ -188,7 +196,10 @@ def first_string(point: OperatingPoint) -> float:
 
 
 @pytest.mark.parametrize("assembly", ["consistent", "thesis"])
-@pytest.mark.parametrize(("case", "count"), [("six cables", 6), ("everything gives way", 6), ("a tool on a mount", 7)])
+@pytest.mark.parametrize(
+    ("case", "count"),
+    [("six cables", 6), ("everything gives way", 6), ("a tool on a mount", 7), ("a swinging payload", 8)],
+)
 def test_rates_on_massless_cables_are_derivatives_too(case, count, assembly):
     state = STATES[case]()
     modes = modes_at(single(state), np.array([1.0]), assembly, "static")

@@ -37,15 +37,18 @@ def everything() -> RobotArrays:
         mast_bending=1e-6 * np.linspace(2.0, 0.5, 4) @ carriers(arrays.masts).T, mast_foot=np.array(-1.0 / 3.0),
         mast_mass=0.7 * each,
         uprights=uprights_of(exits, -1.0 / 3.0),
-        cell_bias=2.0 * each, friction=0.02 * each, force=np.array([5.0, -3.0, 2.0]), hose=np.array(30.0),
+        cell_bias=2.0 * each, friction=0.02 * each,
+        bearing_friction=0.03 * each, pulley_drag=1.5 * each, backlash=1e-3 * each,
+        force=np.array([5.0, -3.0, 2.0]), hose=np.array(30.0),
         hose_center=np.array([0.1, 0.2, 1.0 / 3.0]), tilt=np.array([0.002, -0.001]),
         moment=np.array([1.0, -2.0, 1.0 / 3.0]), drag_area=np.array(1.3), drag_width=np.array(0.012),
         wind=np.array([6.0, -5.0, 1.0 / 3.0]), air_density=np.array(1.1), temperature_change=np.array(-12.5),
-        nonlinearity=np.array(0.1),
+        nonlinearity=np.array(0.1), stiffening_exponent=np.array(0.2), incremental_ratio=np.array(1.25),
         reference_tension=np.array(1000.0 / 3.0), tracker=np.array([0.001, 0.0, 0.002, 0.0, 0.001, 0.0]),
         creep=np.array(0.05), slip=1e-4 * each, sensor_mass=np.array(2.0), bending_stiffness=0.1 * each,
         added_mass=0.01 * each, internal_mass=np.array(20.0 / 3.0), internal_frequency=np.array(7.1),
-        internal_direction=np.array([0.48, 0.6, 0.64]),
+        internal_direction=np.array([0.48, 0.6, 0.64]), swinging_mass=np.array(5.0 / 3.0),
+        swinging_frequency=np.array(0.7), swinging_place=np.array([0.1, 0.0, -1.0 / 3.0]),
     )  # fmt: skip
 
 

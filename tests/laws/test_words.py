@@ -7,7 +7,7 @@ import pytest
 
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
 from cdpr_struct.hypotheses.causes.library import LIBRARY
-from cdpr_struct.hypotheses.handling import Correction
+from cdpr_struct.hypotheses.correction import Correction
 from cdpr_struct.hypotheses.hypothesis import Part
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.measurement.campaign import Campaign, Sheet, Sigmas

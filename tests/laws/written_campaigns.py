@@ -28,7 +28,10 @@ NO_CABLES = CableFrequencies(*(np.zeros(0, dtype=t) for t in (int, int, int, boo
 NO_PEAKS = RobotFrequencies(*(np.zeros(0, dtype=t) for t in (int, float, float)))
 SIGMA_TENSION, SIGMA_LENGTH, SIGMA_POSITION, SIGMA_ROTATION, SIGMA_HERTZ = 2.0, 5e-4, 5e-4, 3.5e-4, 3e-3
 MASS = 0.0092  # relative: the platform's smallest detectable error in `measured`, as the diagnosis itself says
-TO_SENSORS = ("cell_gain", "cell_bias", "friction", "tracker", "slip", "creep", "sensor_mass", "accelerometer_gain")
+TO_SENSORS = (
+    "cell_gain", "cell_bias", "friction", "bearing_friction", "pulley_drag", "backlash", "tracker", "slip", "creep",
+    "sensor_mass", "accelerometer_gain",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,8 +133,9 @@ def written(robot: Robot, plan: Plan, entered: Robot | None = None, seed: int = 
         angles=Rotation.from_matrix(matrix).as_euler("xyz"),
         sigma_position=np.full(count, SIGMA_POSITION), sigma_rotation=np.full(count, SIGMA_ROTATION),
         payload=np.array([s.payload for s in states]),
-        tension=more.cell_gain * tension * np.exp(more.friction * approach * wrap) + more.cell_bias,
-        tension_sigma=np.full((count, m), SIGMA_TENSION), length=np.array([s.length for s in states]),
+        tension=more.cell_gain * _at_winch(more, tension, approach, wrap) + more.cell_bias,
+        tension_sigma=np.full((count, m), SIGMA_TENSION),
+        length=_encoders(more, np.array([s.length for s in states]), approach),
         length_sigma=np.full((count, m), SIGMA_LENGTH), lock=np.array([s.lock for s in states]),
         loaded=np.arange(count) >= len(plan.position), static=np.arange(count) < len(plan.position),
         temperature=np.full(count, np.nan), approach=approach, time=3600.0 * time,
@@ -140,6 +144,21 @@ def written(robot: Robot, plan: Plan, entered: Robot | None = None, seed: int = 
         "written", robot if entered is None else entered, robot.name, plan.model, Tolerances(), frozenset(), rows,
         _plucked(robot, plan, states), _shaken(robot, plan, states), assembly=plan.assembly,
     )  # fmt: skip
+
+
+def _at_winch(more: Extensions, tension: np.ndarray, approach: np.ndarray, wrap: np.ndarray) -> np.ndarray:
+    """Tensions behind the pulleys at the exits: capstan, then the balance of moments about a bearing, then drag."""
+    before = tension * np.exp(more.friction * approach * wrap)
+    after, turn = before, np.cos(0.5 * np.pi * wrap)
+    for _ in range(60):
+        carried = np.sqrt(after**2 + before**2 - 2.0 * after * before * turn)
+        after = before + approach * more.bearing_friction * carried
+    return after + approach * more.pulley_drag
+
+
+def _encoders(more: Extensions, length: np.ndarray, approach: np.ndarray) -> np.ndarray:
+    """What encoders before a drive with play say where its drum has turned by `length`, scale and zero as entered."""
+    return length - 0.5 * approach * more.backlash / more.length_scale
 
 
 def vibrating_point(robot: Robot, state: _State) -> OperatingPoint:

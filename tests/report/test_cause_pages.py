@@ -12,7 +12,7 @@ from cdpr_struct.reports.diagnose.cause_descriptions import DESCRIPTIONS
 from cdpr_struct.reports.diagnose.cause_pages import pages
 from cdpr_struct.reports.diagnose.cause_rivals import CONFUSED
 
-HANDLING = ("unit_error", "sign_error", "swapped_channels", "pose_mismatch")
+HANDLING = ("unit_error", "sign_error", "swapped_channels", "pose_mismatch", "rotation_convention")
 SHORTCUTS = ("cable_sag", "cable_dynamics", "attachment_geometric_stiffness")
 
 ROOT = Path(__file__).parents[2]

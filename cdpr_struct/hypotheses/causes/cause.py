@@ -21,6 +21,7 @@ class Parameter:
     squared : theta is the root of what is reported
     positive : theta below zero means nothing
     prior   : one sigma of theta
+    tried   : frequencies [Hz] at which a search begins, beside those of peaks that belong to no mode
     least   : smallest size that occurs, of those of a cause in one of several ways
     in_band : a frequency, its prior in the highest one that was measured of the robot; no check bounds it
     """
@@ -32,6 +33,7 @@ class Parameter:
     squared: bool = False
     positive: bool = False
     in_band: bool = False
+    tried: tuple[float, ...] = ()
     least: float = 0.0
 
     def shown(self, theta: float, sigma: float) -> dict[str, float | str]:
@@ -80,6 +82,7 @@ class Seen:
     approach : whether directions are known;  hours : that the readings span
     cable_modes : how many different modes of a cable;  states : names
     highest : frequency measured of the robot [Hz], 0 without;  internal : whether the robot has an internal mass
+    swinging : whether it has a mass that swings
     wheels, bare : whether some cables have pulleys in the robot file, and whether some have none
     groups : endings and words of what carries parameters of its own, by carrier ("cable", "mast", "axis", "state")
     """
@@ -94,6 +97,7 @@ class Seen:
     groups: Mapping[str, Mapping[str, str]]
     highest: float = 0.0
     internal: bool = False
+    swinging: bool = False
     poses: bool = True
     relative: bool = False
     wheels: bool = False
@@ -113,6 +117,7 @@ class Cause:
     carrier   : "" for parameters of the robot as a whole, else "cable", "mast", "axis" or "state": each has its own
     alike     : probability that all carriers have the same, 0 if that cannot be
     shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
+    fitted    : how many patterns are fitted, the likeliest first: more where slopes at zero do not tell them apart
     laws      : (words, which of its parameters, probability) where a carrier may follow one of several laws
     one_of    : words of the first parameters of each carrier, if these are ways to occur of which it has one; the last
                 ones bend that way, and are in no pattern to begin with (see `choices.py`)
@@ -131,6 +136,7 @@ class Cause:
     carrier: str = ""
     alike: float = 0.4
     shapes: tuple[tuple[str, slice | list[int], float], ...] = ()
+    fitted: int = 1
     laws: tuple[tuple[str, list[int], float], ...] = ()
     one_of: tuple[str, ...] = ()
     along: str = ""
@@ -148,6 +154,11 @@ class Cause:
     def tuned(self) -> bool:
         """Whether one of the parameters is a frequency: a mode more, which does nothing to first order from zero."""
         return any(p.in_band for p in self.parameters)
+
+    @property
+    def tried(self) -> tuple[float, ...]:
+        """Frequencies [Hz] at which a search for it begins, whether or not peaks are near."""
+        return tuple(hertz for p in self.parameters for hertz in p.tried)
 
     def basic(self, seen: Seen) -> tuple[Parameter, ...]:
         """Basic parameters of the cause for this campaign."""

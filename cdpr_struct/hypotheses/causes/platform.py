@@ -6,12 +6,14 @@ import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen
 from cdpr_struct.robot.changed_arrays import plus, times
-from cdpr_struct.robot.platform import moved_mass
+from cdpr_struct.robot.platform import least_moved_mass, moved_mass
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _XYZ = ("x", "y", "z")
 _NOTHING = 1e-10  # of the platform's mass: mode frequencies keep ten digits
-_MOST = 0.8  # of what the platform moves along a direction: so much of it may sit on a mount
+_PENDULA = (0.5, 1.0)  # Hz: cords of 1 m and 0.25 m
+_HOOK = 0.1  # m
+_MOST = 0.8  # of what the platform moves at a place: so much of it may sit on a mount or hang
 
 
 def _mass(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
@@ -53,6 +55,16 @@ def _flexible(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
     )  # fmt: skip
 
 
+def _swinging(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    """Root of the mass that swings, its frequency, and where it hangs."""
+    place = theta[..., 2:]
+    most = _MOST * least_moved_mass(arrays.mass, arrays.center_of_mass, arrays.inertia, place)
+    return replace(
+        arrays, swinging_mass=np.minimum(theta[..., 0] ** 2, most), swinging_frequency=np.maximum(theta[..., 1], 0.0),
+        swinging_place=place,
+    )  # fmt: skip
+
+
 def _line(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
     """A part on a mount that weighs nothing: its frequency is the same in every state, and no other mode feels it."""
     hertz = np.maximum(theta[..., 0], 0.0)
@@ -61,6 +73,10 @@ def _line(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
 
 def _flexes(seen: Seen) -> str:
     return "the robot file has an internal mass already" if seen.internal else ""
+
+
+def _swings(seen: Seen) -> str:
+    return "the robot file has a swinging mass already" if seen.swinging else ""
 
 
 CAUSES = (
@@ -147,6 +163,23 @@ CAUSES = (
         sentence="a part of the platform moves on an elastic mount, {parts} with the platform held",
         separated_by="shaking with accelerometers on the platform and on the part; clamping the part",
         extension="internal_mass",
+        becomes=("steady_disturbance",),
+    ),
+    Cause(
+        "swinging_payload",
+        "a part of the platform's mass that swings below it, or a liquid that sloshes in it",
+        (
+            Parameter("swinging_mass", "kg", 1.0, squared=True, positive=True),
+            Parameter("swinging_frequency", "Hz", 1.0, positive=True, in_band=True, tried=_PENDULA),
+            *(Parameter(f"hook_{a}", "m", _HOOK) for a in _XYZ),
+        ),
+        _swinging,
+        shapes=(("at the platform origin", [0, 1], 0.5), ("at a point of the platform", [0, 1, 2, 3, 4], 0.5)),
+        seen_in=("RF",),
+        needs=_swings,
+        sentence="a part of the platform's mass swings: {parts}, its frequency that with the platform held",
+        separated_by="fixing the payload, or a cord of another length; shaking far below the robot's first mode",
+        extension="swinging_mass",
         becomes=("steady_disturbance",),
     ),
     Cause(

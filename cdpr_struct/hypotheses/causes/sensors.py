@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cdpr_struct.hypotheses.causes.cause import A_MINUTE, Cause, Parameter, Seen
+from cdpr_struct.hypotheses.causes.cause import A_MINUTE, Cause, Parameter, Seen, by_carrier
 from cdpr_struct.robot.changed_arrays import plus, times
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
@@ -16,7 +16,12 @@ def _bias(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
 
 
 def _friction(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
-    return plus(arrays, friction=theta)
+    slips, bearing, drag = np.moveaxis(by_carrier(theta, 3), -1, 0)
+    return plus(arrays, friction=slips, bearing_friction=bearing, pulley_drag=drag)
+
+
+def _backlash(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, backlash=theta)
 
 
 def _slip(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
@@ -29,6 +34,10 @@ def _cells(seen: Seen) -> str:
 
 def _approach(seen: Seen) -> str:
     return "" if seen.approach else "needs a column approach (+1 or -1)"
+
+
+def _play(seen: Seen) -> str:
+    return _approach(seen) if seen.lengths else "needs lengths from the encoders"
 
 
 def _times(seen: Seen) -> str:
@@ -64,14 +73,37 @@ CAUSES = (
     Cause(
         "pulley_friction",
         "friction between cable and load cell",
-        (Parameter("friction", "1", 0.03, positive=True),),
+        (
+            Parameter("friction", "1", 0.03, positive=True),
+            Parameter("bearing_friction", "1", 0.02, positive=True),
+            Parameter("drag", "N", 2.0, positive=True),
+        ),
         _friction,
         carrier="cable",
+        laws=(
+            ("", [0], 0.4),
+            ("in the bearings", [1], 0.2),
+            ("constant", [2], 0.2),
+            ("in the bearings and constant", [1, 2], 0.2),
+        ),
+        fitted=4,
         seen_in=("EQ", "CO", "CF"),
-        sentence="pulley friction changes the tension by a fraction of {value} per 90 degrees of wrap",
+        sentence="friction at the pulleys changes the tension: {named}",
         needs=_approach,
         separated_by="approaching each pose from both sides",
         extension="friction",
+    ),
+    Cause(
+        "backlash",
+        "play of the drives",
+        (Parameter("backlash", "m", 2e-3, positive=True),),
+        _backlash,
+        carrier="cable",
+        seen_in=("CO",),
+        needs=_play,
+        sentence="the drives have a play of {value} m",
+        separated_by="approaching each pose from both sides; a dial gauge on the drum while the motor turns back",
+        extension="backlash",
     ),
     Cause(
         "brake_slip",

@@ -1,11 +1,15 @@
 """What gives way more than entered."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import A_MINUTE, Cause, Parameter, Seen, by_carrier
 from cdpr_struct.robot.changed_arrays import plus, times
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.masts import carriers
+
+_STEEPEST = 0.8  # exponent: at 1 a cable of no strain would hold any tension
 
 
 def _axial(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
@@ -26,7 +30,14 @@ def _frame(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
 
 
 def _nonlinear(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
-    return plus(arrays, nonlinearity=theta[..., 0])
+    """k of a straight line; exponents of a power law of EA that small motion shares, and of one that is elastic, whose
+    tangent is 1 / (1 - n) of the secant; EA at the reference tension, of the tangent where there is one."""
+    k, shared, elastic, level = np.moveaxis(theta, -1, 0)
+    shared, elastic = np.clip(shared, -_STEEPEST, _STEEPEST), np.clip(elastic, -_STEEPEST, _STEEPEST)
+    stiffer = times(arrays, axial_stiffness=(np.exp(level) * (1.0 - elastic))[..., None])
+    stiffer = times(stiffer, incremental_ratio=1.0 / (1.0 - elastic))
+    exponent = np.clip(arrays.stiffening_exponent + shared + elastic, -_STEEPEST, _STEEPEST)
+    return plus(replace(stiffer, stiffening_exponent=exponent), nonlinearity=k)
 
 
 def _creep(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
@@ -89,10 +100,23 @@ CAUSES = (
     Cause(
         "nonlinear_elasticity",
         "cables stiffen with tension",
-        (Parameter("k", "1", 0.15),),
+        (
+            Parameter("k", "1", 0.15),
+            Parameter("exponent", "1", 0.15),
+            Parameter("exponent_elastic", "1", 0.15),
+            Parameter("level", "ratio", 0.15, True),
+        ),
         _nonlinear,
+        shapes=(
+            ("a straight line", [0], 0.4),
+            ("a power of the secant", [1], 0.15),
+            ("a power of the tangent", [2], 0.15),
+            ("a power of the secant, at another level", [1, 3], 0.15),
+            ("a power of the tangent, at another level", [2, 3], 0.15),
+        ),
+        fitted=5,
         seen_in=("CO", "RF"),
-        sentence="the stiffness of the cables changes with tension, k = {value}",
+        sentence="the stiffness of the cables changes with tension: {named}",
         separated_by="two preloads; a payload series",
         extension="nonlinearity",
     ),

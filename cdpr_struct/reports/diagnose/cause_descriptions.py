@@ -54,9 +54,16 @@ DESCRIPTIONS = {
         "Euler-Bernoulli beam for masts that bend: [dynamics](../dynamics.md#extensions)",
     ),
     "nonlinear_elasticity": Description(
-        "EA becomes EA (1 + k (T / T0 - 1)), T the tension at the platform, T0 the mean tension of the campaign",
-        "k above 0: stiffer at high tension",
-        "Lengths of tight and of slack cables are off in opposite senses; at one preload it looks like another EA",
+        "EA becomes EA (1 + k (T / T0 - 1)), or level EA (T / T0)^exponent: this is the secant, tension over "
+        "strain, and small motion has the same. Or the law is elastic, and small motion has its slope: then level "
+        "EA (T / T0)^n with n = exponent_elastic is the tangent, dT over d strain, and the secant is (1 - n) times "
+        "that. T is the tension at the platform, T0 the mean tension of the campaign",
+        "k and exponents above 0: stiffer at high tension; level above 1: stiffer than entered at T0",
+        "Lengths of tight and of slack cables are off in opposite senses; at one preload it looks like another EA. "
+        "Static readings do not tell the last two laws apart: frequencies of the robot do, which in an elastic law "
+        "are too high for the stretch under load",
+        "Feyrer, *Wire Ropes*, 2nd edition, 2015, chapter 2: the modulus of a rope depends on its stress; the "
+        "power is the simplest law without a stress at which the modulus would vanish",
     ),
     "creep": Description(
         "EA becomes EA / (1 + creep log10(1 + t / 1 min))",
@@ -171,6 +178,18 @@ DESCRIPTIONS = {
         "One peak more than the model has, and the modes on both sides of it are pushed apart. Nothing static changes",
         "Den Hartog, *Mechanical Vibrations*, 4th edition, 1956, dynamic vibration absorber",
     ),
+    "swinging_payload": Description(
+        "a part of the platform's mass hangs from a point of it and swings in both directions across gravity, with "
+        "this frequency when the platform is held: a pendulum of length l has sqrt(g / l) / (2 pi). At a frequency "
+        "f the platform feels m f_p^2 / (f_p^2 - f^2) across gravity and m along it. At rest the weight pulls at "
+        "the hook, whatever the tilt, and so the platform's mass, centre and inertia count it as a point there",
+        "mass and frequency are positive; the hook is a place of the platform's frame",
+        "Two slow peaks more than the model has, if one looked so low. Above them horizontal modes, and rotations "
+        "that move the hook, are as of a lighter platform: they rise together, vertical ones stay. Nothing static "
+        "changes",
+        "Lamb, *Hydrodynamics*, 6th edition, 1932, art. 191, and Abramson, NASA SP-106, 1966, for liquids: each "
+        "slosh mode is such a pendulum",
+    ),
     "steady_disturbance": Description(
         "a line at this frequency is in the list of peaks and belongs to no mode",
         "a frequency is positive",
@@ -211,10 +230,26 @@ DESCRIPTIONS = {
         "The balance is off by the same force along that cable at every tension",
     ),
     "pulley_friction": Description(
-        "load cell reading = tension times exp(friction times right angles of wrap), the sign that of the last motion",
-        "never negative",
-        "As load_cell_gain, but the error changes sign with the direction from which the pose was reached",
-        "Capstan equation (Euler and Eytelwein)",
+        "load cell reading = tension times exp(s (friction times right angles of wrap + 2 asinh(b sin(wrap / 2) / "
+        "sqrt(1 - b^2)))) + s drag, s the sign of the last motion. The first part is a cable that slips on its "
+        "wheel. The second is a wheel that turns, whose bearing of radius r and friction mu carries the resultant "
+        "F of both tensions: (T1 - T2) R = mu r F, and bearing_friction b is mu r / R. The drag of seals and of a "
+        "swivel is constant",
+        "s is +1 if the winch last wound in: the cell, on the winch side, reads more",
+        "As load_cell_gain, but the error changes sign with the direction from which the pose was reached. The "
+        "slip of a cable doubles from a right angle of wrap to a half turn, bearing friction grows by 1.4, the "
+        "drag stays",
+        "Capstan equation (Euler and Eytelwein); friction of a journal bearing: Budynas and Nisbett, *Shigley's "
+        "Mechanical Engineering Design*, 10th edition, 2015, chapter 12",
+    ),
+    "backlash": Description(
+        "length paid out = encoder length + s backlash / 2, s the sign of the last motion: the drum lags behind "
+        "the motor by half of the play on either side. States are taken to lie beyond the play, the motor having "
+        "turned by more than it since it last reversed",
+        "s is +1 if the winch last wound in: more cable is out than the encoder says",
+        "Lengths of a cable are off by the same amount at every pose, with a sign that changes with the direction "
+        "from which the pose was reached. The wrenches balance",
+        "Nordin and Gutman, Controlling mechanical systems with backlash, *Automatica* 38, 2002: dead zone of a gear",
     ),
     "brake_slip": Description(
         "length paid out = encoder length + rate times time",
@@ -253,6 +288,14 @@ DESCRIPTIONS = {
         "The error of the column is twice the reading: none where it is zero. Lengths and balance are off by far "
         "more than "
         "any tolerance",
+    ),
+    "rotation_convention": Description(
+        "the same numbers mean another pose: angles about fixed axes in another order, the angle about z in the column "
+        "of x, rotation vectors, the transposed rotation, quaternions with the real part at the other end, a frame "
+        "whose y points up or z down, or a left-handed frame",
+        "",
+        "Lengths and balance are off where the platform is tilted about two axes or more, by the product of the angles "
+        "for another order, and not at all where it is level",
     ),
     "swapped_channels": Description(
         "readings of two cables change places",

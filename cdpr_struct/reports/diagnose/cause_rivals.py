@@ -8,10 +8,12 @@ _PAIRS = (
     "missing_pulleys frame_anchor_position", "missing_pulleys unstrained_length_offset",
     "pulley_radius unstrained_length_offset", "unstrained_length_offset drum_scale", "external_force hose_stiffness",
     "gravity_tilt hose_stiffness", "gravity_tilt external_force", "load_cell_gain pulley_friction",
-    "joint_mass platform_mass", "joint_mass hose_stiffness", "joint_mass external_force", "platform_mass "
-    "hose_stiffness",
+    "backlash unstrained_length_offset", "joint_mass platform_mass", "joint_mass hose_stiffness",
+    "joint_mass external_force", "platform_mass hose_stiffness",
     "platform_mass external_force", "bending_stiffness cable_linear_density",
     "accelerometer_mass cable_linear_density", "temperature drum_scale", "flexible_platform steady_disturbance",
+    "swinging_payload steady_disturbance",
+    "swinging_payload flexible_platform", "swinging_payload platform_inertia", "swinging_payload platform_mass",
     "pose_mismatch sign_error", "viscous_damping hysteretic_damping",
 )  # fmt: skip
 CONFUSED = frozenset(frozenset(pair.split()) for pair in _PAIRS)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cdpr_struct.hypotheses.handling import Correction
+from cdpr_struct.hypotheses.correction import Correction
 from cdpr_struct.measurement.campaign import Campaign
 
 

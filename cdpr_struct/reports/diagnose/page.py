@@ -100,7 +100,9 @@ def _without_place(found: Diagnosis) -> list[str]:
     """A line for causes that no robot file can hold: they are of single states."""
     names = [size.part.cause.name for size in found.sizes if size.part.cause.carrier == "state"]
     lines = [f"Not in this file, because robot files have no field for it: {', '.join(names)}."] if names else []
-    return lines + (["Not in this file: the drift of the load cells."] if found.drift else [])
+    return lines + (
+        [f"Not in this file: the drift of the {found.drift.sensor.replace('_', ' ')}."] if found.drift else []
+    )
 
 
 def page(found: Diagnosis, result: Mapping[str, Any], shown: list[Plate]) -> Page:

@@ -10,10 +10,12 @@ from cdpr_struct.diagnosis.decision import fits
 from cdpr_struct.diagnosis.diagnosis import Candidate, Diagnosis, Tried
 from cdpr_struct.diagnosis.left_out import LeftOut
 from cdpr_struct.hypotheses.causes import internal_force
+from cdpr_struct.hypotheses.drift import CELLS, ENCODERS, TRACKER
 from cdpr_struct.hypotheses.judge import NEAR
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.planning.recommendations import Recommendation
 from cdpr_struct.reports.diagnose import signals
+from cdpr_struct.reports.diagnose.amplitudes import amplitude_json
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.sentences import finite, sentence
 from cdpr_struct.reports.diagnose.state_errors import state_errors
@@ -60,7 +62,9 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
             for row in found.noise
         ],
         "noise_memory": 0.0,
-        "load_cell_drift_N": found.drift,
+        "load_cell_drift_N": _drift(found, CELLS),
+        "tracker_drift_m": _drift(found, TRACKER),
+        "encoder_drift_m": _drift(found, ENCODERS),
         "unassigned_peaks": [asdict(peak) for peak in found.peaks.uncertain],
         "candidates": candidate_rows(found),
         "outside_library": {"law": law[0], "log_evidence_gain": finite(law[1])},
@@ -83,7 +87,12 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "peaks_apart": _apart(found),
         "internal_force": _forces(found),
         "damping": None if found.damped is None else signals.damping_json(found.damped),
+        "amplitude": None if found.damped is None else amplitude_json(found.damped.amplitude),
     }  # fmt: skip
+
+
+def _drift(found: Diagnosis, sensor: str) -> float:
+    return found.drift.size if found.drift is not None and found.drift.sensor == sensor else 0.0
 
 
 def _verdict(found: Diagnosis, steps: Sequence[str]) -> dict[str, Any]:

@@ -7,7 +7,9 @@ import numpy as np
 from cdpr_struct.diagnosis.decision import fits
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
 from cdpr_struct.hypotheses.causes import internal_force
+from cdpr_struct.hypotheses.drift import CELLS, ENCODERS, TRACKER
 from cdpr_struct.hypotheses.laws import UNKNOWN
+from cdpr_struct.reports.diagnose.amplitudes import amplitude_sentence
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
 from cdpr_struct.reports.diagnose.signals import damping_sentence
 from cdpr_struct.reports.diagnose.words import described, listed, place, plain, reading
@@ -38,6 +40,8 @@ def sentence(found: Diagnosis) -> str:
     parts += ["" if found.by_peaks else _peaks(found), _line(found), _aside(found), _drift(found)]
     if not found.by_damping:
         parts += [_forces(found) if status != "adequate" else "", _damping(found)]
+    if found.damped is not None:
+        parts.append(amplitude_sentence(found.damped.amplitude))
     return " ".join(filter(None, parts))
 
 
@@ -228,9 +232,16 @@ def _aside(found: Diagnosis) -> str:
 
 
 def _drift(found: Diagnosis) -> str:
-    if not found.drift:
+    """Which sensors drift, and how far."""
+    if found.drift is None:
         return ""
-    return f"The zeros of the load cells drift by {found.drift:.2g} N (rms over the cells) during the campaign."
+    size, turn = found.drift.size, found.drift.turn
+    return {
+        CELLS: f"The zeros of the load cells drift by {size:.2g} N (rms over the cells) during the campaign.",
+        TRACKER: f"The tracker drifts by {1e3 * size:.2g} mm and {1e3 * turn:.2g} mrad (rms over the axes) "
+        "during the campaign.",
+        ENCODERS: f"The encoders drift by {1e3 * size:.2g} mm (rms over the cables) during the campaign.",
+    }[found.drift.sensor]
 
 
 def _damping(found: Diagnosis) -> str:

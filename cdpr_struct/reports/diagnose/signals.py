@@ -8,6 +8,7 @@ import numpy as np
 from cdpr_struct.diagnosis.damped import Damped
 from cdpr_struct.diagnosis.damping_law import SCATTER, UNITS, DampingFinding, LawFit
 from cdpr_struct.measurement.identified import Identified
+from cdpr_struct.reports.diagnose.amplitudes import amplitude_plates
 from cdpr_struct.reports.diagnose.words import listed, plain
 from cdpr_struct.reports.figures import signals as figures
 from cdpr_struct.reports.figures.drawing import Drawing
@@ -118,7 +119,7 @@ def signal_plates(found: Damped | None, entered: tuple[Identified, ...]) -> list
                 "structural damping, lines that rise towards small amplitudes indicate friction.",
             )
         )
-    return plates
+    return [*plates, *([] if found is None else amplitude_plates(found.amplitude))]
 
 
 def _plate(name: str, item: Identified) -> Plate:

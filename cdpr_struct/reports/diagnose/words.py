@@ -10,6 +10,8 @@ from cdpr_struct.diagnosis.sensor_sigmas import Doubt
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
 from cdpr_struct.hypotheses.causes.cause import Pattern
 
+_FEW = 3  # numbers that a sentence lists
+
 PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
     "CF": "the cable frequencies", "RF": "the robot frequencies",
@@ -22,6 +24,7 @@ def described(size: WholeSize) -> str:
     """The cause's sentence with its size; a single number with its sign, and what the sign means.
 
     far : mean square length of vectors of three numbers, or of the only one of fewer;  parts : one length a unit
+    named : each number with its name, of many their size
     """
     cause, pattern, value = size.part.cause, size.part.pattern, size.mean
     first = pattern.parameters[0].shown(float(value[0]), 0.0)
@@ -31,7 +34,7 @@ def described(size: WholeSize) -> str:
         "value": f"{first['value']:.3g}", "percent": _per_cent(float(np.exp(value.mean()))),
         "rms": f"{value[0]:+.2g}" if single else f"{rms:.2g}", "norm": f"{norm:.2g}", "unit": str(first["unit"]),
         "far": f"{value[0]:+.2g}" if single else f"{norm / np.sqrt(max(len(value) // 3, 1)):.2g}",
-        "parts": _by_unit(pattern, value),
+        "parts": _by_unit(pattern, value), "named": _by_name(pattern, value),
     }  # fmt: skip
     text = cause.sentence.format(**words)
     text = text.replace(" on average", "") if single else text
@@ -99,6 +102,23 @@ def _by_unit(pattern: Pattern, value: np.ndarray) -> str:
     roots = {str(unit): np.linalg.norm(value[units == unit]) for unit in dict.fromkeys(units.tolist())}
     sizes = {unit: size**2 if unit in squared else size for unit, size in roots.items()}
     return " and ".join(f"{size:.2g} {unit}" for unit, size in sizes.items())
+
+
+def _by_name(pattern: Pattern, value: np.ndarray) -> str:
+    """Few numbers as "exponent 0.3, level 1.2"; of more the root mean square of each kind."""
+    kinds = [p.name.rstrip("0123456789").rstrip("_") for p in pattern.parameters]
+    if len(kinds) <= _FEW:
+        told = [(p.name, p.shown(float(v), 0.0)) for p, v in zip(pattern.parameters, value, strict=True)]
+        return ", ".join(f"{plain(name)} {one['value']:.3g} {_unit(str(one['unit']))}".strip() for name, one in told)
+    units = dict(zip(kinds, (p.unit for p in pattern.parameters), strict=True))
+    sizes = {kind: np.sqrt(np.mean(value[np.array(kinds) == kind] ** 2)) for kind in units}
+    return ", ".join(
+        f"{plain(kind)} {size:.2g} {_unit(units[kind])}".strip() + " on average" for kind, size in sizes.items()
+    )
+
+
+def _unit(unit: str) -> str:
+    return "" if unit in ("1", "ratio") else unit
 
 
 def _per_cent(ratio: float) -> str:

@@ -1,0 +1,70 @@
+"""Laws that came into the library after the sets had been drawn: the truth knows each by other means."""
+
+import numpy as np
+import pytest
+
+from tests.blind.answers import Answer, names_in_truth, right_answer
+from tests.blind.catalogue import BEYOND, CAUSES, LAWS, LIBRARY
+from tests.blind.deviations import Deviations, field_sizes
+from tests.blind.entered_robot import entered_robot
+from tests.blind.measuring_plan import PlanSize, drawn_plan
+from tests.blind.observation import Rest
+from tests.blind.sensors import cell_readings
+from tests.blind.suite import composed
+from tests.blind.true_robot import BEDDED, at_rest, powers
+from tests.blind.vibrations import CORD, robot_frequencies
+
+SMALL = PlanSize(1, 0, 0, 1)
+
+
+def hidden(name: str, size: float) -> Deviations:
+    exact = Deviations.none(8)
+    return exact.plus(name, np.full(field_sizes(8)[name], size))
+
+
+def test_every_law_has_a_field_and_a_size_and_is_drawn():
+    assert set(LAWS) <= set(field_sizes(8))
+    assert all(effect.typical > 0.0 for effect in LAWS.values())
+    assert {kind.effects[0][0] for kind in composed("laws", 8, 5)} == set(LAWS)
+    assert not (set(LAWS) - {"backlash"}) & {*LIBRARY, *BEYOND}
+    assert set(CAUSES) <= set(LAWS)
+
+
+def test_a_wheel_is_in_balance_about_its_axle():
+    """Seen from the wheel: both pulls, and the part of their sum that its bearing turns into a moment."""
+    robot = entered_robot("cogiro")
+    command = drawn_plan(robot, np.random.default_rng(1), size=SMALL).statics[0]
+    rest = Rest(np.zeros(3), np.eye(3), np.linspace(100.0, 300.0, 8), np.linspace(0.5, 3.0, 8))
+    read = cell_readings(hidden("bearing_friction", 0.05), command, rest)
+    pulls = read[:, None] * np.array([0.0, -1.0])
+    pulls += rest.tensions[:, None] * np.stack([np.sin(rest.exit_angles), np.cos(rest.exit_angles)], axis=1)
+    np.testing.assert_allclose(
+        read - rest.tensions, 0.05 * command.approach * np.linalg.norm(pulls, axis=1), rtol=1e-12
+    )
+
+
+def test_a_swinging_payload_adds_two_slow_modes_and_frees_the_horizontal_ones():
+    robot = entered_robot("cogiro")
+    plan = drawn_plan(robot, np.random.default_rng(2), size=SMALL)
+    rest = at_rest(robot, Deviations.none(8), plan.statics[0], 10)
+    rigid, free = (robot_frequencies(robot, hidden("swinging_payload", share), rest)[0] for share in (0.0, 0.25))
+    own = np.sqrt(robot.gravity / CORD) / (2.0 * np.pi)
+    np.testing.assert_allclose(free[:2], own, rtol=0.05)  # a platform on cables gives way a little
+    assert rigid[0] > 1.5 * own
+
+
+def test_the_line_of_a_power_law_touches_it():
+    stiffness, tension = np.full(8, 1e6), np.linspace(50.0, 900.0, 8)
+    law = hidden("power_elasticity", 0.3)
+    slope, start = powers(law, tension, stiffness)
+    strain = tension[0] / slope[0] + start[0]
+    grid = np.geomspace(1e-9, tension[0], 200001)
+    np.testing.assert_allclose(strain, np.trapezoid(1.0 / (1e6 * (grid / BEDDED) ** 0.3), grid), rtol=1e-5)
+
+
+@pytest.mark.parametrize(("said", "right"), [("backlash", True), ("unstrained_length_offset", False)])
+def test_a_law_outside_the_library_that_came_into_it_is_right_if_named(said, right):
+    truth = {"kind": "outside", "effects": [{"cause": "backlash", "multiple": 4.0}]}
+    assert names_in_truth(truth) == ("backlash",)
+    answer = Answer("named", (said,), ((said,),), 0.99, 1.0, {})
+    assert right_answer(answer, truth) is right
