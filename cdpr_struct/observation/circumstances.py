@@ -59,10 +59,8 @@ class Circumstances:
 
     def at(self, some: np.ndarray) -> "Circumstances":
         """Those of some states."""
-        own = {
-            name: getattr(self, name)[some] for name in ("payload", "hours", "rate", "acceleration", "approach", "wrap")
-        }
-        return replace(self, **own)
+        names = ("payload", "hours", "rate", "acceleration", "approach", "wrap")
+        return replace(self, **{name: getattr(self, name)[some] for name in names})
 
 
 def _hours(states: States) -> np.ndarray:

@@ -18,7 +18,7 @@ STILL = 1e-3  # m/s of the fastest cable, below which a frame is at rest
 
 
 def length_rates(states: States) -> np.ndarray:
-    """(S, m, 2) first and second derivatives of the encoders' lengths [m/s, m/s^2]; zero where no frames, or not read."""
+    """(S, m, 2) derivatives of the encoders' lengths [m/s, m/s^2]; zero where no frames, or not read."""
     return np.stack([_derivative(states.time, states.length, order) for order in (1, 2)], axis=-1)
 
 

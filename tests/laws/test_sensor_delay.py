@@ -1,4 +1,4 @@
-"""Encoders that are read late along a motion: the delay is found, of all cables or of one, and nothing where it is none.
+"""Encoders that are read late along a motion: the delay is found, of all cables or of one.
 
 Poses follow a curve; lengths are those that hold them at rest, taken from another time. Pure kinematics: what is
 proved here is the arithmetic.
