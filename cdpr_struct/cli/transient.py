@@ -7,6 +7,7 @@ import typer
 import cdpr_struct as cs
 from cdpr_struct.cli.options import (
     AssemblyName,
+    Free,
     Lengths,
     LowerBound,
     Mass,
@@ -35,6 +36,7 @@ def run(
     pose: PoseText = None,
     lengths: Lengths = None,
     start: Start = None,
+    free: Free = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
@@ -82,7 +84,7 @@ def run(
     """Vibration in time by modal superposition, with spectrogram and certified modes."""
     with output.steps(1) as progress:
         found = cs.transient(
-            robot, pose, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
+            robot, pose, lengths=lengths, start=start, free=free, lower_bound=lower_bound, upper_bound=upper_bound,
             payload=payload, mass=mass,
             wrench=wrench, temperature=temperature,
             initial_velocity=initial_velocity, trajectory=trajectory, duration=duration,

@@ -11,6 +11,7 @@ from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_numbers, read_robot, real, text_of
 from cdpr_struct.interface.damping_law import read_damping, read_end_friction
+from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, Progress, RobotLike, TrajectoryLike
 from cdpr_struct.interface.modes import ASSEMBLIES
 from cdpr_struct.interface.operating_point import rest
@@ -92,6 +93,7 @@ def transient(
     *,
     lengths: Numbers | None = None,
     start: PoseLike | None = None,
+    free: FreeAngles | None = None,
     lower_bound: float | None = None,
     upper_bound: float | None = None,
     payload: float = 0.0,
@@ -120,6 +122,7 @@ def transient(
     robot : Robot, built-in name, or path of a robot file
     pose : Pose, or x, y, z[, rx, ry, rz] [m, deg]; default: the home pose, or where the trajectory ends
     lengths : locked unstrained lengths [m], in place of pose;  start : with lengths, the pose where to look
+    free : angles of the pose that hang freely, some of rx, ry, rz; they are found from those given
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
@@ -149,6 +152,8 @@ def transient(
     if trajectory is not None:
         require_locked_lengths(machine, "along a trajectory all winches hold lengths; initial_velocity is computed")
         require_own_winches(machine, "along a trajectory each cable has its winch; initial_velocity is computed")
+        if free is not None:
+            raise InputError("free", "", free, "leave it out: a trajectory says the angles at its end")
     law = read_damping(damping, machine, cable_model == "static")
     rubbing = None if end_friction is None else read_end_friction(end_friction)
     motion, assumed = (None, []) if trajectory is None else read_trajectory(trajectory, None, _FEWEST)
@@ -156,7 +161,7 @@ def transient(
     _check_samples(highest, seconds, window)
     if motion is not None and pose is None and lengths is None:
         pose = Pose(motion.position[-1], angles_from_rotation(motion.rotation[-1]))
-    state = rest(machine, pose, lengths, start)
+    state = rest(machine, pose, lengths, start, free)
     require_valid(cable_model, state.point, force)
     ports = read_ports(_PLATFORM, "watch", state.point, frame, at)
     ports += () if not watch else read_ports(watch, "watch", state.point, frame, at)
