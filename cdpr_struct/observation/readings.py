@@ -68,8 +68,17 @@ def paid_out(arrays: RobotArrays, readings: Readings, known: Circumstances) -> n
 
     A drive with play lags behind its encoder by half of the play: the drum has wound in less, or paid out less.
     """
-    more = arrays.slip * known.hours[:, None] + 0.5 * arrays.backlash * known.approach
+    more = (
+        arrays.slip * known.hours[:, None]
+        + _later(arrays.encoder_delay, known.rate)
+        + 0.5 * arrays.backlash * known.approach
+    )
     return arrays.paid_out(readings.length) + more * arrays.thermal_growth
+
+
+def _later(delay: np.ndarray, rate: np.ndarray) -> np.ndarray:
+    """(..., S, m) by how much lengths grow within delays (..., m) [s], rates (S, m, 2), to second order."""
+    return np.asarray(delay * rate[..., 0] + 0.5 * delay**2 * rate[..., 1])
 
 
 def cell_reading(arrays: RobotArrays, tension: np.ndarray, approach: np.ndarray, wrap: np.ndarray) -> np.ndarray:

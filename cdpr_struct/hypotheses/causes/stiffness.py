@@ -45,6 +45,11 @@ def _creep(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
     return plus(arrays, creep=theta[..., 0])
 
 
+def _tensions(seen: Seen) -> str:
+    """Along a motion balance does not tell tensions, since inertia is not in the model."""
+    return "" if seen.tensions or not seen.moving else "needs tensions along a motion"
+
+
 def _times(seen: Seen) -> str:
     return "" if seen.hours > A_MINUTE else "needs time_s over some minutes"
 
@@ -117,6 +122,7 @@ CAUSES = (
         ),
         fitted=5,
         seen_in=("CO", "RF"),
+        needs=_tensions,
         sentence="the stiffness of the cables changes with tension: {named}",
         separated_by="two preloads; a payload series",
         extension="nonlinearity",
