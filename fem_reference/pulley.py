@@ -152,8 +152,8 @@ class Wrap:
         """Stiffness (3, 3) [N/m] against the swivel that takes back what its coupling with `turning` [N/m] invents.
 
         Where the axis leans, the weight that rolls off couples motion o across the pulley's plane with motion n in it
-        by c = w . o R / (2 l), half of what the real, unsymmetric stiffness has on one side only. If n gives way to o,
-        the symmetric part softens o by c^2 / (T / l), which grows without bound as the bars shrink; the real one does not.
+        by c = w . o R / (2 l), half of what the real, unsymmetric stiffness has on one side only. As n gives way to o,
+        the symmetric part softens o by c^2 / (T / l), which grows without bound as bars shrink; the real one does not.
         """
         _, normal, across = self.directions()
         coupling = float(normal @ block @ across)

@@ -123,7 +123,7 @@ def test_static_end_stiffness_tends_to_the_derivative_of_the_end_force(axis):
 
 
 def test_a_leaning_swivel_does_not_soften_without_bound_as_bars_shrink(monkeypatch):
-    """The symmetric part of what rolls off couples turn and swivel by c; eliminating the turn costs c^2 l / T ~ 1 / l."""
+    """What rolls off couples turn and swivel, symmetrically, by c; eliminating the turn costs c^2 l / T ~ 1 / l."""
     robot = one_cable(0.3, SLACK, np.array([0.0, 0.6, 0.8]))
 
     def steps():
