@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import cdpr_struct as cs
-from cdpr_struct.cli.options import Lengths, LowerBound, Mass, Payload, PoseText, RobotName, Start, UpperBound
+from cdpr_struct.cli.options import Free, Lengths, LowerBound, Mass, Payload, PoseText, RobotName, Start, UpperBound
 from cdpr_struct.cli.output import Output
 from cdpr_struct.cli.written_files import write_new
 from cdpr_struct.errors import InputError
@@ -24,6 +24,7 @@ def run(
     pose: PoseText = None,
     lengths: Lengths = None,
     start: Start = None,
+    free: Free = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
@@ -37,7 +38,7 @@ def run(
     if out is None:
         raise InputError("--out", "", "nothing", "give the name of the file to write")
     made = cs.export(
-        robot, pose, to=to, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
+        robot, pose, to=to, lengths=lengths, start=start, free=free, lower_bound=lower_bound, upper_bound=upper_bound,
         payload=payload, mass=mass,
     )  # fmt: skip
     write_new(out, made.content, overwrite)

@@ -7,6 +7,7 @@ import typer
 import cdpr_struct as cs
 from cdpr_struct.cli.options import (
     AssemblyName,
+    Free,
     Lengths,
     LowerBound,
     Mass,
@@ -36,6 +37,7 @@ def run(
     pose: PoseText = None,
     lengths: Lengths = None,
     start: Start = None,
+    free: Free = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
@@ -57,7 +59,7 @@ def run(
     """Frequency response functions, with the certified eigenfrequencies beside their peaks."""
     with output.steps(1) as progress:
         found = cs.frf(
-            robot, excite=excite, respond=respond, band=band, pose=pose, lengths=lengths, start=start,
+            robot, excite=excite, respond=respond, band=band, pose=pose, lengths=lengths, start=start, free=free,
             lower_bound=lower_bound, upper_bound=upper_bound, payload=payload, mass=mass,
             wrench=wrench, temperature=temperature,
             quantity=quantity,

@@ -7,6 +7,7 @@ import typer
 
 import cdpr_struct as cs
 from cdpr_struct.cli.options import (
+    Free,
     Lengths,
     LowerBound,
     Mass,
@@ -37,6 +38,7 @@ def run(
     pose: PoseText = None,
     lengths: Lengths = None,
     start: Start = None,
+    free: Free = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
@@ -56,7 +58,7 @@ def run(
 ) -> int:
     """Spectrogram of measured accelerations, with the robot's certified eigenfrequencies."""
     found = cs.spectrogram(
-        file, robot, pose, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
+        file, robot, pose, lengths=lengths, start=start, free=free, lower_bound=lower_bound, upper_bound=upper_bound,
         payload=payload, mass=mass,
         wrench=wrench, temperature=temperature,
         highest=highest, window=window, model=model, force=force,

@@ -7,6 +7,7 @@ import typer
 import cdpr_struct as cs
 from cdpr_struct.cli.options import (
     AssemblyName,
+    Free,
     Lengths,
     LowerBound,
     Mass,
@@ -35,6 +36,7 @@ def run(
     pose: PoseText = None,
     lengths: Lengths = None,
     start: Start = None,
+    free: Free = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
@@ -62,6 +64,15 @@ def run(
     ] = None,
     model: ModelName = "exact",
     damping: DampingText = "viscous",
+    end_friction: Annotated[
+        str | None,
+        typer.Option(
+            "--end-friction",
+            metavar="WHERE:R,S",
+            help="Dry friction at the ends of the cables (frame, platform or both; two with ';' between): moment over "
+            "tension R [m], built up over the angle S [rad].",
+        ),
+    ] = None,
     frame: FrameName = "world",
     at: PointText = None,
     assembly: AssemblyName = "consistent",
@@ -73,11 +84,12 @@ def run(
     """Vibration in time by modal superposition, with spectrogram and certified modes."""
     with output.steps(1) as progress:
         found = cs.transient(
-            robot, pose, lengths=lengths, start=start, lower_bound=lower_bound, upper_bound=upper_bound,
+            robot, pose, lengths=lengths, start=start, free=free, lower_bound=lower_bound, upper_bound=upper_bound,
             payload=payload, mass=mass,
             wrench=wrench, temperature=temperature,
             initial_velocity=initial_velocity, trajectory=trajectory, duration=duration,
-            highest=highest, watch=watch, window=window, model=model, damping=damping, frame=frame, at=at,
+            highest=highest, watch=watch, window=window, model=model, damping=damping,
+            end_friction=end_friction, frame=frame, at=at,
             assembly=assembly, force=force, progress=progress,
         )  # fmt: skip
     output.give(found, lambda: {"transient.uff": found.universal_file()} if uff else {})

@@ -17,14 +17,16 @@ from cdpr_struct.diagnosis.amplitude_rows import (
     BOTH,
     FRAME,
     PLATFORM_ENDS,
+    READING,
     AmplitudeRows,
     amplitude_rows,
     probability_still,
 )
 from cdpr_struct.hypotheses.detectable import FALSE_ALARMS, NAMED
 from cdpr_struct.measurement.identified import Identified
+from cdpr_struct.measurement.loss import Loss
 
-READING = 1e-3  # beside the sigma of a window: relative of a frequency, and of a damping ratio [-]
+_USUAL = Loss()
 _FREEDOM = 4.0  # of Student's t
 _ANGLES = np.deg2rad(np.geomspace(0.02, 2.0, 9))  # prior of the presliding angle, level in its logarithm
 _RADII = {1: np.geomspace(1e-6, 1e-2, 81), 2: np.geomspace(1e-6, 1e-2, 33)}  # prior of r [m], of one or two
@@ -74,6 +76,11 @@ class AmplitudeFinding:
     fits: tuple[FrictionFit, ...]
     rows: AmplitudeRows | None
 
+    @property
+    def rivals(self) -> tuple[FrictionFit, ...]:
+        """Fits of friction that the data do not tell from the likeliest."""
+        return tuple(fit for fit in self.fits if fit.gain > self.fits[0].gain - _USUAL.nats_of_a_class)
+
 
 def changes(rows: AmplitudeRows, values: np.ndarray) -> np.ndarray:
     """(modes,) by how much values (n,) change from the first to the last window of each mode."""
@@ -97,7 +104,8 @@ def weighed(rows: AmplitudeRows, p_still: float) -> AmplitudeFinding:
     small, large = (_log_likelihood(rows, _left(rows, moved)[:, None]).sum() for moved in (0.0, rows.large))
     tables, gain = [rows.friction(float(angle)) for angle in _ANGLES], float(large - small)
     fits = tuple(sorted((_fit(rows, tables, ends) for ends in HYPOTHESES), key=lambda fit: -fit.gain))
-    status = "large_motion" if gain >= NAMED else "unknown"
+    still = float(np.median(np.abs(changes(rows, rows.log_hertz)))) < READING  # single modes were misread
+    status = "large_motion" if gain >= NAMED else "adequate" if still else "unknown"
     if fits[0].gain >= NAMED and _transfers(rows, fits[0]):
         status = "friction"
     return AmplitudeFinding(status, p_still, gain, fits, rows)

@@ -10,6 +10,7 @@ from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_robot
 from cdpr_struct.interface.cable_wind import require_cables_without_drag
+from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import pose_in_degrees, rest
 from cdpr_struct.interface.winches import require_locked_lengths
@@ -60,6 +61,7 @@ def export(
     to: str,
     lengths: Numbers | None = None,
     start: PoseLike | None = None,
+    free: FreeAngles | None = None,
     lower_bound: float | None = None,
     upper_bound: float | None = None,
     payload: float = 0.0,
@@ -73,6 +75,7 @@ def export(
     pose : Pose, or x, y, z[, rx, ry, rz] [m, deg]; default: the home pose
     to : moorpy, moordyn or gltf
     lengths : locked unstrained lengths [m], in place of pose;  start : with lengths, the pose where to look
+    free : angles of the pose that hang freely, some of rx, ry, rz; they are found from those given
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
 
@@ -87,7 +90,7 @@ def export(
     if form != "gltf":
         require_locked_lengths(machine, "the files of MoorPy and MoorDyn hold locked lengths only")
         require_cables_without_drag(machine, "the files of MoorPy and MoorDyn hold no wind; gltf shows the cables")
-    state = rest(machine, pose, lengths, start)
+    state = rest(machine, pose, lengths, start, free)
     point, told = state.point, [*implausible(machine), *state.told()["warnings"]]
     if form == "gltf":
         return Exported(gltf_bytes(point), pose_in_degrees(point), tuple(told))

@@ -12,6 +12,7 @@ from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_robot, text_of
 from cdpr_struct.interface.damping_law import read_damping
+from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, Progress, RobotLike
 from cdpr_struct.interface.modes import ASSEMBLIES
 from cdpr_struct.interface.operating_point import rest
@@ -85,6 +86,7 @@ def frf(
     pose: PoseLike | None = None,
     lengths: Numbers | None = None,
     start: PoseLike | None = None,
+    free: FreeAngles | None = None,
     lower_bound: float | None = None,
     upper_bound: float | None = None,
     payload: float = 0.0,
@@ -109,6 +111,7 @@ def frf(
     band : first and last frequency and step [Hz], like (0.5, 12, 0.01) or "0.5:12:0.01"
     pose : Pose, or x, y, z[, rx, ry, rz] [m, deg]; default: the home pose
     lengths : locked unstrained lengths [m], in place of pose;  start : with lengths, the pose where to look
+    free : angles of the pose that hang freely, some of rx, ry, rz; they are found from those given
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
@@ -129,7 +132,7 @@ def frf(
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True, winches=True)
     law, massless = read_damping(damping, machine, cable_model == "static"), cable_model == "static"
     what = one_of(quantity, "quantity", QUANTITIES)
-    state = rest(machine, pose, lengths, start)
+    state = rest(machine, pose, lengths, start, free)
     point = state.point
     require_valid(cable_model, point, force)
     source = read_ports(excite, "excite", point, frame, at)

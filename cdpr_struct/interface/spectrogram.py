@@ -11,6 +11,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import read_robot, real
+from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import rest
 from cdpr_struct.interface.result import Files, Result
@@ -69,6 +70,7 @@ def spectrogram(
     *,
     lengths: Numbers | None = None,
     start: PoseLike | None = None,
+    free: FreeAngles | None = None,
     lower_bound: float | None = None,
     upper_bound: float | None = None,
     payload: float = 0.0,
@@ -88,6 +90,7 @@ def spectrogram(
     robot : Robot, built-in name, or path of a robot file, whose modes are drawn in
     pose : Pose, or x, y, z[, rx, ry, rz] [m, deg]; default: the home pose
     lengths : locked unstrained lengths [m], in place of pose;  start : with lengths, the pose where to look
+    free : angles of the pose that hang freely, some of rx, ry, rz; they are found from those given
     lower_bound, upper_bound : of the cable forces at the platform [N]; default: those of the robot file
     payload : point load at the platform origin [kg];  mass : replaces the platform's [kg]
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
@@ -111,7 +114,7 @@ def spectrogram(
         read_model(model),
         read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True, winches=True),
     )
-    state = rest(machine, pose, lengths, start)
+    state = rest(machine, pose, lengths, start, free)
     require_valid(cable_model, state.point, force)
     with state.advised():
         told = transient_measured.measured_json(time, acceleration, state.point, cable_model, highest)

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.free_orientation import free_orientation
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, hung_solution
+from cdpr_struct.statics.shared_winches import resting_orientation
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.inserted_poses import InsertedPoses
 from cdpr_struct.workspace.mode_following import Following
@@ -64,7 +64,7 @@ class ModeMap:
         def compute(positions: np.ndarray, count: int) -> ShapedModes:
             if self.free is None:
                 return shaped_modes(robot, positions, grid.rotation, count, parts)[0]
-            hung = free_orientation(robot, positions, grid.angles, self.free)
+            hung = resting_orientation(robot, positions, grid.angles, self.free)
             return shaped_modes(robot, positions, hung.rotation, count, parts, hung_solution(robot, hung))[0]
 
         between = InsertedPoses(grid.positions, compute, max(_INSERTED * grid.size, _AT_LEAST))

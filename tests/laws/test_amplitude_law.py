@@ -70,7 +70,7 @@ def test_friction_is_found_with_its_sizes_and_predicts_records_that_it_was_not_f
     assert part.angle[1] / 1.8 < angle < part.angle[2] * 1.8
     own = found.rows
     assert held_out_rms(own, own.large + best.held_out) < 0.5 * held_out_rms(own, own.large)
-    assert "with dry friction at the" in amplitude_sentence(found)
+    assert "with dry friction at" in amplitude_sentence(found)
 
 
 def test_where_friction_acts_is_told_apart(rows):

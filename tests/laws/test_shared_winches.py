@@ -216,9 +216,18 @@ def test_commands_at_one_pose_take_such_a_robot():
     mapped = cs.map(ROBOT, grid="1,0.5:0.6:2,1.5", quantity="first-frequency", free="rx,ry,rz").columns()
     assert min(np.abs(np.asarray(v, dtype=float) - exact.modes.hertz[0]).min() for v in mapped.values()) < 1e-6
     assert cs.audit(ROBOT, grid="1,0.5:0.6:2,1.5", free="rx,ry,rz").answer
-    assert cs.frf(ROBOT, excite="fz", respond="z", band="1:2:0.5").answer["winches"]
-    assert cs.transient(ROBOT, initial_velocity="0.1,0,0", duration=0.2).answer["winches"]
-    assert cs.export(ROBOT, to="moordyn")
+    there = {"pose": PLACE.tolist(), "free": "rx,ry,rz"}
+    for told in (
+        cs.frf(ROBOT, excite="fz", respond="z", band="1:2:0.5", **there),
+        cs.transient(ROBOT, initial_velocity="0.1,0,0", duration=0.2, **there),
+    ):
+        assert [w["length_m"] for w in told.answer["winches"]] == [w["length_m"] for w in exact.answer["winches"]]
+    assert any("left free" in said for said in cs.export(ROBOT, to="moordyn", **there).warnings)
+
+
+def test_a_trajectory_leaves_no_angles_free():
+    with pytest.raises(InputError, match="free: got 'rx'; leave it out"):
+        cs.transient("cogiro", trajectory="helix", free="rx")
 
 
 @pytest.mark.parametrize(

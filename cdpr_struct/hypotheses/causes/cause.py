@@ -83,6 +83,7 @@ class Seen:
     cable_modes : how many different modes of a cable;  states : names
     highest : frequency measured of the robot [Hz], 0 without;  internal : whether the robot has an internal mass
     swinging : whether it has a mass that swings
+    moving : whether some states are frames of a motion
     wheels, bare : whether some cables have pulleys in the robot file, and whether some have none
     groups : endings and words of what carries parameters of its own, by carrier ("cable", "mast", "axis", "state")
     """
@@ -102,6 +103,7 @@ class Seen:
     relative: bool = False
     wheels: bool = False
     bare: bool = True
+    moving: bool = False
 
 
 def always(seen: Seen) -> str:

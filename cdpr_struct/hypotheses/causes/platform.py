@@ -12,7 +12,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 _XYZ = ("x", "y", "z")
 _NOTHING = 1e-10  # of the platform's mass: mode frequencies keep ten digits
 _PENDULA = (0.5, 1.0)  # Hz: cords of 1 m and 0.25 m
-_HOOK = 0.1  # m
+_HOOK = 0.1  # m, an axis: a payload hangs near the middle of a platform
 _MOST = 0.8  # of what the platform moves at a place: so much of it may sit on a mount or hang
 
 
