@@ -135,7 +135,8 @@ class Wrap:
     def first_bar_stiffness(self, tension: float, free_length: float, axial_stiffness: float) -> np.ndarray:
         """The same for both nodes of the first bar (6, 6); the start is the held entry point."""
         matrix = np.zeros((6, 6))
-        matrix[3:, 3:] = self.bar_stiffness(tension, free_length, axial_stiffness)
+        block = self.bar_stiffness(tension, free_length, axial_stiffness)
+        matrix[3:, 3:] = block + self._not_softened(block, tension / (free_length * (1.0 + tension / axial_stiffness)))
         return matrix
 
     def first_bar_mass(
@@ -146,6 +147,17 @@ class Wrap:
         matrix = np.zeros((6, 6))
         matrix[3:, 3:] = motion.T @ mass @ motion
         return matrix
+
+    def _not_softened(self, block: np.ndarray, turning: float) -> np.ndarray:
+        """Stiffness (3, 3) [N/m] against the swivel that takes back what its coupling with `turning` [N/m] invents.
+
+        Where the axis leans, the weight that rolls off couples motion o across the pulley's plane with motion n in it
+        by c = w . o R / (2 l), half of what the real, unsymmetric stiffness has on one side only. As n gives way to o,
+        the symmetric part softens o by c^2 / (T / l), which grows without bound as bars shrink; the real one does not.
+        """
+        _, normal, across = self.directions()
+        coupling = float(normal @ block @ across)
+        return np.asarray(coupling**2 / turning * np.outer(across, across))
 
     def _riding_weight_stiffness(self, bar: float) -> np.ndarray:
         """Part (3, 3) [N/m] of the weight on the moving exit, together with the tension step W . t there."""

@@ -36,7 +36,7 @@ def violations(found: Sequence[dict[str, Any]]) -> str:
 def _row(name: str, found: Sequence[dict[str, Any]]) -> list[str]:
     held = [told for told in found if told["inverse"] == "answered"]
     refused = [told for told in found if told["inverse"] != "answered"]
-    proven = sum(told.get("holdable") == "no" for told in refused)
+    proven = sum(told.get("holdable") in ("no", "no, sampled") for told in refused)
     vibrating = sum(told.get("modes") == "answered" for told in held)
     worst = max(map(worst_balance, held), default=0.0)
     return [

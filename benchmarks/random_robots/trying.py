@@ -24,10 +24,12 @@ from benchmarks.random_robots.judging import (
 )
 from benchmarks.random_robots.own_mechanics import OwnRest, own_rest
 from benchmarks.random_robots.refusals import holdable
+from benchmarks.random_robots.sampled_cables import out_of_reach
 from cdpr_struct.fem_reference import FemError
 
 _LONGEST = 120.0  # [s] of a seed, of processor time
 _COUNT = 12  # frequencies
+OWN_WORD = {"no": "no, sampled", "not found": "not found", "found": "yes, sampled", "unknown": "unknown"}
 _BY_FEM = 25  # one seed in so many is also asked of the finite elements
 
 
@@ -133,11 +135,17 @@ def _asked(
         told[step] = f"{type(error).__name__}: {error}"
         faults += [f"{step}: {fault}" for fault in refusal_faults(case, step, error, own)]
         if step == "inverse" and isinstance(error, cs.UnholdablePoseError):
-            told["holdable"] = holdable(case.robot, case.pose, case.free is not None)
+            told["holdable"] = _reached(case)
         return None
     told[step] = "answered"
     faults += [f"{step}: not a number: {name}" for name in not_numbers(answer.answer)]
     return answer
+
+
+def _reached(case: Case) -> str:
+    """Whether cables can hold a pose that is refused: a proof, or what the study's own cables say."""
+    said = holdable(case.robot, case.pose, case.free is not None)
+    return OWN_WORD[out_of_reach(case)] if said == "unknown" and case.free is None else said
 
 
 class _TooLongError(Exception):

@@ -64,6 +64,15 @@ def run(
     ] = None,
     model: ModelName = "exact",
     damping: DampingText = "viscous",
+    end_friction: Annotated[
+        str | None,
+        typer.Option(
+            "--end-friction",
+            metavar="WHERE:R,S",
+            help="Dry friction at the ends of the cables (frame, platform or both; two with ';' between): moment over "
+            "tension R [m], built up over the angle S [rad].",
+        ),
+    ] = None,
     frame: FrameName = "world",
     at: PointText = None,
     assembly: AssemblyName = "consistent",
@@ -79,7 +88,8 @@ def run(
             payload=payload, mass=mass,
             wrench=wrench, temperature=temperature,
             initial_velocity=initial_velocity, trajectory=trajectory, duration=duration,
-            highest=highest, watch=watch, window=window, model=model, damping=damping, frame=frame, at=at,
+            highest=highest, watch=watch, window=window, model=model, damping=damping,
+            end_friction=end_friction, frame=frame, at=at,
             assembly=assembly, force=force, progress=progress,
         )  # fmt: skip
     output.give(found, lambda: {"transient.uff": found.universal_file()} if uff else {})

@@ -10,10 +10,12 @@ from cdpr_struct.dynamics.large_motion import LargeMotion
 from cdpr_struct.dynamics.presliding_friction import end_turns, rubbing_modes
 from cdpr_struct.errors import CdprError
 from cdpr_struct.measurement.identified import Identified
+from cdpr_struct.measurement.neighbours import pole_doubt
 from cdpr_struct.measurement.signal_states import channel_weight, modal_amplitudes
 
+READING = 1e-3  # beside the sigma of a window: relative of a frequency, and of a damping ratio [-]
 _LABELS = 100  # numbers of modes a record
-BOTH, FRAME, PLATFORM_ENDS = "both ends of the cables", "frame ends of the cables", "platform ends of the cables"
+BOTH, FRAME, PLATFORM_ENDS = "both", "frame", "platform"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,16 +55,21 @@ class AmplitudeRows:
             found[own] -= np.tensordot(weight[own], found[own], axes=1) / weight[own].sum()
         return found
 
-    def friction(self, presliding: float) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-        """Shifts and damping ratios (n,) by friction at some ends of the cables, per metre of moment over tension."""
-        turns, omega, amplitudes = self.motions
-        found = rubbing_modes(turns, presliding, omega, amplitudes)
+    def friction(self, presliding: np.ndarray) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+        """Shifts and damping ratios (a, n) by friction at some ends of the cables, per metre of moment over tension.
+
+        presliding : (a,) angles over which the moment builds up [rad]
+        """
+        count, (turns, omega, amplitudes) = len(presliding), self.motions
+        tiled = (np.concatenate([part] * count) for part in (turns, omega, amplitudes))
+        angles = np.repeat(presliding, len(omega))
+        found = rubbing_modes(next(tiled), angles, next(tiled), next(tiled))
         half = self.tension.shape[1] // 2
         some = {BOTH: slice(None), FRAME: slice(half), PLATFORM_ENDS: slice(half, None)}
         window, own = self.place.T
+        each = [part.reshape(count, *omega.shape, -1) * self.tension[:, None] for part in (found.shift, found.damping)]
         shift, damping = (
-            {name: (part * self.tension[:, None])[window, own, which].sum(axis=-1) for name, which in some.items()}
-            for part in (found.shift, found.damping)
+            {name: part[:, window, own, ends].sum(axis=-1) for name, ends in some.items()} for part in each
         )
         return shift, damping
 
@@ -72,11 +79,10 @@ def probability_still(identified: tuple[Identified, ...]) -> float | None:
     square, freedom = 0.0, 0
     for item in identified:
         for i in _read(item):
-            known = np.isfinite(item.windows.hertz[:, i])  # type: ignore[union-attr]
-            hertz, sigma = item.windows.hertz[known, i], item.windows.hertz_sigma[known, i]  # type: ignore[union-attr]
-            weight = 1.0 / sigma**2
-            square += float((weight * (hertz - (weight * hertz).sum() / weight.sum()) ** 2).sum())
-            freedom += int(known.sum()) - 1
+            known, hertz, sigma, _, _ = _readings(item, i)
+            weight = 1.0 / (sigma**2 + READING**2)
+            square += float((weight * np.log(hertz / np.exp((weight * np.log(hertz)).sum() / weight.sum())) ** 2).sum())
+            freedom += len(known) - 1
     return float(chdtrc(freedom, square)) if freedom else None
 
 
@@ -114,6 +120,20 @@ def _read(item: Identified) -> list[int]:
     return np.flatnonzero(item.used & (item.partner >= 0) & often).tolist()
 
 
+def _readings(item: Identified, i: int) -> tuple[np.ndarray, ...]:
+    """Windows (r,) in which mode i is clear; its frequency [Hz] there, relative sigma, damping ratio and sigma.
+
+    Sigmas count what neighbours do that were not told apart.
+    """
+    windows = item.windows
+    assert windows is not None
+    known = np.flatnonzero(np.isfinite(windows.hertz[:, i]))
+    hertz = windows.hertz[known, i]
+    doubt = pole_doubt(item, float(windows.middle[1] - windows.middle[0]))[i] / hertz
+    sigma = np.hypot(windows.hertz_sigma[known, i] / hertz, doubt)
+    return known, hertz, sigma, windows.damping[known, i], np.hypot(windows.damping_sigma[known, i], doubt)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class _Record:
     """One decay: rows (n, 8) and places (n, 2), and the motion in its w windows."""
@@ -136,6 +156,8 @@ def _record(number: int, item: Identified) -> _Record | None:
         motion = LargeMotion.about(state.point)
         partners = dict(platform_partners(motion, state.modes.platform, state.modes.platform_energy))
         peaks = [i for i in range(len(item.modes)) if int(item.partner[i]) in partners]
+        if not {*_read(item)} & {*peaks}:
+            return None
         own = [int(item.partner[i]) for i in peaks]
         numbers = [partners[p] for p in own]
         coefficients = motion.leading(numbers) * np.array([motion.reach(k) for k in numbers]) ** 2
@@ -158,13 +180,11 @@ def _rows(number: int, item: Identified, peaks: list[int], shift: np.ndarray) ->
     assert windows is not None
     assert state is not None
     size = np.linalg.norm(windows.amplitude * channel_weight(state, item.record), axis=2)
-    rows, place, read = [], [], _read(item)
-    for k, i in enumerate(peaks):
-        for w in np.flatnonzero(np.isfinite(windows.hertz[:, i])) if i in read else ():
-            hertz, damping = windows.hertz[w, i], windows.damping[w, i]
-            sigmas = windows.hertz_sigma[w, i] / hertz, windows.damping_sigma[w, i]
-            label = _LABELS * number + i
-            rows.append((number, label, np.log(hertz), sigmas[0], damping, sigmas[1], size[w, i], shift[w, k]))
+    rows, place, used = [], [], _read(item)
+    for k, i in ((k, i) for k, i in enumerate(peaks) if i in used):
+        known, hertz, sigma, damping, loss_sigma = _readings(item, i)
+        for w, *read in zip(known.tolist(), np.log(hertz), sigma, damping, loss_sigma, strict=True):
+            rows.append((number, _LABELS * number + i, *read, size[w, i], shift[w, k]))
             place.append((w, k))
     return np.array(rows).reshape((-1, 8)), np.array(place, dtype=int).reshape((-1, 2))
 

@@ -1,7 +1,9 @@
 """The whole diagnosis of a campaign."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from cdpr_struct.diagnosis import stories
 from cdpr_struct.diagnosis.added_modes import least_evidence
@@ -30,6 +32,7 @@ from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind, doubts, noise_of_ki
 from cdpr_struct.diagnosis.set_aside import set_aside
 from cdpr_struct.diagnosis.unassigned import peak_count, uncertain_peaks
 from cdpr_struct.diagnosis.whole_sizes import WholeSize, whole_sizes
+from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.library import require_known
 from cdpr_struct.hypotheses.explain import Belief, Explained, believed, explained
@@ -44,6 +47,7 @@ from cdpr_struct.robot.robot import Robot
 
 KEEPS = 1.0  # nats that a cause must keep without the block of data that it needs most: else it explains that block
 TOO_SMALL = "in these data it is masked by noise and tolerances at any size"
+_UNUSED = "The robot's frequencies are not used: at the poses as entered,"
 _LEAST = 0.03  # probability that anything is wrong, below which outliers explain what is significant
 _MOSTLY, _OPEN = 0.5, 4  # of it an unknown law must hold so much to be spoken of; else so many causes are left open
 _LIKELIEST = 3  # candidates that a recommendation speaks of where no cause explains the data
@@ -62,7 +66,7 @@ def diagnosed(
     InputError : the campaign holds nothing that can be diagnosed.
     """
     require_known(campaign.source, campaign.checked)
-    found = explained(campaign, BUDGETS[budget], progress)
+    campaign, found = _explained(campaign, budget, progress)
     told = {id(one): stories.candidates(one) for one in found}
     beliefs = believed(found)
     hidden = stories.without_size(found, list(told.values()))
@@ -75,6 +79,18 @@ def diagnosed(
     progress("predicting what was left out")
     answer = _Said.of(campaign, story, decision, loss)
     return _assembled(found, beliefs, answer, told[id(story)], pile)
+
+
+def _explained(campaign: Campaign, budget: str, progress: Callable[[str], None]) -> tuple[Campaign, list[Explained]]:
+    """The campaign with what may be wrong; without the robot's peaks if it cannot stand at the poses entered."""
+    try:
+        return campaign, explained(campaign, BUDGETS[budget], progress)
+    except UnstableEquilibriumError as error:
+        states = campaign.states
+        if not (np.isfinite(states.tension).any() or np.isfinite(states.length).any()):
+            raise
+        without = replace(campaign.without_robot_peaks(), notes=(*campaign.notes, f"{_UNUSED} {error}."))
+        return without, explained(without, BUDGETS[budget], progress)
 
 
 def _decided(beliefs: Sequence[Belief], loss: Loss, hidden: set[str], p_value: float) -> Decision:

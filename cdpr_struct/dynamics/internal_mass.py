@@ -94,9 +94,9 @@ def with_internal_mass(
         return stiffness, mass
     coupling, squared = internal_coupling(robot, rotation)[..., some], internal_squared(robot)[..., some]
     lead = np.broadcast_shapes(stiffness.shape[:-2], mass.shape[:-2], coupling.shape[:-2], squared.shape[:-1])
-    n = 6 + some.size
-    wide = np.zeros((2, *lead, n, n))
-    wide[0, ..., :6, :6], wide[1, ..., :6, :6] = stiffness, mass
-    wide[0, ..., range(6, n), range(6, n)], wide[1, ..., range(6, n), range(6, n)] = squared, 1.0
-    wide[1, ..., :6, 6:], wide[1, ..., 6:, :6] = coupling, np.swapaxes(coupling, -1, -2)
-    return wide[0], wide[1]
+    springs, heavy = np.zeros((2, *lead, 6 + some.size, 6 + some.size))
+    own = np.arange(6, 6 + some.size)
+    springs[..., :6, :6], heavy[..., :6, :6] = stiffness, mass
+    springs[..., own, own], heavy[..., own, own] = squared, 1.0
+    heavy[..., :6, 6:], heavy[..., 6:, :6] = coupling, np.swapaxes(coupling, -1, -2)
+    return springs, heavy

@@ -99,7 +99,7 @@ def after_stop(basis: ModalBasis, twist: np.ndarray, ports: tuple[Port, ...], ti
     modes = complex_modes(basis)
     start = np.concatenate([np.zeros(len(basis.omega)), participation @ twist])
     state = _free(modes, start, time)
-    return _vibration(basis, modes, ports, time, state, np.zeros((len(time), 6)), participation, (twist, mass))
+    return vibration(basis, modes, ports, time, state, np.zeros((len(time), 6)), participation, (twist, mass))
 
 
 def along_path(
@@ -132,7 +132,7 @@ def along_path(
         state[stop:] += _free(modes, jump, time[stop:] - time[stop])
     largest = acceleration[np.linalg.norm(acceleration, axis=1).argmax()]
     excitation = stop_velocity if np.abs(largest).max() == 0.0 else largest
-    return _vibration(basis, modes, ports, time, state, acceleration, participation, (excitation, mass))
+    return vibration(basis, modes, ports, time, state, acceleration, participation, (excitation, mass))
 
 
 def _free(modes: ComplexModes, start: np.ndarray, time: np.ndarray) -> np.ndarray:
@@ -147,19 +147,26 @@ def _free(modes: ComplexModes, start: np.ndarray, time: np.ndarray) -> np.ndarra
 
 def _driven(modes: ComplexModes, drive: np.ndarray, acceleration: np.ndarray, step: float) -> np.ndarray:
     """(n, 2 k) complex modal states from rest, exact for an acceleration that is linear between the instants."""
+    growth, before, after = held_step(modes, step)
+    force = acceleration @ drive.T
+    states = np.empty_like(force)
+    for i in range(len(growth)):
+        states[:, i] = lfilter([after[i], before[i]], [1.0, -growth[i]], force[:, i])
+        states[:, i] -= after[i] * force[0, i] * growth[i] ** np.arange(len(force))
+    return states
+
+
+def held_step(modes: ComplexModes, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(2 k,) each: what a step [s] does to a complex modal state, and to a force that changes linearly along it, by
+    its value before and after."""
     z = modes.values * step
     growth = np.exp(z)
     small = np.abs(z) < 1e-4
     safe = np.where(small, 1.0, z)
     # integrals of exp(z (1 - s)) over the step, with 1 - s and s as weights
     whole = np.where(small, 1.0 + z / 2.0 + z**2 / 6.0, (growth - 1.0) / safe)
-    later = np.where(small, 0.5 + z / 6.0 + z**2 / 24.0, (growth - 1.0 - z) / safe**2)
-    force = acceleration @ drive.T * step
-    states = np.empty_like(force)
-    for i in range(len(z)):
-        states[:, i] = lfilter([later[i], whole[i] - later[i]], [1.0, -growth[i]], force[:, i])
-        states[:, i] -= later[i] * force[0, i] * growth[i] ** np.arange(len(force))
-    return states
+    after = np.where(small, 0.5 + z / 6.0 + z**2 / 24.0, (growth - 1.0 - z) / safe**2)
+    return growth, step * (whole - after), step * after
 
 
 def _displacement(omega: np.ndarray, state: np.ndarray, force: np.ndarray, time: np.ndarray) -> np.ndarray:
@@ -176,7 +183,7 @@ def _displacement(omega: np.ndarray, state: np.ndarray, force: np.ndarray, time:
     return np.asarray(found)
 
 
-def _vibration(
+def vibration(
     basis: ModalBasis,
     modes: ComplexModes,
     ports: tuple[Port, ...],
@@ -185,10 +192,15 @@ def _vibration(
     acceleration: np.ndarray,
     participation: np.ndarray,
     excitation: tuple[np.ndarray, np.ndarray],
+    push: np.ndarray | float = 0.0,
 ) -> Vibration:
+    """States (n, 2 k) as what ports see; acceleration (n, 6) of the nominal motion, participation (k, 6).
+
+    excitation : (twist (6,), mass (6, 6)) of what set the robot in motion;  push : (n, k) further modal force
+    """
     k = len(basis.omega)
     stretched, velocity = state[:, :k], state[:, k:]
-    force = -stretched * basis.omega - velocity @ basis.damping - acceleration @ participation.T
+    force = -stretched * basis.omega - velocity @ basis.damping - acceleration @ participation.T + push
     shapes = np.stack([basis.shape_at(port) for port in ports], axis=1)
     twist, mass = excitation
     whole = float(twist @ mass @ twist)

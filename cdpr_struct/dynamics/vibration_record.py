@@ -12,6 +12,7 @@ from cdpr_struct.dynamics.natural_frequencies import count_below
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ports import Port
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
+from cdpr_struct.dynamics.rubbing_motion import EndFriction, RubbingEnds, rubbing_vibration
 from cdpr_struct.dynamics.transient import Vibration, after_stop, along_path
 from cdpr_struct.errors import CdprError
 from cdpr_struct.statics.trajectory import Trajectory
@@ -40,20 +41,24 @@ class VibrationRecord:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class VibratingRobot:
-    """A robot at rest and what its vibration is computed with."""
+    """A robot at rest and what its vibration is computed with; `friction` at the ends of its cables, or None."""
 
     point: OperatingPoint
     model: CableModel
     law: Damping
     highest_hertz: float
     assembly: Assembly = "consistent"
+    friction: EndFriction | None = None
 
     def after_stop(self, twist: np.ndarray, ports: tuple[Port, ...], duration: float) -> VibrationRecord:
         """Free vibration for `duration` [s] after the velocity `twist` (6,) was stopped."""
         time = self._instants(duration)
         cables, basis = self._modes()
-        vibration = after_stop(basis, twist, ports, time)
-        return self._record(cables, ports, vibration, np.zeros((len(time), 6)))
+        still = np.zeros((len(time), 6))
+        if self.friction is None:
+            return self._record(cables, ports, after_stop(basis, twist, ports, time), still)
+        ends = RubbingEnds.of(self.point, basis, self.friction)
+        return self._record(cables, ports, rubbing_vibration(basis, ends, still, (0, twist), ports, time), still)
 
     def along(self, motion: Trajectory, ports: tuple[Port, ...], duration: float) -> VibrationRecord:
         """Vibration for `duration` [s] from the beginning of the motion; a motion that ends moving is stopped there."""
@@ -65,7 +70,12 @@ class VibratingRobot:
         last = np.concatenate([motion.velocity[-1], motion.angular_velocity[-1]])
         cables, basis = self._modes()
         ends_in_record = stop < len(time)
-        vibration = along_path(basis, nominal, last if ends_in_record else 0.0 * last, stop, ports, time)
+        taken = last if ends_in_record else 0.0 * last
+        if self.friction is None:
+            vibration = along_path(basis, nominal, taken, stop, ports, time)
+        else:
+            ends = RubbingEnds.of(self.point, basis, self.friction)
+            vibration = rubbing_vibration(basis, ends, nominal, (stop, taken), ports, time)
         return self._record(cables, ports, vibration, nominal)
 
     def _instants(self, duration: float) -> np.ndarray:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import Seen
+from cdpr_struct.observation.motion import moving
 from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.robot.extensions import masts_of
 from cdpr_struct.statics.masts import carriers
@@ -31,6 +32,7 @@ def seen_in(data: Recorded) -> Seen:
         swinging=data.arrays.has_swinging_mass,
         relative=campaign.relative_lengths,
         poses=bool(data.read[:, :6].any()),
+        moving=bool(moving(data.known.rate).any()),
         wheels=data.arrays.has_pulleys,
         bare=bool((data.arrays.pulley_radius == 0.0).any()),
         groups={

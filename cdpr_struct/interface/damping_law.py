@@ -3,6 +3,7 @@
 import numpy as np
 
 from cdpr_struct.dynamics import damping
+from cdpr_struct.dynamics.rubbing_motion import EndFriction
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.arguments import read_numbers
 from cdpr_struct.robot.robot import Robot
@@ -32,6 +33,30 @@ def read_damping(text: str, robot: Robot, massless: bool = False) -> damping.Dam
     if values and not 0.0 <= values[0] < _HIGHEST.get(name, float("inf")):
         raise InputError("damping", name, text, f"the first number must be in [0, {_HIGHEST.get(name, 'inf')})")
     return _law(name, values, robot, text, massless)
+
+
+def read_end_friction(text: str) -> EndFriction:
+    """Dry friction at the ends of the cables: `WHERE:R,S`, WHERE frame, platform or both, R in m, S in rad; two of them
+    with a semicolon between.
+
+    Raises
+    ------
+    InputError : something else.
+    """
+    expected = "give WHERE:R,S with frame, platform or both, R >= 0 in m and S > 0 in rad, like platform:0.0001,0.003"
+    found: dict[str, tuple[float, float]] = {}
+    for part in text.split(";") if isinstance(text, str) else ():
+        where, _, numbers = part.strip().partition(":")
+        ends = ("frame", "platform") if where == "both" else (where,)
+        if not {*ends} <= {"frame", "platform"} or {*ends} & found.keys() or not numbers:
+            raise InputError("end_friction", "", text, expected)
+        radius, angle = read_numbers(numbers, "end_friction", (2,), "numbers: R in m and S in rad")
+        if radius < 0.0 or angle <= 0.0:
+            raise InputError("end_friction", where, text, expected)
+        found |= dict.fromkeys(ends, (radius, angle))
+    if not found:
+        raise InputError("end_friction", "", text, expected)
+    return EndFriction(found.get("frame", (0.0, 1.0)), found.get("platform", (0.0, 1.0)))
 
 
 def _modal(numbers: str, text: str) -> damping.ModalDamping:

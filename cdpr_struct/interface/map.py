@@ -178,7 +178,7 @@ class MapQuestion:
         told = statics_map.map_json(self.robot, self.quantity, self.grid, values) | {"resumed_chunks": 0}
         if self.free is not None:
             told = told_in_map(told, self.robot, self.free, found_angles(values), where_judged(self.quantity))
-        answer = with_extensions(told, self.robot, _kin(self.quantity))
+        answer = with_extensions(told, self.robot, *_kin(self.quantity))
         return MapResult(answer, self.robot, self.quantity, self.grid, values)
 
 
@@ -291,8 +291,12 @@ def require_drawable(grid: Grid) -> None:
         raise InputError("grid", "", "a single pose", "give a range for x, y or z to draw over")
 
 
-def _kin(quantity: str) -> str:
-    """The command that knows the extensions which this quantity knows."""
+def _kin(quantity: str) -> tuple[str, str]:
+    """The command, and its cable model, that know the extensions which this quantity knows."""
     if quantity.startswith("pose-error"):
-        return "pose-error"
-    return "map" if quantity.startswith(("first-", "mode-")) or quantity == "frequencies" else "inverse"
+        return "pose-error", ""
+    if quantity.startswith(("first-", "mode-")) or quantity == "frequencies":
+        return "map", ""
+    if quantity == "platform-frequency":
+        return "map", "static"
+    return ("stiffness" if quantity.startswith("stiffness-") else "inverse"), ""

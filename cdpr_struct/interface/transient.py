@@ -10,7 +10,7 @@ from cdpr_struct.dynamics.vibration_record import VibratingRobot, VibrationRecor
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_numbers, read_robot, real, text_of
-from cdpr_struct.interface.damping_law import read_damping
+from cdpr_struct.interface.damping_law import read_damping, read_end_friction
 from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, Progress, RobotLike, TrajectoryLike
 from cdpr_struct.interface.modes import ASSEMBLIES
@@ -20,7 +20,7 @@ from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.trajectory import read_trajectory
 from cdpr_struct.interface.vibration_model import dropped_by, read_model, require_valid
 from cdpr_struct.interface.winches import require_locked_lengths, require_own_winches
-from cdpr_struct.reports.damping_note import ENDLESS_VIBRATION, damping_note
+from cdpr_struct.reports.damping_note import ENDLESS_VIBRATION, damping_note, friction_note
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.transient_result import transient_columns, transient_json
 from cdpr_struct.reports.transient_text import transient_summary, transient_text
@@ -108,6 +108,7 @@ def transient(
     window: float | None = None,
     model: str = "exact",
     damping: str = "viscous",
+    end_friction: str | None = None,
     frame: str = "world",
     at: Numbers | None = None,
     assembly: str = "consistent",
@@ -132,6 +133,8 @@ def transient(
     watch : degrees of freedom to record besides those of the platform, like "cable5@0.3:z"
     window : of the spectrogram [s];  model : static, dsm or exact
     damping : law with its numbers, like "viscous:0.005" or "modal:0.01,0.012"
+    end_friction : dry friction at the ends of the cables, like "platform:0.0001,0.003": moment over tension [m], and
+        angle over which it builds up [rad]; frame, platform or both, with ";" between two of them
     frame : axes, world or platform;  at : point of the platform (3,) [m, platform frame]; default: its origin
     assembly : consistent, or thesis (eq. 3.8 as printed);  force : dsm outside its validity limits, too
     progress : called with the name of each step
@@ -152,6 +155,7 @@ def transient(
         if free is not None:
             raise InputError("free", "", free, "leave it out: a trajectory says the angles at its end")
     law = read_damping(damping, machine, cable_model == "static")
+    rubbing = None if end_friction is None else read_end_friction(end_friction)
     motion, assumed = (None, []) if trajectory is None else read_trajectory(trajectory, None, _FEWEST)
     seconds = _duration(duration, motion)
     _check_samples(highest, seconds, window)
@@ -161,7 +165,7 @@ def transient(
     require_valid(cable_model, state.point, force)
     ports = read_ports(_PLATFORM, "watch", state.point, frame, at)
     ports += () if not watch else read_ports(watch, "watch", state.point, frame, at)
-    vibrating = VibratingRobot(state.point, cable_model, law, highest, way)
+    vibrating = VibratingRobot(state.point, cable_model, law, highest, way, rubbing)
     progress("modes and motion")
     with state.advised():
         record = (
@@ -169,8 +173,16 @@ def transient(
             if motion is None
             else vibrating.along(motion, ports, seconds)
         )
-    described = {"damping": damping, "frame": frame, "at_m": "0,0,0" if at is None else text_of(at), "assembly": way}
+    described = {
+        "damping": damping,
+        "end_friction": end_friction,
+        "frame": frame,
+        "at_m": "0,0,0" if at is None else text_of(at),
+        "assembly": way,
+    }
     note = damping_note(law, damping, machine, cable_model == "static", ENDLESS_VIBRATION)
+    if rubbing is not None:
+        note = f"{friction_note(rubbing)} {note}"
     checks = *dropped_by(cable_model, machine), *mode_checks(record.modes.hertz, record.modes.certified)
     told = transient_json(record, {**described, "damping_note": note, "command": None})
     told |= state.told(*checks, warnings=assumed)

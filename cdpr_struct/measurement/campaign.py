@@ -232,6 +232,12 @@ class Campaign:
         peaks = RobotFrequencies(*(np.zeros(0, dtype=t) for t in (int, float, float)))
         return replace(self, states=states, cable_frequencies=cables, robot_frequencies=peaks, series=(), identified=())
 
+    def without_robot_peaks(self) -> "Campaign":
+        """The campaign without frequencies of the robot, from lists and from signals."""
+        none = np.zeros(0)
+        peaks = RobotFrequencies(none.astype(int), none, none)
+        return replace(self, robot_frequencies=peaks, series=(), identified=())
+
     def kinds(self) -> list[str]:
         """Kinds of data that the campaign holds, in the fixed order."""
         found = {s.kind for s in self.series}

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.measurement.campaign import Campaign, States
+from cdpr_struct.observation.motion import accelerations, length_rates
 from cdpr_struct.robot.robot import Robot
 
 _SECONDS = 3600.0  # of an hour
@@ -15,6 +16,8 @@ class Circumstances:
     """Of S states of a robot with m cables.
 
     payload (S,) [kg];  hours (S,) since the first reading with a time, 0 without
+    rate (S, m, 2) : derivatives of the encoders' lengths [m/s, m/s^2], acceleration (S,) : of the platform [m/s^2]; 0
+    in states that are no frames of a motion
     approach (S, m) : +1 if the winch last wound in, -1 if it paid out, 0 unknown
     wrap (S, m) : right angles by which a cable that comes up from a winch below turns at its exit
     center (3,) : what a hose refers to [m];  mean_tension : what nonlinear elasticity refers to [N]
@@ -23,6 +26,8 @@ class Circumstances:
 
     payload: np.ndarray
     hours: np.ndarray
+    rate: np.ndarray
+    acceleration: np.ndarray
     approach: np.ndarray
     wrap: np.ndarray
     center: np.ndarray
@@ -36,6 +41,8 @@ class Circumstances:
         return cls(
             payload=states.payload,
             hours=_hours(states),
+            rate=length_rates(states),
+            acceleration=accelerations(states),
             approach=np.where(np.isfinite(states.approach), states.approach, 0.0),
             wrap=exit_turns(campaign.robot, position, rotation),
             center=more.hose_center if more.hose else position.mean(axis=0),
@@ -52,9 +59,8 @@ class Circumstances:
 
     def at(self, some: np.ndarray) -> "Circumstances":
         """Those of some states."""
-        return replace(
-            self, payload=self.payload[some], hours=self.hours[some], approach=self.approach[some], wrap=self.wrap[some]
-        )
+        names = ("payload", "hours", "rate", "acceleration", "approach", "wrap")
+        return replace(self, **{name: getattr(self, name)[some] for name in names})
 
 
 def _hours(states: States) -> np.ndarray:

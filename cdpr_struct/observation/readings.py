@@ -58,8 +58,9 @@ def _pulley_friction(arrays: RobotArrays, wrap: np.ndarray) -> np.ndarray:
     slips = arrays.friction * wrap
     if not arrays.bearing_friction.any():
         return np.asarray(slips)
+    angle = 0.5 * np.pi * wrap
     b = np.clip(arrays.bearing_friction, -_STUCK, _STUCK)
-    return np.asarray(slips + 2.0 * np.arcsinh(b * np.sin(0.25 * np.pi * wrap) / np.sqrt(1.0 - b**2)))
+    return np.asarray(slips + 2.0 * np.arcsinh(b * np.sin(0.5 * angle) / np.sqrt(1.0 - b**2)))
 
 
 def paid_out(arrays: RobotArrays, readings: Readings, known: Circumstances) -> np.ndarray:
@@ -67,8 +68,17 @@ def paid_out(arrays: RobotArrays, readings: Readings, known: Circumstances) -> n
 
     A drive with play lags behind its encoder by half of the play: the drum has wound in less, or paid out less.
     """
-    more = arrays.slip * known.hours[:, None] + 0.5 * arrays.backlash * known.approach
+    more = (
+        arrays.slip * known.hours[:, None]
+        + _later(arrays.encoder_delay, known.rate)
+        + 0.5 * arrays.backlash * known.approach
+    )
     return arrays.paid_out(readings.length) + more * arrays.thermal_growth
+
+
+def _later(delay: np.ndarray, rate: np.ndarray) -> np.ndarray:
+    """(..., S, m) by how much lengths grow within delays (..., m) [s], rates (S, m, 2), to second order."""
+    return np.asarray(delay * rate[..., 0] + 0.5 * delay**2 * rate[..., 1])
 
 
 def cell_reading(arrays: RobotArrays, tension: np.ndarray, approach: np.ndarray, wrap: np.ndarray) -> np.ndarray:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from cdpr_struct.dynamics.damping import Damping, Hysteretic, ModalDamping, PowerLaw, Rayleigh, Viscous
+from cdpr_struct.dynamics.rubbing_motion import EndFriction
 from cdpr_struct.robot.robot import Robot
 
 UNBOUNDED_PEAKS = "peaks are unbounded"
@@ -36,6 +37,16 @@ def damping_note(damping: Damping, option: str, robot: Robot, massless: bool, un
     else:
         what, loses = "No damping (option)", False
     return f"{what}." if loses else f"{what}: {undamped}."
+
+
+def friction_note(friction: EndFriction) -> str:
+    """A sentence on dry friction at the ends of the cables."""
+    said = [
+        f"{radius:g} m times the tension at the {name} ends, built up over {angle:g} rad"
+        for name, (radius, angle) in (("frame", friction.frame), ("platform", friction.platform))
+        if radius > 0.0
+    ]
+    return f"Dry friction at the ends of the cables: {'; '.join(said) or 'none'}."
 
 
 def _viscous(law: Viscous, of_file: bool, massless: bool) -> tuple[str, bool]:

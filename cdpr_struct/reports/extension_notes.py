@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 _READINGS = "this describes readings, which only diagnose and plan compare"
 _VIBRATION = "this concerns vibration only"
 _NO_BENDING = "this cable model has none; --model exact does"
-_AT_REST = ("inverse", "forward", "pose-error")
+_AT_REST = ("inverse", "forward", "pose-error", "stiffness")
 _CABLES_ONLY = ("bending_stiffness", "added_mass")
 _INTERNAL, _HEADS, _SWINGS = "internal_mass", "mast_mass", "swinging_mass"
 _STIFFENS = ("nonlinearity", "stiffening_exponent")
@@ -91,8 +91,13 @@ def _why_still(command: str, model: str) -> str:
     return _VIBRATION if command in (*_AT_REST, "distribute", "audit") else ""
 
 
+def _why_at_rest(command: str, model: str) -> str:
+    """Why the stiffness of small motion has no effect in a command."""
+    return "" if command == "stiffness" else _why_still(command, model)
+
+
 _OTHERWISE = {
-    "incremental_ratio": _why_still,
+    "incremental_ratio": _why_at_rest,
     _INTERNAL: _why_rigid,
     _SWINGS: _why_rigid,
     _HEADS: _why_still,

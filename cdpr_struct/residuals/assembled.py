@@ -24,7 +24,7 @@ def linear_model(local: Local, where: Layout) -> LinearModel:
     for shelf in where.shelves:
         own, x = of_shelf(where, shelf, residual), of_shelf(where, shelf, columns)
         noise, soft = _noise(local, where, shelf, by_noise), soft_rows(where, shelf, local)
-        stack = Stack(own, noise, x, _floor(where, shelf, own.shape), shelf.index, soft)
+        stack = Stack(own, noise, x, _floor(local, where, shelf, own.shape), shelf.index, soft)
         stacks.append(stack.with_noise(_meant(local, where, shelf)) if local.data.sent.known.any() else stack)
     if len(residual.sizes):
         stacks.append(_of_sizes(local, where, residual.sizes, columns.sizes))
@@ -126,12 +126,15 @@ def _places(local: Local, shelf: Shelf, rows: int, own: int) -> np.ndarray:
     return place
 
 
-def _floor(where: Layout, shelf: Shelf, shape: tuple[int, ...]) -> np.ndarray:
-    """(K, n)."""
+def _floor(local: Local, where: Layout, shelf: Shelf, shape: tuple[int, ...]) -> np.ndarray:
+    """(K, n). While the platform moves its balance is as open as its inertia, which is not in the model."""
     floor = np.ones(shape)
     own, (_, p), (_, c) = 6 + where.m, shelf.states.shape, shelf.cables.shape
     state = np.repeat(FLOOR[:2], (6, where.m))
     floor[:, : p * own] = np.where(np.repeat(shelf.states >= 0, own, axis=1), np.tile(state, p), 1.0)
+    inertia = float(local.data.arrays.mass.max()) * local.data.known.acceleration[shelf.states]
+    balance = floor[:, : p * own].reshape((len(floor), p, own))[..., :6]
+    balance += np.where(shelf.states >= 0, inertia, 0.0)[..., None]
     floor[:, p * own : p * own + c] = np.where(shelf.cables >= 0, FLOOR[2], 1.0)
     return floor
 

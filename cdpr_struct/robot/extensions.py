@@ -58,6 +58,7 @@ class Extensions:
     tracker: np.ndarray
     creep: float
     slip: np.ndarray
+    encoder_delay: np.ndarray
     accelerometer_gain: np.ndarray
     sensor_mass: float
     internal_mass: float

@@ -13,6 +13,7 @@ from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, moment_skew, tangent_stiffness
 from cdpr_struct.statics.guides import behind_guides
 from cdpr_struct.statics.neutral_freedoms import Stability, stability
+from cdpr_struct.statics.stiffening import in_small_motion
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -93,7 +94,8 @@ def static_stiffness(
 
     Eq. (3.8) with the geometric terms that it leaves out.
     """
-    arrays = RobotArrays.of(robot, None if mass is None else np.asarray(mass, dtype=float))
+    entered = RobotArrays.of(robot, None if mass is None else np.asarray(mass, dtype=float))
+    arrays, cables = in_small_motion(entered, cables)
     turn = np.asarray(rotation, dtype=float)
     arms = PlatformArms.at(arrays, np.asarray(position, dtype=float), turn)
     matrix = tangent_stiffness(arrays, cables, arms)

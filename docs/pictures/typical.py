@@ -115,7 +115,8 @@ def entered(pulleys: bool = True) -> Stand:
     position, rotation = POSE.position[None], POSE.rotation[None]
     turns = exit_turns(robot, position, rotation)
     known = Circumstances(
-        np.zeros(1), np.ones(1), np.ones((1, 8)), turns, POSE.position, float(held.tensions.mean())
+        payload=np.zeros(1), hours=np.ones(1), rate=np.full((1, 8, 2), 0.1), acceleration=np.zeros(1),
+        approach=np.ones((1, 8)), wrap=turns, center=POSE.position, mean_tension=float(held.tensions.mean()),
     )  # fmt: skip
     return Stand(RobotArrays.of(robot), known, Readings(position, rotation, held.tensions[None], held.lengths[None]))
 
@@ -132,6 +133,7 @@ def theta_of(cause: Cause, arrays: RobotArrays) -> tuple[np.ndarray, str]:
         "frame_compliance",
         "missing_pulleys",
         "nonlinear_elasticity",
+        "pulley_friction",
     ):
         own = own * (np.arange(len(own)) < {"tracker_frame": 6, "pose_mismatch": 3}.get(cause.name, 1))
     count = {"cable": 8, "mast": carriers(arrays.masts).shape[1], "axis": 3, "state": 1}.get(cause.carrier, 1)

@@ -16,6 +16,7 @@ from benchmarks.random_robots.judging import mode_faults, not_numbers, refusal_f
 from benchmarks.random_robots.own_cables import Wheels, compliance, end_offset
 from benchmarks.random_robots.own_mechanics import own_rest
 from benchmarks.random_robots.refusals import holdable
+from benchmarks.random_robots.sampled_cables import out_of_reach
 from benchmarks.random_robots.summary import summary
 from benchmarks.random_robots.trying import tried, tried_case
 
@@ -163,6 +164,14 @@ def test_judges_of_pose_errors_distributions_and_finite_elements_see_what_is_wro
     wrong = fem_verdict(modes.point, modes.modes.hertz * [1.0, 1.0, 1.0 + 1e-4])
     assert "frequency 3" in wrong.faults[0]
     assert wrong.off == pytest.approx(1e-4, rel=1e-2)  # the agreement itself is some 1e-8
+
+
+def test_own_cables_at_many_lengths_tell_what_is_in_reach():
+    case = replace(drawn(1), robot=PRELOADED, pose=PRELOADED.home, free=None)
+    assert out_of_reach(case) == "found"
+    assert out_of_reach(replace(case, pose=cs.Pose(np.array([9.0, 0.0, 0.5]), np.zeros(3)))) == "no"
+    heavy = replace(PRELOADED, platform=replace(PRELOADED.platform, mass=1e7))
+    assert out_of_reach(replace(case, robot=heavy)) == "no", "strains of 5 % carry less"
 
 
 def test_a_linear_program_proves_what_cables_cannot_hold():

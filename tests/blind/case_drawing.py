@@ -27,7 +27,7 @@ from tests.blind.entered_robot import EnteredRobot, entered_robot
 from tests.blind.measuring_plan import Plan, PlanSize, drawn_plan
 from tests.blind.note_errors import spoiled
 from tests.blind.observation import Observation, SlackStateError, observed
-from tests.blind.sensors import Noise, Tables, filed
+from tests.blind.sensors import Noise, Tables, filed, timed
 from tests.blind.true_robot import bare_inertia
 
 ROBOTS = ("thesis-3-1", "cogiro", "thesis-5", "thesis-5-pulleys")
@@ -48,6 +48,7 @@ class CaseKind:
     separated : an ambiguous case with the measurements that tell its names apart, where there are any
     statics  : without frequencies; sizes are then multiples of what statics alone can detect
     robot    : which one; any of `ROBOTS` if not given
+    timed    : whether the time of every state is filed
     """
 
     kind: str
@@ -58,6 +59,7 @@ class CaseKind:
     statics: bool = False
     size: PlanSize = field(default_factory=PlanSize)
     robot: str = ""
+    timed: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +97,7 @@ def _attempt(kind: CaseKind, seed: tuple[int, ...], attempt: int) -> Case:
     robot, deviations, effects, names = real.robot, real.deviations, real.effects, [name for name, _ in kind.effects]
     lengths = kind.lengths and "internal_force" not in names
     tables = filed(real.plan, real.seen, deviations, Noise(sensor, kind.noise), lengths)
+    tables = timed(tables, real.plan) if kind.timed else tables
     confused, weighed = _is_confused(kind), None
     if kind.kind == "ambiguous" and names[0] in STATICS_ONLY:
         del tables["robot_frequency"]

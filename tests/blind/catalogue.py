@@ -131,6 +131,18 @@ LAWS = {
     )
 }  # of a set of its own: causes, or shapes of causes, that came into the library after the other sets had been drawn
 
+RARE = {
+    effect.name: effect
+    for effect in (
+        Effect("brake_slip", "m/h", ("one",), typical=2e-3),
+        Effect("creep", "1 a decade", ("common",), signed=False, typical=0.15),
+        Effect("accelerometer_mass", "kg", ("common",), signed=False, typical=6.0),
+        Effect("cable_added_mass", "kg", ("one",), signed=False, typical=0.06),
+        Effect("flexible_platform", "share of the mass", ("one",), signed=False, typical=0.4),
+    )
+}  # causes of the library that the other sets do not hide, in campaigns that note the time
+LAWS |= RARE
+
 CAUSES = {"bearing_friction": "pulley_friction", "power_elasticity": "nonlinear_elasticity"}  # where the name differs
 
 BEYOND = {**OUTSIDE, **UNSEEN, **STATIC_OUTSIDE}  # what no cause of the library explains

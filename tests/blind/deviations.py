@@ -26,6 +26,8 @@ NUMBERS_PER_CABLE = {
     "load_cell_gain": 1,  # ratio - 1
     "load_cell_bias": 1,  # N
     "pulley_friction": 1,  # ln of the ratio winch side : platform side, per 90 degrees of wrap
+    "brake_slip": 1,  # m/h that a winch pays out although its encoder stands still
+    "cable_added_mass": 1,  # kg at ADDED_AT of the cable's length from the platform
     "bearing_friction": 1,  # mu r / R of the wheel at the exit, mu and r of its bearing
 }
 NUMBERS_PER_ROBOT = {
@@ -40,6 +42,9 @@ NUMBERS_PER_ROBOT = {
     "gravity_tilt": 2,  # rad, gravity turned about x, y
     "tracker_frame": 6,  # m, rad: shift and turn of what the tracker calls the world
     "internal_force": 2,  # N, along two directions of the null space
+    "creep": 1,  # share of the elastic strain that a decade of time adds after the first minute
+    "accelerometer_mass": 1,  # kg at the platform origin while vibration is measured, and only then
+    "flexible_platform": 3,  # share of the platform's mass that sits on a spring along an axis of the platform
     "swinging_payload": 1,  # share of the platform's mass that hangs on a cord from its origin
     "power_elasticity": 1,  # exponent of EA over the tension, of an elastic rope
     # outside the library of causes when the sets were drawn

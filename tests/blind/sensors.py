@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from tests.blind.deviations import Deviations
 from tests.blind.measuring_plan import Plan, angles_deg
 from tests.blind.observation import Observation, Rest
-from tests.blind.true_robot import Command
+from tests.blind.true_robot import HOURS, Command
 from tests.blind.vibrations import VISIBLE_SHARE
 
 SIGMA = {"tension_N": 2.0, "position_m": 0.0003, "rotation_deg": 0.0115, "length_m": 0.0001}
@@ -195,6 +195,17 @@ def robot_rows(seen: Observation, states: pd.DataFrame, noise: Noise, picker: Pi
 def _state(states: pd.DataFrame, case: str) -> Mapping[str, float]:
     """Pose and payload of a case, with the same readings as in the file of the static states."""
     return {str(key): value for key, value in states.loc[case, [*POSE, "payload_kg"]].items()}
+
+
+def timed(tables: Tables, plan: Plan) -> Tables:
+    """The same files with the time of every state."""
+    days = {f"s{number:02d}": command.day for number, command in enumerate(plan.statics, start=1)}
+    for lock, commands in enumerate(plan.locks, start=1):
+        days |= {f"l{lock}p{number}": command.day for number, command in enumerate(commands, start=1)}
+    return {
+        kind: table.assign(time_s=[round(3600.0 * HOURS * days[case]) for case in table["case"]])
+        for kind, table in tables.items()
+    }
 
 
 def inclined(tables: Tables) -> Tables:

@@ -21,6 +21,7 @@ from tests.blind.catalogue import (
     OUTSIDE,
     OUTSIDE_DEV,
     OUTSIDE_HELD,
+    RARE,
     UNSEEN,
 )
 
@@ -31,7 +32,7 @@ CLEAR = 4.0  # multiple of effects whose size is not the question
 FINAL_RATES = {"null": 60, "just": 150, "pair": 56}  # beside a final set, which has few of each
 NULLS = 0.6  # share of nulls in a set of rates; the rest is just detectable
 SET_SEEDS = {"dev": 20_101, "ci": 20_102, "unseen": 20_103, "rates": 20_104}
-SET_SEEDS |= {"laws": 20_105}
+SET_SEEDS |= {"laws": 20_105, "rare": 20_106}
 SET_SEEDS |= {"messy": 31_201, "peaks": 31_202, "sizes": 31_203}
 SET_SEEDS |= {"messy-dev": 31_301, "peaks-dev": 31_302, "sizes-dev": 31_303}
 SET_SEEDS |= {"few": 31_204, "few-dev": 31_304}
@@ -68,6 +69,7 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
         "ci": CI,
         "unseen": {"unseen": total},
         "laws": {"law": total},
+        "rare": {"rare": total - total // 3, "timed": total // 3},
         "outside-dev": {"outside_dev": total},
         "outside-held": {"outside_held": total},
         "conventions": {"convention": total},
@@ -86,6 +88,8 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
         "convention": _conventions,
         "unseen": _unseen,
         "law": _laws,
+        "rare": _rare,
+        "timed": _timed_nulls,
         "outside_dev": partial(_static_outside, [*OUTSIDE_DEV]),
         "outside_held": partial(_static_outside, [*OUTSIDE_HELD]),
     }
@@ -133,8 +137,17 @@ def _unseen(count: int, rng: np.random.Generator) -> list[CaseKind]:
     return [CaseKind("outside", ((name, CLEAR),)) for name in _dealt([*UNSEEN], count, rng)]
 
 
+def _rare(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    return [CaseKind("law", ((name, 1.0),), timed=True) for name in _dealt([*RARE], count, rng)]
+
+
+def _timed_nulls(count: int, rng: np.random.Generator) -> list[CaseKind]:
+    del rng
+    return [CaseKind("null", timed=True)] * count
+
+
 def _laws(count: int, rng: np.random.Generator) -> list[CaseKind]:
-    return [CaseKind("law", ((name, 1.0),)) for name in _dealt([*LAWS], count, rng)]
+    return [CaseKind("law", ((name, 1.0),)) for name in _dealt([name for name in LAWS if name not in RARE], count, rng)]
 
 
 def _static_outside(names: Sequence[str], count: int, rng: np.random.Generator) -> list[CaseKind]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -32,6 +32,8 @@ MAGNET = np.array([0.8, 0.5, -2.0])  # m from home, of the place on the floor
 MIDDLE, REACH, CHANGE = 6.0, 3.0, 0.2  # m: of a drum, from there, and along which it changes its layer
 SETTLING_DAY = 0.2  # share of the campaign in which settling exits sink by all but 1 / e
 FRAME_REACH = 5.0  # m
+HOURS = 4.0  # that a campaign takes
+ADDED_AT = 0.3  # of the length from the platform: where a marker sits on a cable
 DAYS = 10_000  # moments of a campaign, each with a gust of its own
 
 
@@ -62,6 +64,7 @@ def true_lengths(deviations: Deviations, command: Command) -> np.ndarray:
     paid = paid + deviations["encoder_quadratic"] * ((wanted - MIDDLE) / REACH) ** 2
     paid = paid + deviations["second_layer"] * 0.5 * (1.0 + np.tanh((wanted - MIDDLE) / CHANGE))
     paid = paid + deviations["clamp_slip"] * (np.arange(len(wanted)) == 2) * (command.day > 0.5)
+    paid = paid + deviations["brake_slip"] * HOURS * command.day
     warmed = 1.0 + EXPANSION * deviations["cable_warming"] * command.day
     scale = (1.0 + deviations["drum_scale"]) * warmed
     return np.asarray(paid * scale * (1.0 + EXPANSION * deviations["temperature"]))
@@ -86,21 +89,28 @@ def powers(deviations: Deviations, tensions: np.ndarray, stiffness: np.ndarray) 
 
 
 def true_cables(
-    robot: EnteredRobot, deviations: Deviations, paid: np.ndarray, tensions: np.ndarray
+    robot: EnteredRobot, deviations: Deviations, paid: np.ndarray, tensions: np.ndarray, day: float = 0.0
 ) -> tuple[CableData, ...]:
     """Cables with what is in line behind their exits: joints, and the dead piece of the same rope to the winch.
 
     paid, tensions : unstrained lengths (m,) [m], and tensions (m,) [N] about which a rope that beds down is linear
+    day : share of the campaign that is over
     """
     stretch, slope = bedding(deviations, tensions)
-    stiffness = robot.axial_stiffness * np.exp(deviations["axial_stiffness"])
+    crept = 1.0 + deviations["creep"] * np.log10(1.0 + 60.0 * HOURS * day)
+    stiffness = robot.axial_stiffness * np.exp(deviations["axial_stiffness"]) / crept
     stiffness, more = powers(deviations, tensions, stiffness)
     stretch = stretch + more
     lengths = paid * (1.0 + stretch) + deviations["dead_length"] * stretch
     stiffness = stiffness / (1.0 + slope * stiffness)
     density = robot.linear_density * np.exp(deviations["cable_linear_density"])
     give = deviations["joint_compliance"] + deviations["dead_length"] / stiffness
-    return tuple(CableData(*map(float, each)) for each in zip(lengths, stiffness, density, give, strict=True))
+    bare = [CableData(*map(float, each)) for each in zip(lengths, stiffness, density, give, strict=True)]
+    added = deviations["cable_added_mass"]
+    return tuple(
+        replace(cable, lumps=((ADDED_AT * cable.unstrained_length, float(mass)),)) if mass else cable
+        for cable, mass in zip(bare, added, strict=True)
+    )
 
 
 def true_platform(robot: EnteredRobot, deviations: Deviations, payload: float, rotation: np.ndarray) -> PlatformData:
@@ -194,7 +204,7 @@ def true_robot(
     return RobotData(
         anchors,
         (robot.platform_anchors + _offsets(deviations, "platform")) * warmth,
-        true_cables(robot, deviations, true_lengths(deviations, command), about),
+        true_cables(robot, deviations, true_lengths(deviations, command), about, command.day),
         platform,
         true_gravity(robot, deviations),
         pulleys,

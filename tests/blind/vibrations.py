@@ -13,6 +13,7 @@ from cdpr_struct.fem_reference.robot_modes import robot_matrices
 from tests.blind.bending_masts import exit_blocks, mast_motion, mast_springs
 from tests.blind.deviations import Deviations
 from tests.blind.entered_robot import EnteredRobot
+from tests.blind.platform_parts import moving_parts, with_parts
 from tests.blind.true_robot import balancer_stiffness, true_gravity
 
 CABLE_MODES = 4
@@ -48,6 +49,7 @@ def whole_matrices(
     if bob := swinging_mass(robot, deviations):
         gravity, hung = true_gravity(robot, deviations), PendulumData(bob, CORD, np.zeros(3))
         stiffness, mass = with_pendulum(stiffness, mass, equilibrium.rotation, gravity, hung)
+    stiffness, mass = with_parts(robot, deviations, equilibrium.rotation, stiffness, mass)
     compliance = deviations["frame_compliance"]
     if not np.any(compliance):
         return stiffness, mass
@@ -76,5 +78,6 @@ def robot_frequencies(
     end = 3 * len(equilibrium.cables) * (equilibrium.elements - 1)
     moved = vectors[end : end + 6]
     body = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
+    body = body - moving_parts(robot, deviations, equilibrium.rotation)
     body = body - swinging_mass(robot, deviations) * np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
     return frequencies_hz(values), np.einsum("ak,ab,bk->k", moved, body, moved)

@@ -1,6 +1,7 @@
 """Does a cable round a swivelling pulley obey geometry, virtual work and symmetry, and converge?"""
 
 import dataclasses
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -23,6 +24,7 @@ from cdpr_struct.fem_reference import (
     robot_modes,
     solve_robot,
 )
+from cdpr_struct.fem_reference.pulley import Wrap
 
 EA, MU, UP, GRAVITY = 251327.4123, 0.067, np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.0, -9.81])
 LEANING = np.array([0.1, 0.3, np.sqrt(0.9)])
@@ -112,9 +114,26 @@ def test_static_end_stiffness_tends_to_the_derivative_of_the_end_force(axis):
         lopsided = np.abs(numeric - numeric.T).max() / np.abs(claimed).max()
         assert lopsided < (1e-5 if axis is UP else 5e-4)
     assert misses[0] < 1e-4  # measured 4e-5
-    assert np.log2(misses[0] / misses[2]) / 2.0 == pytest.approx(1.8, abs=0.3)
+    if axis is UP:
+        assert np.log2(misses[0] / misses[2]) / 2.0 == pytest.approx(1.8, abs=0.3)
+    else:  # condensing and taking the symmetric part change places but for squares of the lean, here some 2e-6
+        assert misses[2] < 6e-6
     wrong = stiffness_by_differences(one_cable(0.306, SLACK, axis), 80)
     assert np.abs(wrong - claimed).max() > 1e-3 * np.abs(claimed).max()
+
+
+def test_a_leaning_swivel_does_not_soften_without_bound_as_bars_shrink(monkeypatch):
+    """What rolls off couples turn and swivel, symmetrically, by c; eliminating the turn costs c^2 l / T ~ 1 / l."""
+    robot = one_cable(0.3, SLACK, np.array([0.0, 0.6, 0.8]))
+
+    def steps():
+        ends = [end_dynamic_stiffness(hung(robot, OFFSET, n), 0.0) for n in (40, 80, 160, 320)]
+        changes = [np.abs(fine - coarse).max() for coarse, fine in pairwise(ends)]
+        return [before / after for before, after in pairwise(changes)]
+
+    assert steps() == pytest.approx([4.0, 4.0], abs=0.4)  # order two; measured 4.15, 4.22
+    monkeypatch.setattr(Wrap, "_not_softened", lambda self, block, turning: np.zeros((3, 3)))
+    assert steps()[1] < 2.5
 
 
 @AXES

@@ -14,6 +14,7 @@ from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.static_stiffness import static_stiffness
 
 EXPONENT, REFERENCE = 0.3, 150.0  # -, N
 PAYLOAD, STEPS, MODES = 30.0, (20, 40), 12  # kg on 52.5
@@ -122,3 +123,16 @@ def moved(entered) -> np.ndarray:
     free = held(entered)
     lengths = inverse(entered, free.position, np.eye(3)).lengths
     return forward(entered.with_load(PAYLOAD), lengths, free.position, free.rotation).require_converged().position
+
+
+def test_static_stiffness_is_that_of_small_steps(point):
+    """A small force at locked lengths, by the law itself, and the 6 x 6 stiffness with the ratio of the law."""
+    pushed = np.array([0.0, 0.0, -1e-2, 0.0, 0.0, 0.0])
+    lengths = inverse(robot(), point.position, np.eye(3)).lengths
+    start = forward(robot(), lengths, point.position, point.rotation)
+    there = forward(robot(), lengths, start.position, start.rotation, external_wrench=pushed)
+    stiffness = static_stiffness(robot(), start.position, start.rotation, start.cables)
+    expected = stiffness.compliance[2, 2] * pushed[2]
+    assert there.position[2] - start.position[2] == pytest.approx(expected, rel=5e-3)  # one EA a cable, that at its end
+    secant = static_stiffness(robot(ratio=1.0), start.position, start.rotation, start.cables).compliance[2, 2]
+    assert secant * pushed[2] != pytest.approx(expected, rel=0.1)  # twin

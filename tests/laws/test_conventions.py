@@ -1,11 +1,16 @@
 """Poses written in another convention: recognised, named, corrected."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from cdpr_struct.diagnosis import diagnosing
 from cdpr_struct.diagnosis.diagnosing import diagnosed
+from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.hypotheses.conventions import conventions
+from cdpr_struct.measurement.campaign import RobotFrequencies
 from tests.laws.written_campaigns import cogiro, measured, with_states
 
 SLOW = pytest.mark.slow
@@ -67,3 +72,23 @@ def test_another_convention_is_named(campaign, way):
     assert said.decision.status == "named", said.decision
     assert said.decision.classes == (("rotation_convention",),)
     assert SAID[way] in said.correction.sentence
+
+
+def test_peaks_are_left_out_where_the_robot_cannot_stand(campaign, monkeypatch):
+    """Poses that a convention puts upside down have no modes: what is left of the readings says what is wrong."""
+    asked = []
+
+    def explained(one, budget, progress):
+        asked.append(one)
+        if len(one.robot_frequencies.hertz):
+            raise UnstableEquilibriumError("the equilibrium is unstable")
+        return [budget, progress]
+
+    monkeypatch.setattr(diagnosing, "explained", explained)
+    peaks = RobotFrequencies(np.array([0]), np.array([3.0]), np.array([0.01]))
+    left, _ = diagnosing._explained(replace(campaign, robot_frequencies=peaks), "small", str)
+    assert [len(one.robot_frequencies.hertz) for one in asked] == [1, 0]
+    assert "frequencies are not used" in left.notes[-1]
+    bare = with_states(replace(campaign, robot_frequencies=peaks), tension=np.nan, length=np.nan)
+    with pytest.raises(UnstableEquilibriumError):
+        diagnosing._explained(bare, "small", str)

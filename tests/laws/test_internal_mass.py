@@ -25,6 +25,7 @@ from cdpr_struct.generated.platform import rotation
 from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.workspace.quantities import stiffnesses
 
 SWINGING = {"swinging_mass": 5.0, "swinging_frequency": 0.9, "swinging_place": [0.1, -0.05, -0.2]}
 INNER = {"internal_mass": 5.0, "internal_frequency": 6.5, "internal_direction": [0.0, 0.6, 0.8]}
@@ -101,6 +102,19 @@ def test_a_pendulum_by_hand():
     expected = np.sqrt(eigh(stiffness, mass, eigvals_only=True)) / (2.0 * np.pi)
     np.testing.assert_allclose(certified_modes(point, "static", 8).frequencies.hertz, expected, rtol=1e-11)
     np.testing.assert_allclose(static_frequencies(point), expected, rtol=1e-11)
+
+
+@pytest.mark.parametrize("parts", ["a mount", "both"])
+def test_many_poses_are_each_their_own(parts):
+    """The map's way: a batch of poses at once; the first mode of each is that of the pose alone."""
+    robot = at_rest(PARTS[parts]).entered
+    places = robot.home.position + np.array([[0.0, 0.0, 0.0], [0.5, -0.4, 0.2], [-0.3, 0.2, 0.1]])
+    found = stiffnesses(robot, places, np.eye(3))["platform_frequency_Hz"]
+    expected = []
+    for place in places:
+        point = OperatingPoint(robot, place, np.eye(3), inverse(robot, place, np.eye(3)).cables)
+        expected.append(certified_modes(point, "static", 1).frequencies.hertz[0])
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
 
 
 def test_far_above_its_frequency_a_pendulum_leaves_its_weight_alone():

@@ -6,6 +6,10 @@ from cdpr_struct.hypotheses.causes.cause import A_MINUTE, Cause, Parameter, Seen
 from cdpr_struct.robot.changed_arrays import plus, times
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
+_BEARING = 0.02  # mu r / R: a plain bearing of mu = 0.1 and r / R = 0.2; ball bearings have less
+_DRAG = 2.0  # N: a seal of 0.08 N m on a wheel of 40 mm
+_PLAY = 2e-3  # m: 2 degrees of a gear on a drum of 60 mm
+
 
 def _gain(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
     return times(arrays, cell_gain=np.exp(theta))
@@ -30,6 +34,14 @@ def _slip(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
 
 def _cells(seen: Seen) -> str:
     return "" if seen.tensions else "needs tensions"
+
+
+def _delay(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
+    return plus(arrays, encoder_delay=theta)
+
+
+def _moving(seen: Seen) -> str:
+    return "" if seen.moving else "needs lengths with time_s along a motion"
 
 
 def _approach(seen: Seen) -> str:
@@ -75,8 +87,8 @@ CAUSES = (
         "friction between cable and load cell",
         (
             Parameter("friction", "1", 0.03, positive=True),
-            Parameter("bearing_friction", "1", 0.02, positive=True),
-            Parameter("drag", "N", 2.0, positive=True),
+            Parameter("bearing_friction", "1", _BEARING, positive=True),
+            Parameter("drag", "N", _DRAG, positive=True),
         ),
         _friction,
         carrier="cable",
@@ -96,7 +108,7 @@ CAUSES = (
     Cause(
         "backlash",
         "play of the drives",
-        (Parameter("backlash", "m", 2e-3, positive=True),),
+        (Parameter("backlash", "m", _PLAY, positive=True),),
         _backlash,
         carrier="cable",
         seen_in=("CO",),
@@ -116,5 +128,18 @@ CAUSES = (
         sentence="a winch slips by {rms} m per hour",
         sign="positive: pays out",
         separated_by="the motor encoder's log",
+    ),
+    Cause(
+        "sensor_delay",
+        "delay of the encoders against the tracker",
+        (Parameter("delay", "s", 0.04),),
+        _delay,
+        carrier="cable",
+        seen_in=("CO",),
+        needs=_moving,
+        sentence="the cable lengths are {value} s older than the poses that are filed with them",
+        sign="negative: the poses are older than the lengths",
+        separated_by="the same motion at half the speed; a common trigger",
+        extension="encoder_delay",
     ),
 )

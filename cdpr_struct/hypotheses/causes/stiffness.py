@@ -9,6 +9,7 @@ from cdpr_struct.robot.changed_arrays import plus, times
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.masts import carriers
 
+_POWER = 0.15  # exponent: a modulus that rises by a fifth where the tension grows by a factor of three
 _STEEPEST = 0.8  # exponent: at 1 a cable of no strain would hold any tension
 
 
@@ -42,6 +43,11 @@ def _nonlinear(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
 
 def _creep(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
     return plus(arrays, creep=theta[..., 0])
+
+
+def _tensions(seen: Seen) -> str:
+    """Along a motion balance does not tell tensions, since inertia is not in the model."""
+    return "" if seen.tensions or not seen.moving else "needs tensions along a motion"
 
 
 def _times(seen: Seen) -> str:
@@ -102,8 +108,8 @@ CAUSES = (
         "cables stiffen with tension",
         (
             Parameter("k", "1", 0.15),
-            Parameter("exponent", "1", 0.15),
-            Parameter("exponent_elastic", "1", 0.15),
+            Parameter("exponent", "1", _POWER),
+            Parameter("exponent_elastic", "1", _POWER),
             Parameter("level", "ratio", 0.15, True),
         ),
         _nonlinear,
@@ -116,6 +122,7 @@ CAUSES = (
         ),
         fitted=5,
         seen_in=("CO", "RF"),
+        needs=_tensions,
         sentence="the stiffness of the cables changes with tension: {named}",
         separated_by="two preloads; a payload series",
         extension="nonlinearity",

@@ -6,9 +6,15 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.diagnosis.amplitude_law import AmplitudeFinding, FrictionFit, Sized, changes, held_out_rms
+from cdpr_struct.diagnosis.amplitude_rows import BOTH, FRAME, PLATFORM_ENDS
 from cdpr_struct.reports.figures import amplitudes as figures
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.html import Plate
+
+_WORDS = {
+    BOTH: "both ends of the cables", FRAME: "the frame ends of the cables",
+    PLATFORM_ENDS: "the platform ends of the cables",
+}  # fmt: skip
 
 
 def amplitude_json(found: AmplitudeFinding | None) -> dict[str, Any] | None:
@@ -77,14 +83,20 @@ def amplitude_sentence(found: AmplitudeFinding | None) -> str:
     both = 100.0 * float(np.median(changes(rows, rows.large + best.held_out)))
     error = [100.0 * held_out_rms(rows, shift) for shift in (rows.large, rows.large + best.held_out)]
     sizes = " and ".join(
-        f"at the {part.ends} (moment over tension {1e3 * part.radius[0]:.2g} mm, built up over "
+        f"at {_WORDS[part.ends]} (moment over tension {1e3 * part.radius[0]:.2g} mm, built up over "
         f"{math.degrees(part.angle[0]):.2g} deg)"
         for part in best.parts
     )
     return (
         f"{lead}, and {both:+.2f} % with dry friction {sizes}, each record predicted by the others. The error of these "
-        f"predictions falls from {error[0]:.2f} to {error[1]:.2f} %."
+        f"predictions falls from {error[0]:.2f} to {error[1]:.2f} %.{_elsewhere(found)}"
     )
+
+
+def _elsewhere(found: AmplitudeFinding) -> str:
+    """At which other ends friction would do as well."""
+    others = [" and ".join(_WORDS[part.ends] for part in fit.parts) for fit in found.rivals[1:]]
+    return f" Friction at {', or at '.join(others)} explains it as well." if others else ""
 
 
 def amplitude_plates(found: AmplitudeFinding | None) -> list[Plate]:

@@ -256,6 +256,11 @@ DESCRIPTIONS = {
         "above 0: cable is paid out",
         "Length error of one cable that grows evenly with time",
     ),
+    "sensor_delay": Description(
+        "length paid out = encoder length + delay times its rate, from a spline through the frames of a motion",
+        "above 0: lengths are older than the poses that are filed with them; below 0: the poses are",
+        "Length errors in proportion to the speed of each cable, with the other sign on the way back; none at rest",
+    ),
     "accelerometer_gain": Description(
         "the FRF is multiplied by the gain",
         "above 1: the sensor reads too much",

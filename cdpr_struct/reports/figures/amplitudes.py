@@ -4,7 +4,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cdpr_struct.diagnosis.amplitude_law import READING, AmplitudeFinding, changes
+from cdpr_struct.diagnosis.amplitude_law import AmplitudeFinding, changes
+from cdpr_struct.diagnosis.amplitude_rows import READING
 from cdpr_struct.reports.figures.style import BLACK, BLUE, GREY, ORANGE, plain_ticks, quiet
 
 SIZE = (9.6, 3.8)
