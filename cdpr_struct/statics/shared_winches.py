@@ -143,8 +143,8 @@ class _Search:
         return np.maximum(self.winches.lengths(said), _SHORTEST)
 
     def begun(self, home: Pose | None) -> _Wound:
-        """Balance where the winches have paid out since home what straight cables ask for; those whose home is not known
-        begin at the lengths that hold the poses with a winch for each cable."""
+        """Balance where the winches have paid out since home what straight cables ask for; those whose home is not
+        known begin at the lengths that hold the poses with a winch for each cable."""
         rotation = rotation_from_angles(*np.moveaxis(self.angles, -1, 0))
         straight = reference_lengths(self.arrays, self.position, rotation)
         known = np.zeros(straight.shape[-1]) if home is None else self.winches.lengths(self.winches.home)
