@@ -7,7 +7,6 @@ of its own, so that only changes count. Readings have Student's t about the pred
 energy are read badly in a short window.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -34,7 +33,7 @@ _RADII = {1: np.geomspace(1e-6, 1e-2, 81), 2: np.geomspace(1e-6, 1e-2, 33)}  # p
 HYPOTHESES = ((BOTH,), (PLATFORM_ENDS,), (FRAME,), (PLATFORM_ENDS, FRAME))
 """Where friction acts: alike at both ends, at one of them, or at each with sizes of its own."""
 Table = tuple[dict[str, np.ndarray], dict[str, np.ndarray]]
-"""Shifts and damping ratios per metre, as `AmplitudeRows.friction` gives them for an angle."""
+"""Shifts and damping ratios per metre, as `AmplitudeRows.friction` gives them."""
 Sized = tuple[float, float, float]
 """Median, 2.5 % and 97.5 %."""
 
@@ -102,7 +101,7 @@ def amplitude_finding(identified: tuple[Identified, ...]) -> AmplitudeFinding | 
 def weighed(rows: AmplitudeRows, p_still: float) -> AmplitudeFinding:
     """The same of rows whose frequencies change."""
     small, large = (_log_likelihood(rows, _left(rows, moved)[:, None]).sum() for moved in (0.0, rows.large))
-    tables, gain = [rows.friction(float(angle)) for angle in _ANGLES], float(large - small)
+    tables, gain = rows.friction(_ANGLES), float(large - small)
     fits = tuple(sorted((_fit(rows, tables, ends) for ends in HYPOTHESES), key=lambda fit: -fit.gain))
     still = float(np.median(np.abs(changes(rows, rows.log_hertz)))) < READING  # single modes were misread
     status = "large_motion" if gain >= NAMED else "adequate" if still else "unknown"
@@ -145,15 +144,15 @@ def _log_likelihood(rows: AmplitudeRows, left: np.ndarray) -> np.ndarray:
     return np.stack([each[rows.record == number].sum(axis=0) for number in np.unique(rows.record)])
 
 
-def _fit(rows: AmplitudeRows, tables: Sequence[Table], ends: tuple[str, ...]) -> FrictionFit:
+def _fit(rows: AmplitudeRows, tables: Table, ends: tuple[str, ...]) -> FrictionFit:
     """Evidence on the grid of angles and radii, and predictions of each record by the others."""
     begin, radii = _left(rows, rows.large), _RADII[len(ends)]
     sizes = np.stack([axis.ravel() for axis in np.meshgrid(*[radii] * len(ends), indexing="ij")])
-    angles = list(product(range(len(tables)), repeat=len(ends)))
-    shifts = np.stack([[tables[a][0][end] for a, end in zip(some, ends, strict=True)] for some in angles])
+    angles = list(product(range(len(_ANGLES)), repeat=len(ends)))
+    shifts = np.stack([[tables[0][end][a] for a, end in zip(some, ends, strict=True)] for some in angles])
     each = []
     for some in angles:
-        laws = np.stack([_white(rows, *(t[end] for t in tables[a])) for a, end in zip(some, ends, strict=True)])
+        laws = np.stack([_white(rows, *(table[end][a] for table in tables)) for a, end in zip(some, ends, strict=True)])
         each.append(_log_likelihood(rows, begin[:, None] - np.einsum("ps,pnj->nsj", sizes, laws)))
     log = np.stack(each, axis=1)  # record, angles, sizes
     held_out = np.zeros(len(rows))

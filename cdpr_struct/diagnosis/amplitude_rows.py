@@ -55,16 +55,21 @@ class AmplitudeRows:
             found[own] -= np.tensordot(weight[own], found[own], axes=1) / weight[own].sum()
         return found
 
-    def friction(self, presliding: float) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-        """Shifts and damping ratios (n,) by friction at some ends of the cables, per metre of moment over tension."""
-        turns, omega, amplitudes = self.motions
-        found = rubbing_modes(turns, presliding, omega, amplitudes)
+    def friction(self, presliding: np.ndarray) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+        """Shifts and damping ratios (a, n) by friction at some ends of the cables, per metre of moment over tension.
+
+        presliding : (a,) angles over which the moment builds up [rad]
+        """
+        count, (turns, omega, amplitudes) = len(presliding), self.motions
+        tiled = (np.concatenate([part] * count) for part in (turns, omega, amplitudes))
+        angles = np.repeat(presliding, len(omega))
+        found = rubbing_modes(next(tiled), angles, next(tiled), next(tiled))
         half = self.tension.shape[1] // 2
         some = {BOTH: slice(None), FRAME: slice(half), PLATFORM_ENDS: slice(half, None)}
         window, own = self.place.T
+        each = [part.reshape(count, *omega.shape, -1) * self.tension[:, None] for part in (found.shift, found.damping)]
         shift, damping = (
-            {name: (part * self.tension[:, None])[window, own, which].sum(axis=-1) for name, which in some.items()}
-            for part in (found.shift, found.damping)
+            {name: part[:, window, own, ends].sum(axis=-1) for name, ends in some.items()} for part in each
         )
         return shift, damping
 

@@ -130,7 +130,10 @@ def _balanced(
     free, left = np.setdiff1d(np.arange(coefficients.size), fixed), np.inf
     for _ in range(_ITERATIONS):
         balance, by_coefficients, by_omega = _equations(system, harmonics, coefficients, omega)
-        step = np.linalg.solve(np.concatenate([by_coefficients[:, free], by_omega], axis=1), -balance)
+        try:
+            step = np.linalg.solve(np.concatenate([by_coefficients[:, free], by_omega], axis=1), -balance)
+        except np.linalg.LinAlgError:  # two motions meet here
+            break
         changed = np.zeros(coefficients.size)
         changed[free] = step[: len(free)]
         coefficients, omega = coefficients + changed.reshape(coefficients.shape), omega + step[len(free) :]

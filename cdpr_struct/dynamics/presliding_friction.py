@@ -73,24 +73,26 @@ class RubbingModes:
     damping: np.ndarray
 
 
-def rubbing_modes(turns: np.ndarray, presliding: float, omega: np.ndarray, amplitudes: np.ndarray) -> RubbingModes:
+def rubbing_modes(
+    turns: np.ndarray, presliding: float | np.ndarray, omega: np.ndarray, amplitudes: np.ndarray
+) -> RubbingModes:
     """Equivalent linearisation of friction at cable ends for motions in which k modes swing together.
 
     Parameters
     ----------
     turns : (b, k, e, d) of the ends per modal amplitude, for unit modal mass [rad]
-    presliding : angle over which the moment builds up [rad]
+    presliding : angle over which the moment builds up, one or (b,) [rad]
     omega : (b, k) [rad/s];  amplitudes : (b, k) modal, zero for a mode at rest
     """
     time, weight = _averaging(omega)
     begin = 2.0 * np.pi * _GOLDEN * np.arange(omega.shape[1])
-    state = np.zeros((len(omega), *turns.shape[2:]))
+    state, angle = np.zeros((len(omega), *turns.shape[2:])), np.reshape(presliding, (-1, 1, 1))
     before = np.einsum("bk,bked->bed", amplitudes * np.cos(begin), turns)
     cosine, sine = np.zeros((2, *turns.shape[:3]))
     for instant, share in zip(time, weight, strict=True):
         phase = omega * instant + begin
         there = np.einsum("bk,bked->bed", amplitudes * np.cos(phase), turns)
-        state, before = built_up(state, there - before, presliding), there
+        state, before = built_up(state, there - before, angle), there
         if share > 0.0:
             force = -share * np.einsum("bed,bked->bke", state, turns)
             cosine += force * np.cos(phase)[..., None]

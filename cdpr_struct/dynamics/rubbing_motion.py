@@ -102,43 +102,65 @@ def rubbed_motion(
     ConvergenceError : the friction is too stiff for the step.
     """
     k, n = len(omega), len(time)
-    growth, before, after = held_step(modes, float(time[1] - time[0]) / _SUBSTEPS)
-    own, place = modes.inverse[:, k:], modes.vectors[:k] / omega[:, None]
-    motion = np.zeros(2 * k, dtype=complex)
-    there, state, lost = np.zeros(k), np.zeros(ends.turns.shape[1:]), 0.0
+    stepper = _Stepper.of(modes, omega, ends, float(time[1] - time[0]) / _SUBSTEPS)
+    motion, state, lost = np.zeros(2 * k, dtype=complex), np.zeros(ends.turns.shape[1:]), 0.0
     found = RubbedMotion(np.zeros((n, 2 * k)), np.zeros((n, k)), np.zeros(n))
+    shares = np.arange(_SUBSTEPS + 1)[:, None] / _SUBSTEPS
     for index in range(n):
+        given = drive[index - 1] + shares * (drive[index] - drive[index - 1])
         for part in range(_SUBSTEPS if index else 0):
-            shares = (part / _SUBSTEPS, (part + 1) / _SUBSTEPS)
-            given = [drive[index - 1] + s * (drive[index] - drive[index - 1]) for s in shares]
-            held = growth * motion + before * (own @ (given[0] + ends.force(state))) + after * (own @ given[1])
-            later = _substituted(ends, state, there, place, held, after[:, None] * own)
-            motion = held + after * (own @ ends.force(later))
-            moved = (place @ motion).real
-            lost += ends.lost(0.5 * (state + later), np.einsum("k,keb->eb", moved - there, ends.turns))
-            there, state = moved, later
+            motion, state, work = stepper.advance(motion, state, given[part], given[part + 1])
+            lost += work
         if index in jumps:
             motion = motion + modes.inverse @ jumps[index]
-            there = (place @ motion).real
         found.state[index], found.push[index] = (modes.vectors @ motion).real, ends.force(state)
         found.lost[index] = lost
     return found
 
 
-def _substituted(
-    ends: RubbingEnds, state: np.ndarray, there: np.ndarray, place: np.ndarray, held: np.ndarray, moves: np.ndarray
-) -> np.ndarray:
-    """State (e, 3) at the end of a step in which the motion without its force is `held` (2 k,)."""
-    later = state
-    for _ in range(_ROUNDS):
-        moved = (place @ (held + moves @ ends.force(later))).real
-        new = built_up(state, np.einsum("k,keb->eb", moved - there, ends.turns), ends.presliding)
-        change = float(np.abs(new - later).max())
-        later = new
-        if change < _SAME:
-            return later
-    hint = "The moment over the presliding angle is too stiff for this step: raise the highest frequency or the angle."
-    raise ConvergenceError("friction at cable ends", change, _ROUNDS, hint)
+@dataclass(frozen=True, slots=True, eq=False)
+class _Stepper:
+    """What a step does to complex modes: `growth`, and to a modal force `own` before and after it; `place` (k, 2 k)."""
+
+    ends: RubbingEnds
+    growth: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+    place: np.ndarray
+
+    @classmethod
+    def of(cls, modes: ComplexModes, omega: np.ndarray, ends: RubbingEnds, step: float) -> "_Stepper":
+        growth, before, after = held_step(modes, step)
+        own = modes.inverse[:, len(omega) :]
+        return cls(
+            ends, growth, before[:, None] * own, after[:, None] * own, modes.vectors[: len(omega)] / omega[:, None]
+        )
+
+    def advance(
+        self, motion: np.ndarray, state: np.ndarray, earlier: np.ndarray, later: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, float]:
+        """Complex modes (2 k,) and z (e, 3) a step later, under a drive (k,) earlier and later, and the work [J]."""
+        ends, there = self.ends, (self.place @ motion).real
+        held = self.growth * motion + self.before @ (earlier + ends.force(state)) + self.after @ later
+        new = self._substituted(state, there, held)
+        moved = held + self.after @ ends.force(new)
+        turned = np.einsum("k,keb->eb", (self.place @ moved).real - there, ends.turns)
+        return moved, new, ends.lost(0.5 * (state + new), turned)
+
+    def _substituted(self, state: np.ndarray, there: np.ndarray, held: np.ndarray) -> np.ndarray:
+        """z (e, 3) at the end of a step in which the motion without its force is `held` (2 k,)."""
+        ends, later, change = self.ends, state, np.inf
+        for _ in range(_ROUNDS):
+            moved = (self.place @ (held + self.after @ ends.force(later))).real
+            new = built_up(state, np.einsum("k,keb->eb", moved - there, ends.turns), ends.presliding)
+            change = float(np.abs(new - later).max())
+            later = new
+            if change < _SAME:
+                return later
+        hint = (
+            "The moment over the presliding angle is too stiff for this step: raise the highest frequency or the angle."
+        )
+        raise ConvergenceError("friction at cable ends", change, _ROUNDS, hint)
 
 
 def rubbing_vibration(

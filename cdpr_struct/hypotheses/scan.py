@@ -180,8 +180,18 @@ def _widened(cause: Offered, one: Beginning) -> list[Beginning]:
     for i, pattern in enumerate(cause.patterns):
         if len(pattern.prior) > len(one.z):
             part = cause.part(i, one.part.scale)
-            z = np.linalg.pinv(pattern.basis) @ theta0 / part.term.sigma
-            found.append(Beginning(part, z, one.gain + part.log_weight - one.part.log_weight))
+            theta = np.linalg.pinv(pattern.basis) @ theta0
+            gain = one.gain + part.log_weight - one.part.log_weight
+            found += [Beginning(part, start / part.term.sigma, gain) for start in _starts(pattern, theta)]
+    return found
+
+
+def _starts(pattern: Pattern, theta: np.ndarray) -> list[np.ndarray]:
+    """Numbers (d,) from which a wider pattern is fitted: as they are, and with each other value that is tried."""
+    found = [theta]
+    for k, parameter in enumerate(pattern.parameters):
+        if not parameter.in_band:
+            found += [np.where(np.arange(len(theta)) == k, value, theta) for value in parameter.tried]
     return found
 
 

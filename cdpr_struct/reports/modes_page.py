@@ -9,7 +9,7 @@ from cdpr_struct.crosscheck.mode_motion import ModeMotion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.reports.backbone_text import backbone_columns
 from cdpr_struct.reports.csv_table import csv_text
-from cdpr_struct.reports.figures import mode_ladder, mode_shapes, robot_drawing
+from cdpr_struct.reports.figures import backbone, mode_ladder, mode_shapes, robot_drawing
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.mode_viewer import viewer_markup
@@ -39,6 +39,8 @@ def modes_files(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMo
 
 def _plates(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMotion) -> list[Plate]:
     shapes = mode_shapes.size(point, len(motion.platform))
+    drawn = Drawing("large_motion", backbone.SIZE, lambda f: backbone.draw_backbone(f, result))
+    large = [Plate("large_motion", "Frequency over amplitude", drawn, backbone.CAPTION)]
     return [
         Plate(
             "modes",
@@ -53,6 +55,7 @@ def _plates(point: OperatingPoint, result: Mapping[str, Any], motion: ModeMotion
             mode_shapes.shapes_caption(len(motion.platform)),
             live=viewer_markup(point, result, motion),
         ),
+        *(large if "large_motion" in result else []),
         Plate(
             "robot",
             "The robot at rest",

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
-from cdpr_struct.robot.pose import angles_from_rotation
+from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.winches import Winches
@@ -29,6 +29,7 @@ from cdpr_struct.statics.pose_error import reference_lengths
 
 _ROUNDS = 60
 _LONGEST = 0.05  # of the mean length: of one step of a winch
+_LEAST_EASE = 0.02
 _SHORTEST = 1e-3  # of a cable on the way [m]
 _DIFFERENCE = 1e-3  # of the cables' mean stretch: of a winch, for derivatives
 _CLOSE = 1e-8  # of a position [m], or of a turn as an arc: what counts as reached
@@ -67,7 +68,7 @@ def wound_rest(
     place, arrays, chosen = np.asarray(position, dtype=float), RobotArrays.of(robot), np.asarray(free, dtype=bool)
     turned = np.array(np.broadcast_to(np.asarray(angles, dtype=float), place.shape))
     search = _Search(arrays, robot.winches, cable_model(model), place, turned, chosen)
-    ends, settled = _searched(search, search.begun())
+    ends, settled = _searched(search, search.begun(robot.home))
     now = search.rest(ends.said, ends.position, ends.rotation)
     pull = now.tensions
     margin = _WITHIN * pull.max(axis=1, keepdims=True)
@@ -134,16 +135,23 @@ class _Search:
         return replace(self, position=self.position[index], angles=self.angles[index])
 
     def rest(self, said: np.ndarray, position: np.ndarray, rotation: np.ndarray) -> ForwardSolution:
-        lengths = np.maximum(self.winches.lengths(said), _SHORTEST)
-        return forward(self.arrays, lengths, position, rotation, self.model)
+        return forward(self.arrays, self.lengths(said), position, rotation, self.model)
 
-    def begun(self) -> _Wound:
-        """Balance at the lengths that hold the poses with a winch for each cable, as near as the winches come to them;
-        none longer than a straight cable, so that none hangs in a deep sag."""
+    def lengths(self, said: np.ndarray) -> np.ndarray:
+        """(k, m) of the cables; on the way, too, there is some of each [m]."""
+        return np.maximum(self.winches.lengths(said), _SHORTEST)
+
+    def begun(self, home: Pose | None) -> _Wound:
+        """Balance where the winches have paid out since home what straight cables ask for. Without a home pose, at the
+        lengths that hold the poses with a winch for each cable, as near as the winches come to them."""
         rotation = rotation_from_angles(*np.moveaxis(self.angles, -1, 0))
-        held = inverse(self.arrays, self.position, rotation, self.model, allow_unheld=True)
         straight = reference_lengths(self.arrays, self.position, rotation)
+        held = inverse(self.arrays, self.position, rotation, self.model, allow_unheld=True)
         lengths = np.where(held.held[:, None], np.minimum(held.lengths, straight), straight)
+        if home is not None:
+            paid_out = straight - reference_lengths(self.arrays, home.position, home.rotation)
+            known = self.winches.lengths(self.winches.home)
+            lengths = np.where(known > 0.0, known + paid_out, lengths)
         return self.at(self.winches.said(lengths), self.position, rotation)
 
     def at(self, said: np.ndarray, position: np.ndarray, rotation: np.ndarray) -> _Wound:
@@ -154,18 +162,18 @@ class _Search:
         miss = np.concatenate([found.position - self.position, arcs], axis=1)[:, self.kept]
         return _Wound(said, found.position, found.rotation, found.tensions, miss, found.converged)
 
-    def step(self, ends: _Wound) -> tuple[np.ndarray, np.ndarray]:
-        """Steps (k, w) of the winches [m], and how the platforms move (k, 6) [m, rad]."""
+    def ways(self, ends: _Wound) -> "_Ways":
+        """Where to go from there."""
         moves, pulls = self._rates(ends)
         _, rows = self._turned(ends.rotation)
         turns = platform_radius(self.arrays) * rows @ moves[:, 3:]
         reach = np.concatenate([moves[:, :3], turns], axis=1)[:, self.kept]
-        step = -(np.linalg.pinv(reach, rcond=1e-9) @ ends.miss[..., None])[..., 0]
+        nearer = -(np.linalg.pinv(reach, rcond=1e-9) @ ends.miss[..., None])[..., 0]
+        idle = np.zeros_like(nearer)
         if self.winches.count > len(self.kept):
-            step = step + self._of_least_norm(ends.tension, pulls, reach, step)
-        longest = _LONGEST * self.winches.lengths(ends.said).mean(axis=1)
-        step *= np.minimum(1.0, longest / np.maximum(np.abs(step).max(axis=1), 1e-300))[:, None]
-        return step, (moves @ step[..., None])[..., 0]
+            idle = self._of_least_norm(ends.tension, pulls, reach, nearer)
+        changed = np.abs((pulls @ idle[..., None])[..., 0]).max(axis=1)
+        return _Ways(nearer, idle, changed / np.maximum(ends.tension.max(axis=1), 1e-300), moves)
 
     def _of_least_norm(self, tension: np.ndarray, pulls: np.ndarray, reach: np.ndarray, step: np.ndarray) -> np.ndarray:
         """(k, w) what is to be added to steps that reach the kept coordinates, so that the tensions are of least norm
@@ -198,7 +206,7 @@ class _Search:
         load = np.zeros((k, 6))
 
         def balance(said: np.ndarray) -> LockedBalance:
-            return LockedBalance(seen, seen.paid_out(self.winches.lengths(said)), load, self.model)
+            return LockedBalance(seen, seen.paid_out(self.lengths(said)), load, self.model)
 
         here, place, turn = balance(ends.said), ends.position, ends.rotation
         tangent = here.evaluate(place, turn).tangent
@@ -219,23 +227,52 @@ class _Search:
         return np.stack(moves, axis=-1), np.stack(pulls, axis=-1)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Ways:
+    """Steps (k, w) of the winches [m]: to the kept coordinates, and those that leave them alone on the way to tensions of
+    least norm; the change of tension (k,) by the latter over the largest, and the motions (k, 6, w) per m."""
+
+    nearer: np.ndarray
+    idle: np.ndarray
+    change: np.ndarray
+    moves: np.ndarray
+
+
 def _searched(search: _Search, ends: _Wound) -> tuple[_Wound, np.ndarray]:
-    """Where Newton on what the winches say ends, and where (k,) it has settled; steps that lead away are cut down."""
-    k, square = len(ends.said), search.winches.count == len(search.kept)
-    share, settled, items = np.ones(k), np.zeros(k, dtype=bool), np.arange(k)
+    """Where Newton on what the winches say ends, and where (k,) it has settled; steps that lead away are cut down.
+
+    The steps towards tensions of least norm know nothing of their second derivatives, so they may be too long and swing to
+    and fro: how two that follow each other compare says which share of them to take.
+    """
+    shape, items = ends.said.shape, np.arange(len(ends.said))
+    share, ease, settled = np.ones(shape[0]), np.ones(shape[0]), np.zeros(shape[0], dtype=bool)
+    before, taken = np.zeros(shape), np.ones(shape[0])
     for _ in range(_ROUNDS):
-        if not items.size:
-            break
         here, part = ends.take(items), search.take(items)
-        step, move = (share[items, None] * way for way in part.step(here))
+        ways = part.ways(here)
+        settled[items] = (here.size <= _CLOSE) & (ways.change <= _SETTLED)
+        ease[items] = _eased(ease[items], before[items], ways.idle, taken[items])
+        step = ways.nearer + ease[items, None] * ways.idle
+        longest = _LONGEST * search.lengths(here.said).mean(axis=1)
+        part_taken = share[items] * np.minimum(1.0, longest / np.maximum(np.abs(step).max(axis=1), 1e-300))
+        step = part_taken[:, None] * step
+        move = (ways.moves @ step[..., None])[..., 0]
         turned = rotation_from_vector(move[:, 3:]) @ here.rotation
         tried = part.at(here.said + step, here.position + move[:, :3], turned)
-        nearer = (tried.size < here.size) | (tried.size <= 0.5 * np.abs(step).max(axis=1))
-        better = tried.balanced & (nearer | (tried.size <= _CLOSE))
-        changed = np.abs(tried.tension - here.tension).max(axis=1) / np.maximum(tried.tension.max(axis=1), 1e-300)
+        nearer = (tried.size < here.size) | (tried.size <= np.maximum(0.5 * np.abs(step).max(axis=1), _CLOSE))
+        better = tried.balanced & nearer
         ends.replaced(items[better], tried.take(better))
-        calm = better & (square | (changed <= _SETTLED))
-        settled[items] = calm & (tried.size <= _CLOSE)
+        before[items], taken[items] = np.where(better[:, None], ways.idle, 0.0), part_taken * ease[items]
         share[items] = np.where(better, np.minimum(1.0, 2.0 * share[items]), 0.25 * share[items])
-        items = items[~(calm & (tried.size <= 0.01 * _CLOSE)) & (share[items] > 1e-4)]
+        items = items[~(settled[items] & (here.size <= 0.01 * _CLOSE)) & (share[items] > 1e-4)]
+        if not items.size:
+            break
     return ends, settled
+
+
+def _eased(ease: np.ndarray, before: np.ndarray, idle: np.ndarray, taken: np.ndarray) -> np.ndarray:
+    """(k,) share of the idle steps (k, w) to take, when the shares `taken` (k,) of those `before` have led here."""
+    size = (before**2).sum(axis=1)
+    left = (before * idle).sum(axis=1) / np.where(size > 0.0, size, 1.0)
+    best = np.clip(taken / np.maximum(1.0 - left, taken), _LEAST_EASE, 1.0)
+    return np.where(size > 0.0, best, ease)

@@ -138,7 +138,7 @@ RARE = {
         Effect("creep", "1 a decade", ("common",), signed=False, typical=0.15),
         Effect("accelerometer_mass", "kg", ("common",), signed=False, typical=6.0),
         Effect("cable_added_mass", "kg", ("one",), signed=False, typical=0.06),
-        Effect("flexible_platform", "share of the mass", ("one",), signed=False, largest=0.4, typical=0.25),
+        Effect("flexible_platform", "share of the mass", ("one",), signed=False, typical=0.4),
     )
 }  # causes of the library that the other sets do not hide, in campaigns that note the time
 LAWS |= RARE

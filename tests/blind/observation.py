@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -81,6 +81,9 @@ def _frequencies(
     robot: EnteredRobot, deviations: Deviations, command: Command, fine: RobotEquilibrium
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Cable frequencies, extrapolated from meshes of n and n / 2 bars; robot frequencies and energy shares."""
+    if np.any(deviations["accelerometer_mass"]):  # sensors hang on the platform while it vibrates, and pull at it
+        command = replace(command, payload=command.payload + float(deviations["accelerometer_mass"][0]))
+        fine = at_rest(robot, deviations, command, fine.elements)
     coarse = at_rest(robot, deviations, command, fine.elements // 2)
     cable = [in_plane_frequencies(rest) for rest in (fine, coarse)]
     return (4.0 * cable[0] - cable[1]) / 3.0, *robot_frequencies(robot, deviations, fine)

@@ -1,9 +1,9 @@
-"""Parts of the platform that do not move with it: a part on a spring, and sensors that are there only to measure."""
+"""Parts of the platform that do not move with it: each sits on a spring along an axis of the platform."""
 
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import block_array, csc_array, diags_array
+from scipy.sparse import block_array, csc_array
 
 from tests.blind.deviations import Deviations
 from tests.blind.entered_robot import EnteredRobot
@@ -14,14 +14,11 @@ PART_HZ = 4.5  # of a part on its spring, the platform held
 def with_parts(
     robot: EnteredRobot, deviations: Deviations, rotation: np.ndarray, stiffness: csc_array, mass: csc_array
 ) -> tuple[csc_array, csc_array]:
-    """Matrices whose last unknowns are the platform's (6), with sensors on it and parts on springs behind them.
+    """Matrices whose last unknowns are the platform's (6), with parts on springs behind them.
 
     A part moves along its axis of the platform by so much more than the platform's origin: last unknowns, one each.
     """
     size = stiffness.shape[0]
-    sensors = np.zeros(size)
-    sensors[-6:-3] = deviations["accelerometer_mass"][0]
-    mass = csc_array(mass + diags_array(sensors))
     for axis in np.flatnonzero(deviations["flexible_platform"]):
         part = float(robot.mass * deviations["flexible_platform"][axis])
         dragged = np.zeros((stiffness.shape[0], 1))

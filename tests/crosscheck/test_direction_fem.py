@@ -93,6 +93,7 @@ def test_bearing_and_drag_together_miss_their_product():
     assert 0.01 < missed < 0.03 * 4.0
 
 
+@pytest.mark.slow
 def test_wheels_on_bearings_are_named_with_their_friction(tmp_path):
     said = diagnosed(written(tmp_path, seed=1, bearing=0.03))
     assert said.decision.classes == (("pulley_friction",),)

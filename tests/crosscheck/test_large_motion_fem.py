@@ -10,7 +10,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import attachment
 from cdpr_struct.measurement.decay_modes import refine
 from tests.large_motion_robots import three_cables
 
-BARS, STEPS, PERIODS = 2, 100, 8
+BARS, STEPS, PERIODS = 2, 80, 7
 UNIT = np.array([1.0, 1.0, 1.0, 0.3, 0.3, 0.3])  # turns count as displacements at the anchors' radius
 
 

@@ -1,8 +1,10 @@
 """Laws of free motion of any size: harmonic balance, and the platform's frequencies over their amplitude."""
 
+import io
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.special import ellipk
 
@@ -90,10 +92,14 @@ def test_modes_that_swing_together_shift_each_other():
 
 
 def test_modes_command_gives_curves_of_platform_modes_only():
-    told = cs.modes("cogiro", count=6, amplitude="0.001,0.002").to_json()["large_motion"]
+    result = cs.modes("cogiro", count=6, amplitude="0.001,0.002")
+    told, files = result.to_json()["large_motion"], result.files()
     assert told["modes"] == [1]  # 99 % of its energy is the platform's; of the others 56 % at most
     first, second = told["frequencies_hz"][0]
     assert second < first < 2.7823414  # softening, below the small motion's
+    table = pd.read_csv(io.StringIO(files["large_motion.csv"]))
+    np.testing.assert_array_equal(table["frequency_hz"], [first, second])
+    assert "mode 1, 2.78 Hz" in files["large_motion.svg"]
     with pytest.raises(InputError, match="all above zero"):
         cs.modes("cogiro", count=2, amplitude=[0.01, -0.01])
 

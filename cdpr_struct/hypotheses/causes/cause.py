@@ -21,7 +21,7 @@ class Parameter:
     squared : theta is the root of what is reported
     positive : theta below zero means nothing
     prior   : one sigma of theta
-    tried   : frequencies [Hz] at which a search begins, beside those of peaks that belong to no mode
+    tried   : values at which a search begins too, beside zero or, of frequencies, those of peaks that belong to no mode
     least   : smallest size that occurs, of those of a cause in one of several ways
     in_band : a frequency, its prior in the highest one that was measured of the robot; no check bounds it
     """
@@ -160,7 +160,7 @@ class Cause:
     @property
     def tried(self) -> tuple[float, ...]:
         """Frequencies [Hz] at which a search for it begins, whether or not peaks are near."""
-        return tuple(hertz for p in self.parameters for hertz in p.tried)
+        return tuple(hertz for p in self.parameters for hertz in p.tried if p.in_band)
 
     def basic(self, seen: Seen) -> tuple[Parameter, ...]:
         """Basic parameters of the cause for this campaign."""

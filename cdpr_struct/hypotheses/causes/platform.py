@@ -13,6 +13,7 @@ _XYZ = ("x", "y", "z")
 _NOTHING = 1e-10  # of the platform's mass: mode frequencies keep ten digits
 _PENDULA = (0.5, 1.0)  # Hz: cords of 1 m and 0.25 m
 _HOOK = 0.1  # m, an axis: a payload hangs near the middle of a platform
+_BELOW = (-0.2,)  # m: hooks are under a platform more often than above it
 _MOST = 0.8  # of what the platform moves at a place: so much of it may sit on a mount or hang
 
 
@@ -171,7 +172,7 @@ CAUSES = (
         (
             Parameter("swinging_mass", "kg", 1.0, squared=True, positive=True),
             Parameter("swinging_frequency", "Hz", 1.0, positive=True, in_band=True, tried=_PENDULA),
-            *(Parameter(f"hook_{a}", "m", _HOOK) for a in _XYZ),
+            *(Parameter(f"hook_{a}", "m", _HOOK, tried=_BELOW if a == "z" else ()) for a in _XYZ),
         ),
         _swinging,
         shapes=(("at the platform origin", [0, 1], 0.5), ("at a point of the platform", [0, 1, 2, 3, 4], 0.5)),
