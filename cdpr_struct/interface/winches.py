@@ -136,6 +136,11 @@ def _unreached(robot: Robot, found: WoundRest) -> UnholdablePoseError:
             worst + 1,
             amount,
         )
+    if found.miss[0] <= 1e-6:
+        return UnholdablePoseError(
+            f"{robot.name}: the platform can be brought there, but the search for the lengths with tensions of least "
+            "norm has not settled. Ask for some of the free angles, too, or move the pose."
+        )
     return UnholdablePoseError(
         f"{robot.name}: no lengths of its winches are found at which the platform rests there: "
         f"{found.miss[0]:.2g} m are left. Move the pose, or begin at another orientation."

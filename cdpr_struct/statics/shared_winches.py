@@ -29,11 +29,12 @@ from cdpr_struct.statics.pose_error import reference_lengths
 
 _ROUNDS = 60
 _LONGEST = 0.05  # of the mean length: of one step of a winch
-_LEAST_EASE = 0.02
+_NEAR = 2e-3  # of the mean length: so near, a step is kept even if it leads away
+_LEAST_EASE = 0.02  # of a step towards tensions of least norm
 _SHORTEST = 1e-3  # of a cable on the way [m]
 _DIFFERENCE = 1e-3  # of the cables' mean stretch: of a winch, for derivatives
 _CLOSE = 1e-8  # of a position [m], or of a turn as an arc: what counts as reached
-_SETTLED = 1e-7  # of the largest tension: by less, tensions of least norm do not change any more
+_SETTLED, _ENOUGH = 1e-7, 1e-5  # of the largest tension: changes sought on the way to the least norm, and accepted
 _WITHIN = 1e-7  # of the largest tension: what counts as within the bounds
 
 
@@ -142,16 +143,18 @@ class _Search:
         return np.maximum(self.winches.lengths(said), _SHORTEST)
 
     def begun(self, home: Pose | None) -> _Wound:
-        """Balance where the winches have paid out since home what straight cables ask for. Without a home pose, at the
-        lengths that hold the poses with a winch for each cable, as near as the winches come to them."""
+        """Balance where the winches have paid out since home what straight cables ask for; those whose home is not
+        known begin at the lengths that hold the poses with a winch for each cable."""
         rotation = rotation_from_angles(*np.moveaxis(self.angles, -1, 0))
         straight = reference_lengths(self.arrays, self.position, rotation)
-        held = inverse(self.arrays, self.position, rotation, self.model, allow_unheld=True)
-        lengths = np.where(held.held[:, None], np.minimum(held.lengths, straight), straight)
+        known = np.zeros(straight.shape[-1]) if home is None else self.winches.lengths(self.winches.home)
+        lengths = straight
         if home is not None:
-            paid_out = straight - reference_lengths(self.arrays, home.position, home.rotation)
-            known = self.winches.lengths(self.winches.home)
-            lengths = np.where(known > 0.0, known + paid_out, lengths)
+            lengths = known + straight - reference_lengths(self.arrays, home.position, home.rotation)
+        if not known.all():
+            held = inverse(self.arrays, self.position, rotation, self.model, allow_unheld=True)
+            own = np.where(held.held[:, None], np.minimum(held.lengths, straight), straight)
+            lengths = np.where(known > 0.0, lengths, own)
         return self.at(self.winches.said(lengths), self.position, rotation)
 
     def at(self, said: np.ndarray, position: np.ndarray, rotation: np.ndarray) -> _Wound:
@@ -229,8 +232,8 @@ class _Search:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Ways:
-    """Steps (k, w) of the winches [m]: to the kept coordinates, and those that leave them alone on the way to tensions of
-    least norm; the change of tension (k,) by the latter over the largest, and the motions (k, 6, w) per m."""
+    """Steps (k, w) of the winches [m]: to the kept coordinates, and those that leave them alone on the way to tensions
+    of least norm; the change of tension (k,) by the latter over the largest, and the motions (k, 6, w) per m."""
 
     nearer: np.ndarray
     idle: np.ndarray
@@ -241,8 +244,8 @@ class _Ways:
 def _searched(search: _Search, ends: _Wound) -> tuple[_Wound, np.ndarray]:
     """Where Newton on what the winches say ends, and where (k,) it has settled; steps that lead away are cut down.
 
-    The steps towards tensions of least norm know nothing of their second derivatives, so they may be too long and swing to
-    and fro: how two that follow each other compare says which share of them to take.
+    The steps towards tensions of least norm know nothing of their second derivatives, so they may be too long and swing
+    to and fro: how two that follow each other compare says which share of them to take.
     """
     shape, items = ends.said.shape, np.arange(len(ends.said))
     share, ease, settled = np.ones(shape[0]), np.ones(shape[0]), np.zeros(shape[0], dtype=bool)
@@ -250,21 +253,22 @@ def _searched(search: _Search, ends: _Wound) -> tuple[_Wound, np.ndarray]:
     for _ in range(_ROUNDS):
         here, part = ends.take(items), search.take(items)
         ways = part.ways(here)
-        settled[items] = (here.size <= _CLOSE) & (ways.change <= _SETTLED)
+        settled[items] = (here.size <= _CLOSE) & (ways.change <= _ENOUGH)
         ease[items] = _eased(ease[items], before[items], ways.idle, taken[items])
         step = ways.nearer + ease[items, None] * ways.idle
-        longest = _LONGEST * search.lengths(here.said).mean(axis=1)
-        part_taken = share[items] * np.minimum(1.0, longest / np.maximum(np.abs(step).max(axis=1), 1e-300))
+        reach = part.lengths(here.said).mean(axis=1)
+        part_taken = share[items] * np.minimum(1.0, _LONGEST * reach / np.maximum(np.abs(step).max(axis=1), 1e-300))
         step = part_taken[:, None] * step
         move = (ways.moves @ step[..., None])[..., 0]
         turned = rotation_from_vector(move[:, 3:]) @ here.rotation
         tried = part.at(here.said + step, here.position + move[:, :3], turned)
-        nearer = (tried.size < here.size) | (tried.size <= np.maximum(0.5 * np.abs(step).max(axis=1), _CLOSE))
+        nearer = (tried.size < here.size) | (tried.size <= np.maximum(0.5 * np.abs(step).max(axis=1), _NEAR * reach))
         better = tried.balanced & nearer
         ends.replaced(items[better], tried.take(better))
         before[items], taken[items] = np.where(better[:, None], ways.idle, 0.0), part_taken * ease[items]
         share[items] = np.where(better, np.minimum(1.0, 2.0 * share[items]), 0.25 * share[items])
-        items = items[~(settled[items] & (here.size <= 0.01 * _CLOSE)) & (share[items] > 1e-4)]
+        there = (here.size <= 0.01 * _CLOSE) & (ways.change <= _SETTLED)
+        items = items[~there & (share[items] > 1e-4)]
         if not items.size:
             break
     return ends, settled
@@ -274,5 +278,5 @@ def _eased(ease: np.ndarray, before: np.ndarray, idle: np.ndarray, taken: np.nda
     """(k,) share of the idle steps (k, w) to take, when the shares `taken` (k,) of those `before` have led here."""
     size = (before**2).sum(axis=1)
     left = (before * idle).sum(axis=1) / np.where(size > 0.0, size, 1.0)
-    best = np.clip(taken / np.maximum(1.0 - left, taken), _LEAST_EASE, 1.0)
+    best = np.clip(taken / np.maximum(1.0 - left, taken), _LEAST_EASE, np.minimum(1.5 * ease, 1.0))
     return np.where(size > 0.0, best, ease)
