@@ -161,13 +161,14 @@ class Search:
     def _screened(
         self, menu: Sequence[Offered], bases: Sequence[Judged], rich: Sequence[NoiseState] = ()
     ) -> list[_Screened]:
-        """The best of each cause beside every base, at its own noise and at rich ones; best first."""
+        """The best of each cause beside every base at its own noise, beside the likeliest two at rich ones; best first."""
         best: dict[str, _Screened] = {}
         shapes = [part.shape[:2] for part in menu[0].columns] if menu else []
+        likeliest = [bases[0], max(bases, key=lambda one: one.score)]
         for base in bases:
             if [stack.r.shape for stack in base.model.stacks] != shapes:
                 continue  # about its point the robot has other modes than about that of the menu
-            for noise in [base.fit.noise, *rich]:
+            for noise in [base.fit.noise, *(rich if base in likeliest else [])]:
                 bound = base.log_evidence if noise is base.fit.noise else bound_at(base.model, noise, base.fit.soft)
                 for row in (one for one in gains(menu, base, noise) if not one.cause.tuned):  # those are begun
                     score = bound + base.hypothesis.log_prior + row.total

@@ -169,6 +169,7 @@ def test_judges_of_pose_errors_distributions_and_finite_elements_see_what_is_wro
     assert wrong.off == pytest.approx(1e-4, rel=1e-2)  # the agreement itself is some 1e-8
 
 
+@pytest.mark.slow
 def test_own_cables_at_many_lengths_tell_what_is_in_reach():
     case = replace(drawn(1), robot=PRELOADED, pose=PRELOADED.home, free=None)
     assert out_of_reach(case) == "found"

@@ -73,6 +73,7 @@ def test_friction_is_found_with_its_sizes_and_predicts_records_that_it_was_not_f
     assert "with dry friction at" in amplitude_sentence(found)
 
 
+@pytest.mark.slow
 def test_where_friction_acts_is_told_apart(rows):
     found = weighed(recorded(rows, 2e-3, 0.01, FRAME), 0.0)
     gain = {fit.parts[0].ends: fit.gain for fit in found.fits if len(fit.parts) == 1}

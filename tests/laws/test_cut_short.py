@@ -71,6 +71,7 @@ def test_exits_from_pulleys_that_were_not_found_are_marked_and_their_poses_do_no
     points, model = anchors_in_world(robot, PLACE[None], LEVEL[None])[0], cable_model("sagging")
     for rounds, lost in ((30, False), (1, True)):
         monkeypatch.setattr(hanging_cables, "_EXIT_ITERATIONS", rounds)
+        monkeypatch.setattr(hanging_cables, "_EXIT_REPEATED", rounds)
         states = model.hold(problem.arrays, points, found.cables.tension).states
         assert lost_cables(states).all() == lost
         assert lost_cables(model.states(problem.arrays, points, found.lengths)).any() == lost

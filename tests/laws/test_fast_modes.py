@@ -101,7 +101,7 @@ REFUSED = {
     "masts": lambda: with_extensions(frame_compliance=2e-5),
     "bending stiffness": lambda: with_extensions(bending_stiffness=0.5),
     "masses at mid-cable": lambda: with_extensions(added_mass=0.02),
-    "an internal mass": lambda: with_extensions(internal_mass=2.0, internal_frequency=5.0),
+    "parts that move in the platform": lambda: with_extensions(internal_mass=2.0, internal_frequency=5.0),
 }
 
 

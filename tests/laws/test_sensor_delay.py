@@ -86,5 +86,6 @@ def test_a_delay_is_named_with_its_size(delays, found):
     assert row["sigma"] < 0.1 * abs(found)
 
 
+@pytest.mark.slow
 def test_frames_that_agree_are_adequate():
     assert diagnosed(frames(3, (0.0,) * 8)).decision.status == "adequate"
