@@ -161,7 +161,7 @@ class Search:
     def _screened(
         self, menu: Sequence[Offered], bases: Sequence[Judged], rich: Sequence[NoiseState] = ()
     ) -> list[_Screened]:
-        """The best of each cause beside every base at its own noise, beside the likeliest two at rich ones; best first."""
+        """The best of each cause beside every base at its noise, beside the likeliest two at rich ones; best first."""
         best: dict[str, _Screened] = {}
         shapes = [part.shape[:2] for part in menu[0].columns] if menu else []
         likeliest = [bases[0], max(bases, key=lambda one: one.score)]
