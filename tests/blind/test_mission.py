@@ -15,7 +15,7 @@ from tests.blind.scoring import case_rows, figures, scored_cases
 DATA = Path(__file__).parents[1] / "data" / "blind-ci"
 SEALED = DATA.with_name("blind-ci-sealed")
 NAMES = [f"c{n:03d}" for n in range(1, 13)]
-EVERYDAY = {"c001": "single", "c002": "null", "c003": "outside"}
+EVERYDAY = {"c001": "single", "c002": "null"}
 
 
 @pytest.mark.parametrize("name", [n if n in EVERYDAY else pytest.param(n, marks=pytest.mark.slow) for n in NAMES])

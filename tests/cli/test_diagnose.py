@@ -291,6 +291,7 @@ def test_the_next_measurement_is_simulated_where_causes_are_left_open(shaken):
     assert shaken[0]["verdict"]["next_measurement"].startswith(first)
 
 
+@pytest.mark.slow
 def test_an_internal_force_has_no_columns_to_simulate_with():
     """It is a law of the command's distribution: the next measurement is asked for the other causes alone."""
     from cdpr_struct.diagnosis.diagnosing import diagnosed

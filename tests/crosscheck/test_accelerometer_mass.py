@@ -28,6 +28,7 @@ def test_a_shaker_is_named_with_its_mass(tmp_path):
     assert 0.3 < sigma < 1.5
 
 
+@pytest.mark.slow
 def test_a_mass_just_large_enough_to_be_seen_has_its_size(tmp_path):
     """1.5 kg on 60 kg change frequencies by 1 %, as cables heavier by one of their tolerances do by half of that."""
     said = diagnosed(sensors_campaign(tmp_path, "thesis-3-1", THESIS, 1.5))

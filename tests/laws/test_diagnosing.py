@@ -75,7 +75,9 @@ def test_clean_readings_give_no_cause(seed):
     assert all(one.gain < 0.0 for one in said.candidates)
 
 
-@pytest.mark.parametrize(("poses", "modes"), [(3, 8), (2, 7)], ids=["as many modes", "one mode more"])
+@pytest.mark.parametrize(
+    ("poses", "modes"), [(3, 8), pytest.param(2, 7, marks=SLOW)], ids=["as many modes", "one mode more"]
+)
 def test_clean_readings_with_frequencies_give_no_cause(poses, modes):
     robot = load_robot("thesis-3-1")
     plan = plan_of(robot, poses, cables_in=(0,), robot_in=(1,), modes=modes)
@@ -92,6 +94,7 @@ def test_exchanged_load_cells_are_found(pair):
     assert not said.set_aside
 
 
+@pytest.mark.slow
 def test_exchanged_load_cells_are_found_beside_a_cause():
     """Compliance in line is 60 nats, exchanged cells are 30: neither hides the other, and nothing is an outlier."""
     robot = load_robot("thesis-3-1")

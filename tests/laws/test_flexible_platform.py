@@ -65,6 +65,7 @@ def test_a_rigid_platform_has_none():
     assert all(NAME not in names for names in diagnosed(campaign(0.0)).decision.classes)
 
 
+@pytest.mark.slow
 def test_a_line_of_the_mains_is_no_error_of_the_simulation():
     """Its frequency is the same at all poses; it is told, and the robot has none of it."""
     rigid = campaign(0.0)
