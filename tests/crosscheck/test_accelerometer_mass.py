@@ -1,6 +1,7 @@
 """What hangs on the platform only while vibration is measured, with the FEM as truth: name and size."""
 
 import numpy as np
+import pytest
 
 from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
