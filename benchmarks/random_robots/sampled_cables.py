@@ -87,7 +87,7 @@ def _within(case: Case, forces: np.ndarray) -> np.ndarray:
 
 
 def _least(rows: np.ndarray, load: np.ndarray, kept: np.ndarray) -> float:
-    """Least sum of what is left of the load by sums of points of the hulls."""
+    """Least unbalance (sum of absolute values), one point of the hull of each cable's forces being chosen."""
     m, f = rows.shape[1:]
     points = np.concatenate([rows[kept[:, i], i] for i in range(m)])
     whose = np.concatenate([np.full(int(kept[:, i].sum()), i) for i in range(m)])

@@ -123,7 +123,7 @@ def _read(item: Identified) -> list[int]:
 def _readings(item: Identified, i: int) -> tuple[np.ndarray, ...]:
     """Windows (r,) in which mode i is clear; its frequency [Hz] there, relative sigma, damping ratio and sigma.
 
-    Sigmas count what neighbours do that were not told apart.
+    Sigmas include what neighbouring modes may do that the signals do not distinguish.
     """
     windows = item.windows
     assert windows is not None

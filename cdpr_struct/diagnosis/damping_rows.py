@@ -42,7 +42,8 @@ class DampingRows:
 def damping_rows(identified: tuple[Identified, ...]) -> DampingRows:
     """Rows of all modes that join and have a partner; a decay gives one per window, an FRF one without amplitude (nan).
 
-    Sigmas count what neighbours do that were not told apart. `left_out` names the modes that give no row.
+    Sigmas include what neighbouring modes may do that the signals do not distinguish. `left_out` names the modes that
+    give no row.
     """
     case: list[str] = []
     table: list[tuple[float, ...]] = []

@@ -229,13 +229,11 @@ class Campaign:
     def with_states_only(self, states: States) -> "Campaign":
         """The same campaign of these states, without frequencies and signals."""
         cables = CableFrequencies(*(np.zeros(0, dtype=t) for t in (int, int, int, bool, float, float)))
-        peaks = RobotFrequencies(*(np.zeros(0, dtype=t) for t in (int, float, float)))
-        return replace(self, states=states, cable_frequencies=cables, robot_frequencies=peaks, series=(), identified=())
+        return replace(self.without_robot_peaks(), states=states, cable_frequencies=cables)
 
     def without_robot_peaks(self) -> "Campaign":
         """The campaign without frequencies of the robot, from lists and from signals."""
-        none = np.zeros(0)
-        peaks = RobotFrequencies(none.astype(int), none, none)
+        peaks = RobotFrequencies(*(np.zeros(0, dtype=t) for t in (int, float, float)))
         return replace(self, robot_frequencies=peaks, series=(), identified=())
 
     def kinds(self) -> list[str]:

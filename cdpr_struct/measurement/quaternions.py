@@ -3,12 +3,14 @@
 from collections.abc import Iterable, Mapping
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from cdpr_struct.errors import NOTHING, InputError
 from cdpr_struct.measurement.assumed_angles import ANGLES
 from cdpr_struct.robot.pose import angles_from_rotation
 
 QUATERNION = ("qw", "qx", "qy", "qz")
+_REAL_LAST = [1, 2, 3, 0]  # columns in the order x, y, z, w
 _NORM = 0.01  # by which the norm of a quaternion written with few digits may differ from one
 
 
@@ -33,7 +35,10 @@ def with_angles(file: str, numbers: Mapping[str, np.ndarray]) -> dict[str, np.nd
     for i in np.flatnonzero(~(np.abs(norm - 1.0) <= _NORM) & np.isfinite(q).any(axis=1)):
         expected = "a unit quaternion: qw^2 + qx^2 + qy^2 + qz^2 = 1"
         raise InputError(file, f"row {i + 1}, columns qw to qz", q[i].tolist(), expected)
-    degrees = np.degrees(angles_from_rotation(_rotation(q / norm[:, None])))
+    known = np.isfinite(norm)
+    degrees = np.full((len(q), len(ANGLES)), np.nan)
+    turns = Rotation.from_quat(q[known][:, _REAL_LAST])
+    degrees[known] = np.degrees(angles_from_rotation(turns.as_matrix()))
     kept = {name: values for name, values in numbers.items() if name not in QUATERNION}
     return kept | dict(zip(ANGLES, degrees.T, strict=True))
 
@@ -41,12 +46,3 @@ def with_angles(file: str, numbers: Mapping[str, np.ndarray]) -> dict[str, np.nd
 def quaternion_headings(names: Iterable[str]) -> dict[str, str]:
     """Of each angle, the columns that it came from, in short; {} without a quaternion."""
     return dict.fromkeys(ANGLES, ", ".join(QUATERNION)) if QUATERNION[0] in names else {}
-
-
-def _rotation(q: np.ndarray) -> np.ndarray:
-    """(n, 3, 3) rotations, platform to world, of unit quaternions (n, 4), the real part first."""
-    w, v = q[:, :1, None], q[:, 1:]
-    cross = np.zeros((len(q), 3, 3))
-    cross[:, [2, 0, 1], [1, 2, 0]] = v
-    cross[:, [1, 2, 0], [2, 0, 1]] = -v
-    return np.asarray(np.eye(3) + 2.0 * w * cross + 2.0 * cross @ cross)

@@ -19,12 +19,12 @@ STILL = 1e-3  # m/s of the fastest cable, below which a frame is at rest
 
 def length_rates(states: States) -> np.ndarray:
     """(S, m, 2) derivatives of the encoders' lengths [m/s, m/s^2]; zero where no frames, or not read."""
-    return np.stack([_derivative(states.time, states.length, order) for order in (1, 2)], axis=-1)
+    return _derivatives(states.time, states.length, (1, 2))
 
 
 def accelerations(states: States) -> np.ndarray:
     """(S,) of the platform's origin [m/s^2]; zero in states that are no frames of a motion."""
-    return np.asarray(np.linalg.norm(_derivative(states.time, states.position, 2), axis=1))
+    return np.asarray(np.linalg.norm(_derivatives(states.time, states.position, (2,)), axis=(1, 2)))
 
 
 def moving(rates: np.ndarray) -> np.ndarray:
@@ -32,14 +32,15 @@ def moving(rates: np.ndarray) -> np.ndarray:
     return np.asarray(np.abs(rates[..., 0]).max(axis=1, initial=0.0) > STILL)
 
 
-def _derivative(time: np.ndarray, values: np.ndarray, order: int) -> np.ndarray:
-    """(S, k) derivatives by time of values (S, k) along runs of frames, else zero."""
-    found = np.zeros_like(values)
+def _derivatives(time: np.ndarray, values: np.ndarray, orders: tuple[int, ...]) -> np.ndarray:
+    """(S, k, q) derivatives of q orders by time of values (S, k) along runs of frames, else zero."""
+    found = np.zeros((*values.shape, len(orders)))
     for run in _runs(time):
         for column in range(values.shape[1]):
             own = run[np.isfinite(values[run, column])]
             if len(own) >= FEWEST:
-                found[own, column] = CubicSpline(time[own], values[own, column])(time[own], order)
+                spline = CubicSpline(time[own], values[own, column])
+                found[own, column] = np.stack([spline(time[own], order) for order in orders], axis=-1)
     return found
 
 

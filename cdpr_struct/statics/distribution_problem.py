@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.statics.batch_items import BatchItems
 from cdpr_struct.statics.cable_models import HeldCables
 from cdpr_struct.statics.equilibrium import cable_wrench
 from cdpr_struct.statics.guessed_programs import solve_guessed, unbounded_dual
@@ -34,7 +35,7 @@ _CONVEX = 0.1  # least curvature of the Lagrangian over the cost's own
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Optimum:
+class Optimum(BatchItems):
     """Where the search ended, flat batch (k).
 
     chord_tension : (k, m) [N]
@@ -50,12 +51,6 @@ class Optimum:
     unbalanced: np.ndarray
     iterations: np.ndarray
 
-    def replaced(self, index: np.ndarray, other: "Optimum") -> "Optimum":
-        """This with the items `index` taken from another; works in place."""
-        for name in self.__slots__:
-            getattr(self, name)[index] = getattr(other, name)
-        return self
-
     @property
     def found(self) -> np.ndarray:
         """(k,) bool: the conditions of an optimum hold."""
@@ -63,7 +58,7 @@ class Optimum:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Tangent:
+class Tangent(BatchItems):
     """Cost and balance at chord tensions (k, m), with their derivatives by them.
 
     wrench, matrix : (k, 6), (k, 6, m) scaled by the unit;  size : (k,) load and tensions [N]
@@ -79,15 +74,6 @@ class Tangent:
     own: np.ndarray
     pull_bend: np.ndarray
     bend: np.ndarray
-
-    def take(self, index: np.ndarray) -> "Tangent":
-        return Tangent(*(getattr(self, name)[index] for name in self.__slots__))
-
-    def replaced(self, index: np.ndarray, other: "Tangent") -> "Tangent":
-        """This with the items `index` taken from another; works in place."""
-        for name in self.__slots__:
-            getattr(self, name)[index] = getattr(other, name)
-        return self
 
     @property
     def unbalanced(self) -> np.ndarray:

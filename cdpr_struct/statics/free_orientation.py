@@ -17,6 +17,7 @@ from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.batch_items import BatchItems
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import (
@@ -170,7 +171,7 @@ class HangingProblem:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Hung:
+class _Hung(BatchItems):
     """angles (k, 3) [rad], rotations (k, 3, 3), chord tensions (k, m) [N], moments (k, 3) about the free angles over
     arms times tensions, and whether the tensions balance all else (k,)."""
 
@@ -189,14 +190,6 @@ class _Hung:
     def found(self) -> np.ndarray:
         """(k,) bool: carried, with no moment left."""
         return np.asarray(self.carried & (self.size <= _BALANCED))
-
-    def take(self, index: np.ndarray) -> "_Hung":
-        return _Hung(*(getattr(self, name)[index] for name in self.__slots__))
-
-    def replaced(self, index: np.ndarray, other: "_Hung") -> None:
-        """Takes the items `index` from another; works in place."""
-        for name in self.__slots__:
-            getattr(self, name)[index] = getattr(other, name)
 
 
 def hang_freely(problem: HangingProblem, angles: np.ndarray) -> FreeOrientation:

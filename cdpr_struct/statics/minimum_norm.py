@@ -15,6 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.statics.batch_items import BatchItems
+
 MAX_ITERATIONS = 30
 _HOPELESS = 1e7  # multipliers this many times what a feasible problem asks for: nothing balances
 _RANK = 1e-12  # relative: directions that the unknowns cannot act in
@@ -23,7 +25,7 @@ _ELASTICITY = 1e-8, 1e-10, 1e-12, 1e-12  # e of one round after the other, over 
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class QuadraticPrograms:
+class QuadraticPrograms(BatchItems):
     """A flat batch (k) with n balance equations and m unknowns.
 
     curvature, gradient, low, high : (k, m); curvature > 0
@@ -45,9 +47,6 @@ class QuadraticPrograms:
     def slope(self, dual: np.ndarray) -> np.ndarray:
         """(k, n) gradient of the dual, b - J t(y)."""
         return self.target - np.einsum("knm,km->kn", self.matrix, self.primal(dual))
-
-    def take(self, index: np.ndarray) -> "QuadraticPrograms":
-        return QuadraticPrograms(*(getattr(self, name)[index] for name in self.__slots__))
 
 
 def solve_programs(programs: QuadraticPrograms, careful: bool = False) -> tuple[np.ndarray, np.ndarray]:

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.statics.batch_items import BatchItems
 from cdpr_struct.statics.cable_models import SaggingModel
 from cdpr_struct.statics.catenary_length import solve_length
 from cdpr_struct.statics.holding_tensions import HoldingProblem
@@ -32,7 +33,7 @@ _MARGIN = 1e-3  # of the unbalanced wrench: by how much at least the sum must st
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Chords:
+class _Chords(BatchItems):
     """Straight cables: pull (k, m, 3) unit vector, chord and rise (k, m) [m], load per length (k, m) [N/m] and the unit
     vector against it (k, m, 3); load is weight and drag of wind, rise is along that vector."""
 
@@ -41,9 +42,6 @@ class _Chords:
     rise: np.ndarray
     weight: np.ndarray
     up: np.ndarray
-
-    def take(self, index: np.ndarray) -> "_Chords":
-        return _Chords(*(getattr(self, name)[index] for name in self.__slots__))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

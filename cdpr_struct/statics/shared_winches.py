@@ -17,6 +17,7 @@ from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.winches import Winches
+from cdpr_struct.statics.batch_items import BatchItems
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.equilibrium import platform_radius, rotation_from_vector
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
@@ -91,7 +92,7 @@ def resting_orientation(robot: Robot, position: np.ndarray, angles: np.ndarray, 
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Wound:
+class _Wound(BatchItems):
     """Balanced platforms (k): what winches say (k, w), pose (k, 3), (k, 3, 3), tensions (k, m), distances from the c
     kept coordinates (k, c), turns as arcs [m], and whether the balance was found (k,)."""
 
@@ -106,14 +107,6 @@ class _Wound:
     def size(self) -> np.ndarray:
         """(k,) the largest of the distances."""
         return np.asarray(np.abs(self.miss).max(axis=1))
-
-    def take(self, index: np.ndarray) -> "_Wound":
-        return _Wound(*(getattr(self, name)[index] for name in self.__slots__))
-
-    def replaced(self, index: np.ndarray, other: "_Wound") -> None:
-        """Takes the items `index` from another; works in place."""
-        for name in self.__slots__:
-            getattr(self, name)[index] = getattr(other, name)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,6 +1,6 @@
 """Coverage-guided fuzzing of everything that reads a file: `python -m tests.fuzz --target robot --seconds 600`.
 
-It needs the extra `fuzz` (atheris); `pytest` collects nothing here. Each finding was mended and has a small test in
+It needs the extra `fuzz` (atheris); `pytest` collects nothing here. Each finding was corrected and has a small test in
 tests/robustness/test_fuzzed_files.py.
 
 | file | answers |
