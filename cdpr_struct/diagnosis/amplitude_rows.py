@@ -7,7 +7,7 @@ from scipy.special import chdtrc
 
 from cdpr_struct.dynamics.backbone import platform_partners
 from cdpr_struct.dynamics.large_motion import LargeMotion
-from cdpr_struct.dynamics.presliding_friction import end_turns, rubbing_modes
+from cdpr_struct.dynamics.presliding_friction import end_tensions, end_turns, rubbing_modes
 from cdpr_struct.errors import CdprError
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.neighbours import pole_doubt
@@ -165,8 +165,7 @@ def _record(number: int, item: Identified) -> _Record | None:
         return None
     modal = _filled(np.stack([modal_amplitudes(item, i, p) for i, p in zip(peaks, own, strict=True)], axis=1))
     rows, place = _rows(number, item, peaks, modal**2 @ coefficients.T)
-    count, cables = len(modal), state.point.cables
-    tension = np.concatenate([cables.tension_at_frame, cables.tension_at_platform])
+    count, tension = len(modal), end_tensions(state.point)
     turns = end_turns(state.point, state.modes.platform[own])
     return _Record(
         [item.record.case] * len(rows), rows, place, np.broadcast_to(turns, (count, *turns.shape)),

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from scipy.linalg import eigh
 
 from cdpr_struct.dynamics.harmonic_balance import FreeMotion, free_motion
-from cdpr_struct.dynamics.large_rotation import angular_motion, cross_product_matrix, inertia_wrench, turning
+from cdpr_struct.dynamics.large_rotation import angular_motion, inertia_wrench, turning
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import attachment, platform_mass_matrix, platform_static_stiffness
 from cdpr_struct.errors import CdprError
@@ -28,6 +28,7 @@ from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import (
     PlatformArms,
     cable_wrench,
+    cross_product_matrix,
     load_wrench,
     moment_skew,
     platform_radius,

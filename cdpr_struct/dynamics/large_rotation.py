@@ -9,6 +9,8 @@ With R = exp([theta]x) R_0 the angular velocity is J(theta) theta', world axes, 
 
 import numpy as np
 
+from cdpr_struct.statics.equilibrium import cross_product_matrix
+
 _SMALL = 1e-2  # rad, below which series of four terms stand for the quotients
 
 
@@ -45,11 +47,6 @@ def inertia_wrench(
     force = mass[..., None] * center
     momentum, change = ((inertia @ v[..., None])[..., 0] for v in (spin, angular))
     return np.concatenate([force, np.cross(arm, force) + change + np.cross(spin, momentum)], axis=-1)
-
-
-def cross_product_matrix(vector: np.ndarray) -> np.ndarray:
-    """(..., 3, 3) [v]x, such that [v]x w = v x w."""
-    return np.asarray(np.cross(vector[..., None, :], np.eye(3)).swapaxes(-1, -2))
 
 
 def _quotients(vector: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

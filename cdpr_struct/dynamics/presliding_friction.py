@@ -62,6 +62,11 @@ def end_turns(point: OperatingPoint, twists: np.ndarray) -> np.ndarray:
     return np.concatenate([swing, across - swing], axis=1)
 
 
+def end_tensions(point: OperatingPoint) -> np.ndarray:
+    """(2 m,) tensions of the cables at their ends, in the order of `end_turns` [N]."""
+    return np.concatenate([point.cables.tension_at_frame, point.cables.tension_at_platform])
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class RubbingModes:
     """What friction does to b motions of k modes, per N m at which each of e cable ends slides.

@@ -13,7 +13,7 @@ import numpy as np
 from cdpr_struct.dynamics.modal_basis import ModalBasis
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ports import Port
-from cdpr_struct.dynamics.presliding_friction import built_up, end_turns
+from cdpr_struct.dynamics.presliding_friction import built_up, end_tensions, end_turns
 from cdpr_struct.dynamics.transient import ComplexModes, Vibration, complex_modes, held_step, vibration
 from cdpr_struct.errors import CdprError, ConvergenceError
 
@@ -59,8 +59,7 @@ class RubbingEnds:
         """
         if not basis.omega.min() > 0.0:
             raise CdprError("friction at cable ends needs a platform that is held in every direction; this one is not")
-        cables = point.cables
-        tension = np.concatenate([cables.tension_at_frame, cables.tension_at_platform])
+        tension = end_tensions(point)
         each = np.repeat([friction.frame, friction.platform], len(tension) // 2, axis=0)
         return cls(end_turns(point, basis.modes.platform), each[:, 0] * tension, each[:, 1:])
 

@@ -110,11 +110,16 @@ def moment_skew(moment: np.ndarray) -> np.ndarray:
     `moment`: its axes stay those of the world, so it adds nothing to the derivative. Left out, the symmetric tangent is
     that of a semitangential moment of the same size (Ziegler 1968, Argyris 1979), which has a potential.
     """
-    skew = np.zeros((*moment.shape, 3))
+    return 0.5 * cross_product_matrix(moment)
+
+
+def cross_product_matrix(vector: np.ndarray) -> np.ndarray:
+    """(..., 3, 3) [v]x of vectors (..., 3), such that [v]x w = v x w."""
+    found = np.zeros((*vector.shape, 3))
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        skew[..., i, j] = -0.5 * moment[..., k]
-        skew[..., j, i] = 0.5 * moment[..., k]
-    return skew
+        found[..., i, j] = -vector[..., k]
+        found[..., j, i] = vector[..., k]
+    return found
 
 
 def platform_radius(arrays: RobotArrays) -> float:
