@@ -63,8 +63,15 @@ def test_a_distribution_is_found_though_a_cable_slackens_over_decades(seed):
     assert spread.kkt_residual.max() < 1e-11  # rounding of five cables, measured 1e-15
 
 
-def test_a_distribution_settles_though_the_rates_over_large_wheels_are_rough():
-    spread = distributed(drawn(48)).found[0].distribution
+@pytest.mark.parametrize(
+    "seed",
+    [
+        48,
+        798,  # a rate of 0.47 for 0.87: steps to the bound of a cable went to and fro
+    ],
+)
+def test_a_distribution_settles_though_the_rates_over_large_wheels_are_rough(seed):
+    spread = distributed(drawn(seed)).found[0].distribution
     assert spread.kkt_residual.max() < 1e-9  # what counts as balanced; the search stopped at 3e-8
 
 
