@@ -121,6 +121,6 @@ def test_broken_universal_files(content, tmp_path, capsys):
     assert "point.uff" in complaint(tmp_path, capsys, "frf", "point.uff")
 
 
-def test_universal_files_are_frfs_only(tmp_path, capsys):
+def test_universal_files_are_frfs_and_modes_only(tmp_path, capsys):
     universal(tmp_path / "point.uff")
-    assert "FRFs only" in complaint(tmp_path, capsys, "free_decay", "point.uff")
+    assert "FRFs and modes only" in complaint(tmp_path, capsys, "free_decay", "point.uff")
