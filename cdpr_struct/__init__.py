@@ -94,6 +94,7 @@ if TYPE_CHECKING:
     from cdpr_struct.interface.export import export
     from cdpr_struct.interface.forward import forward
     from cdpr_struct.interface.frf import frf
+    from cdpr_struct.interface.import_recording import import_recording, recording_channels
     from cdpr_struct.interface.inverse import inverse
     from cdpr_struct.interface.limits import limits
     from cdpr_struct.interface.map import map
@@ -122,6 +123,7 @@ _HOMES = {
     "interface.robots": ("robots", "write_robot"),
     "interface.new_robot": ("new_robot",),
     "interface.new_campaign": ("new_campaign",),
+    "interface.import_recording": ("import_recording", "recording_channels"),
     "interface.cable": ("cable",),
     "interface.inverse": ("inverse",),
     "interface.forward": ("forward",),
@@ -179,6 +181,7 @@ __all__ = [
     "export",
     "forward",
     "frf",
+    "import_recording",
     "inverse",
     "limits",
     "load_campaign",
@@ -189,6 +192,7 @@ __all__ = [
     "new_robot",
     "plan",
     "pose_error",
+    "recording_channels",
     "reproduce",
     "robots",
     "spectrogram",
