@@ -28,10 +28,12 @@ def run(
     ] = None,
     listed: Annotated[bool, typer.Option("--list", help="List the channels, and a mapping file to fill in.")] = False,
     robot: Annotated[
-        str | None, typer.Option("--robot", metavar="ROBOT", help="Built-in name or robot file, for that of the mapping.")
+        str | None,
+        typer.Option("--robot", metavar="ROBOT", help="Built-in name or robot file, for that of the mapping."),
     ] = None,
     clock: Annotated[
-        str, typer.Option("--clock", metavar="CLOCK", help="Of a bag that is listed: stamp (of the messages) or received.")
+        str,
+        typer.Option("--clock", metavar="CLOCK", help="Of a bag that is listed: stamp (of the messages) or received."),
     ] = "stamp",
     template: Annotated[
         Path | None, typer.Option("--template", metavar="MAPPING.toml", help="Write the mapping file to fill in here.")
@@ -82,7 +84,9 @@ def _listing(result: Mapping[str, Any], template: Path | None) -> str:
     shown = [head, *rows[:_SHOWN]]
     widths = [max(len(row[i]) for row in shown) for i in range(len(head))]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in shown]
-    wanted = [f"Mapping file to fill in: {template}"] if template else ["Mapping file to fill in:", "", result["template"]]
+    wanted = (
+        [f"Mapping file to fill in: {template}"] if template else ["Mapping file to fill in:", "", result["template"]]
+    )
     return "\n".join([f"{result['file']}: {result['form']}, {len(rows)} channels", "", *lines, *more, "", *wanted])
 
 
@@ -98,7 +102,7 @@ def _text(result: Mapping[str, Any]) -> str:
     sigma = ", ".join(f"{key} = {value:g}" for key, value in result["sigma"].items())
     campaign = Path(result["directory"]) / "campaign.toml"
     return (
-        f"{result['directory']}: {', '.join(result['files_written'])}; {result['states']} states of kind {result['kind']}, "
-        f"from {result['start_s']:.6g} to {result['end_s']:.6g} s.\n"
+        f"{result['directory']}: {', '.join(result['files_written'])}; {result['states']} states of kind "
+        f"{result['kind']}, from {result['start_s']:.6g} to {result['end_s']:.6g} s.\n"
         f"{result['sampling']}\n" + (f"Sigmas: {sigma}.\n" if sigma else "") + f"Next: cdpr-struct diagnose {campaign}"
     )

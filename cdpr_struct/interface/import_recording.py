@@ -92,9 +92,13 @@ def recording_channels(file: Path_, *, clock: str = "stamp") -> RecordingChannel
     ------
     InputError : no such file, one that cannot be read, or a package to read it is not installed.
     """
-    recording = open_recording(Path(file), "received" if one_of(clock, "clock", ("stamp", "received")) == "received" else "stamp")
+    recording = open_recording(
+        Path(file), "received" if one_of(clock, "clock", ("stamp", "received")) == "received" else "stamp"
+    )
     found = summaries(recording)
-    return RecordingChannels(recording.form, found, template(recording.channels, recording.path.name, _is_ros(recording.form)))
+    return RecordingChannels(
+        recording.form, found, template(recording.channels, recording.path.name, _is_ros(recording.form))
+    )
 
 
 def _is_ros(form: str) -> bool:
@@ -123,7 +127,7 @@ def import_recording(
     machine = read_robot(named)
     recording = open_recording(Path(file), table.time.clock)
     found = campaign_of(recording, table, source, machine)
-    campaign = read_back(found, named if named in builtin_names() else os.path.abspath(named), Path(directory))
+    campaign = read_back(found, named if named in builtin_names() else str(Path(named).resolve()), Path(directory))
     answer = {
         "file": os.fspath(file), "form": recording.form, "kind": found.kind, "states": len(found.frames.time),
         "left_out": found.frames.left_out, "sampling": found.frames.said, "sigma": dict(found.sigma),
@@ -148,6 +152,8 @@ def _robot(given: Path_ | None, table: MappingFile, source: str, place: Path) ->
     if given is not None:
         return os.fspath(given)
     if table.robot in ("", "?"):
-        expected = "the robot that was recorded: a built-in name or the path of a robot file, here or as the option --robot"
+        expected = (
+            "the robot that was recorded: a built-in name or the path of a robot file, here or as the option --robot"
+        )
         raise InputError(source, "robot", "nothing", expected)
     return table.robot if table.robot in builtin_names() else str(place / table.robot)

@@ -40,7 +40,9 @@ def data_file(frames: Frames, mapping: MappingFile, name: str) -> str:
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(["case", *columns])
-    writer.writerows([case, *map(_cell, row)] for case, row in zip(cases, zip(*columns.values(), strict=True), strict=True))
+    writer.writerows(
+        [case, *map(_cell, row)] for case, row in zip(cases, zip(*columns.values(), strict=True), strict=True)
+    )
     return file.getvalue()
 
 

@@ -53,7 +53,7 @@ def common_span(measured: Measured, sampling: SamplingTable, file: str) -> tuple
         return begin, end
     low, high = max(begin, sampling.span[0]), min(end, sampling.span[1])
     if low > high:
-        zero = f" (0 is {measured.zero:.0f} s of the file)" if measured.zero else ""
+        zero = f" (0 is {measured.zero:.12g} s of the file)" if measured.zero else ""
         expected = f"a span within the recording, whose channels all cover {begin:.6g} to {end:.6g} s{zero}"
         raise InputError(file, "sampling.span", sampling.span, expected)
     return low, high
@@ -83,9 +83,11 @@ def moving_frames(measured: Measured, sampling: SamplingTable, file: str) -> Fra
         _refuse_gaps(measured, time, gaps, sampling, file)
     lost = np.any(list(gaps.values()), axis=0)
     if lost.all():
-        raise InputError(file, "sampling", "no frame outside gaps", "a longer span, a rate_hz, or a larger largest_gap_s")
+        raise InputError(
+            file, "sampling", "no frame outside gaps", "a longer span, a rate_hz, or a larger largest_gap_s"
+        )
     said = (
-        f"{how}{every}, from {begin:.6g} to {end:.6g} s; what is not sampled at these times is interpolated linearly "
+        f"{how}{every}, from {time[~lost][0]:.6g} to {time[~lost][-1]:.6g} s; what is not sampled at these times is interpolated linearly "
         "between neighbours, rotations along the shortest turn."
     )
     return _at(measured, time[~lost], said, int(lost.sum()))

@@ -68,7 +68,7 @@ def campaign_of(recording: Recording, mapping: MappingFile, source: str, robot: 
     frames = read(measured, mapping.sampling, str(recording.path))
     sigma, lacking = sigmas(frames, mapping)
     notes = (*measured.notes, *_notes(frames, mapping, lacking))
-    zero = f" time_s is zero at {measured.zero:.0f} s of its clock." if measured.zero else ""
+    zero = f" time_s is zero at {measured.zero:.12g} s of its clock." if measured.zero else ""
     about = (f"From {recording.path.name}, {recording.form}, by import-recording.{zero}", frames.said)
     name = "".join(c if c.isprintable() and c not in ',"' else " " for c in recording.path.stem).strip() or "state"
     return CampaignOfRecording(mapping, frames, sigma, measured.zero, data_file(frames, mapping, name), about, notes)
@@ -87,11 +87,11 @@ def _notes(frames: Frames, mapping: MappingFile, lacking: list[str]) -> Iterator
         yield f"{frames.left_out} frames that lie in gaps were left out; {len(frames.time)} remain."
     if lacking:
         yield (
-            f"No sigma of {', '.join(lacking)} is given, nor can be told from the recording: the usual one of a campaign "
-            "file is taken. Give it under [sigma]."
+            f"No sigma of {', '.join(lacking)} is given, nor can be told from the recording: the usual one of a "
+            "campaign file is taken. Give it under [sigma]."
         )
     if mapping.sampling.mode == "still" and set(frames.sigma) - {k for k, v in mapping.sigma.model_dump().items() if v}:
-        yield "Sigmas from the scatter do not contain what is the same in all samples, such as calibration: enlarge them."
+        yield "Sigmas from the scatter leave out what is the same in all samples, such as calibration: enlarge them."
     if mapping.sampling.mode == "still" and not has_times(frames):
         yield "Some stretches are less than 2 s apart: time_s is left out, since they would be taken for a motion."
 

@@ -174,7 +174,9 @@ def _is_order(order: str) -> bool:
 def _check_quantities(mapping: MappingFile, source: str) -> None:
     free = mapping.sampling.mode == "free_motion"
     if free and mapping.position is None:
-        raise InputError(source, "position", NOTHING, "the tracked position of the platform: a free motion is read from it")
+        raise InputError(
+            source, "position", NOTHING, "the tracked position of the platform: a free motion is read from it"
+        )
     if not free and mapping.lengths is None and mapping.tensions is None:
         expected = "[lengths] or [tensions] of the cables, or both; poses alone are read of a free motion"
         raise InputError(source, "lengths", NOTHING, expected)

@@ -51,9 +51,17 @@ def _arrays(group: Any, path: str = "") -> Iterator[tuple[str, Any]]:
             continue
         if isinstance(inner, h5py.Group):
             yield from _arrays(inner, own)
-        elif isinstance(inner, h5py.Dataset) and inner.dtype.kind in "biuf" and 1 <= inner.ndim <= 2:
-            if b"char" not in np.bytes_(inner.attrs.get("MATLAB_class", b"")):
-                yield own, inner
+        elif isinstance(inner, h5py.Dataset) and _is_number(inner):
+            yield own, inner
+
+
+def _is_number(data: Any) -> bool:
+    """Whether it is a vector or matrix, and none of MATLAB's texts, which are numbers in the file."""
+    return (
+        data.dtype.kind in "biuf"
+        and 1 <= data.ndim <= 2
+        and b"char" not in np.bytes_(data.attrs.get("MATLAB_class", b""))
+    )
 
 
 def _open(path: Path) -> Any:

@@ -20,7 +20,7 @@ class _Place(NamedTuple):
     """Where a channel is: numbers of its group and in it, and the samples of the group."""
 
     group: int
-    index: int
+    channel: int
     samples: int
 
 
@@ -43,7 +43,7 @@ class Mdf(Recording):
 def _pieces(file: Any, name: str, place: _Place) -> Iterator[Piece]:
     for first in range(0, place.samples, _ROWS):
         part = file.get(
-            group=place.group, index=place.index, record_offset=first, record_count=min(_ROWS, place.samples - first)
+            group=place.group, index=place.channel, record_offset=first, record_count=min(_ROWS, place.samples - first)
         )
         values = np.asarray(part.samples)
         if values.dtype.kind in "biuf" and values.ndim == 1:
@@ -72,7 +72,9 @@ def open_mdf(path: Path) -> Mdf:
                     unit = str(file.get_channel_unit(group=number, index=index) or "")
                     found.append((Channel(own, str(number), unit, "file"), _Place(number, index, samples)))
     if not found:
-        raise InputError(str(path), "", f"{_FORM} without a channel of numbers", "a file in which something was recorded")
+        raise InputError(
+            str(path), "", f"{_FORM} without a channel of numbers", "a file in which something was recorded"
+        )
     return Mdf(path, _FORM, tuple(channel for channel, _ in found), tuple(place for _, place in found))
 
 

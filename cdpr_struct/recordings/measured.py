@@ -13,7 +13,7 @@ from cdpr_struct.recordings.signal import Signal, read_signals
 from cdpr_struct.recordings.unit import Kind, called, factor
 
 _NORM = 0.01  # by which the norm of a quaternion may differ from one
-_LONG_AGO = 1e6  # s: a clock that counts from further back is set to zero at the recording's first second
+_LONG_AGO = 1e6  # s: a clock that counts from further back begins at the recording's first whole second
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,10 +66,10 @@ def measure(recording: Recording, mapping: MappingFile, source: str) -> Measured
     leave_out = mapping.sampling.faulty == "leave_out"
     found = read_signals(recording, names, mapping.time, source, leave_out)
     begin = min(float(signal.time[0]) for signal in found.values())
-    zero = float(np.floor(begin)) if abs(begin) > _LONG_AGO else 0.0
+    zero = float(np.floor(begin)) if abs(begin) > _LONG_AGO else min(begin, 0.0)
     found = {name: replace(signal, time=signal.time - zero) for name, signal in found.items()}
     units, notes = _Units(recording, source), [*_left_out(found), *_clocks(recording, names)]
-    measured = Measured(
+    return Measured(
         _values(mapping.position, "position", "length", found, units),
         None if mapping.rotation is None else _turning(mapping.rotation, found, units, str(recording.path)),
         _cables(mapping.lengths, "lengths", "length", found, units),
@@ -77,7 +77,6 @@ def measure(recording: Recording, mapping: MappingFile, source: str) -> Measured
         zero,
         (*notes, *units.notes),
     )
-    return measured
 
 
 class _Units:

@@ -39,7 +39,7 @@ def readings(message: Any, path: str = "", stamp: int = 0) -> Iterator[Reading]:
             yield Reading(inner, float(value), stamp)
 
 
-def _entries(values: Sequence[Any], path: str, stamp: int, names: object) -> Iterator[Reading]:
+def _entries(values: Any, path: str, stamp: int, names: object) -> Iterator[Reading]:
     if len(values) > _LONGEST:
         return
     labels: Sequence[object] = range(len(values))

@@ -33,8 +33,8 @@ def still_frames(measured: Measured, sampling: SamplingTable, file: str) -> Fram
     rotation, sigma["rotation_deg"] = _mean_turns(measured.rotation, stretches)
     said = (
         f"Means over {len(stretches)} stretches of at least {sampling.least_s:g} s between {begin:.6g} and {end:.6g} s "
-        f"in which nothing moves faster than {sampling.still_speed:g} m/s or rad/s; sigmas from the scatter of the means "
-        "of parts of the stretches."
+        f"in which nothing moves faster than {sampling.still_speed:g} m/s or rad/s; sigmas from the scatter of the "
+        "means of parts of the stretches."
     )
     return Frames(
         np.array([0.5 * (first + last) for first, last in stretches]), position, rotation, lengths, tensions, said,
@@ -49,7 +49,9 @@ def _stretches(
     moving = [s for s in (*measured.position, measured.rotation, *measured.lengths) if s is not None]
     step = 1.0 / (sampling.rate_hz or _rate(moving[0], file))
     if (end - begin) / step > _MOST_SAMPLES:
-        raise InputError(file, "sampling", f"{(end - begin) / step:.3g} samples", "a span or a rate_hz under [sampling]")
+        raise InputError(
+            file, "sampling", f"{(end - begin) / step:.3g} samples", "a span or a rate_hz under [sampling]"
+        )
     time = begin + step * np.arange(int((end - begin) / step + 1e-9) + 1)
     window = max(_FEWEST, 2 * round(0.5 * sampling.least_s / step) + 1)
     if len(time) < window:
@@ -60,12 +62,14 @@ def _stretches(
     for signal in moving:
         speed = np.maximum(speed, _speed(signal, time, window, step))
         lost |= in_gaps(signal, time, sampling.largest_gap_s)
-    found = [pair for pair in _runs(time, (speed <= sampling.still_speed) & ~lost) if pair[1] - pair[0] >= sampling.least_s]
+    found = [
+        pair for pair in _runs(time, (speed <= sampling.still_speed) & ~lost) if pair[1] - pair[0] >= sampling.least_s
+    ]
     if not found:
         given = f"nothing still: the slowest moment has {speed.min():.3g} m/s or rad/s"
         expected = (
-            f"stretches of {sampling.least_s:g} s below still_speed = {sampling.still_speed:g}; raise it, lower least_s, "
-            'or take mode = "motion"'
+            f"stretches of {sampling.least_s:g} s below still_speed = {sampling.still_speed:g}; raise it, lower "
+            'least_s, or take mode = "motion"'
         )
         raise InputError(file, "sampling", given, expected)
     return found[:MOST]

@@ -87,7 +87,9 @@ def open_tdms(path: Path) -> Tdms:
     with reading(path, _FORM), _open(path) as file:
         channels = tuple(_channel(one) for one in _all(file))
     if not channels:
-        raise InputError(str(path), "", f"{_FORM} without a channel of numbers", "a file in which something was recorded")
+        raise InputError(
+            str(path), "", f"{_FORM} without a channel of numbers", "a file in which something was recorded"
+        )
     return Tdms(path, _FORM, channels)
 
 

@@ -13,7 +13,27 @@ _WORDS = {
     "lengths": ("length", "len", "encoder", "winch", "joint", "position[", "laenge", "länge"),
     "tensions": ("tension", "force", "load", "effort", "kraft", "ftens"),
 }
-_LONE = {"lengths": re.compile(r"(?:^|[/._ ])l\W*\d", re.IGNORECASE), "tensions": re.compile(r"(?:^|[/._ ])[ft]\W*\d", re.I)}
+_LONE = {
+    "lengths": re.compile(r"(?:^|[/._ ])l\W*\d", re.IGNORECASE),
+    "tensions": re.compile(r"(?:^|[/._ ])[ft]\W*\d", re.I),
+}
+_HEAD = """# cdpr-struct import-recording RECORDING MAPPING.toml --out campaign
+robot = "?"                        # built-in name, or path of a robot file as seen from here
+"""
+_SAMPLING = """
+
+[sampling]
+mode = "still"                     # still: means where the robot stands still; motion: frames with time_s; free_motion
+# span = [0.0, 60.0]               # s, of the recording
+# rate_hz = 4.0                    # of a motion: evenly spaced frames, interpolated; every = 10: each tenth
+# still_speed = 0.002              # m/s (and rad/s) below which the robot stands still, for least_s = 1.0
+# faulty = "leave_out"             # samples that are no numbers, and frames in gaps above largest_gap_s
+[sigma]                            # of your sensors, one sigma; in mode still what is not given comes from the scatter
+# position_m = 0.0005
+# rotation_deg = 0.02
+# length_m = 0.0005
+# tension_N = 2.0
+"""
 _UNITS = {"length": "m", "force": "N", "angle": "rad", "time": "s"}
 _FEWEST, _MOST = 3, 16  # cables
 
@@ -25,37 +45,27 @@ def template(channels: Sequence[Channel], file: str, ros: bool) -> str:
     """
     triple, turns = _position(channels), _quaternion(channels)
     taken = {*triple, *turns}
-    cables = {name: _cables(channels, name, taken) for name in _WORDS}
+    lengths, tensions = (_cables(channels, name, taken) or [UNFILLED] for name in _WORDS)
     lines = [
-        f"# Which channel of {_printable(file)} is what. Replace each {UNFILLED}, delete tables that you do not need, then:",
-        "# cdpr-struct import-recording RECORDING MAPPING.toml --out campaign",
-        'robot = "?"                        # built-in name, or path of a robot file as seen from here; or option --robot',
-        "",
+        f"# Which channel of {_printable(file)} is what. Replace each {UNFILLED}, delete what you do not need, then:",
+        _HEAD,
         *_time(channels),
         "[position]                         # of the platform's origin, in the frame of the robot file",
         *_entry(channels, triple or [UNFILLED] * 3, "length", ros),
         "# factor = [1, 1, -1]              # of all channels, or one each; offset in m, of all or one each",
         "[rotation]                         # platform to world; form: quaternion, angles or rotation_vector",
-        f'form = "quaternion"\norder = "{_order(turns)}"                     # what the channels are; w is the real part',
+        'form = "quaternion"',
+        f'order = "{_order(turns)}"                     # what the channels are; w is the real part',
         f"channels = {_list(turns or [UNFILLED] * 4)}",
         "# inverse = true                   # if they turn the world's axes to the platform's",
         "",
         '[lengths]                          # unstrained, paid out; cable by cable, "" for one without a sensor',
-        *_entry(channels, cables["lengths"] or [UNFILLED], "length", ros),
+        *_entry(channels, lengths, "length", ros),
         '[tensions]                         # at the platform; cable by cable, "" for one without a load cell',
-        *_entry(channels, cables["tensions"] or [UNFILLED], "force", ros),
+        *_entry(channels, tensions, "force", ros),
         "# factor = -1.0                    # where pulling reads negative",
-        "",
-        "[sampling]",
-        'mode = "still"                     # means where the robot stands still; motion: frames with time_s; free_motion',
-        "# span = [0.0, 60.0]               # s, of the recording",
-        "# rate_hz = 4.0                    # of a motion: evenly spaced frames, interpolated; every = 10: each tenth",
-        "# still_speed = 0.002              # m/s (and rad/s) below which the robot stands still, for least_s = 1.0",
-        '# faulty = "leave_out"             # samples that are no numbers, and frames in gaps above largest_gap_s',
-        "[sigma]                            # of your sensors, one sigma; what is not given comes from the scatter",
-        "# position_m = 0.0005\n# rotation_deg = 0.02\n# length_m = 0.0005\n# tension_N = 2.0",
     ]
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines) + _SAMPLING
 
 
 def _time(channels: Sequence[Channel]) -> Iterator[str]:

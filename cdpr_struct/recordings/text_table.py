@@ -49,11 +49,11 @@ class TextTable(Recording):
                     yield Piece(self.channels[place].name, numbers(chunk[place], self.decimal))
 
 
-def numbers(cells: "object", decimal: str = ".") -> np.ndarray:
+def numbers(cells: object, decimal: str = ".") -> np.ndarray:
     """Cells (n,) of a pandas column as numbers; instants as seconds since 1970; nan where a cell holds neither."""
     import pandas as pd
 
-    column = pd.Series(cells)  # type: ignore[call-overload]
+    column = pd.Series(cells)
     if column.dtype.kind not in "OTUS":
         return np.asarray(column, dtype=float)
     words = column.astype("string")

@@ -53,7 +53,9 @@ def factor(unit: str, kind: Kind, source: str, field: str) -> float:
     """
     known = _FACTORS[kind]
     if not unit:
-        raise InputError(source, field, NOTHING, f"the unit of these channels, which the file does not say: {_of(kind)}")
+        raise InputError(
+            source, field, NOTHING, f"the unit of these channels, which the file does not say: {_of(kind)}"
+        )
     if called(unit) not in known:
         raise InputError(source, field, unit, f"a unit of {kind}; {known_names(unit, list(known))}")
     return known[called(unit)]
