@@ -57,7 +57,7 @@ def _rotation(frames: Frames, mapping: MappingFile) -> Mapping[str, np.ndarray]:
         empty = mapping.sampling.mode != "free_motion" and frames.position is not None
         return dict.fromkeys(ANGLES, np.full(len(frames.time), np.nan)) if empty else {}
     if mapping.rotation is not None and mapping.rotation.form == "quaternion":
-        return dict(zip(QUATERNION, np.roll(frames.rotation.as_quat(), 1, axis=1).T, strict=True))
+        return dict(zip(QUATERNION, np.roll(frames.rotation.as_quat(canonical=True), 1, axis=1).T, strict=True))
     return dict(zip(ANGLES, np.degrees(angles_from_rotation(frames.rotation.as_matrix())).T, strict=True))
 
 

@@ -86,11 +86,12 @@ def moving_frames(measured: Measured, sampling: SamplingTable, file: str) -> Fra
         raise InputError(
             file, "sampling", "no frame outside gaps", "a longer span, a rate_hz, or a larger largest_gap_s"
         )
+    time = time[~lost]
     said = (
-        f"{how}{every}, from {time[~lost][0]:.6g} to {time[~lost][-1]:.6g} s; what is not sampled at these times is interpolated linearly "
-        "between neighbours, rotations along the shortest turn."
+        f"{how}{every}, from {time[0]:.6g} to {time[-1]:.6g} s; what is not sampled at these times is interpolated "
+        "linearly between neighbours, rotations along the shortest turn."
     )
-    return _at(measured, time[~lost], said, int(lost.sum()))
+    return _at(measured, time, said, int(lost.sum()))
 
 
 def _few(count: float, file: str) -> None:

@@ -62,17 +62,26 @@ def _stretches(
     for signal in moving:
         speed = np.maximum(speed, _speed(signal, time, window, step))
         lost |= in_gaps(signal, time, sampling.largest_gap_s)
-    found = [
-        pair for pair in _runs(time, (speed <= sampling.still_speed) & ~lost) if pair[1] - pair[0] >= sampling.least_s
-    ]
-    if not found:
-        given = f"nothing still: the slowest moment has {speed.min():.3g} m/s or rad/s"
-        expected = (
-            f"stretches of {sampling.least_s:g} s below still_speed = {sampling.still_speed:g}; raise it, lower "
-            'least_s, or take mode = "motion"'
-        )
-        raise InputError(file, "sampling", given, expected)
-    return found[:MOST]
+    found = list(_runs(time, (speed <= sampling.still_speed) & ~lost))
+    long = [pair for pair in found if pair[1] - pair[0] >= sampling.least_s]
+    if not long:
+        raise _nothing_still(sampling, found, float(speed.min()), file)
+    return long[:MOST]
+
+
+def _nothing_still(
+    sampling: SamplingTable, found: Sequence[tuple[float, float]], slowest: float, file: str
+) -> InputError:
+    """What to say where no stretch is slow for long enough."""
+    longest = max((last - first for first, last in found), default=0.0)
+    how = f"the slowest moment has {slowest:.3g} m/s or rad/s"
+    if found:
+        how = f"the longest stretch below still_speed lasts {longest:.3g} s"
+    expected = (
+        f"stretches of least_s = {sampling.least_s:g} s below still_speed = {sampling.still_speed:g}; change these under "
+        '[sampling], or take mode = "motion"'
+    )
+    return InputError(file, "sampling", f"nothing still: {how}", expected)
 
 
 def _rate(signal: Signal | Turning, file: str) -> float:
@@ -143,12 +152,16 @@ def _variance(samples: np.ndarray) -> list[float]:
 
 
 def _resolution(values: np.ndarray) -> float:
-    """The smallest step between readings of a channel: a sensor that always reads the same may be off by half of it."""
+    """The smallest step between readings of a channel: a reading may be off by half of it."""
     steps = np.diff(np.unique(values))
     return float(steps.min()) if len(steps) else 0.0
 
 
 def _sigma(variances: Sequence[float], steps: Sequence[float]) -> float:
-    """One sigma: the scatter of the means, or that of rounding where it is larger; 0 if neither can be told."""
-    scatter = float(np.sqrt(np.mean(variances))) if variances else 0.0
-    return max(scatter, float(np.median(steps)) / np.sqrt(12.0) if steps else 0.0)
+    """One sigma: the scatter of the means, or that of rounding where it is larger.
+
+    0 if it cannot be told: readings that stay the same in most stretches say nothing about the sensor.
+    """
+    if 2 * sum(variance > 0.0 for variance in variances) < max(len(variances), 1):
+        return 0.0
+    return max(float(np.sqrt(np.mean(variances))), float(np.median(steps)) / np.sqrt(12.0) if steps else 0.0)
