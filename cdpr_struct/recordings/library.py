@@ -1,6 +1,9 @@
 """Packages that read recordings: loaded when a file needs them, and their errors as sentences."""
 
+import gc
 import logging
+import sys
+import traceback
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -21,15 +24,17 @@ def library(name: str, form: str, path: Path) -> Any:
     ------
     InputError : it is not installed; which extra to install.
     """
-    for logger in _LOUD:
-        logging.getLogger(logger).setLevel(logging.CRITICAL)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            return import_module(name)
+            module = import_module(name)
     except ImportError as error:
         expected = f"pip install 'cdpr-struct[recordings]', which brings {name.partition('.')[0]} to read it"
         raise InputError(str(path), "", form, expected) from error
+    for logger in logging.root.manager.loggerDict:
+        if logger.partition(".")[0] in _LOUD:
+            logging.getLogger(logger).setLevel(logging.CRITICAL)
+    return module
 
 
 @contextmanager
@@ -47,7 +52,20 @@ def reading(path: Path, form: str) -> Iterator[None]:
     except CdprError:
         raise
     except Exception as error:  # these packages raise whatever their parsing runs into
+        _let_go(error)
         raise damaged(path, form, error) from error
+
+
+def _let_go(error: Exception) -> None:
+    """Delete what a package left half made, which may fail once more or leave a file open: that adds nothing."""
+    hook, sys.unraisablehook = sys.unraisablehook, lambda _: None
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            traceback.clear_frames(error.__traceback__)
+            gc.collect()
+    finally:
+        sys.unraisablehook = hook
 
 
 def damaged(path: Path, form: str, error: Exception) -> InputError:

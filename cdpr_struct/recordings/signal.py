@@ -60,7 +60,11 @@ def _require(path: Path, known: Mapping[str, Channel], names: Iterable[str], sou
         if name not in known:
             all_names = list(known)
             shown = all_names[:_SHOWN] + ([f"{len(all_names) - _SHOWN} more"] if len(all_names) > _SHOWN else [])
-            expected = f"a channel of {path.name}; {known_names(name, all_names, shown)}"
+            alike = next((one for one in all_names if one.lower() == name.lower()), "")
+            meant = known_names(name, all_names, shown)
+            if alike:
+                meant = f"{alike} is perhaps meant; known are {', '.join(shown)}"
+            expected = f"a channel of {path.name}; {meant}"
             raise InputError(source, "channels", name, expected)
 
 

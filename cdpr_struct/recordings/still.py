@@ -14,7 +14,7 @@ from cdpr_struct.recordings.signal import Signal
 
 _FEWEST = 5  # samples of a window from which a speed is told
 _MOST_SAMPLES = 20_000_000
-_BLOCKS = 8  # of a stretch, from whose means the scatter of its mean is told: neighbours need not be independent
+_BLOCKS = 4  # of a stretch, from whose means the scatter of its mean is told: neighbours need not be independent
 
 
 def still_frames(measured: Measured, sampling: SamplingTable, file: str) -> Frames:
@@ -78,8 +78,8 @@ def _nothing_still(
     if found:
         how = f"the longest stretch below still_speed lasts {longest:.3g} s"
     expected = (
-        f"stretches of least_s = {sampling.least_s:g} s below still_speed = {sampling.still_speed:g}; change these under "
-        '[sampling], or take mode = "motion"'
+        f"stretches of least_s = {sampling.least_s:g} s below still_speed = {sampling.still_speed:g}; change these "
+        'under [sampling], or take mode = "motion"'
     )
     return InputError(file, "sampling", f"nothing still: {how}", expected)
 
@@ -147,6 +147,8 @@ def _variance(samples: np.ndarray) -> list[float]:
     blocks = min(_BLOCKS, len(samples) // 2)
     if blocks < 2:
         return []
+    if not np.ptp(samples, axis=0).any():
+        return [0.0]
     means = np.stack([part.mean(axis=0) for part in np.array_split(samples, blocks)])
     return [float(np.mean(means.var(axis=0, ddof=1)) / blocks)]
 

@@ -34,7 +34,7 @@ def open_universal(path: Path) -> UniversalSignals:
     InputError : a dataset that cannot be read, or no signal in time.
     """
     channels = tuple(
-        Channel(name, name, str(one.values.get("ordinate_axis_units_lab", "")).replace("NONE", "").strip(), "file")
+        Channel(name, "", str(one.values.get("ordinate_axis_units_lab", "")).replace("NONE", "").strip(), "file")
         for name, one in _signals(path)
     )
     if not channels:
