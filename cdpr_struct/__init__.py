@@ -50,6 +50,10 @@ Predictions and checks:
 Measured data:
   new_campaign              Make a campaign file and data files with the planned poses and what the simulation
                             predicts, to be filled.
+  import_recording          Make a campaign of a recording (ROS bag, MCAP, TDMS, MDF, .mat, .xlsx, CSV) and a mapping
+                            of its channels.
+  recording_channels        List the channels of a recording (bag, MCAP, TDMS, MDF, .mat, .xlsx, CSV), with a mapping
+                            file to fill in.
   load_campaign             Read a campaign file and the data files it names, all checked.
   causes                    List the causes that a diagnosis looks for, by name, those of installed packages among
                             them.
