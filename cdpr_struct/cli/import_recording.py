@@ -8,7 +8,7 @@ import typer
 
 import cdpr_struct as cs
 from cdpr_struct.cli.output import Output
-from cdpr_struct.cli.written_files import write_new
+from cdpr_struct.cli.written_files import write_new, write_new_files
 from cdpr_struct.errors import InputError
 
 NAME = "import-recording"
@@ -51,11 +51,7 @@ def run(
     if out is None:
         raise InputError("--out", "", "nothing", "give the directory for campaign.toml and the data file")
     made = cs.import_recording(recording, mapping, robot=robot, directory=out)
-    if not overwrite and (there := [name for name in made.files if (out / name).exists()]):
-        expected = "the file is there already; give another directory, or --overwrite"
-        raise InputError("--out", "", str(out / there[0]), expected)
-    for name, text in made.files.items():
-        write_new(out / name, text, overwrite)
+    write_new_files(out, made.files, overwrite)
     result = {**made.answer, "directory": str(out), "files_written": list(made.files), "warnings": list(made.warnings)}
     output.deliver(result, lambda: _text(result), dict)
     return 0
