@@ -11,6 +11,7 @@ from cdpr_struct.errors import InputError
 from cdpr_struct.recordings.channel import Channel, Piece, Recording
 from cdpr_struct.recordings.form import CALLED
 from cdpr_struct.recordings.library import library, reading
+from cdpr_struct.recordings.mdf_links import check_links
 
 _FORM = CALLED["mdf"]
 _ROWS = 100_000  # samples read at once
@@ -51,7 +52,9 @@ def _pieces(file: Any, name: str, place: _Place) -> Iterator[Piece]:
 
 
 def _open(path: Path) -> Any:
-    return library("asammdf", _FORM, path).MDF(path)
+    reader = library("asammdf", _FORM, path)
+    check_links(path, _FORM)
+    return reader.MDF(path)
 
 
 def open_mdf(path: Path) -> Mdf:

@@ -196,6 +196,18 @@ def test_a_bag_whose_database_is_gone(tmp_path, refused):
     assert "missing" in line
 
 
+@pytest.mark.parametrize("form", ["mdf", "mdf3"])
+def test_a_list_of_blocks_that_leads_back_is_refused(form, tmp_path, refused):
+    """The library would follow it without end."""
+    path, _ = FORMS[form](tmp_path)
+    data = bytearray(path.read_bytes())
+    size, links = (8, 24) if form == "mdf" else (4, 4)
+    first = int.from_bytes(data[64 + links : 64 + links + size], "little")  # of the lists of data groups
+    data[first + links : first + links + size] = first.to_bytes(size, "little")  # is the next one of itself
+    path.write_bytes(data)
+    assert f"damaged at byte {first}" in refused(path)
+
+
 def test_channels_of_other_times_make_no_rotation(tmp_path):
     import cdpr_struct as cs
 
