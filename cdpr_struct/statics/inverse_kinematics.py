@@ -28,6 +28,7 @@ from cdpr_struct.statics.stiffening import settled_stiffness
 from cdpr_struct.statics.taut_tensions import suits, taut_tensions
 from cdpr_struct.statics.unholdable_poses import (
     behind_wheels,
+    ends_within_wheels,
     half_turn_error,
     no_length_error,
     unholdable,
@@ -131,6 +132,9 @@ def inverse(
         if not allow_unheld:
             raise no_length_error(nothing)
         problem = _moved_off(problem, degenerate)
+    within = ends_within_wheels(problem.arrays, problem.arms.points)
+    if within.any() and not allow_unheld:
+        raise half_turn_error(arrays, within)
     solution = _solve(problem)
     if arrays.has_tension_winches:
         problem, solution = _with_winches(problem, solution)
