@@ -55,8 +55,8 @@ def frame_give(point: OperatingPoint) -> FrameGive | None:
         directions = [_leant(point, wheel, tangent), across]
         gives.append(arrays.pulley_radius * wheel.half_tangent / tension)
         least.append(short / tension)
-    stacked = (np.stack(np.broadcast_arrays(*parts), axis=-1) for parts in (directions, gives, least))
-    return FrameGive(*stacked, _weight_let_out(point))
+    ways, given, none = (np.stack(np.broadcast_arrays(*parts), axis=-1) for parts in (directions, gives, least))
+    return FrameGive(ways, given, none, _weight_let_out(point))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
