@@ -213,3 +213,9 @@ def test_a_run_goes_on_after_a_line_that_was_cut_short(tmp_path, monkeypatch, ca
     assert "| all | 2 |" in summary(list(running.read(file).values()))
     with pytest.raises(SystemExit):
         running.main(["--seeds", "two", "--out", str(tmp_path)])
+
+
+def test_a_cable_that_ends_within_its_wheel_is_refused_with_that_reason():
+    case = drawn(1280)  # chords of 10 m, wheels of 11 m; before: "not converged" after 15 s
+    with pytest.raises(cs.UnholdablePoseError, match=r"cable 4 .* behind or within the wheel"):
+        cs.inverse(case.robot, case.pose)
