@@ -158,7 +158,7 @@ def test_faulty_samples_are_left_out_if_that_is_asked(log, tmp_path, capsys):
         ("log.mcap", b"\x89MCAP0\r\n" + bytes(90), ["an MCAP file that cannot be read"]),
         ("log.db3", b"SQLite format 3\0" + bytes(90), ["a ROS 2 bag (SQLite) that cannot be read"]),
         ("log.tdms", b"TDSm" + bytes(90), ["a TDMS file"]),
-        ("log.mf4", b"MDF     4.10    " + bytes(90), ["an MDF file that cannot be read"]),
+        ("log.mf4", b"MDF     4.10    " + bytes(90), ["an MDF file whose lists of blocks are damaged at byte 64"]),
         ("log.mat", b"MATLAB 5.0 MAT-file".ljust(124) + b"\0\1IM" + b"\7" * 90, ["a MATLAB file that cannot be read"]),
         ("log.mat", b"MATLAB 7.3 MAT-file".ljust(512) + bytes(90), ["a MATLAB file (v7.3) that cannot be read"]),
         ("log.xlsx", b"PK\3\4" + bytes(90), ["an Excel workbook that cannot be read"]),

@@ -12,7 +12,7 @@ from cdpr_struct.recordings import text_table
 from cdpr_struct.recordings.mapping import UNFILLED
 from tests.recordings.written import COLUMNS, FORMS, LENGTHS, PLACE, QUATERNION, TENSIONS, TIME, text
 
-SINGLE = 2e-6  # of a quantity's size: universal files have single precision
+WRITTEN = 1e-9  # relative: campaigns have ten digits
 PACKAGES = {
     "workbook": "openpyxl", "matlab_hdf": "h5py", "tdms": "nptdms", "mdf": "asammdf", "ros1": "rosbags.highlevel",
     "mcap": "rosbags.highlevel",
@@ -28,14 +28,20 @@ def test_every_form_gives_the_campaign_that_was_written(form, tmp_path):
     path, mapping = FORMS[form](tmp_path)
     made = cs.import_recording(path, mapping, directory=tmp_path / "campaign")
     got = table(made)
-    tolerance = SINGLE if form == "universal" else 1e-9
     np.testing.assert_allclose(got.time_s - got.time_s[0], TIME, atol=1e-6)
-    np.testing.assert_allclose(got[["x_m", "y_m", "z_m"]], PLACE, atol=4 * tolerance)
-    np.testing.assert_allclose(got[["qx", "qy", "qz", "qw"]], QUATERNION, atol=2 * tolerance)
-    np.testing.assert_allclose(got[[f"length_{i}_m" for i in range(1, 9)]], LENGTHS, rtol=tolerance)
-    np.testing.assert_allclose(got[[f"tension_{i}_N" for i in range(1, 9)]], TENSIONS, rtol=tolerance)
+    np.testing.assert_allclose(got[["x_m", "y_m", "z_m"]], PLACE, atol=2e-9)
+    np.testing.assert_allclose(got[["qx", "qy", "qz", "qw"]], QUATERNION, atol=2e-9)
+    np.testing.assert_allclose(got[[f"length_{i}_m" for i in range(1, 9)]], LENGTHS, rtol=WRITTEN)
+    np.testing.assert_allclose(got[[f"tension_{i}_N" for i in range(1, 9)]], TENSIONS, rtol=WRITTEN)
     assert made.campaign.states.has_length.all()
     assert made.warnings == ()
+
+
+def test_a_scale_that_is_off_is_seen(tmp_path):
+    path, mapping = FORMS["text"](tmp_path)
+    mapping["lengths"]["factor"] = 1.0 + 1e-8
+    got = table(cs.import_recording(path, mapping))
+    assert np.abs(got[[f"length_{i}_m" for i in range(1, 9)]] / LENGTHS - 1.0).to_numpy().max() > 1e-9
 
 
 @pytest.mark.parametrize("form", FORMS)
