@@ -12,7 +12,7 @@ from cdpr_struct.recordings.measured import Measured, Turning
 from cdpr_struct.recordings.signal import Signal
 
 _GAP = 5.0  # median steps of a channel: a longer step is a gap, unless the mapping says otherwise
-MOST = 200_000  # states of a campaign
+MOST = 20_000  # states of a campaign
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -88,7 +88,7 @@ def altered(name: str, place: int, value: object) -> dict[str, list]:
         ('mode = "motion"', 'mode = "moving"', ["sampling.mode", "'moving'", "'still', 'motion'"]),
         ('mode = "motion"', 'mode = "motion"\nspan = [30, 60]', ["sampling.span", "cover 0 to 11.9 s"]),
         ('mode = "motion"', 'mode = "motion"\nspan = [6, 3]', ["sampling.span", "a later end"]),
-        ('mode = "motion"', 'mode = "motion"\nrate_hz = 1e9', ["frames", "at most 200000"]),
+        ('mode = "motion"', 'mode = "motion"\nrate_hz = 1e9', ["frames", "at most 20000"]),
         ('mode = "motion"', 'mode = "still"\nstill_speed = 1e-9\nleast_s = 9', ["nothing still", "still_speed"]),
         ('mode = "motion"', 'mode = "still"\nleast_s = 90', ["11.9 s", "at least", "least_s is 90"]),
         ("[sampling]", TURNING.replace("wxyz", "wxyy") + "[sampling]",

@@ -17,7 +17,7 @@ import cdpr_struct as cs
 from tests.fuzz.judging import judged
 from tests.recordings.written import FORMS
 
-FEW, MANY = 4, 60
+FEW, MANY = 1, 60
 _LARGE = (b"\xff\xff\xff\xff", b"\0\0\0\0", b"\x7f\xff\xff\xff", b"\xff\xff\xff\x7f", b"nan", b",,", b"\r\n", b"1e999")
 
 
