@@ -8,7 +8,9 @@ import numpy as np
 
 from cdpr_struct.errors import NOTHING, InputError, known_names
 from cdpr_struct.measurement.assumed_angles import ANGLES
+from cdpr_struct.measurement.ambient_columns import ambient_channels, ambient_known
 from cdpr_struct.measurement.cable_columns import EITHER, LENGTH, QUANTITIES
+from cdpr_struct.measurement.campaign import AMBIENT
 from cdpr_struct.measurement.column_names import renaming
 from cdpr_struct.measurement.data_table import DataTable, read_table
 from cdpr_struct.measurement.quaternions import QUATERNION, quaternion_headings, with_angles
@@ -26,6 +28,7 @@ _NEEDED: dict[str, tuple[str, ...]] = {
     "frf": ("frequency_hz", "real", "imag", "respond", "excite"),
     "free_decay": ("time_s", "ax", "ay", "az"),
     "platform_motion": ("x_m", "y_m", "z_m", "time_s"),
+    AMBIENT: ("time_s",),
 }
 _ALSO: dict[str, tuple[str, ...]] = {
     "static_state": ("tension_N", "length_m"),
@@ -99,7 +102,8 @@ def read_rows(kind: str, path: Path, cables: int, planned: bool = False, relativ
     rows = Rows(kind, str(path), with_angles(str(path), numbers), words, headings=quaternion_headings(numbers))
     _check_values(rows, cables)
     if "case" not in words:
-        words["case"] = [path.stem] * len(rows) if kind == "platform_motion" else _cases_from_poses(rows)
+        named = kind == "platform_motion" or (kind == AMBIENT and not set(POSITION) & set(names))
+        words["case"] = [path.stem] * len(rows) if named else _cases_from_poses(rows)
     return _long(rows, cables) if wide else rows
 
 
@@ -168,6 +172,8 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
             raise InputError(source, "header", f"no name for column {number}", expected)
         if name not in known:
             raise InputError(source, name, "a column", _unknown(kind, name, known, cables))
+    if kind == AMBIENT and not ambient_channels(columns):
+        raise InputError(source, "column ax", NOTHING, "at least one acceleration: ax, ay, az, or a_NAME of a sensor")
     if kind == "static_state" and not is_wide(kind, columns) and not {"tension_N", "length_m"} & set(columns):
         raise InputError(source, "column tension_N", NOTHING, "give tension_N or length_m or both")
 
@@ -188,6 +194,8 @@ def _needs(kind: str, columns: Sequence[str], cables: int) -> str:
 
 def _known(kind: str, columns: Sequence[str], cables: int) -> list[str]:
     """Columns that a file of this kind and form may have."""
+    if kind == AMBIENT:
+        return ambient_known(columns)
     own = [name for q in QUANTITIES.get(kind, ()) for name in q.columns(cables)]
     if is_wide(kind, columns):
         return [*_ALWAYS, *_WIDE_ALSO[kind], *own]

@@ -1,0 +1,27 @@
+"""What a campaign says about the analysis of an ambient record; what it leaves open is chosen by the analysis."""
+
+from dataclasses import dataclass
+
+from cdpr_struct.errors import InputError
+
+
+@dataclass(frozen=True, slots=True)
+class AmbientChoice:
+    """The user's choice.
+
+    band        : lowest and highest frequency [Hz], None: what the record shows
+    order       : number of states of the model whose poles are taken, None: poles that are stable over many orders
+    frequencies : [Hz] of the modes wanted, (): all
+    """
+
+    band: tuple[float, float] | None = None
+    order: int | None = None
+    frequencies: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.band is not None and not 0.0 <= self.band[0] < self.band[1]:
+            raise InputError("band_hz", "", list(self.band), "two frequencies in Hz, the lower one first")
+        if self.order is not None and (self.order < 2 or self.order % 2):
+            raise InputError("order", "", self.order, "an even number of states: two for each mode, and more for noise")
+        if any(not f > 0.0 for f in self.frequencies):
+            raise InputError("frequencies_hz", "", list(self.frequencies), "frequencies in Hz above zero")
