@@ -86,6 +86,7 @@ if TYPE_CHECKING:
         UnholdablePoseError,
         UnstableEquilibriumError,
     )
+    from cdpr_struct.interface.ambient import ambient
     from cdpr_struct.interface.audit import audit
     from cdpr_struct.interface.cable import cable
     from cdpr_struct.interface.campaigns import causes, load_campaign
@@ -137,6 +138,7 @@ _HOMES = {
     "interface.distribute": ("distribute",),
     "interface.export": ("export",),
     "interface.campaigns": ("load_campaign", "causes"),
+    "interface.ambient": ("ambient",),
     "interface.diagnose": ("diagnose",),
     "interface.plan": ("plan",),
     "interface.reproduce": ("reproduce",),
@@ -171,6 +173,7 @@ __all__ = [
     "UnholdablePoseError",
     "UnstableEquilibriumError",
     "__version__",
+    "ambient",
     "audit",
     "cable",
     "causes",

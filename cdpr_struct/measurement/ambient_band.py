@@ -51,7 +51,9 @@ def band_of(spectrum: Spectrum, choice: AmbientChoice, step: float, count: int) 
         expected += f", or frequencies up to {highest:.4g} Hz"
         raise InputError("sampling rate", "", f"{1.0 / step:.4g} Hz", expected)
     if asked and 0.0 < min(asked) < lowest * (1.0 - 1e-9):
-        expected = f"{PERIODS / min(asked):.4g} s or more for modes from {min(asked):g} Hz: {PERIODS:g} of their periods"
+        expected = (
+            f"{PERIODS / min(asked):.4g} s or more for modes from {min(asked):g} Hz: {PERIODS:g} of their periods"
+        )
         raise InputError("duration", "", f"{step * count:.4g} s", expected)
     if choice.band is not None:
         return max(choice.band[0], lowest), choice.band[1]

@@ -1,6 +1,8 @@
 """What a campaign says about the analysis of an ambient record; what it leaves open is chosen by the analysis."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from cdpr_struct.errors import InputError
 
@@ -25,3 +27,24 @@ class AmbientChoice:
             raise InputError("order", "", self.order, "an even number of states: two for each mode, and more for noise")
         if any(not f > 0.0 for f in self.frequencies):
             raise InputError("frequencies_hz", "", list(self.frequencies), "frequencies in Hz above zero")
+
+
+def given_choice(ambient: bool, given: Mapping[str, Any], source: str, place: str) -> list[AmbientChoice]:
+    """The choice that a measurement of a campaign file makes, by the names of its keys; none of data of another kind.
+
+    ambient : whether it is a file of ambient records;  place : of the measurement in the campaign file
+
+    Raises
+    ------
+    InputError : such a key beside other data, or a value that makes no sense.
+    """
+    if not ambient:
+        for name, value in given.items():
+            if value is not None:
+                raise InputError(source, f"{place}.{name}", value, 'this key beside kind = "ambient" only')
+        return []
+    band = given["band_hz"]
+    try:
+        return [AmbientChoice(band and (band[0], band[1]), given["order"], tuple(given["frequencies_hz"] or ()))]
+    except InputError as error:
+        raise InputError(source, f"{place}.{error.source}", error.value, error.expected) from error

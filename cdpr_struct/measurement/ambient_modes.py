@@ -136,7 +136,9 @@ def _wanted(about: Scatter, good: np.ndarray, choice: AmbientChoice) -> np.ndarr
         off[kept] = np.inf
         if not off.size or off.min() > _WANTED:
             near = ", ".join(f"{f:.4g}" for f in np.sort(about.hertz[good])) or "none"
-            raise InputError("frequencies_hz", "", hertz, f"a frequency that a stable pole is near; there are {near} Hz")
+            raise InputError(
+                "frequencies_hz", "", hertz, f"a frequency that a stable pole is near; there are {near} Hz"
+            )
         kept.append(int(off.argmin()))
     return np.array(kept, dtype=int)
 

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError, not_utf8
 from cdpr_struct.measurement.ambient_cases import ambient_notes, join_ambient
-from cdpr_struct.measurement.ambient_choice import AmbientChoice
+from cdpr_struct.measurement.ambient_choice import AmbientChoice, given_choice
 from cdpr_struct.measurement.assumed_angles import angle_note
 from cdpr_struct.measurement.campaign import AMBIENT, UNKNOWN_ZERO, Campaign, Sheet, Sigmas, States, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
@@ -35,7 +35,13 @@ from cdpr_struct.robot.robot_file import (
 from cdpr_struct.robot.toml_text import toml_table
 
 Kind = Literal[
-    "static_state", "loaded_pose", "cable_frequency", "robot_frequency", "frf", "free_decay", "platform_motion",
+    "static_state",
+    "loaded_pose",
+    "cable_frequency",
+    "robot_frequency",
+    "frf",
+    "free_decay",
+    "platform_motion",
     "ambient",
 ]
 
@@ -261,23 +267,9 @@ def _rows(entry: MeasurementTable, source: Path, number: int, cables: int, plann
 
 
 def _choice(entry: MeasurementTable, source: Path, number: int) -> list[AmbientChoice]:
-    """What a file of ambient records is to be analysed for; nothing of another file.
-
-    Raises
-    ------
-    InputError : such a choice for data that are not ambient records, or one that makes no sense.
-    """
+    """What a file of ambient records is to be analysed for; nothing of another file."""
     given = {name: getattr(entry, name) for name in ("band_hz", "order", "frequencies_hz")}
-    for name, value in given.items():
-        if entry.kind != AMBIENT and value is not None:
-            raise InputError(str(source), f"measurement[{number}].{name}", value, f"{name} beside kind = \"{AMBIENT}\" only")
-    if entry.kind != AMBIENT:
-        return []
-    band = None if entry.band_hz is None else (entry.band_hz[0], entry.band_hz[1])
-    try:
-        return [AmbientChoice(band, entry.order, tuple(entry.frequencies_hz or ()))]
-    except InputError as error:
-        raise InputError(str(source), f"measurement[{number}].{error.source}", error.value, error.expected) from error
+    return given_choice(entry.kind == AMBIENT, given, str(source), f"measurement[{number}]")
 
 
 def _sigmas(entry: MeasurementTable) -> Sigmas:

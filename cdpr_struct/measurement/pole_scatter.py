@@ -34,9 +34,7 @@ class Scatter:
         return Scatter(*(getattr(self, part.name)[index] for part in fields(self)))
 
 
-def scatter(
-    whole: Hankel, found: Poles, chosen: Sequence[Track], step: float, duration: float, every: int
-) -> Scatter:
+def scatter(whole: Hankel, found: Poles, chosen: Sequence[Track], step: float, duration: float, every: int) -> Scatter:
     """Scatter of tracks of poles found in the whole record, each of which has poles at multiples of the order `every`.
 
     step : between samples [s];  duration : of the record [s]
