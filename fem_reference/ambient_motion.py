@@ -1,4 +1,4 @@
-"""Accelerations of the platform under random forces: modal equations, integrated exactly between the samples of the force."""
+"""Accelerations of the platform under random forces: modal equations, exact between samples of the force."""
 
 from __future__ import annotations
 

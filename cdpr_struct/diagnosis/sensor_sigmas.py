@@ -21,7 +21,8 @@ _POSE = ("position_m", "rotation_deg")
 _NEEDED = {
     "static_state": ("tension_N", "length_m", *_POSE), "loaded_pose": ("length_m", *_POSE),
     "cable_frequency": ("frequency_hz", *_POSE), "robot_frequency": ("frequency_hz", *_POSE),
-    "frf": ("frequency_hz",), "free_decay": ("frequency_hz",), "platform_motion": ("frequency_hz", *_POSE), AMBIENT: ("frequency_hz",),
+    "frf": ("frequency_hz",), "free_decay": ("frequency_hz",), "platform_motion": ("frequency_hz", *_POSE),
+    AMBIENT: ("frequency_hz",),
 }  # fmt: skip
 _RANGE = {"position_m": (1e-6, 0.05), "rotation_deg": (1e-5, 5.0), "length_m": (1e-6, 0.05)}
 _SHARE = {"tension_N": (1e-5, 0.3), "frequency_hz": (1e-6, 0.2)}  # of the median reading

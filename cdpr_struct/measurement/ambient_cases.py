@@ -41,7 +41,8 @@ def join_ambient(gathering: Gathering, choices: Sequence[AmbientChoice]) -> tupl
 def ambient_notes(found: Sequence[AmbientRecord]) -> tuple[str, ...]:
     """Sentences on records that show no mode."""
     return tuple(
-        f"Ambient record {one.case} adds no frequency: no pole between {one.band[0]:.3g} and {one.band[1]:.3g} Hz is stable."
+        f"Ambient record {one.case} adds no frequency: no pole between {one.band[0]:.3g} and {one.band[1]:.3g} Hz is "
+        "stable."
         for one in found
         if not len(one.modes)
     )

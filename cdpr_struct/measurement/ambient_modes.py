@@ -1,25 +1,26 @@
-"""Modes in accelerations that unknown random forces keep up: stable poles, their scatter over blocks, and a check by halves."""
+"""Modes in accelerations under unknown random forces: stable poles, their scatter over blocks, a check by halves."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.measurement.ambient_choice import AmbientChoice
-from cdpr_struct.measurement.pole_tracks import Track, tracks
-from cdpr_struct.measurement.pole_scatter import Scatter, scatter
 from cdpr_struct.errors import InputError
+from cdpr_struct.measurement.ambient_choice import AmbientChoice
+from cdpr_struct.measurement.pole_scatter import Scatter, scatter
+from cdpr_struct.measurement.pole_tracks import Track, tracks
 from cdpr_struct.measurement.subspace_poles import Poles, hankel, poles
 
 BLOCKS = 20  # contiguous parts of a record whose scatter gives sigmas
-MOST_ORDER = 120  # states
-EVERY = 8  # states between the orders over whose poles a mode is averaged
+MOST_ORDER = 100  # states
+EVERY = 10  # states between the orders over whose poles a mode is averaged
 LEAST_ORDERS = 8  # in a row at which the poles of a mode are stable
-LEAST_ASKED = 4  # the same of a mode that the user asks for
+LEAST_ASKED = 5  # the same of a mode that the user asks for
 _SIZE = 360  # rows of the Hankel matrix, about
-_FEWEST_ROWS, _MOST_ROWS = 20, 80  # block rows
+_FEWEST_ROWS, _MOST_ROWS = 20, 60  # block rows
 _LARGEST_SIGMA = 0.01  # of a frequency: a pole less certain is no mode
+_LARGEST_RATIO = 10.0  # the same in units of the least that a mode of its damping can have
 _FOUND = 0.8  # of the blocks without which a mode must still be found
-_ALIKE, SPLIT = 2.0, 0.2  # sigmas and 1 - assurance within which two tracks are one mode
+_ALIKE, _SPLIT = 2.0, 0.2  # sigmas and 1 - assurance within which two tracks are one mode
 _WANTED = 0.05  # of a frequency asked for: how far its mode may be
 
 
@@ -71,12 +72,11 @@ def ambient_modes(signal: np.ndarray, step: float, choice: AmbientChoice) -> tup
     spread = signal.std(axis=0)
     rows = block_rows(signal.shape[1])
     whole = hankel((signal - signal.mean(axis=0)) / spread, rows, BLOCKS)
-    most = min(MOST_ORDER, rows * signal.shape[1] // 2) if choice.order is None else choice.order
-    found = poles(whole.matrix, rows, most - most % 2, step)
+    found = poles(whole.matrix, rows, _most(rows * signal.shape[1] // 2, choice), step)
     all_tracks = tracks(found)
     candidates = _candidates(found, all_tracks, choice)
     about = scatter(whole, found, candidates, step, step * len(signal), choice.order or EVERY)
-    kept = _kept(found, candidates, about, choice)
+    kept = _kept(found, candidates, about, step * len(signal), choice)
     modes = _modes(found, [candidates[i] for i in kept], about.take(kept), spread)
     return modes, _diagram(found, all_tracks, [candidates[i] for i in kept])
 
@@ -84,6 +84,18 @@ def ambient_modes(signal: np.ndarray, step: float, choice: AmbientChoice) -> tup
 def block_rows(channels: int) -> int:
     """Block rows of the Hankel matrix: lags up to twice as many samples are used."""
     return int(np.clip(_SIZE // channels, _FEWEST_ROWS, _MOST_ROWS))
+
+
+def _most(largest: int, choice: AmbientChoice) -> int:
+    """Highest model order: the user's, or as many as there are or are useful.
+
+    Raises
+    ------
+    InputError : an order above what the channels allow.
+    """
+    if choice.order is not None and choice.order > largest:
+        raise InputError("order", "", choice.order, f"at most {largest} with so many channels")
+    return choice.order or min(MOST_ORDER, largest - largest % 2)
 
 
 def _candidates(found: Poles, all_tracks: list[Track], choice: AmbientChoice) -> list[Track]:
@@ -96,13 +108,14 @@ def _candidates(found: Poles, all_tracks: list[Track], choice: AmbientChoice) ->
     return [t for t in all_tracks if len(t) >= least and (found.order[t.order] % EVERY == 0).any()]
 
 
-def _kept(found: Poles, candidates: list[Track], about: Scatter, choice: AmbientChoice) -> np.ndarray:
+def _kept(found: Poles, candidates: list[Track], about: Scatter, duration: float, choice: AmbientChoice) -> np.ndarray:
     """Numbers of the candidates that are modes, by frequency."""
     low, high = (0.0, np.inf) if choice.band is None else choice.band
     good = (about.hertz >= low) & (about.hertz <= high)
     if choice.frequencies:
         return _wanted(about, good, choice)
-    good &= (about.hertz_sigma < _LARGEST_SIGMA * about.hertz) & (about.found >= _FOUND) & np.isfinite(about.halves)
+    good &= about.hertz_sigma < np.minimum(_LARGEST_SIGMA * about.hertz, _LARGEST_RATIO * _least_sigma(about, duration))
+    good &= (about.found >= _FOUND) & np.isfinite(about.halves)
     kept: list[int] = []
     for i in sorted(np.flatnonzero(good).tolist(), key=lambda i: -len(candidates[i])):
         if not any(_same(found, (candidates[i], candidates[k]), about.take(np.array([i, k]))) for k in kept):
@@ -110,11 +123,17 @@ def _kept(found: Poles, candidates: list[Track], about: Scatter, choice: Ambient
     return np.array(sorted(kept, key=lambda i: float(about.hertz[i])), dtype=int)
 
 
+def _least_sigma(about: Scatter, duration: float) -> np.ndarray:
+    """(k,) sigma of a frequency [Hz] that no method can go below (Gersch, 1974), in a record without noise."""
+    ratio = np.maximum(about.damping, 1e-6)
+    return np.asarray(about.hertz * np.sqrt(ratio / (4.0 * np.pi * about.hertz * duration)))
+
+
 def _same(found: Poles, two: tuple[Track, Track], about: Scatter) -> bool:
     """Whether two tracks are one mode, whose pole splits at some orders: alike in frequency and shape."""
     one, other = (_shape(found, track) for track in two)
     near = abs(about.hertz[0] - about.hertz[1]) < _ALIKE * np.hypot(*about.hertz_sigma)
-    return bool(near and abs(np.vdot(one, other)) ** 2 > 1.0 - SPLIT)
+    return bool(near and abs(np.vdot(one, other)) ** 2 > 1.0 - _SPLIT)
 
 
 def _shape(found: Poles, track: Track) -> np.ndarray:
@@ -130,7 +149,7 @@ def _wanted(about: Scatter, good: np.ndarray, choice: AmbientChoice) -> np.ndarr
     ------
     InputError : one that no stable pole is near.
     """
-    kept = []
+    kept: list[int] = []
     for hertz in sorted(choice.frequencies):
         off = np.where(good, np.abs(about.hertz / hertz - 1.0), np.inf)
         off[kept] = np.inf

@@ -1,4 +1,4 @@
-"""Ambient records of a campaign: checked, analysed in their band, and their modes with the diagram they were chosen from."""
+"""Ambient records of a campaign: checked, and analysed in their band for modes."""
 
 from dataclasses import dataclass, replace
 

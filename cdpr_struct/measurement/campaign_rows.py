@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from cdpr_struct.errors import NOTHING, InputError, known_names
-from cdpr_struct.measurement.assumed_angles import ANGLES
 from cdpr_struct.measurement.ambient_columns import ambient_channels, ambient_known
+from cdpr_struct.measurement.assumed_angles import ANGLES
 from cdpr_struct.measurement.cable_columns import EITHER, LENGTH, QUANTITIES
 from cdpr_struct.measurement.campaign import AMBIENT
 from cdpr_struct.measurement.column_names import renaming
@@ -172,14 +172,14 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
             raise InputError(source, "header", f"no name for column {number}", expected)
         if name not in known:
             raise InputError(source, name, "a column", _unknown(kind, name, known, cables))
-    if kind == AMBIENT and not ambient_channels(columns):
-        raise InputError(source, "column ax", NOTHING, "at least one acceleration: ax, ay, az, or a_NAME of a sensor")
     if kind == "static_state" and not is_wide(kind, columns) and not {"tension_N", "length_m"} & set(columns):
         raise InputError(source, "column tension_N", NOTHING, "give tension_N or length_m or both")
 
 
 def _needed(kind: str, columns: Sequence[str], cables: int) -> tuple[str, ...]:
     own = _WIDE_NEEDED if is_wide(kind, columns) else _NEEDED[kind]
+    if kind == AMBIENT and not ambient_channels(columns):
+        own = (*own, "ax, ay, az or a_NAME")
     if kind in _READINGS_MAY_LACK and not set(POSITION) & set(columns):
         own = tuple(name for name in own if name not in POSITION)  # a state without a measured position
     return (*own, *(length_columns(cables) if kind == "loaded_pose" else ()))

@@ -14,12 +14,23 @@ from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 
 _MOST_PLATES = 6
 _METHOD = (
-    "Modes: stochastic subspace identification from covariances (pyOMA-2, SSI-cov) at model orders up to 120. Poles that go on "
-    "from order to order with nearly the same frequency, damping and shape are one mode. A mode is kept if it is stable over "
-    "eight orders or more, is found in both halves of the record and in most records without one block, and if its "
-    "frequency is known to 1 % or better.",
-    "Sigma: jackknife over 20 blocks of the record, larger where the halves of the record differ by more. Orders are "
-    "averaged with the weights of their own scatter.",
+    "Modes: stochastic subspace identification from covariances (pyOMA-2, SSI-cov) at model orders up to 100. "
+    "Poles that continue from order to order with nearly the same frequency, damping and shape are one mode. A "
+    "mode is kept if it is stable over eight orders or more, is found in both halves of the record and in most "
+    "records without one block, and if its frequency is known to 1 % or better.",
+    "Sigma: jackknife over 20 blocks of the record, larger where the halves of the record differ by more. Orders "
+    "are averaged with the weights of their own scatter.",
+)
+_DIAGRAM = (
+    "Poles over the model order (right). Blue: poles of the chosen modes, which stay where they are as the order "
+    "grows. Orange rings: poles that continue from order to order but were not chosen. Crosses: poles of one "
+    "order. Grey lines (left): largest singular values of the spectral density. Look for peaks of the upper line "
+    "without a column of blue poles: such a mode was not found. Two columns under one peak are two modes if the "
+    "second line has a peak there, too. Light bands: two sigma."
+)
+_TABLE = (
+    "Orders: at how many model orders the mode is stable. Halves apart: frequency in the second half of the "
+    "record less that in the first, in sigmas. robot_frequency.csv holds these frequencies as measured data."
 )
 
 
@@ -49,7 +60,7 @@ def diagram_columns(records: Sequence[AmbientRecord]) -> dict[str, Any]:
 
 def ambient_plates(records: Sequence[AmbientRecord]) -> list[Plate]:
     """Stabilisation diagrams of the first records."""
-    return [_plate(f"stabilisation-{i + 1}", record) for i, record in enumerate(records[:_MOST_PLATES])]
+    return [_plate(f"stabilisation_{i + 1}", record) for i, record in enumerate(records[:_MOST_PLATES])]
 
 
 def _plate(name: str, record: AmbientRecord) -> Plate:
@@ -57,11 +68,7 @@ def _plate(name: str, record: AmbientRecord) -> Plate:
         name,
         f"Stabilisation diagram of {record.case}",
         Drawing(name, figures.SIZE, lambda f: figures.draw_stabilisation(f, record)),
-        "Poles over the model order (right). Blue: poles of the chosen modes, which stay where they are as the order grows. "
-        "Orange rings: poles that continue from order to order but were not chosen. Crosses: poles of one order. Grey "
-        "lines (left): largest singular values of the spectral density. Look for peaks of the upper line without a "
-        "column of blue poles: such a mode was not found. Two columns under one peak are two modes if the second line "
-        "has a peak there, too. Light bands: two sigma.",
+        _DIAGRAM,
     )
 
 
@@ -82,9 +89,3 @@ def _page(result: Mapping[str, Any], records: Sequence[AmbientRecord]) -> Page:
         tables=[HtmlTable("Modes", HEAD, mode_rows(result), _TABLE)],
         notes=[("How it was computed", _METHOD)],
     )
-
-
-_TABLE = (
-    "Orders: at how many model orders the mode is stable. Halves apart: frequency in the second half of the record less that "
-    "in the first, in sigmas. robot_frequency.csv holds these frequencies as measured data."
-)

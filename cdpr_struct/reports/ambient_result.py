@@ -54,15 +54,17 @@ def ambient_trust(records: Sequence[AmbientRecord]) -> Trust:
     periods = min((float(r.modes.hertz[0] * r.duration) for r in records if len(r.modes)), default=0.0)
     apart = max((float(np.nanmax(np.abs(r.modes.halves), initial=0.0)) for r in records), default=0.0)
     without = [r.case for r in records if not len(r.modes)]
-    short = f"The shortest record holds {periods:.0f} periods of its lowest mode, fewer than {_PERIODS:.0f}: measure longer."
+    short = f"A record holds {periods:.0f} periods of its lowest mode, fewer than {_PERIODS:.0f}: measure longer."
     moved = f"A frequency differs by {apart:.1f} sigma between the halves of a record: the robot or its load changed."
-    return Trust(
-        (
-            Check.of("records without a stable mode", len(without), 0.0, None if not without else _none(without)),
-            Check.of("periods of the lowest mode", periods, _PERIODS, short if periods < _PERIODS else None, at_least=True, note=True),
-            Check.of("difference between the halves of a record", apart, _APART, moved if apart > _APART else None, "sigma"),
-        )
+    checks = (
+        Check.of("records without a stable mode", len(without), 0.0, _none(without) if without else None),
+        Check.of(
+            "periods of the lowest mode", periods, _PERIODS, short if periods < _PERIODS else None, at_least=True,
+            note=True,
+        ),
+        Check.of("change between halves of a record", apart, _APART, moved if apart > _APART else None, "sigma"),
     )  # fmt: skip
+    return Trust(checks)
 
 
 def _none(without: Sequence[str]) -> str:
