@@ -134,10 +134,10 @@ def load_campaign(
     gathering = Gathering(len(robot.cables))
     sheets, cases, choices = [], {}, []
     for number, entry in enumerate(table.measurement, start=1):
+        choices += _choice(entry, source, number)
         rows, sigmas = _rows(entry, source, number, len(robot.cables), planned, relative), _sigmas(entry)
         gathering.add(rows, sigmas)
         cases[entry.file] = rows.words.get("case", [])
-        choices += _choice(entry, source, number)
         sheets.append(_sheet(entry, rows, sigmas))
     _check_poses(gathering)
     check_scale(str(path), robot, _absolute(gathering.states(), relative))
