@@ -45,6 +45,8 @@ Predictions and checks:
   limits                    Try the printed validity limits themselves against the catenary and the FEM (`audit
                             --limits`).
   distribute                Distribute cable forces of least cost along a trajectory, above a lower bound.
+  ambient                   Identify natural frequencies and damping ratios in a campaign's records of vibration under
+                            unknown forces.
   reproduce                 Recompute tables and figures of the thesis and show the deviations.
 
 Measured data:

@@ -21,7 +21,7 @@ from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.inverse_kinematics import inverse
 
 POSITION = np.array([0.4, 0.3, 0.6])  # m
-PLACES = np.array([[0.0, 0.0, 0.0], [0.12, 0.09, 0.1]])  # of the two sensors on the platform [m]
+CORNER = np.array([0.12, 0.09, 0.1])  # m, of the second sensor, upright
 MINUTES, RATE = 2.0, 25.0  # of the record, Hz
 FORCE, MOMENT, NOISE = 1.0, 0.1, 2e-3  # N, N m, m/s^2: one sigma of the wind, and of the sensors
 INERTIA, DAMPING, ELEMENTS, MODES, SEED = 1.25, 0.005, 20, 90, 4
@@ -42,18 +42,18 @@ def main(directory: Path, minutes: float = MINUTES) -> None:
     states.to_csv(directory / "states.csv", index=False)
     force, count = np.repeat([FORCE, MOMENT], 3), round(60.0 * minutes * RATE)
     seen = fem.ambient_record(
-        fem.robot_modes(mesh, MODES), DAMPING, force, sensors(PLACES), RATE, count, generator
+        fem.robot_modes(mesh, MODES), DAMPING, force, sensors(), RATE, count, generator
     )  # fmt: skip
     seen = seen + generator.normal(0.0, NOISE, seen.shape)
-    table = pd.DataFrame(seen.round(4), columns=["ax", "ay", "az", "ax_2", "ay_2", "az_2"])
+    table = pd.DataFrame(seen.round(4), columns=["ax", "ay", "az", "az_corner"])
     table.insert(0, "time_s", (np.arange(count) / RATE).round(4))
     table.insert(0, "case", "calm")
     table.to_csv(directory / "ambient.csv", index=False)
 
 
-def sensors(places: np.ndarray) -> np.ndarray:
-    """(3 p, 6) what accelerometers of three axes read of the platform's motion, at places (p, 3) from its origin."""
-    return np.array([[*axis, *np.cross(place, axis)] for place in places for axis in np.eye(3)])
+def sensors() -> np.ndarray:
+    """(4, 6) what the accelerometers read of the platform's motion: three axes at its origin, one at its corner."""
+    return np.vstack([np.eye(3, 6), [*np.eye(3)[2], *np.cross(CORNER, np.eye(3)[2])]])
 
 
 if __name__ == "__main__":
