@@ -149,6 +149,7 @@ def _wanted(about: Scatter, good: np.ndarray, choice: AmbientChoice) -> np.ndarr
     ------
     InputError : one that no stable pole is near.
     """
+    good = good & (about.found >= _FOUND)
     kept: list[int] = []
     for hertz in sorted(choice.frequencies):
         off = np.where(good, np.abs(about.hertz / hertz - 1.0), np.inf)

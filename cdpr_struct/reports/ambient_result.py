@@ -52,7 +52,7 @@ def record_json(one: AmbientRecord) -> dict[str, Any]:
 def ambient_trust(records: Sequence[AmbientRecord]) -> Trust:
     """Whether records are long enough, and steady."""
     periods = min((float(r.modes.hertz[0] * r.duration) for r in records if len(r.modes)), default=0.0)
-    apart = max((float(np.nanmax(np.abs(r.modes.halves), initial=0.0)) for r in records), default=0.0)
+    apart = max((float(np.nan_to_num(np.abs(r.modes.halves)).max(initial=0.0)) for r in records), default=0.0)
     without = [r.case for r in records if not len(r.modes)]
     short = f"A record holds {periods:.0f} periods of its lowest mode, fewer than {_PERIODS:.0f}: measure longer."
     moved = f"A frequency differs by {apart:.1f} sigma between the halves of a record: the robot or its load changed."
@@ -90,7 +90,8 @@ def mode_rows(result: Mapping[str, Any]) -> list[list[str]]:
         [
             one["case"], f"{mode['frequency_hz']:.4f}", f"{mode['sigma_hz']:.4f}",
             f"{100.0 * mode['sigma_hz'] / mode['frequency_hz']:.3f}", f"{100.0 * mode['damping_ratio']:.2f}",
-            f"{100.0 * mode['damping_sigma']:.2f}", str(mode["orders"]), f"{mode['halves_apart']:+.1f}",
+            f"{100.0 * mode['damping_sigma']:.2f}", str(mode["orders"]),
+            f"{mode['halves_apart']:+.1f}" if np.isfinite(mode["halves_apart"]) else "-",
         ]
         for one in result["records"]
         for mode in one["modes"]

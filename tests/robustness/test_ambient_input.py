@@ -64,7 +64,9 @@ BAD = {
     "order": (lambda t: t, "order = 7\n", ["measurement[1].order", "got 7", "even number of states"]),
     "no channel": (lambda t: t[["time_s", "x_m", "y_m", "z_m"]], "", ["ax, ay, az or a_NAME", "is missing"]),
     "misspelt channel": (lambda t: t.rename(columns={"az": "za"}), "", ["wind.csv", "za"]),
-    "two poses": (lambda t: with_value("x_m", slice(2000, None), 0.5)(t).assign(case="a"), "", ["a", "one pose a case"]),
+    "two poses": (
+        lambda t: with_value("x_m", slice(2000, None), 0.5)(t).assign(case="a"), "", ["case a", "one pose a case"],
+    ),
     "lengths": (lambda t: t.assign(length_1_m=6.0), "", ["length_1_m", "unknown for ambient"]),
 }  # fmt: skip
 

@@ -1,0 +1,65 @@
+"""The page of ambient records: whole, with the diagram that modes were chosen from; what a diagnosis makes of it."""
+
+import io
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import cdpr_struct as cs
+
+pytest.importorskip("pyoma2")
+CAMPAIGN = Path(__file__).parents[2] / "examples" / "ambient" / "campaign.toml"
+
+
+@pytest.fixture(scope="module")
+def found():
+    return cs.ambient(CAMPAIGN)
+
+
+@pytest.fixture(scope="module")
+def files(found):
+    return found.files()
+
+
+def test_page_is_whole_and_loads_nothing(files, read_page, inlined):
+    page = read_page(files["report.html"])
+    assert page.foreign == []
+    assert page.values("figure", "id") == ["stabilisation_1"]
+    assert inlined(files["stabilisation_1.svg"]) in files["report.html"]
+
+
+def test_the_diagram_holds_each_mode_at_as_many_orders_as_are_told(found, files):
+    poles = pd.read_csv(io.StringIO(files["diagram.csv"]))
+    chosen = poles[poles["mode"] > 0]
+    assert chosen["stable"].all()
+    assert chosen.groupby("mode").size().tolist() == found.frame()["orders"].tolist()
+    assert not chosen.duplicated(["mode", "order"]).any()
+    middle = chosen.groupby("mode")["frequency_hz"].median()
+    np.testing.assert_allclose(middle, found.frame()["frequency_hz"], rtol=0.01)
+
+
+def test_frequencies_are_written_as_measured_data(files, tmp_path):
+    for name in ("states.csv", "campaign.toml"):
+        (tmp_path / name).write_text((CAMPAIGN.parent / name).read_text())
+    (tmp_path / "robot_frequency.csv").write_text(files["robot_frequency.csv"])
+    text = (tmp_path / "campaign.toml").read_text().replace("ambient.csv", "robot_frequency.csv")
+    (tmp_path / "campaign.toml").write_text(text.replace('kind = "ambient"', 'kind = "robot_frequency"'))
+    listed, recorded = cs.load_campaign(tmp_path / "campaign.toml"), cs.load_campaign(CAMPAIGN)
+    for name in ("hertz", "sigma", "state"):
+        np.testing.assert_allclose(
+            getattr(listed.robot_frequencies, name), getattr(recorded.robot_frequencies, name), rtol=1e-9
+        )
+
+
+@pytest.mark.slow
+def test_a_diagnosis_finds_the_inertia_and_shows_the_diagram():
+    """25 % more inertia than entered; five seconds."""
+    diagnosed = cs.diagnose(CAMPAIGN)
+    best = diagnosed.answer["candidates"][0]
+    size = best["parameters"]["inertia"]
+    assert best["cause"] == "platform_inertia"
+    assert abs(size["value"] - 1.25) < 3.0 * size["sigma"]
+    assert len(diagnosed.to_json()["ambient"][0]["modes"]) == 10
+    assert "stabilisation_1.svg" in diagnosed.files()
