@@ -15,7 +15,8 @@ _OF_A_LIST = (-1, -1)
 
 
 def join_ambient(gathering: Gathering, choices: Sequence[AmbientChoice]) -> tuple[AmbientRecord, ...]:
-    """Identify the modes of all ambient records; all of them join the gathered frequencies.
+    """Identify the modes of all ambient records; those that are no periodic forces join the
+    gathered frequencies.
 
     choices : of each file of ambient records
 
@@ -31,20 +32,27 @@ def join_ambient(gathering: Gathering, choices: Sequence[AmbientChoice]) -> tupl
     found = identified_records(given)
     places = {name: place for place, name in enumerate(gathering.known)}
     for one in found:
-        for i, hertz in enumerate(one.modes.hertz):
+        for i in np.flatnonzero(~one.modes.periodic).tolist():
             row = len(gathering.robot_rows)
             gathering.shapes[row] = _platform_shape(one, i)
-            gathering.robot_rows.append((places[one.case], float(hertz), float(one.sigma[i]), NOT_SAID, NOT_SAID))
+            gathering.robot_rows.append(
+                (places[one.case], float(one.modes.hertz[i]), float(one.sigma[i]), NOT_SAID, NOT_SAID)
+            )
     return found
 
 
 def ambient_notes(found: Sequence[AmbientRecord]) -> tuple[str, ...]:
-    """Sentences on records that show no mode."""
-    return tuple(
+    """Sentences on records that show no mode, and on periodic forces in them."""
+    sines = tuple(
+        f"Ambient record {one.case}: {hertz:.4g} Hz is a periodic force, not a mode; it is not used."
+        for one in found
+        for hertz in one.modes.hertz[one.modes.periodic]
+    )
+    return sines + tuple(
         f"Ambient record {one.case} adds no frequency: no pole between {one.band[0]:.3g} and {one.band[1]:.3g} Hz is "
         "stable."
         for one in found
-        if not len(one.modes)
+        if one.modes.periodic.all()
     )
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.ambient_choice import AmbientChoice
+from cdpr_struct.measurement.periodic_forces import periodic_forces
 from cdpr_struct.measurement.pole_scatter import Scatter, scatter
 from cdpr_struct.measurement.pole_tracks import Track, tracks
 from cdpr_struct.measurement.subspace_poles import Poles, hankel, poles
@@ -34,6 +35,7 @@ class AmbientModes:
     orders : (k,) number of model orders at which it is stable
     halves : (k,) frequency of the second half of the record less that of the first, in its own sigmas; nan if a half
              does not show the mode
+    periodic : (k,) bool, no mode but a periodic force
     """
 
     hertz: np.ndarray
@@ -43,6 +45,7 @@ class AmbientModes:
     shape: np.ndarray
     orders: np.ndarray
     halves: np.ndarray
+    periodic: np.ndarray
 
     def __len__(self) -> int:
         return len(self.hertz)
@@ -77,7 +80,9 @@ def ambient_modes(signal: np.ndarray, step: float, choice: AmbientChoice) -> tup
     candidates = _candidates(found, all_tracks, choice)
     about = scatter(whole, found, candidates, step, step * len(signal), choice.order or EVERY)
     kept = _kept(found, candidates, about, step * len(signal), choice)
-    modes = _modes(found, [candidates[i] for i in kept], about.take(kept), spread)
+    chosen = about.take(kept)
+    periodic = periodic_forces(signal, step, chosen.hertz, chosen.damping)
+    modes = _modes(found, [candidates[i] for i in kept], chosen, spread, periodic)
     return modes, _diagram(found, all_tracks, [candidates[i] for i in kept])
 
 
@@ -163,14 +168,14 @@ def _wanted(about: Scatter, good: np.ndarray, choice: AmbientChoice) -> np.ndarr
     return np.array(kept, dtype=int)
 
 
-def _modes(found: Poles, chosen: list[Track], about: Scatter, spread: np.ndarray) -> AmbientModes:
+def _modes(found: Poles, chosen: list[Track], about: Scatter, spread: np.ndarray, periodic: np.ndarray) -> AmbientModes:
     shapes = np.zeros((len(chosen), len(spread)), dtype=complex)
     for i, track in enumerate(chosen):
         mean = _shape(found, track) * spread
         shapes[i] = mean / mean[np.abs(mean).argmax()]
     length = np.array([len(t) for t in chosen], dtype=int)
     return AmbientModes(
-        about.hertz, about.hertz_sigma, about.damping, about.damping_sigma, shapes, length, about.halves
+        about.hertz, about.hertz_sigma, about.damping, about.damping_sigma, shapes, length, about.halves, periodic
     )
 
 

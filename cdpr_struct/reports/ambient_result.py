@@ -15,7 +15,18 @@ from cdpr_struct.reports.trust_without_robot import with_trust
 _PERIODS = 1000.0  # of the lowest mode in a record: a rule of operational modal analysis
 _APART = 3.0  # sigmas between the halves of a record
 
-HEAD = ("case", "frequency [Hz]", "sigma [Hz]", "sigma [%]", "damping [%]", "sigma [%]", "orders", "halves apart")
+HEAD = (
+    "case",
+    "frequency [Hz]",
+    "sigma [Hz]",
+    "sigma [%]",
+    "damping [%]",
+    "sigma [%]",
+    "orders",
+    "halves apart",
+    "kind",
+)
+_MODE, _SINE = "mode", "periodic force"
 
 
 def ambient_json(campaign: Campaign) -> dict[str, Any]:
@@ -32,7 +43,15 @@ def record_json(one: AmbientRecord) -> dict[str, Any]:
     """One record and its modes."""
     modes, choice = one.modes, one.choice
     rows = zip(
-        modes.hertz, one.sigma, modes.damping, modes.damping_sigma, modes.orders, modes.halves, modes.shape, strict=True
+        modes.hertz,
+        one.sigma,
+        modes.damping,
+        modes.damping_sigma,
+        modes.orders,
+        modes.halves,
+        modes.shape,
+        modes.periodic,
+        strict=True,
     )
     return {
         "case": one.case, "file": one.file, "channels": list(one.channels), "duration_s": one.duration,
@@ -43,8 +62,9 @@ def record_json(one: AmbientRecord) -> dict[str, Any]:
                 "frequency_hz": float(hertz), "sigma_hz": float(sigma), "damping_ratio": float(ratio),
                 "damping_sigma": float(spread), "orders": int(orders), "halves_apart": float(halves),
                 "shape_real": shape.real, "shape_imag": shape.imag, "periods": float(hertz * one.duration),
+                "kind": _SINE if sine else _MODE,
             }
-            for hertz, sigma, ratio, spread, orders, halves, shape in rows
+            for hertz, sigma, ratio, spread, orders, halves, shape, sine in rows
         ],
     }  # fmt: skip
 
@@ -74,14 +94,18 @@ def _none(without: Sequence[str]) -> str:
 def mode_columns(result: Mapping[str, Any]) -> dict[str, Any]:
     """Columns of modes.csv, one row a mode of a record."""
     rows = [(one["case"], mode) for one in result["records"] for mode in one["modes"]]
-    keys = ("frequency_hz", "sigma_hz", "damping_ratio", "damping_sigma", "orders", "halves_apart")
+    keys = ("frequency_hz", "sigma_hz", "damping_ratio", "damping_sigma", "orders", "halves_apart", "kind")
     return {"case": [case for case, _ in rows], **{key: [mode[key] for _, mode in rows] for key in keys}}
 
 
 def frequency_columns(result: Mapping[str, Any]) -> dict[str, Any]:
     """Columns of robot_frequency.csv, a file of measured data of that kind: cases need no pose of their own."""
-    columns = mode_columns(result)
-    return {"case": columns["case"], "frequency_hz": columns["frequency_hz"], "sigma": columns["sigma_hz"]}
+    rows = [(one["case"], mode) for one in result["records"] for mode in one["modes"] if mode["kind"] == _MODE]
+    return {
+        "case": [case for case, _ in rows],
+        "frequency_hz": [mode["frequency_hz"] for _, mode in rows],
+        "sigma": [mode["sigma_hz"] for _, mode in rows],
+    }
 
 
 def mode_rows(result: Mapping[str, Any]) -> list[list[str]]:
@@ -91,7 +115,7 @@ def mode_rows(result: Mapping[str, Any]) -> list[list[str]]:
             one["case"], f"{mode['frequency_hz']:.4f}", f"{mode['sigma_hz']:.4f}",
             f"{100.0 * mode['sigma_hz'] / mode['frequency_hz']:.3f}", f"{100.0 * mode['damping_ratio']:.2f}",
             f"{100.0 * mode['damping_sigma']:.2f}", str(mode["orders"]),
-            f"{mode['halves_apart']:+.1f}" if np.isfinite(mode["halves_apart"]) else "-",
+            f"{mode['halves_apart']:+.1f}" if np.isfinite(mode["halves_apart"]) else "-", mode["kind"],
         ]
         for one in result["records"]
         for mode in one["modes"]
@@ -109,7 +133,7 @@ def ambient_sentences(result: Mapping[str, Any]) -> list[str]:
 
 
 def _sentence(one: Mapping[str, Any]) -> str:
-    count, (low, high) = len(one["modes"]), one["band_hz"]
+    count, (low, high) = sum(mode["kind"] == _MODE for mode in one["modes"]), one["band_hz"]
     return (
         f"{one['case']}: {count} mode{'' if count == 1 else 's'} between {low:.3g} and {high:.3g} Hz in "
         f"{one['duration_s']:.0f} s of {len(one['channels'])} channels."

@@ -52,6 +52,20 @@ def test_a_wrong_model_is_seen(wind, found):
     assert (np.abs(compared("six", wrong, radius, found).off) > 3.0).all()
 
 
+@pytest.mark.parametrize("size", [0.1, 1.0])
+def test_a_motor_is_no_mode(wind, found, size):
+    """A sine at 7.3 Hz, by its size in that of the vibration; without it nothing is called periodic."""
+    record = wind[1]
+    motor = size * record.signal.std() * np.sin(2.0 * np.pi * 7.3 * record.axis)[:, None]
+    modes = identified(replace(record, signal=record.signal + motor), Sigmas(), AmbientChoice()).modes
+    assert len(modes.hertz[modes.periodic]) == (size == 1.0)
+    assert np.abs(modes.hertz[modes.periodic] / 7.3 - 1.0).max(initial=0.0) < 1e-3
+    hertz = modes.hertz[~modes.periodic]
+    assert np.abs(hertz - 7.3).min() > 0.1
+    assert (np.abs(hertz[:, None] - found.modes.hertz).min(axis=0) < 2.0 * found.sigma).all()
+    assert not found.modes.periodic.any()
+
+
 def test_what_the_user_chooses_wins(wind, found):
     record, hertz = wind[1], found.modes.hertz
 
