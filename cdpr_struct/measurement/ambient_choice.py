@@ -6,6 +6,8 @@ from typing import Any
 
 from cdpr_struct.errors import InputError
 
+_KEYS = ("band_hz", "order", "frequencies_hz")
+
 
 @dataclass(frozen=True, slots=True)
 class AmbientChoice:
@@ -39,9 +41,9 @@ def given_choice(ambient: bool, given: Mapping[str, Any], source: str, place: st
     InputError : such a key beside other data, or a value that makes no sense.
     """
     if not ambient:
-        for name, value in given.items():
-            if value is not None:
-                raise InputError(source, f"{place}.{name}", value, 'this key beside kind = "ambient" only')
+        for name in _KEYS:
+            if given[name] is not None:
+                raise InputError(source, f"{place}.{name}", given[name], 'this key beside kind = "ambient" only')
         return []
     band = given["band_hz"]
     try:

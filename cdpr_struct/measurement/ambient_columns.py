@@ -20,3 +20,8 @@ def ambient_channels(columns: Sequence[str]) -> list[str]:
 def ambient_known(columns: Sequence[str]) -> list[str]:
     """Columns that an ambient record may have."""
     return [*_BESIDE, *ORIGIN, *(name for name in ambient_channels(columns) if name not in ORIGIN)]
+
+
+def ambient_needed(columns: Sequence[str]) -> tuple[str, ...]:
+    """Columns that an ambient record must have; what it lacks in place of a channel is said in words."""
+    return ("time_s",) if ambient_channels(columns) else ("time_s", "ax, ay, az or a_NAME")

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError, not_utf8
 from cdpr_struct.measurement.ambient_cases import ambient_notes, join_ambient
-from cdpr_struct.measurement.ambient_choice import AmbientChoice, given_choice
+from cdpr_struct.measurement.ambient_choice import given_choice
 from cdpr_struct.measurement.assumed_angles import angle_note
 from cdpr_struct.measurement.campaign import AMBIENT, UNKNOWN_ZERO, Campaign, Sheet, Sigmas, States, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
@@ -134,7 +134,7 @@ def load_campaign(
     gathering = Gathering(len(robot.cables))
     sheets, cases, choices = [], {}, []
     for number, entry in enumerate(table.measurement, start=1):
-        choices += _choice(entry, source, number)
+        choices += given_choice(entry.kind == AMBIENT, entry.model_dump(), str(source), f"measurement[{number}]")
         rows, sigmas = _rows(entry, source, number, len(robot.cables), planned, relative), _sigmas(entry)
         gathering.add(rows, sigmas)
         cases[entry.file] = rows.words.get("case", [])
@@ -264,12 +264,6 @@ def _rows(entry: MeasurementTable, source: Path, number: int, cables: int, plann
         expected = "no such data file; give its path as seen from the campaign file"
         raise InputError(str(source), f"measurement[{number}].file", entry.file, expected)
     return read_rows(entry.kind, path, cables, planned, relative)
-
-
-def _choice(entry: MeasurementTable, source: Path, number: int) -> list[AmbientChoice]:
-    """What a file of ambient records is to be analysed for; nothing of another file."""
-    given = {name: getattr(entry, name) for name in ("band_hz", "order", "frequencies_hz")}
-    return given_choice(entry.kind == AMBIENT, given, str(source), f"measurement[{number}]")
 
 
 def _sigmas(entry: MeasurementTable) -> Sigmas:

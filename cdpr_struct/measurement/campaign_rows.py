@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from cdpr_struct.errors import NOTHING, InputError, known_names
-from cdpr_struct.measurement.ambient_columns import ambient_channels, ambient_known
+from cdpr_struct.measurement.ambient_columns import ambient_known, ambient_needed
 from cdpr_struct.measurement.assumed_angles import ANGLES
 from cdpr_struct.measurement.cable_columns import EITHER, LENGTH, QUANTITIES
 from cdpr_struct.measurement.campaign import AMBIENT
@@ -28,7 +28,6 @@ _NEEDED: dict[str, tuple[str, ...]] = {
     "frf": ("frequency_hz", "real", "imag", "respond", "excite"),
     "free_decay": ("time_s", "ax", "ay", "az"),
     "platform_motion": ("x_m", "y_m", "z_m", "time_s"),
-    AMBIENT: ("time_s",),
 }
 _ALSO: dict[str, tuple[str, ...]] = {
     "static_state": ("tension_N", "length_m"),
@@ -177,9 +176,9 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
 
 
 def _needed(kind: str, columns: Sequence[str], cables: int) -> tuple[str, ...]:
+    if kind == AMBIENT:
+        return ambient_needed(columns)
     own = _WIDE_NEEDED if is_wide(kind, columns) else _NEEDED[kind]
-    if kind == AMBIENT and not ambient_channels(columns):
-        own = (*own, "ax, ay, az or a_NAME")
     if kind in _READINGS_MAY_LACK and not set(POSITION) & set(columns):
         own = tuple(name for name in own if name not in POSITION)  # a state without a measured position
     return (*own, *(length_columns(cables) if kind == "loaded_pose" else ()))

@@ -18,6 +18,13 @@ def found():
     return cs.ambient(CAMPAIGN)
 
 
+def test_pyoma_prints_nothing_and_leaves_numpy_as_it_is(capfd):
+    before = np.geterr()
+    cs.ambient(CAMPAIGN)
+    assert np.geterr() == before
+    assert tuple(capfd.readouterr()) == ("", "")
+
+
 @pytest.fixture(scope="module")
 def files(found):
     return found.files()
