@@ -35,10 +35,10 @@ def spectrum_of(signal: np.ndarray, step: float) -> Spectrum:
     return Spectrum(*spectral_density((signal - signal.mean(axis=0)) / signal.std(axis=0), step, segment))
 
 
-def band_of(spectrum: Spectrum, choice: AmbientChoice, step: float, count: int) -> tuple[float, float]:
+def band_of(spectrum: Spectrum, choice: AmbientChoice, step: float, count: int, fewest: int) -> tuple[float, float]:
     """Band [Hz] that is analysed: the user's, or up to a quarter above the highest peak that stands out.
 
-    step : between samples [s];  count : of samples
+    step : between samples [s];  count : of samples;  fewest : that the thinned record must have
 
     Raises
     ------
@@ -57,17 +57,19 @@ def band_of(spectrum: Spectrum, choice: AmbientChoice, step: float, count: int) 
         raise InputError("duration", "", f"{step * count:.4g} s", expected)
     if choice.band is not None:
         return max(choice.band[0], lowest), choice.band[1]
-    top = max([_highest_peak(spectrum), *choice.frequencies])
-    return lowest, float(np.clip(_BEYOND * top, 2.0 * lowest, highest)) if top > 0.0 else highest
+    top = max([_highest_peak(spectrum, lowest), *choice.frequencies])
+    least = max(2.0 * lowest, PER_SAMPLE_RATE * fewest / (step * count))
+    return lowest, float(np.clip(_BEYOND * top, least, highest)) if top > 0.0 else highest
 
 
-def _highest_peak(spectrum: Spectrum) -> float:
-    """Highest frequency [Hz] at which the first singular value stands out of its neighbourhood; 0 if none does."""
+def _highest_peak(spectrum: Spectrum, lowest: float) -> float:
+    """Highest frequency [Hz] above the lowest one at which the first singular value stands out; 0 if none does."""
     level = np.log(np.maximum(spectrum.values[:, 0], 1e-300))
     wide = 2 * int(0.5 * _WIDE * len(level)) + 1
     scatter = 1.0 / np.sqrt(1.5 * _AVERAGES)
     found, _ = find_peaks(level - median_filter(level, wide, mode="nearest"), prominence=_STANDS_OUT * scatter)
-    return float(spectrum.hertz[found].max(initial=0.0))
+    hertz = spectrum.hertz[found]
+    return float(hertz[hertz > lowest].max(initial=0.0))
 
 
 def thinned(signal: np.ndarray, step: float, band: tuple[float, float]) -> tuple[np.ndarray, float]:

@@ -14,8 +14,8 @@ from cdpr_struct.measurement.subspace_poles import Poles, hankel, poles
 BLOCKS = 20  # contiguous parts of a record whose scatter gives sigmas
 MOST_ORDER = 100  # states
 EVERY = 10  # states between the orders over whose poles a mode is averaged
-LEAST_ORDERS = 8  # in a row at which the poles of a mode are stable
-LEAST_ASKED = 5  # the same of a mode that the user asks for
+LEAST_SHARE = 0.3  # of all orders at which the poles of a mode are stable
+LEAST_ASKED = 5  # orders of a mode that the user asks for
 _SIZE = 360  # rows of the Hankel matrix, about
 _FEWEST_ROWS, _MOST_ROWS = 20, 60  # block rows
 _LARGEST_SIGMA = 0.01  # of a frequency: a pole less certain is no mode
@@ -109,7 +109,7 @@ def _candidates(found: Poles, all_tracks: list[Track], choice: AmbientChoice) ->
         last = len(found.order) - 1
         own = np.flatnonzero(np.isfinite(found.pole[last]))
         return [Track(np.array([last]), np.array([k])) for k in own]
-    least = LEAST_ASKED if choice.frequencies else LEAST_ORDERS
+    least = LEAST_ASKED if choice.frequencies else LEAST_SHARE * len(found.order)
     return [t for t in all_tracks if len(t) >= least and (found.order[t.order] % EVERY == 0).any()]
 
 

@@ -66,7 +66,7 @@ def identified(record: SignalRecord, sigmas: Sigmas, choice: AmbientChoice) -> A
     try:
         _check_length(record, step)
         spectrum = spectrum_of(record.signal, step)
-        band = band_of(spectrum, choice, step, count)
+        band = band_of(spectrum, choice, step, count, _samples(record.signal.shape[1]))
         signal, thin = thinned(record.signal, step, band)
         _check_samples(signal, thin, band)
         modes, diagram = ambient_modes(signal, thin, replace(choice, band=band))

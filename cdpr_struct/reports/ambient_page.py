@@ -16,7 +16,7 @@ _MOST_PLATES = 6
 _METHOD = (
     "Modes: stochastic subspace identification from covariances (pyOMA-2, SSI-cov) at model orders up to 100. "
     "Poles that continue from order to order with nearly the same frequency, damping and shape are one mode. A "
-    "mode is kept if it is stable over eight orders or more, is found in both halves of the record and in most "
+    "mode is kept if it is stable over 30 % of the orders or more, is found in both halves of the record and in most "
     "records without one block, and if its frequency is known to 1 % or better.",
     "Sigma: jackknife over 20 blocks of the record, larger where the halves of the record differ by more. Orders "
     "are averaged with the weights of their own scatter.",

@@ -30,7 +30,7 @@ from tests.random_robots import random_robot
 
 Maker = Callable[[np.random.Generator], Robot]
 
-DAMPING, NOISE, SEED = 0.005, 0.02, 20261126
+DAMPING, NOISE, SEED = 0.005, 0.02, 20261127
 VISIBLE = 0.15  # share of the kinetic energy in the platform of the modes that must be found
 LOWEST = 0.8  # Hz, of the first such mode: below it ten minutes do not hold a frequency to 0.2 %
 ELEMENTS, MODES = 12, 120

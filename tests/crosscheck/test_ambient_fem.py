@@ -122,11 +122,11 @@ def test_a_mode_is_integrated_exactly():
 
 @pytest.mark.slow
 def test_twenty_robots():
-    """Ten minutes each, pairs of modes among them (two minutes). Measured: 2.9 sigma, 97 %, 7 of 132 and 1."""
+    """Ten minutes each, pairs of modes among them (two minutes). Measured: 2.0 sigma, 98 %, 2 of 128 and 0."""
     found = measured(10.0, 20)
     print(total(found))
     off, share = np.concatenate([c.off for c in found]), np.concatenate([c.sigma / c.hertz for c in found])
     assert np.nanmax(np.abs(off)) < 3.0
     assert np.nanmean(share[np.isfinite(share)] <= 0.002) > 0.95
-    assert np.isnan(off).sum() <= 0.08 * len(off)
-    assert sum(c.invented for c in found) <= 2
+    assert np.isnan(off).sum() <= 0.05 * len(off)
+    assert sum(c.invented for c in found) <= 1

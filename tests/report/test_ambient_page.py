@@ -60,6 +60,22 @@ def test_frequencies_are_written_as_measured_data(files, tmp_path):
         )
 
 
+def test_noise_that_drifts_has_no_mode_and_the_result_says_so(tmp_path):
+    generator = np.random.default_rng(4)
+    noise = generator.normal(size=(3000, 2))
+    table = pd.DataFrame(noise + 0.01 * np.cumsum(noise, axis=0), columns=["ax", "a_cable3"])
+    table.insert(0, "time_s", np.arange(3000) / 25.0)
+    table[["x_m", "y_m", "z_m"]] = [0.4, 0.3, 0.6]
+    table.to_csv(tmp_path / "noise.csv", index=False)
+    text = 'robot = "six-cable-4mm"\n[[measurement]]\nkind = "ambient"\nfile = "noise.csv"\n'
+    (tmp_path / "campaign.toml").write_text(text)
+    silent = cs.ambient(tmp_path / "campaign.toml")
+    assert silent.to_json()["records"][0]["modes"] == []
+    assert any("adds no frequency: no pole between 0.833 and 10 Hz is stable." in said for said in silent.warnings)
+    assert not silent.to_json()["trust"]["holds"]
+    assert "0 modes between" in silent.files()["report.html"]
+
+
 @pytest.mark.slow
 def test_a_diagnosis_finds_the_inertia_and_shows_the_diagram():
     """25 % more inertia than entered; five seconds."""
@@ -68,5 +84,5 @@ def test_a_diagnosis_finds_the_inertia_and_shows_the_diagram():
     size = best["parameters"]["inertia"]
     assert best["cause"] == "platform_inertia"
     assert abs(size["value"] - 1.25) < 3.0 * size["sigma"]
-    assert len(diagnosed.to_json()["ambient"][0]["modes"]) == 10
+    assert len(diagnosed.to_json()["ambient"][0]["modes"]) == 9
     assert "stabilisation_1.svg" in diagnosed.files()
