@@ -14,7 +14,7 @@ from cdpr_struct.statics.pulley import pulley_exit, straight_exit, turned_back, 
 from cdpr_struct.statics.tension_winches import held_at_frame, with_winches
 
 _EXIT_ITERATIONS = 30
-_EXIT_REPEATED = 60  # times at most, at large wheels and short or slack cables
+_EXIT_REPEATED = 80  # times at most, at large wheels and short or slack cables
 _EXIT_TOLERANCE = 1e-14  # of the tension and EA, or of the unit direction
 _EXIT_MET = 1e-10  # of the same: above it the exit from the pulley was not found
 
@@ -87,7 +87,10 @@ def _catenary_over_pulley(
     """Newton on the tension vector at the frame end: its direction places the exit from the pulley, its size strains
     the wrapped piece and what is in line behind it."""
     direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
-    states, near = _leaving(arrays, offset, length, direction, np.zeros(length.shape), near)
+    exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
+    strained = arrays.pulley_radius * exit_.wrap_angle + np.linalg.norm(offset - exit_.point, axis=-1)
+    taut = arrays.axial_stiffness * np.maximum(strained / length - 1.0, 0.0)  # what is on the wheel stretches, too
+    states, near = _leaving(arrays, offset, length, direction, taut, near)
     vector = states.force_at_frame
     for _ in range(_EXIT_ITERATIONS):
         tension = np.linalg.norm(vector, axis=-1)

@@ -220,3 +220,10 @@ def test_a_cable_that_ends_within_its_wheel_is_refused_with_that_reason():
     case = drawn(1280)  # chords of 10 m, wheels of 11 m; before: "not converged" after 15 s
     with pytest.raises(cs.UnholdablePoseError, match=r"cable 4 .* behind or within the wheel"):
         cs.inverse(case.robot, case.pose)
+
+
+def test_the_way_back_is_found_though_most_of_a_cable_lies_on_its_wheel():
+    case = drawn(2231)  # 47 of 53 m; its stretch was left out where the search for the exit begins, which then diverged
+    held = cs.inverse(case.robot, case.pose)
+    back = cs.forward(case.robot, held.answer["lengths_m"])
+    assert back.answer["pose"] == pytest.approx(held.pose.in_degrees(), abs=1e-6)
