@@ -114,7 +114,8 @@ def solved(
         left = end_offset(pull, length, stiff, weight, wheels) - offset
         step = np.linalg.solve(compliance(pull, length, stiff, weight, wheels), left[..., None])[..., 0]
         size = np.linalg.norm(pull, axis=1)
-        pull = pull - step * np.minimum(1.0, 0.5 * size / np.maximum(np.linalg.norm(step, axis=1), 1e-300))[:, None]
+        half = 0.5 * size
+        pull = pull - step * (half / np.maximum(np.linalg.norm(step, axis=1), half))[:, None]
         if (np.linalg.norm(step, axis=1) <= 1e-13 * size).all():
             break
     pull = _off_axis(pull)
