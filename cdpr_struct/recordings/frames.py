@@ -66,6 +66,25 @@ def moving_frames(measured: Measured, sampling: SamplingTable, file: str) -> Fra
     ------
     InputError : no common time, no frame, or a frame in a gap of a channel.
     """
+    time, how = _times(measured, sampling, file)
+    gaps = {signal.name: in_gaps(signal, time, sampling.largest_gap_s) for signal in measured.signals()}
+    if sampling.faulty == "refuse":
+        _refuse_gaps(measured, time, gaps, sampling, file)
+    lost = np.any(list(gaps.values()), axis=0)
+    if lost.all():
+        raise InputError(
+            file, "sampling", "no frame outside gaps", "a longer span, a rate_hz, or a larger largest_gap_s"
+        )
+    time = time[~lost]
+    said = (
+        f"{how}, from {time[0]:.6g} to {time[-1]:.6g} s; what is not sampled at these times is interpolated "
+        "linearly between neighbours, rotations along the shortest turn."
+    )
+    return _at(measured, time, said, int(lost.sum()))
+
+
+def _times(measured: Measured, sampling: SamplingTable, file: str) -> tuple[np.ndarray, str]:
+    """Times (k,) of the frames, gaps left alone, and how they were chosen."""
     begin, end = common_span(measured, sampling, file)
     reference = next(measured.signals())
     if sampling.rate_hz is None:
@@ -77,21 +96,7 @@ def moving_frames(measured: Measured, sampling: SamplingTable, file: str) -> Fra
         how = f"Frames at {sampling.rate_hz:g} Hz"
     time = time[:: sampling.every]
     _few(len(time), file)
-    every = f", every {sampling.every}th of them" if sampling.every > 1 else ""
-    gaps = {signal.name: in_gaps(signal, time, sampling.largest_gap_s) for signal in measured.signals()}
-    if sampling.faulty == "refuse":
-        _refuse_gaps(measured, time, gaps, sampling, file)
-    lost = np.any(list(gaps.values()), axis=0)
-    if lost.all():
-        raise InputError(
-            file, "sampling", "no frame outside gaps", "a longer span, a rate_hz, or a larger largest_gap_s"
-        )
-    time = time[~lost]
-    said = (
-        f"{how}{every}, from {time[0]:.6g} to {time[-1]:.6g} s; what is not sampled at these times is interpolated "
-        "linearly between neighbours, rotations along the shortest turn."
-    )
-    return _at(measured, time, said, int(lost.sum()))
+    return time, f"{how}, one in {sampling.every}" if sampling.every > 1 else how
 
 
 def _few(count: float, file: str) -> None:

@@ -4,6 +4,7 @@ python -m pytest -m slow tests/recordings/test_damaged_recordings.py      # 60 c
 python -m tests.recordings.test_damaged_recordings FORM SEED COUNT        # more of them; findings are printed
 """
 
+import json
 import random
 import shutil
 import sys
@@ -15,6 +16,7 @@ import pytest
 
 import cdpr_struct as cs
 from tests.fuzz.judging import judged
+from tests.fuzz.mutating import changed
 from tests.recordings.written import FORMS
 
 FEW, MANY = 1, 60
@@ -75,6 +77,50 @@ def test_a_few_damaged_files(form, tmp_path, capsys):
     assert sum(counts.values()) == FEW
     captured = capsys.readouterr()
     assert captured.out + captured.err == ""
+
+
+def changed_mappings(count: int, seed: int, folder: Path) -> tuple[Counter[str], list[str]]:
+    """What came of so many mapping files with words exchanged, and why where it is a finding."""
+    whole, mapping = FORMS["decimal_commas"](folder)
+    listed = cs.recording_channels(whole).template.replace('robot = "?"', 'robot = "cogiro"').replace("# ", "")
+    seeds = [text.encode() for text in (listed, _toml(mapping), _toml(mapping).replace("motion", "still"))]
+    rng, counts, findings = random.Random(f"mapping {seed}"), Counter[str](), []
+
+    def read(data: bytes) -> None:
+        (folder / "map.toml").write_bytes(data)
+        cs.import_recording(whole, folder / "map.toml")
+
+    for _ in range(count):
+        outcome, why = judged(read, changed(rng.choice(seeds), rng))
+        counts[outcome] += 1
+        findings += [why] if why else []
+    return counts, findings
+
+
+def _toml(mapping: dict) -> str:
+    """A mapping as text, with every key that it may have."""
+    more = {
+        "position": 'factor = [1.0, 1.0, 1.0]\ndelay_s = 0.01\n', "rotation": "inverse = false\n",
+        "lengths": "offset = 0.001\n", "time": 'unit = "ms"\n',
+        "sampling": 'span = [1.0, 9.0]\nrate_hz = 5.0\nevery = 2\nlargest_gap_s = 0.5\nfaulty = "leave_out"\n',
+    }  # fmt: skip
+    tables = [f'robot = "{mapping["robot"]}"']
+    for name, table in mapping.items():
+        if isinstance(table, dict):
+            tables += [
+                f"[{name}]",
+                *(f"{key} = {json.dumps(value)}" for key, value in table.items()),
+                more.get(name, ""),
+            ]
+    return "\n".join(tables)
+
+
+@pytest.mark.parametrize("count", [40, pytest.param(1000, marks=pytest.mark.slow)])
+def test_changed_mappings(count, tmp_path):
+    counts, findings = changed_mappings(count, 1, tmp_path)
+    assert findings == []
+    assert counts["loaded"] > 0
+    assert counts["refused"] > 0
 
 
 @pytest.mark.slow
