@@ -42,11 +42,18 @@ class Mdf(Recording):
 
 
 def _pieces(file: Any, name: str, place: _Place) -> Iterator[Piece]:
+    """Samples of a channel in parts; those that the file marks as invalid are left out.
+
+    Raises
+    ------
+    EOFError : the file holds fewer samples than it says.
+    """
     for first in range(0, place.samples, _ROWS):
-        part = file.get(
-            group=place.group, index=place.channel, record_offset=first, record_count=min(_ROWS, place.samples - first)
-        )
+        rows = {"record_offset": first, "record_count": min(_ROWS, place.samples - first)}
+        part = file.get(group=place.group, index=place.channel, **rows)
         values = np.asarray(part.samples)
+        if not len(values) and not len(file.get_master(place.group, **rows)):
+            raise EOFError(f"{place.samples} samples of {name} are said, and there are {first} at the most")
         if values.dtype.kind in "biuf" and values.ndim == 1:
             yield Piece(name, values.astype(float), np.asarray(part.timestamps, dtype=float))
 

@@ -208,6 +208,20 @@ def test_a_list_of_blocks_that_leads_back_is_refused(form, tmp_path, refused):
     assert f"damaged at byte {first}" in refused(path)
 
 
+def test_a_file_that_says_it_has_more_samples_than_it_holds(tmp_path, refused):
+    """It would be read in empty parts for hours."""
+    path, _ = FORMS["mdf"](tmp_path)
+    data = bytearray(path.read_bytes())
+    group = data.index(b"##CG")
+    links = int.from_bytes(data[group + 16 : group + 24], "little")
+    place = group + 24 + 8 * links + 8
+    assert int.from_bytes(data[place : place + 8], "little") == 120
+    data[place : place + 8] = (10**13).to_bytes(8, "little")
+    path.write_bytes(data)
+    line = refused(path, MAPPING.replace('[time]\nchannel = "t"\nunit = "s"\n', ""))
+    assert "an MDF file that cannot be read" in line
+
+
 def test_channels_of_other_times_make_no_rotation(tmp_path):
     import cdpr_struct as cs
 
