@@ -312,3 +312,17 @@ def test_errors_carry_numbers():
     with pytest.raises(UndefinedSwivelError, match="comes back along its swivel axis"):
         hung(one_cable(0.1, 3.0), np.array([0.0, 0.0, -2.99]), 10)
     assert isinstance(PulleysNotSettledError(1e-3, 100), FemError)
+
+
+def test_modes_over_an_upright_pulley_are_of_one_plane_and_over_a_leaning_one_of_both():
+    # solved at once, while modes of a plain cable are solved plane by plane
+    plain = cable_modes(hung(one_cable(None, SLACK), OFFSET, 40), 12)
+    upright, leaning = (cable_modes(hung(one_cable(0.05, SLACK, axis), OFFSET, 40), 12) for axis in (UP, LEANING))
+    assert np.minimum(upright.in_plane_share, 1.0 - upright.in_plane_share).max() < 1e-6
+    assert (upright.in_plane_share > 0.5).tolist() == (plain.in_plane_share > 0.5).tolist()
+    assert np.minimum(leaning.in_plane_share, 1.0 - leaning.in_plane_share).max() > 1e-6
+    cable = hung(one_cable(0.05, SLACK, LEANING), OFFSET, 40)
+    across = np.cross(cable.nodes[-1] - cable.nodes[0], UP)
+    out = (leaning.shapes @ (across / np.linalg.norm(across))) ** 2
+    expected = 1.0 - out.sum(axis=1) / (leaning.shapes**2).sum(axis=(1, 2))
+    assert leaning.in_plane_share == pytest.approx(expected, abs=1e-9)
