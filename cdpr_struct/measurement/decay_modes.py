@@ -128,10 +128,11 @@ def _physical_fit(basis: _Decays, signal: np.ndarray, weight: np.ndarray, start:
 
 
 def _plausible(poles: np.ndarray, clock: np.ndarray) -> np.ndarray:
-    ratio = -poles.real / np.abs(poles)
+    damped, size = -poles.real, np.abs(poles)
     period, step = clock[-1], clock[1] - clock[0]
     fast = poles.imag > 2.0 * np.pi / period
-    good: np.ndarray = (np.abs(poles.real) * period < 50.0) & (ratio > -0.005) & (ratio < 1.5 * LARGEST_DAMPING)
+    good: np.ndarray = (np.abs(poles.real) * period < 50.0) & (damped > -0.005 * size)
+    good &= damped < 1.5 * LARGEST_DAMPING * size
     return good & fast & (poles.imag < 0.95 * np.pi / step)
 
 

@@ -11,6 +11,7 @@ from cdpr_struct.errors import ConvergenceError, InputError
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.measurement.campaign_rows import read_rows
 from cdpr_struct.measurement.data_table import read_table
+from cdpr_struct.measurement.decay_modes import decay_modes
 from cdpr_struct.measurement.separable_fit import separable_fit
 from cdpr_struct.measurement.trajectory_file import read_trajectory
 from cdpr_struct.measurement.universal_rows import universal_columns
@@ -193,3 +194,9 @@ def test_a_tension_next_to_nothing_is_no_overflow(tmp_path):
     (tmp_path / "states.csv").write_text(HEAD + rows)
     (tmp_path / "campaign.toml").write_text(CAMPAIGN)
     assert load_campaign(tmp_path / "campaign.toml").states.tension[0, 2] == 1e-310
+
+
+def test_a_recorded_motion_that_only_turns_evenly_has_no_modes():
+    clock = np.arange(200) * 0.01  # its pole is zero, which was divided by: a warning, that is an error in tests
+    assert decay_modes(clock, np.outer(clock, [0.0, 0.0, 0.0, 0.0, 0.0, np.pi / 180.0])).hertz.size == 0
+    assert decay_modes(clock, np.outer(clock, [0.0, 0.0, 0.0, 0.0, 0.0, 1.0])).hertz.size == 0
