@@ -58,6 +58,8 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
     for unit, factor in LENGTH_UNITS.items():
         for what in ("length", "position"):
             new = with_states(campaign, **{what: getattr(states, what) * factor})
+            if what == "length" and campaign.frames is not None:
+                new = replace(new, frames=campaign.frames.scaled(factor))
             yield _in_unit(f"the {what}s are in {unit}", new, factor, _columns(what, m))
     turned = ((np.degrees(1.0), "are in rad"), (np.radians(1.0), "were converted from rad, though in deg"))
     for factor, wrong in turned if several_tilted(states) else ():
@@ -117,6 +119,8 @@ def _swaps(campaign: Campaign) -> Iterator[Correction]:
             new = with_states(
                 campaign, **{what: values[:, order], f"{what}_sigma": getattr(states, f"{what}_sigma")[:, order]}
             )
+            if what == "length" and campaign.frames is not None:
+                new = replace(new, frames=campaign.frames.in_order(order))
             says = f"the {what} channels of cables {i + 1} and {j + 1} are swapped"
             yield Correction("swapped_channels", says, new, parameters={"first": i + 1, "second": j + 1})
 

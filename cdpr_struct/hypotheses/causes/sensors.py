@@ -137,6 +137,7 @@ CAUSES = (
         carrier="cable",
         seen_in=("CO",),
         needs=_moving,
+        in_motion=True,
         sentence="the cable lengths are {value} s older than the poses that are filed with them",
         sign="negative: the poses are older than the lengths",
         separated_by="the same motion at half the speed; a common trigger",

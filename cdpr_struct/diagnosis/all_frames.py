@@ -1,0 +1,89 @@
+"""How far are the lengths of all frames of a motion off, condensed ones among them, and is that a function of speed?
+
+Poses and tensions stand as they were read. A function of speed is any combination of v, v|v|, |v| and the sign of v of
+each cable, fitted to all blocks of frames but one and held against that one. The acceleration is asked on its own.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.observation.motion import STILL
+from cdpr_struct.observation.rest import static_residuals
+from cdpr_struct.residuals.recorded import Recorded
+
+LEAST_FRAMES = 12  # frames of a block, twice the features of speed: fewer say nothing of them
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AllFrames:
+    """Frames (F,) of a campaign with measured poses and lengths that are no state at rest, in order of time.
+
+    data : of the campaign with all its frames
+    """
+
+    data: Recorded
+    frames: np.ndarray
+
+    @classmethod
+    def of(cls, data: Recorded) -> "AllFrames | None":
+        """None where nothing moves."""
+        moves = np.abs(data.known.rate[..., 0]).max(axis=1, initial=0.0) > STILL
+        read = data.read[:, :6].all(axis=1) & data.read[:, 6 + data.cables :].any(axis=1)
+        frames = np.flatnonzero(moves & read)
+        order = np.argsort(data.campaign.states.time[frames], kind="stable")
+        return cls(data, frames[order]) if len(frames) else None
+
+    @property
+    def time(self) -> np.ndarray:
+        """(F,) [s]."""
+        return np.asarray(self.data.campaign.states.time[self.frames])
+
+    def errors(self, found: Judged | None, z: np.ndarray | None = None) -> np.ndarray:
+        """(F, m) measured less predicted lengths [m], nan where not read.
+
+        found : whose tolerances and causes the prediction has, at its likeliest numbers or at z (t,); None as entered
+        """
+        arrays = self.data.arrays
+        if found is not None:
+            values = found.split(found.fit.z_mean if z is None else z)
+            wandering = () if found.hypothesis.drift is None else (1,)
+            for i, (term, own) in enumerate(zip(found.point.terms, values, strict=True)):
+                if term.columns is None and i not in wandering:
+                    arrays = term.applied(arrays, own[None])
+        gap = static_residuals(arrays, self.data.readings, self.data.known, self.data.radius)[:, 6:]
+        return np.where(self.data.read[:, 6 + self.data.cables :], gap, np.nan)[self.frames]
+
+    def share_of_speed(self, errors: np.ndarray, blocks: Sequence[np.ndarray]) -> float | None:
+        """Share of errors (F, m) that functions of speed explain in blocks of frames that they were not fitted to.
+
+        Negative where such functions predict worse than none. None where blocks have too few frames.
+        """
+        speed = self.data.known.rate[self.frames, :, 0]
+        return _share(errors, np.stack([speed, speed * np.abs(speed), np.abs(speed), np.sign(speed)], axis=-1), blocks)
+
+    def share_of_acceleration(self, errors: np.ndarray, blocks: Sequence[np.ndarray]) -> float | None:
+        """The same of each cable's acceleration."""
+        return _share(errors, self.data.known.rate[self.frames, :, 1:], blocks)
+
+
+def _share(errors: np.ndarray, features: np.ndarray, blocks: Sequence[np.ndarray]) -> float | None:
+    """Share of errors (F, m) that features (F, m, f) of each cable explain in blocks that they were not fitted to."""
+    if len(blocks) < 2 or min(map(len, blocks)) < LEAST_FRAMES:
+        return None
+    before = after = 0.0
+    for own, columns in zip(errors.T, np.moveaxis(features, 1, 0), strict=True):
+        read = np.isfinite(own)
+        for block in blocks:
+            inside = np.zeros(len(own), dtype=bool)
+            inside[block] = True
+            fitted, kept = read & ~inside, read & inside
+            if fitted.sum() < LEAST_FRAMES:
+                continue
+            middle, origin = own[fitted].mean(), columns[fitted].mean(axis=0)
+            z = np.linalg.lstsq(columns[fitted] - origin, own[fitted] - middle, rcond=None)[0]
+            before += float(((own[kept] - middle) ** 2).sum())
+            after += float(((own[kept] - middle - (columns[kept] - origin) @ z) ** 2).sum())
+    return 1.0 - after / before if before > 0.0 else 0.0

@@ -1,0 +1,102 @@
+"""What does a recording of a motion say beyond single states: its worth, its stretches, and who predicts its lengths?"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cdpr_struct.diagnosis.all_frames import AllFrames
+from cdpr_struct.diagnosis.frame_blocks import FrameBlocks, frame_blocks, numbers_without, spans, stretches
+from cdpr_struct.diagnosis.remainder import Remainder
+from cdpr_struct.diagnosis.whole_sizes import WholeSize
+from cdpr_struct.hypotheses.explain import Explained
+from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.measurement.campaign import Campaign
+
+_NONE = (None, None)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LengthErrors:
+    """Rms (m,) over frames of measured less predicted lengths, by cable [m].
+
+    entered : of the robot as entered;  refitted : its tolerances fitted, no cause;  named : with the causes
+    """
+
+    frames: int
+    entered: np.ndarray
+    refitted: np.ndarray
+    named: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Recording:
+    """A motion: `frames` that count as `states`, and as how many independent ones they are `worth`.
+
+    blocks : stretches about the cause that acts in motion, None without one that is chosen
+    held_out : lengths of each stretch, predicted from the others; None where nothing is chosen
+    speed_share, acceleration_share : of the errors of lengths, explained by functions of it that were fitted to other
+    stretches: without causes, and with them; None where frames are too few
+    remainder : what is wrong beside the named cause, None where nothing is
+    """
+
+    frames: int
+    states: int
+    worth: float
+    blocks: FrameBlocks | None
+    held_out: LengthErrors | None
+    speed_share: tuple[float | None, float | None]
+    acceleration_share: tuple[float | None, float | None]
+    remainder: Remainder | None
+
+    def widened(self, sizes: Sequence[WholeSize]) -> tuple[WholeSize, ...]:
+        """Sizes of causes, that of the cause in motion as sure as its stretches agree."""
+        if self.blocks is None:
+            return tuple(sizes)
+        factor = {self.blocks.cause: self.blocks.dispersion}
+        return tuple(replace(s, covariance=s.covariance * factor.get(s.part.cause.name, 1.0)) for s in sizes)
+
+
+def recording(
+    campaign: Campaign, every: AllFrames | None, story: Explained, null: Judged, chosen: Judged, beside: Remainder | None
+) -> Recording | None:
+    """Of a campaign, as it was condensed, with all its frames; None where nothing moves."""
+    data, where, frames, states = story.search.data, story.search.where, campaign.frames, len(campaign.states.names)
+    if every is None:
+        return None if frames is None else Recording(frames.of, states, frames.worth, None, None, _NONE, _NONE, None)
+    moving = [i for i, part in enumerate(chosen.hypothesis.parts) if part.cause.in_motion]
+    blocks = frame_blocks(data, where, chosen, moving[0]) if moving else None
+    some, pieces = stretches(data, where), pieces_of(every, story)
+    before, after = every.errors(null), every.errors(chosen)
+    by_speed = every.share_of_speed(before, pieces), every.share_of_speed(after, pieces)
+    by_acceleration = every.share_of_acceleration(before, pieces), every.share_of_acceleration(after, pieces)
+    held_out = _held_out(every, pieces, some, null, chosen) if pieces and chosen is not null else None
+    count = len(every.frames) if frames is None else frames.of
+    worth = float(count) if frames is None else frames.worth
+    return Recording(count, states, worth, blocks, held_out, by_speed, by_acceleration, beside)
+
+
+def pieces_of(every: AllFrames, story: Explained) -> list[np.ndarray]:
+    """Frames of each stretch; none where there are too few."""
+    data, where = story.search.data, story.search.where
+    some = stretches(data, where)
+    return _pieces(every, *spans(data, where, some)) if some else []
+
+
+def _pieces(every: AllFrames, start: np.ndarray, end: np.ndarray) -> list[np.ndarray]:
+    """Frames of each stretch, those between two in the nearer one."""
+    which = np.searchsorted(0.5 * (end[:-1] + start[1:]), every.time)
+    return [np.flatnonzero(which == k) for k in range(len(start))]
+
+
+def _held_out(
+    every: AllFrames, pieces: Sequence[np.ndarray], some: Sequence[np.ndarray], null: Judged, chosen: Judged
+) -> LengthErrors:
+    """Each stretch predicted by numbers found in the others, its frames left out too."""
+    rows = [every.errors(None)]
+    for found in (null, chosen):
+        errors = np.full_like(rows[0], np.nan)
+        for piece, z in zip(pieces, numbers_without(found, some), strict=True):
+            errors[piece] = every.errors(found, z)[piece]
+        rows.append(errors)
+    return LengthErrors(len(every.frames), *(np.sqrt(np.nanmean(one**2, axis=0)) for one in rows))
