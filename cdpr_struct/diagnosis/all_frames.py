@@ -14,6 +14,7 @@ from cdpr_struct.observation.motion import STILL
 from cdpr_struct.observation.rest import static_residuals
 from cdpr_struct.residuals.recorded import Recorded
 
+SHIFTS = 39  # of speeds against errors: the least p-value is 1/40
 LEAST_FRAMES = 12  # frames of a block, twice the features of speed: fewer say nothing of them
 
 
@@ -28,11 +29,15 @@ class AllFrames:
     frames: np.ndarray
 
     @classmethod
+    def read(cls, data: Recorded) -> "AllFrames":
+        """All states with measured poses and lengths, moving or not."""
+        return cls(data, np.flatnonzero(data.read[:, :6].all(axis=1) & data.read[:, 6 + data.cables :].any(axis=1)))
+
+    @classmethod
     def of(cls, data: Recorded) -> "AllFrames | None":
         """None where nothing moves."""
-        moves = np.abs(data.known.rate[..., 0]).max(axis=1, initial=0.0) > STILL
-        read = data.read[:, :6].all(axis=1) & data.read[:, 6 + data.cables :].any(axis=1)
-        frames = np.flatnonzero(moves & read)
+        frames = cls.read(data).frames
+        frames = frames[np.abs(data.known.rate[frames, :, 0]).max(axis=1, initial=0.0) > STILL]
         order = np.argsort(data.campaign.states.time[frames], kind="stable")
         return cls(data, frames[order]) if len(frames) else None
 
@@ -42,27 +47,45 @@ class AllFrames:
         return np.asarray(self.data.campaign.states.time[self.frames])
 
     def errors(self, found: Judged | None, z: np.ndarray | None = None) -> np.ndarray:
-        """(F, m) measured less predicted lengths [m], nan where not read.
+        """(F, m) measured less predicted lengths [m], nan where not read; less their mean where encoders are relative.
 
-        found : whose tolerances and causes the prediction has, at its likeliest numbers or at z (t,); None as entered
+        found : whose tolerances and causes the prediction has, at its likeliest numbers or at z (t,); None as entered.
+        Drift and what belongs to single states or sits outside the model are no part of it.
         """
         arrays = self.data.arrays
         if found is not None:
             values = found.split(found.fit.z_mean if z is None else z)
-            wandering = () if found.hypothesis.drift is None else (1,)
-            for i, (term, own) in enumerate(zip(found.point.terms, values, strict=True)):
-                if term.columns is None and i not in wandering:
-                    arrays = term.applied(arrays, own[None])
+            parts = len(found.hypothesis.parts)
+            common = [True, *[False] * (len(values) - 1 - parts)]
+            common += [part.law is None and part.cause.carrier != "state" for part in found.hypothesis.parts]
+            for term, own, used in zip(found.point.terms, values, common, strict=True):
+                arrays = term.applied(arrays, own[None]) if used else arrays
         gap = static_residuals(arrays, self.data.readings, self.data.known, self.data.radius)[:, 6:]
-        return np.where(self.data.read[:, 6 + self.data.cables :], gap, np.nan)[self.frames]
+        gap = np.where(self.data.read[:, 6 + self.data.cables :], gap, np.nan)[self.frames]
+        return gap - np.nanmean(gap, axis=0) if self.data.campaign.relative_lengths else gap
 
     def share_of_speed(self, errors: np.ndarray, blocks: Sequence[np.ndarray]) -> float | None:
         """Share of errors (F, m) that functions of speed explain in blocks of frames that they were not fitted to.
 
         Negative where such functions predict worse than none. None where blocks have too few frames.
         """
+        return _share(errors, self._of_speed(), blocks)
+
+    def p_of_speed(self, errors: np.ndarray, blocks: Sequence[np.ndarray]) -> float:
+        """p-value of such a share, against the same speeds at other times: series shifted in a circle keep their
+        correlation and lose each other's. One where blocks have too few frames."""
+        features, count = self._of_speed(), len(self.frames)
+        own = _share(errors, features, blocks)
+        if own is None:
+            return 1.0
+        shifts = np.linspace(0, count, SHIFTS + 2)[1:-1].astype(int)
+        others = [_share(errors, np.roll(features, shift, axis=0), blocks) for shift in shifts.tolist()]
+        return (1.0 + sum(one is not None and one >= own for one in others)) / (SHIFTS + 1.0)
+
+    def _of_speed(self) -> np.ndarray:
+        """(F, m, 4)."""
         speed = self.data.known.rate[self.frames, :, 0]
-        return _share(errors, np.stack([speed, speed * np.abs(speed), np.abs(speed), np.sign(speed)], axis=-1), blocks)
+        return np.stack([speed, speed * np.abs(speed), np.abs(speed), np.sign(speed)], axis=-1)
 
     def share_of_acceleration(self, errors: np.ndarray, blocks: Sequence[np.ndarray]) -> float | None:
         """The same of each cable's acceleration."""

@@ -78,25 +78,27 @@ def diagnosed(
     hidden = stories.without_size(found, list(told.values()))
     loss = campaign.loss if loss is None else loss
     decision = _decided(beliefs, loss, hidden, stories.p_value(found))
-    every = _all_frames(whole, campaign, found[0])
-    beside = None if every is None else remainder(every, pieces_of(every, found[0]), found, decision)
+    frames = _all_frames(whole, campaign, found[0])
+    beside = None if frames is None else remainder(frames, pieces_of(frames, found[0]), found, decision)
     decision = decision if beside is None else beside.decision
     story = stories.believed_data(found, decision)
     pile = piled_up(story.search.data, story.search.where, stories.chosen_of(story, decision))
     if pile is not None:
-        decision = Decision(UNKNOWN, (), 1.0 - pile.p)
+        decision, beside = Decision(UNKNOWN, (), 1.0 - pile.p), None
     progress("predicting what was left out")
+    frames = frames if story is found[0] else _all_frames(whole, campaign, story)
+    null, chosen = stories.null_of(story).best, stories.chosen_of(story, decision)
+    moved = recording(campaign, frames, story, null, chosen, beside)
+    if moved is not None and moved.unnamed_motion and decision.classes:
+        decision = Decision(UNKNOWN, (), 1.0 - moved.p_of_speed)
     answer = _Said.of(campaign, story, decision, loss)
-    beside = beside if answer.decision.status != UNKNOWN else None
-    every = every if story is found[0] else _all_frames(whole, campaign, story)
-    moved = recording(campaign, every, story, answer.null, answer.chosen, beside)
     return _assembled(found, beliefs, answer, told[id(story)], pile, moved)
 
 
 def _all_frames(whole: Campaign, campaign: Campaign, story: Explained) -> AllFrames | None:
     """Of a campaign as recorded; of corrected data those that were fitted."""
-    condensed_ = campaign.frames is not None and story.correction is None
-    return AllFrames.of(recorded(whole) if condensed_ else story.search.data)
+    every = campaign.frames is not None and story.correction is None
+    return AllFrames.of(recorded(whole) if every else story.search.data)
 
 
 def _explained(campaign: Campaign, budget: str, progress: Callable[[str], None]) -> tuple[Campaign, list[Explained]]:
@@ -230,7 +232,8 @@ def _assembled(
         campaign=campaign, decision=decision, beliefs=tuple(sorted(beliefs, key=lambda one: -one.probability)),
         p_value=min(stories.p_value(found), by_forces, by_peaks, 1.0 if pile is None else pile.p), piled_up=pile,
         p_adequate=_p_adequate(noise), explained=story, correction=story.correction,
-        chosen=chosen, null=null, sizes=said.sizes if moved is None else moved.widened(said.sizes), drift=stories.drift_of(story, chosen), candidates=tuple(rows),
+        chosen=chosen, null=null, sizes=said.sizes if moved is None else moved.widened(said.sizes),
+        drift=stories.drift_of(story, chosen), candidates=tuple(rows),
         tried=tuple(stories.tried(found, story)), set_aside=aside,
         peaks=Peaks(peak_count(data), tuple(uncertain_peaks(data, chosen))), noise=tuple(noise),
         errors=tuple(errors_of_kinds(recorded)), location=said.location,

@@ -1,4 +1,4 @@
-"""What does a recording of a motion say beyond single states: its worth, its stretches, and who predicts its lengths?"""
+"""What does a recording of a motion say beyond single states: its worth, its stretches, its held-out lengths?"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -7,10 +7,11 @@ import numpy as np
 
 from cdpr_struct.diagnosis.all_frames import AllFrames
 from cdpr_struct.diagnosis.frame_blocks import FrameBlocks, frame_blocks, numbers_without, spans, stretches
-from cdpr_struct.diagnosis.remainder import Remainder
+from cdpr_struct.diagnosis.remainder import SPEED_SHARE, Remainder
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
 from cdpr_struct.hypotheses.explain import Explained
 from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.hypotheses.significant import SIGNIFICANT
 from cdpr_struct.measurement.campaign import Campaign
 
 _NONE = (None, None)
@@ -38,6 +39,7 @@ class Recording:
     speed_share, acceleration_share : of the errors of lengths, explained by functions of it that were fitted to other
     stretches: without causes, and with them; None where frames are too few
     remainder : what is wrong beside the named cause, None where nothing is
+    p_of_speed : of the share of speed with the causes, if it were by chance
     """
 
     frames: int
@@ -48,6 +50,7 @@ class Recording:
     speed_share: tuple[float | None, float | None]
     acceleration_share: tuple[float | None, float | None]
     remainder: Remainder | None
+    p_of_speed: float = 1.0
 
     def widened(self, sizes: Sequence[WholeSize]) -> tuple[WholeSize, ...]:
         """Sizes of causes, that of the cause in motion as sure as its stretches agree."""
@@ -56,10 +59,17 @@ class Recording:
         factor = {self.blocks.cause: self.blocks.dispersion}
         return tuple(replace(s, covariance=s.covariance * factor.get(s.part.cause.name, 1.0)) for s in sizes)
 
+    @property
+    def unnamed_motion(self) -> bool:
+        """Whether what the causes leave is a function of speed: then a law of motion is at work that nobody named."""
+        share = self.speed_share[1]
+        return share is not None and share > SPEED_SHARE and self.p_of_speed < SIGNIFICANT
+
 
 def recording(
-    campaign: Campaign, every: AllFrames | None, story: Explained, null: Judged, chosen: Judged, beside: Remainder | None
-) -> Recording | None:
+    campaign: Campaign, every: AllFrames | None, story: Explained, null: Judged, chosen: Judged,
+    beside: Remainder | None,
+) -> Recording | None:  # fmt: skip
     """Of a campaign, as it was condensed, with all its frames; None where nothing moves."""
     data, where, frames, states = story.search.data, story.search.where, campaign.frames, len(campaign.states.names)
     if every is None:
@@ -70,10 +80,11 @@ def recording(
     before, after = every.errors(null), every.errors(chosen)
     by_speed = every.share_of_speed(before, pieces), every.share_of_speed(after, pieces)
     by_acceleration = every.share_of_acceleration(before, pieces), every.share_of_acceleration(after, pieces)
+    p = 1.0 if chosen is null else every.p_of_speed(after, pieces)
     held_out = _held_out(every, pieces, some, null, chosen) if pieces and chosen is not null else None
     count = len(every.frames) if frames is None else frames.of
     worth = float(count) if frames is None else frames.worth
-    return Recording(count, states, worth, blocks, held_out, by_speed, by_acceleration, beside)
+    return Recording(count, states, worth, blocks, held_out, by_speed, by_acceleration, beside, p)
 
 
 def pieces_of(every: AllFrames, story: Explained) -> list[np.ndarray]:

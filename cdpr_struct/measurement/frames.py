@@ -1,4 +1,4 @@
-"""What is kept of a recording whose frames were condensed: how fast things moved, and for how much each state stands."""
+"""What is kept of a recording whose frames were condensed: how fast things moved, how much each state stands for."""
 
 from dataclasses import dataclass, replace
 

@@ -19,7 +19,7 @@ from cdpr_struct.residuals.recorded import Recorded, recorded
 
 FEWEST_KEPT = 24  # frames of a campaign, below which none is left out
 MOST_KEPT = 60  # states that frames become at most: more are slow, and sure of the fourth digit of an effect
-_MOVED = 3.0  # sigmas of some reading: a frame that differs less from the one before is at rest
+_MOVED = 3.0  # standard deviations of chi2 beyond its mean: a frame that differs less from the one before is at rest
 
 
 def condensed(campaign: Campaign) -> Campaign:
@@ -27,10 +27,9 @@ def condensed(campaign: Campaign) -> Campaign:
     if campaign.frames is not None:
         return campaign
     moves = [run for run in runs(campaign.states.time) if _plain(campaign, run)]
-    total = sum(map(len, moves))
-    if total <= FEWEST_KEPT:
+    if sum(map(len, moves)) <= FEWEST_KEPT:
         return campaign
-    chosen, count, worth = _chosen(campaign, moves, total)
+    chosen, count, worth = _chosen(campaign, moves)
     if len(chosen) == len(campaign.states.names):
         return campaign
     states = campaign.states
@@ -46,7 +45,7 @@ def _plain(campaign: Campaign, run: np.ndarray) -> bool:
     return bool(posed and states.static[run].all() and not np.isin(run, vibrating).any())
 
 
-def _chosen(campaign: Campaign, moves: list[np.ndarray], total: int) -> tuple[np.ndarray, np.ndarray, float]:
+def _chosen(campaign: Campaign, moves: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray, float]:
     """Kept states in the campaign's order, frames that each stands for, and the worth of all."""
     data = recorded(campaign)
     different = [_different(data, run) for run in moves]
@@ -60,7 +59,6 @@ def _chosen(campaign: Campaign, moves: list[np.ndarray], total: int) -> tuple[np
         first = np.flatnonzero(np.diff(turn, prepend=-1.0))
         stands[run] = run[first[np.searchsorted(first, np.arange(len(run)), side="right") - 1]]
     kept, count = np.unique(stands, return_counts=True)
-    del total
     return kept, count, float(worth)
 
 
@@ -71,9 +69,9 @@ def _different(data: Recorded, run: np.ndarray) -> np.ndarray:
     values = np.concatenate([readings.position[run], (turn * turn[0].inv()).as_rotvec(), readings.length[run]], axis=1)
     own = np.concatenate([sigma[:, :6], sigma[:, 6 + data.cables :]], axis=1)
     found, last = np.zeros(len(run), dtype=bool), 0
-    found[0] = True
+    found[0], n = True, values.shape[1]
     for k in range(1, len(run)):
-        if (np.abs(values[k] - values[last]) > _MOVED * own[k]).any():
+        if 0.5 * (((values[k] - values[last]) / own[k]) ** 2).sum() > n + _MOVED * np.sqrt(2.0 * n):
             found[k], last = True, k
     return found
 

@@ -129,6 +129,7 @@ class Cause:
     in_motion : whether it shows in proportion to speed, and not at rest
     becomes   : causes that it is where some of its parameters are zero
     sentence  : for a person, with {value} and {unit} of the first parameter;  sign : what a number above zero means
+    senses    : words for {sense} where the mean of the numbers is above zero, and below it; {size} is its size
     separated_by : measurements that tell it from its rivals;  extension : what of the extended robot holds it
     """
 
@@ -150,6 +151,7 @@ class Cause:
     becomes: tuple[str, ...] = ()
     sentence: str = ""
     sign: str = ""
+    senses: tuple[str, str] = ("more", "less")
     separated_by: str = ""
     extension: str = ""
     known: Mapping[str, float] = field(default_factory=dict)

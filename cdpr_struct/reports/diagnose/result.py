@@ -17,6 +17,7 @@ from cdpr_struct.planning.recommendations import Recommendation
 from cdpr_struct.reports.diagnose import signals
 from cdpr_struct.reports.diagnose.amplitudes import amplitude_json
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
+from cdpr_struct.reports.diagnose.recordings import recording_json
 from cdpr_struct.reports.diagnose.sentences import finite, sentence
 from cdpr_struct.reports.diagnose.state_errors import state_errors
 from cdpr_struct.reports.diagnose.words import doubt, place, recommendation
@@ -84,6 +85,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "warnings": _warnings(found),
         "not_used": _not_used(found),
         "signals": [signals.signal_json(item) for item in found.campaign.identified],
+        "recording": recording_json(found.recording),
         "peaks_apart": _apart(found),
         "internal_force": _forces(found),
         "damping": None if found.damped is None else signals.damping_json(found.damped),
