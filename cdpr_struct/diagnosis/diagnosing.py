@@ -8,6 +8,7 @@ import numpy as np
 from cdpr_struct.diagnosis import stories
 from cdpr_struct.diagnosis.added_modes import least_evidence
 from cdpr_struct.diagnosis.all_frames import AllFrames
+from cdpr_struct.diagnosis.common_first import common_first
 from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
 from cdpr_struct.diagnosis.decision import Decision, decided
 from cdpr_struct.diagnosis.detectable_sizes import detectable_sizes
@@ -78,6 +79,20 @@ def diagnosed(
     hidden = stories.without_size(found, list(told.values()))
     loss = campaign.loss if loss is None else loss
     decision = _decided(beliefs, loss, hidden, stories.p_value(found))
+    decision, story, moved, pile = _weighed(whole, campaign, found, decision)
+    progress("predicting what was left out")
+    answer = _Said.of(campaign, story, decision, loss)
+    rows = told[id(story)] if id(story) in told else stories.candidates(story)
+    return _assembled(found, beliefs, answer, rows, pile, moved)
+
+
+def _weighed(
+    whole: Campaign, campaign: Campaign, found: Sequence[Explained], decision: Decision
+) -> tuple[Decision, Explained, Recording | None, Pile | None]:
+    """The decision with what outliers and frames of a motion say of it, the story that it believes, and those two.
+
+    whole : the campaign with all its frames
+    """
     frames = _all_frames(whole, campaign, found[0])
     beside = None if frames is None else remainder(frames, pieces_of(frames, found[0]), found, decision)
     decision = decision if beside is None else beside.decision
@@ -85,14 +100,13 @@ def diagnosed(
     pile = piled_up(story.search.data, story.search.where, stories.chosen_of(story, decision))
     if pile is not None:
         decision, beside = Decision(UNKNOWN, (), 1.0 - pile.p), None
-    progress("predicting what was left out")
     frames = frames if story is found[0] else _all_frames(whole, campaign, story)
+    story = common_first(story, stories.chosen_of(story, decision))
     null, chosen = stories.null_of(story).best, stories.chosen_of(story, decision)
     moved = recording(campaign, frames, story, null, chosen, beside)
     if moved is not None and moved.unnamed_motion and decision.classes:
         decision = Decision(UNKNOWN, (), 1.0 - moved.p_of_speed)
-    answer = _Said.of(campaign, story, decision, loss)
-    return _assembled(found, beliefs, answer, told[id(story)], pile, moved)
+    return decision, story, moved, pile
 
 
 def _all_frames(whole: Campaign, campaign: Campaign, story: Explained) -> AllFrames | None:

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 
 import cdpr_struct as cs
 from cdpr_struct.diagnosis.all_frames import AllFrames
-from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.reports.figures.style import BLACK, BLUE, GREY, ORANGE, VERMILLION
+from cdpr_struct.residuals.recorded import recorded
 
 DOCS = Path(__file__).parents[1]
 FOLDER = DOCS.parent / "examples" / "recorded-motion"
@@ -45,7 +45,9 @@ class Found:
             "status": told["verdict"]["status"], "causes": told["verdict"]["causes"],
             "delay_ms": _MS * size["value"], "sigma_ms": _MS * size["sigma"],
             **{key: told["recording"][key] for key in keys},
-            "stretches_ms": [[_MS * one["estimate"][0], _MS * one["sigma"][0]] for one in told["recording"]["stretches"]],
+            "stretches_ms": [
+                [_MS * one["estimate"][0], _MS * one["sigma"][0]] for one in told["recording"]["stretches"]
+            ],
             "later_mm": [
                 [row[key] for key in ("as_entered_mm", "tolerances_fitted_mm", "with_causes_mm")]
                 for row in told["later_lengths"]["cables"]
