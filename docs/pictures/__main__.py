@@ -3,7 +3,8 @@
     python docs/pictures            # about a minute
     python docs/pictures --check    # the effects of all causes are those that were drawn; exit code 1 if not
 
-Writes docs/anatomy_*.svg, docs/recorded_motion.*, docs/causes/pictures/*.svg, docs/causes/pictures/effects.json and docs/causes/gallery.md.
+Writes docs/anatomy_*.svg, docs/recorded_motion.*, docs/causes/pictures/*.svg, docs/causes/pictures/effects.json and
+docs/causes/gallery.md.
 """
 
 import json

@@ -19,6 +19,7 @@ FOLDER = DOCS.parent / "examples" / "recorded-motion"
 NUMBERS = DOCS / "recorded_motion.json"
 SIZE = (9.6, 6.4)
 _MM, _MS = 1e3, 1e3
+_EVERY = 3  # frames between those that are drawn against speed
 _SHOWN = 2  # cable whose later frames are drawn, from 0
 
 
@@ -82,7 +83,8 @@ def draw(figure: Figure, one: Found) -> None:
 def _against_speed(axes: Axes, one: Found) -> None:
     for errors, colour, words in ((one.entered, VERMILLION, "as entered"), (one.named, BLUE, "with the delay")):
         centred = errors - errors.mean(axis=0)
-        axes.plot(one.speed.ravel(), _MM * centred.ravel(), ".", ms=2.5, color=colour, label=words)
+        some = slice(None, None, _EVERY)
+        axes.plot(one.speed[some].ravel(), _MM * centred[some].ravel(), ".", ms=2.5, color=colour, label=words)
     reach = np.array([-1.0, 1.0]) * np.abs(one.speed).max()
     axes.plot(reach, -one.numbers()["delay_ms"] * reach, color=BLACK, lw=0.9, label="slope: the delay found")
     axes.set(title="Later frames, all cables", xlabel="speed of the cable [m/s]", ylabel="length error [mm]")
@@ -96,7 +98,8 @@ def _by_stretch(axes: Axes, one: Found) -> None:
     middle = [0.5 * (row["start_s"] + row["end_s"]) for row in told]
     own, spread = np.array(numbers["stretches_ms"]).T
     axes.errorbar(middle, own, spread, fmt="o", ms=4, color=BLACK, lw=1.0, label="one stretch on its own")
-    axes.set(title="Delay by stretch of the fitted frames", xlabel="time [s]", ylabel="delay [ms]")
+    room = (float((own - spread).min()) - 1.0, float((own + spread).max()) + 4.0)
+    axes.set(title="Delay by stretch of the fitted frames", xlabel="time [s]", ylabel="delay [ms]", ylim=room)
     axes.legend(loc="upper right")
 
 
@@ -114,5 +117,5 @@ def _by_cable(axes: Axes, one: Found) -> None:
     for k, (word, colour) in enumerate(zip(words, (VERMILLION, ORANGE, BLUE), strict=True)):
         axes.bar(np.arange(len(rows)) + 0.27 * (k - 1), rows[:, k], 0.25, color=colour, label=word)
     axes.set_xticks(np.arange(len(rows)), [f"cable {i + 1}" for i in range(len(rows))])
-    axes.set(title="Later frames, rms", ylabel="length error [mm]")
+    axes.set(title="Later frames, rms", ylabel="length error [mm]", ylim=(0.0, 1.35 * float(rows.max())))
     axes.legend(loc="upper right", ncols=1)

@@ -135,7 +135,7 @@ def test_no_delay_is_named_where_another_law_of_motion_is_at_work(seed, more):
 
 @pytest.mark.slow
 def test_without_the_delay_in_the_library_no_other_name_is_given(monkeypatch):
-    """Backlash takes up most of a delay, if the direction of the last motion is known; what it leaves is a law of speed."""
+    """Backlash takes up most of a delay, if directions are known; what it leaves is a function of speed."""
     campaign = filmed(1, delay=-0.03, error=of_the_place(1, PLACE))
     direction = -np.sign(length_rates(campaign.states)[..., 0])
     campaign = replace(campaign, states=replace(campaign.states, approach=direction))

@@ -212,7 +212,7 @@ def _of_candidate(found: Diagnosis, one: Candidate) -> Iterator[dict[str, Any]]:
     """One row for each cause of a fit."""
     left = found.left_out if one.best is found.chosen else None
     after = None if left is None else left.rms(np.ones(len(left.kind), dtype=bool))[1]
-    for size in one.sizes:
+    for size in found.sizes if left is not None else one.sizes:
         name = size.part.cause.name
         yield {
             "cause": name, "with": [other for other in one.names if other != name],
