@@ -3,13 +3,17 @@
 import json
 import re
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from cdpr_struct.diagnosis.all_frames import AllFrames
+from cdpr_struct.diagnosis.diagnosing import diagnosed
+from cdpr_struct.hypotheses import search
 from cdpr_struct.measurement.campaign_file import load_campaign
+from cdpr_struct.observation.motion import length_rates
 from cdpr_struct.reports.figures.style import svg
 from cdpr_struct.residuals.condensed import condensed
 from cdpr_struct.residuals.recorded import recorded
@@ -23,9 +27,9 @@ PAGE = (DOCS / "recorded_motion.md").read_text("utf-8")
 
 def test_the_page_says_its_numbers():
     rows = re.findall(r"^\| (\d) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$", PAGE, re.MULTILINE)
-    assert [[float(cell) for cell in row[1:]] for row in rows] == [
-        [round(v, 2) for v in r] for r in NUMBERS["later_mm"]
-    ]
+    shown = [[float(cell) for cell in row[1:]] for row in rows]
+    assert shown == [[round(value, 2) for value in row] for row in NUMBERS["later_mm"]]
+    by_speed, by_acceleration = NUMBERS["explained_by_speed"], NUMBERS["explained_by_acceleration"]
     assert (NUMBERS["status"], NUMBERS["causes"]) == ("named", ["sensor_delay"])
     said = [
         f"{-NUMBERS['delay_ms']:.1f} ± {NUMBERS['sigma_ms']:.1f} ms newer",
@@ -35,8 +39,8 @@ def test_the_page_says_its_numbers():
         f"widened by {NUMBERS['sigma_factor']:.2f}",
         f"another {NUMBERS['remainder']['log_evidence_gain']:.0f} nats",
         f"| {NUMBERS['remainder']['ahead_nats']:.0f} nats |",
-        f"{100 * NUMBERS['explained_by_speed']['after']:.0f} %, before {100 * NUMBERS['explained_by_speed']['before']:.0f} %",
-        f"another {100 * NUMBERS['explained_by_acceleration']['after']:.0f} % of the variance",
+        f"{100 * by_speed['after']:.0f} %, before {100 * by_speed['before']:.0f} %",
+        f"another {100 * by_acceleration['after']:.0f} % of the variance",
         f"About {np.mean([row[2] for row in NUMBERS['later_mm']]):.1f} mm remain",
     ]
     assert [one for one in said if one not in PAGE] == []
@@ -58,6 +62,23 @@ def test_the_recording_is_shipped_with_its_notice():
     assert holder in licence
     assert holder in notice
     assert "Permission is hereby granted" in licence
+
+
+@pytest.mark.slow
+def test_without_the_delay_in_the_library_nothing_is_named(monkeypatch):
+    """Play of the drives and a shifted centre of mass are then the likeliest; they leave a function of speed."""
+    campaign, usual = load_campaign(FOLDER / "campaign.toml"), search.testable
+    approach = -np.sign(length_rates(campaign.states)[..., 0])
+
+    def without(seen, checked):
+        causes, hidden = usual(seen, checked)
+        return [cause for cause in causes if cause.name != "sensor_delay"], hidden
+
+    monkeypatch.setattr(search, "testable", without)
+    said = diagnosed(replace(campaign, states=replace(campaign.states, approach=approach)))
+    assert "backlash" in max(said.beliefs, key=lambda one: one.probability).names
+    assert said.decision.status == "unknown"
+    assert said.recording.unnamed_motion
 
 
 @pytest.mark.slow
