@@ -19,8 +19,11 @@ from cdpr_struct.diagnosis.frame_blocks import frame_blocks
 from cdpr_struct.hypotheses.detectable import NAMED
 from cdpr_struct.hypotheses.explain import Explained
 from cdpr_struct.hypotheses.laws import UNKNOWN
+from cdpr_struct.measurement.loss import Loss
 
-SPEED_SHARE = 0.1  # of the variance of errors: if functions of speed explain more, a law of motion is left
+SPEED_SHARE = Loss().too_wide / Loss().unknown
+"""Of the variance of errors: where functions of speed explain more, a law of motion is left that costs, unspoken in that
+share, more than one name too many."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
