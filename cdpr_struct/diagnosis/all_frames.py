@@ -14,7 +14,8 @@ from cdpr_struct.observation.motion import STILL
 from cdpr_struct.observation.rest import static_residuals
 from cdpr_struct.residuals.recorded import Recorded
 
-SHIFTS = 39  # of speeds against errors: the least p-value is 1/40
+SHIFTS = 99  # of speeds against errors: the least p-value is 1/100
+_NEAR = 20  # parts of a series, one of which it is shifted by at least
 LEAST_FRAMES = 12  # frames of a block, twice the features of speed: fewer say nothing of them
 
 
@@ -64,6 +65,13 @@ class AllFrames:
         gap = np.where(self.data.read[:, 6 + self.data.cables :], gap, np.nan)[self.frames]
         return gap - np.nanmean(gap, axis=0) if self.data.campaign.relative_lengths else gap
 
+    def errors_without(self, found: Judged, part: int) -> np.ndarray:
+        """The same with one of the causes of a fit taken out of the prediction, all other numbers as they are."""
+        values = found.split(found.fit.z_mean)
+        at = len(values) - len(found.hypothesis.parts) + part
+        values = [0.0 * own if i == at else own for i, own in enumerate(values)]
+        return self.errors(found, np.concatenate(values))
+
     def share_of_speed(self, errors: np.ndarray, blocks: Sequence[np.ndarray]) -> float | None:
         """Share of errors (F, m) that functions of speed explain in blocks of frames that they were not fitted to.
 
@@ -78,9 +86,8 @@ class AllFrames:
         own = _share(errors, features, blocks)
         if own is None:
             return 1.0
-        shifts = np.linspace(0, count, SHIFTS + 2)[1:-1].astype(int)
-        others = [_share(errors, np.roll(features, shift, axis=0), blocks) for shift in shifts.tolist()]
-        return (1.0 + sum(one is not None and one >= own for one in others)) / (SHIFTS + 1.0)
+        others = [_share(errors, np.roll(features, shift, axis=0), blocks) for shift in circular_shifts(count)]
+        return (1.0 + sum(one is not None and one >= own for one in others)) / (len(others) + 1.0)
 
     def _of_speed(self) -> np.ndarray:
         """(F, m, 4)."""
@@ -90,6 +97,12 @@ class AllFrames:
     def share_of_acceleration(self, errors: np.ndarray, blocks: Sequence[np.ndarray]) -> float | None:
         """The same of each cable's acceleration."""
         return _share(errors, self.data.known.rate[self.frames, :, 1:], blocks)
+
+
+def circular_shifts(frames: int) -> list[int]:
+    """By how many frames a series is shifted against another: at least by a twentieth of it, to lose correlation."""
+    least = -(-frames // _NEAR)
+    return np.unique(np.linspace(least, frames - least, SHIFTS).astype(int)).tolist()
 
 
 def _share(errors: np.ndarray, features: np.ndarray, blocks: Sequence[np.ndarray]) -> float | None:

@@ -105,7 +105,7 @@ def _weighed(
     null, chosen = stories.null_of(story).best, stories.chosen_of(story, decision)
     moved = recording(campaign, frames, story, null, chosen, beside)
     if moved is not None and moved.unnamed_motion and decision.classes:
-        decision = Decision(UNKNOWN, (), 1.0 - moved.p_of_speed)
+        decision = Decision(UNKNOWN, (), 1.0 - moved.p_of_unnamed)
     return decision, story, moved, pile
 
 

@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.diagnosis.all_frames import AllFrames
+from cdpr_struct.diagnosis.bend_of_speed import Bend, bend_of_speed
 from cdpr_struct.diagnosis.frame_blocks import FrameBlocks, frame_blocks, numbers_without, spans, stretches
-from cdpr_struct.diagnosis.remainder import SPEED_SHARE, Remainder
+from cdpr_struct.diagnosis.remainder import SPEED_SHARE, Remainder, bends
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
 from cdpr_struct.hypotheses.explain import Explained
 from cdpr_struct.hypotheses.judge import Judged
@@ -40,6 +41,7 @@ class Recording:
     stretches: without causes, and with them; None where frames are too few
     remainder : what is wrong beside the named cause, None where nothing is
     p_of_speed : of the share of speed with the causes, if it were by chance
+    bend : of the errors that the cause in motion stands for, None without one or with few frames
     """
 
     frames: int
@@ -51,6 +53,7 @@ class Recording:
     acceleration_share: tuple[float | None, float | None]
     remainder: Remainder | None
     p_of_speed: float = 1.0
+    bend: Bend | None = None
 
     def widened(self, sizes: Sequence[WholeSize]) -> tuple[WholeSize, ...]:
         """Sizes of causes, that of the cause in motion as sure as its stretches agree."""
@@ -61,9 +64,16 @@ class Recording:
 
     @property
     def unnamed_motion(self) -> bool:
-        """Whether what the causes leave is a function of speed: then a law of motion is at work that nobody named."""
+        """Whether what the causes leave is a function of speed, or what they stand for bends with it: then a law of
+        motion is at work that nobody named."""
         share = self.speed_share[1]
-        return share is not None and share > SPEED_SHARE and self.p_of_speed < SIGNIFICANT
+        left = share is not None and share > SPEED_SHARE and self.p_of_speed < SIGNIFICANT
+        return left or bends(self.bend)
+
+    @property
+    def p_of_unnamed(self) -> float:
+        """p-value of that."""
+        return min(self.p_of_speed, 1.0 if self.bend is None else self.bend.p)
 
 
 def recording(
@@ -81,10 +91,11 @@ def recording(
     by_speed = every.share_of_speed(before, pieces), every.share_of_speed(after, pieces)
     by_acceleration = every.share_of_acceleration(before, pieces), every.share_of_acceleration(after, pieces)
     p = 1.0 if chosen is null else every.p_of_speed(after, pieces)
+    bend = bend_of_speed(every, every.errors_without(chosen, moving[0])) if moving else None
     held_out = _held_out(every, pieces, some, null, chosen) if pieces and chosen is not null else None
     count = len(every.frames) if frames is None else frames.of
     worth = float(count) if frames is None else frames.worth
-    return Recording(count, states, worth, blocks, held_out, by_speed, by_acceleration, beside, p)
+    return Recording(count, states, worth, blocks, held_out, by_speed, by_acceleration, beside, p, bend)
 
 
 def pieces_of(every: AllFrames, story: Explained) -> list[np.ndarray]:

@@ -5,7 +5,7 @@ A cause that shows in proportion to speed has no share in what depends on the pl
 other speeds. It is named beside such a remainder where three things hold. Alone it is surer than everything without it,
 pairs and laws outside the library among them, by the evidence from which things are named, counted as the stretches of
 the recording agree. Every stretch adds evidence for it. And what it leaves is no function of speed, in stretches that
-such functions were not fitted to.
+such functions were not fitted to; nor do the errors that it stands for bend with speed.
 """
 
 from collections.abc import Sequence
@@ -14,16 +14,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.diagnosis.all_frames import AllFrames
+from cdpr_struct.diagnosis.bend_of_speed import Bend, bend_of_speed
 from cdpr_struct.diagnosis.decision import Decision
 from cdpr_struct.diagnosis.frame_blocks import frame_blocks
 from cdpr_struct.hypotheses.detectable import NAMED
 from cdpr_struct.hypotheses.explain import Explained
 from cdpr_struct.hypotheses.laws import UNKNOWN
+from cdpr_struct.hypotheses.significant import SIGNIFICANT
 from cdpr_struct.measurement.loss import Loss
 
 SPEED_SHARE = Loss().too_wide / Loss().unknown
-"""Of the variance of errors: where functions of speed explain more, a law of motion is left that costs, unspoken in that
-share, more than one name too many."""
+"""Of the variance of errors: where functions of speed explain more, a law of motion is left that costs, unspoken in
+that share, more than one name too many."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,14 +63,19 @@ def remainder(
     if blocks is None or (blocks.gain <= 0.0).any():
         return None
     ahead = (alone.score - _best_without(found, names[0])) / blocks.dispersion
-    share = every.share_of_speed(errors, pieces)
-    if ahead < NAMED or share is None or share > SPEED_SHARE:
+    share, bend = every.share_of_speed(errors, pieces), bend_of_speed(every, every.errors_without(alone.best, 0))
+    if ahead < NAMED or share is None or share > SPEED_SHARE or bends(bend):
         return None
     size = np.sqrt(np.nanmean(errors**2, axis=0))
     sure = 1.0 / (1.0 + float(np.exp(-ahead)))
     law = next(part.pattern.label for part in both.best.hypothesis.parts if part.law is not None)
     others = tuple(name for name in both.names if name not in (UNKNOWN, *names))
     return Remainder(Decision("named", (names,), sure), law, others, both.score - alone.score, size, ahead)
+
+
+def bends(bend: Bend | None) -> bool:
+    """Whether errors bend with speed by so much that they are not those of a delay."""
+    return bend is not None and bend.size > SPEED_SHARE and bend.p < SIGNIFICANT
 
 
 def _best_without(found: Sequence[Explained], name: str) -> float:

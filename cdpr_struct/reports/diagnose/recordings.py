@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.diagnosis.recording import LengthErrors, Recording
+from cdpr_struct.diagnosis.remainder import bends
 from cdpr_struct.reports.diagnose.words import listed
 from cdpr_struct.reports.html import HtmlTable
 
@@ -34,6 +35,7 @@ def recording_json(found: Recording | None) -> dict[str, Any] | None:
         "explained_by_speed": _shares(found.speed_share),
         "explained_by_acceleration": _shares(found.acceleration_share),
         "p_of_speed": found.p_of_speed,
+        "bend_of_speed": None if found.bend is None else {"size": found.bend.size, "p_value": found.bend.p},
         "remainder": None if rest is None else {
             "law": rest.law, "causes": list(rest.causes), "log_evidence_gain": rest.gain,
             "ahead_nats": rest.ahead, "rms_mm": (_MM * rest.size).tolist(),
@@ -97,7 +99,15 @@ def gain_sentence(found: Recording | None) -> str:
 
 def unnamed_motion_sentence(found: Recording | None) -> str:
     """Why no cause is named although one was fitted."""
-    if found is None or not found.unnamed_motion or found.speed_share[1] is None:
+    if found is None or not found.unnamed_motion:
+        return ""
+    if bends(found.bend) and found.bend is not None:
+        return (
+            "The errors of the lengths change with speed, but not in proportion to it, as those of a delay would: what "
+            f"bends is {100.0 * found.bend.size:.0f} % of it (p = {found.bend.p:.2g}). This is a law of motion that is "
+            "not in the library."
+        )
+    if found.speed_share[1] is None:
         return ""
     return (
         f"What the best cause leaves of the lengths is a function of speed ({100.0 * found.speed_share[1]:.0f} % of "
