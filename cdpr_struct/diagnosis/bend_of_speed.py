@@ -10,7 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.diagnosis.all_frames import AllFrames, circular_shifts
+from cdpr_struct.hypotheses.significant import SIGNIFICANT
+from cdpr_struct.measurement.loss import Loss
 
+SPEED_SHARE = Loss().too_wide / Loss().unknown
+"""Of the variance of errors: where functions of speed explain more, a law of motion is left that costs, unspoken in
+that share, more than one name too many."""
 _PLACE = 10  # numbers of a quadratic function of the place
 _LEAST = 4 * (_PLACE + 4)  # frames, four times the numbers that are fitted to them
 
@@ -24,6 +29,11 @@ class Bend:
 
     size: float
     p: float
+
+    @property
+    def matters(self) -> bool:
+        """Whether errors bend with speed by so much that they are not those of a delay."""
+        return self.size > SPEED_SHARE and self.p < SIGNIFICANT
 
 
 def bend_of_speed(every: AllFrames, errors: np.ndarray) -> Bend | None:

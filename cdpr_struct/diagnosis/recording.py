@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.diagnosis.all_frames import AllFrames
-from cdpr_struct.diagnosis.bend_of_speed import Bend, bend_of_speed
+from cdpr_struct.diagnosis.bend_of_speed import SPEED_SHARE, Bend, bend_of_speed
+from cdpr_struct.diagnosis.decision import Decision
 from cdpr_struct.diagnosis.frame_blocks import FrameBlocks, frame_blocks, numbers_without, spans, stretches
-from cdpr_struct.diagnosis.remainder import SPEED_SHARE, Remainder, bends
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
 from cdpr_struct.hypotheses.explain import Explained
 from cdpr_struct.hypotheses.judge import Judged
@@ -16,6 +16,24 @@ from cdpr_struct.hypotheses.significant import SIGNIFICANT
 from cdpr_struct.measurement.campaign import Campaign
 
 _NONE = (None, None)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Remainder:
+    """What no cause explains beside a named one.
+
+    decision : the name, and how sure it is;  law : in words;  causes : that share in it, none of them named
+    gain : its log evidence beside the cause [nat]
+    size (m,) : rms of what the cause leaves of the lengths, noise among it, by cable [m]
+    ahead : log evidence of the cause alone against the best without it, as many frames as they are worth [nat]
+    """
+
+    decision: Decision
+    law: str
+    causes: tuple[str, ...]
+    gain: float
+    size: np.ndarray
+    ahead: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,7 +86,7 @@ class Recording:
         motion is at work that nobody named."""
         share = self.speed_share[1]
         left = share is not None and share > SPEED_SHARE and self.p_of_speed < SIGNIFICANT
-        return left or bends(self.bend)
+        return left or (self.bend is not None and self.bend.matters)
 
     @property
     def p_of_unnamed(self) -> float:

@@ -9,41 +9,17 @@ such functions were not fitted to; nor do the errors that it stands for bend wit
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from cdpr_struct.diagnosis.all_frames import AllFrames
-from cdpr_struct.diagnosis.bend_of_speed import Bend, bend_of_speed
+from cdpr_struct.diagnosis.bend_of_speed import SPEED_SHARE, bend_of_speed
 from cdpr_struct.diagnosis.decision import Decision
 from cdpr_struct.diagnosis.frame_blocks import frame_blocks
+from cdpr_struct.diagnosis.recording import Remainder
 from cdpr_struct.hypotheses.detectable import NAMED
 from cdpr_struct.hypotheses.explain import Explained
 from cdpr_struct.hypotheses.laws import UNKNOWN
-from cdpr_struct.hypotheses.significant import SIGNIFICANT
-from cdpr_struct.measurement.loss import Loss
-
-SPEED_SHARE = Loss().too_wide / Loss().unknown
-"""Of the variance of errors: where functions of speed explain more, a law of motion is left that costs, unspoken in
-that share, more than one name too many."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Remainder:
-    """What no cause explains beside a named one.
-
-    decision : the name, and how sure it is;  law : in words;  causes : that share in it, none of them named
-    gain : its log evidence beside the cause [nat]
-    size (m,) : rms of what the cause leaves of the lengths, noise among it, by cable [m]
-    ahead : log evidence of the cause alone against the best without it, as many frames as they are worth [nat]
-    """
-
-    decision: Decision
-    law: str
-    causes: tuple[str, ...]
-    gain: float
-    size: np.ndarray
-    ahead: float
 
 
 def remainder(
@@ -64,18 +40,13 @@ def remainder(
         return None
     ahead = (alone.score - _best_without(found, names[0])) / blocks.dispersion
     share, bend = every.share_of_speed(errors, pieces), bend_of_speed(every, every.errors_without(alone.best, 0))
-    if ahead < NAMED or share is None or share > SPEED_SHARE or bends(bend):
+    if ahead < NAMED or share is None or share > SPEED_SHARE or (bend is not None and bend.matters):
         return None
     size = np.sqrt(np.nanmean(errors**2, axis=0))
     sure = 1.0 / (1.0 + float(np.exp(-ahead)))
     law = next(part.pattern.label for part in both.best.hypothesis.parts if part.law is not None)
     others = tuple(name for name in both.names if name not in (UNKNOWN, *names))
     return Remainder(Decision("named", (names,), sure), law, others, both.score - alone.score, size, ahead)
-
-
-def bends(bend: Bend | None) -> bool:
-    """Whether errors bend with speed by so much that they are not those of a delay."""
-    return bend is not None and bend.size > SPEED_SHARE and bend.p < SIGNIFICANT
 
 
 def _best_without(found: Sequence[Explained], name: str) -> float:

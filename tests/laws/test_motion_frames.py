@@ -12,7 +12,6 @@ from cdpr_struct.diagnosis.all_frames import AllFrames, circular_shifts
 from cdpr_struct.diagnosis.bend_of_speed import bend_of_speed
 from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.diagnosis.frame_blocks import BLOCKS
-from cdpr_struct.diagnosis.remainder import bends
 from cdpr_struct.hypotheses import search
 from cdpr_struct.hypotheses.handling import corrections
 from cdpr_struct.observation.motion import length_rates
@@ -77,12 +76,11 @@ def test_a_share_of_speed_is_seen_in_stretches_that_it_was_not_fitted_to():
     every = AllFrames.of(recorded(filmed(1, FRAMES)))
     pieces = np.array_split(np.arange(len(every.frames)), BLOCKS)
     speed = every.data.known.rate[every.frames, :, 0]
+    shifts = len(circular_shifts(len(every.frames)))
     noise = LENGTH * np.random.default_rng(2).standard_normal(speed.shape)
     for law in (0.02 * speed, 0.02 * speed * np.abs(speed), 0.003 * np.sign(speed)):
         assert every.share_of_speed(law + noise, pieces) > 0.7
-        assert every.p_of_speed(law + noise, pieces) == pytest.approx(
-            1.0 / (len(circular_shifts(len(every.frames))) + 1)
-        )
+        assert every.p_of_speed(law + noise, pieces) == pytest.approx(1.0 / (shifts + 1))
     assert every.share_of_speed(noise, pieces) < 0.02
     assert every.p_of_speed(noise, pieces) > 0.05
     assert every.share_of_speed(noise, pieces[:1]) is None
@@ -103,7 +101,7 @@ def test_what_bends_with_speed_is_no_delay(law, straight):
     """Beside an error of the place of a millimetre and a half."""
     place = of_the_place(1, 0.0015)
     every = AllFrames.of(recorded(filmed(1, error=lambda where, speed: place(where, speed) + law(speed))))
-    assert bends(bend_of_speed(every, every.errors(None))) != straight
+    assert bend_of_speed(every, every.errors(None)).matters != straight
 
 
 @pytest.mark.slow

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.diagnosis.recording import LengthErrors, Recording
-from cdpr_struct.diagnosis.remainder import bends
 from cdpr_struct.reports.diagnose.words import listed
 from cdpr_struct.reports.html import HtmlTable
 
@@ -101,7 +100,7 @@ def unnamed_motion_sentence(found: Recording | None) -> str:
     """Why no cause is named although one was fitted."""
     if found is None or not found.unnamed_motion:
         return ""
-    if bends(found.bend) and found.bend is not None:
+    if found.bend is not None and found.bend.matters:
         return (
             "The errors of the lengths change with speed, but not in proportion to it, as those of a delay would: what "
             f"bends is {100.0 * found.bend.size:.0f} % of it (p = {found.bend.p:.2g}). This is a law of motion that is "
