@@ -45,6 +45,8 @@ Predictions and checks:
   limits                    Try the printed validity limits themselves against the catenary and the FEM (`audit
                             --limits`).
   distribute                Distribute cable forces of least cost along a trajectory, above a lower bound.
+  ambient                   Identify natural frequencies and damping ratios in a campaign's records of vibration under
+                            unknown forces.
   reproduce                 Recompute tables and figures of the thesis and show the deviations.
 
 Measured data:
@@ -86,6 +88,7 @@ if TYPE_CHECKING:
         UnholdablePoseError,
         UnstableEquilibriumError,
     )
+    from cdpr_struct.interface.ambient import ambient
     from cdpr_struct.interface.audit import audit
     from cdpr_struct.interface.cable import cable
     from cdpr_struct.interface.campaigns import causes, load_campaign
@@ -137,6 +140,7 @@ _HOMES = {
     "interface.distribute": ("distribute",),
     "interface.export": ("export",),
     "interface.campaigns": ("load_campaign", "causes"),
+    "interface.ambient": ("ambient",),
     "interface.diagnose": ("diagnose",),
     "interface.plan": ("plan",),
     "interface.reproduce": ("reproduce",),
@@ -171,6 +175,7 @@ __all__ = [
     "UnholdablePoseError",
     "UnstableEquilibriumError",
     "__version__",
+    "ambient",
     "audit",
     "cable",
     "causes",

@@ -3,6 +3,7 @@
 Plain arrays, SI units, z up. Imports NumPy and SciPy only and shares no formula with what it judges.
 """
 
+from cdpr_struct.fem_reference.ambient_motion import ambient_record
 from cdpr_struct.fem_reference.cable import CableData, CableEquilibrium
 from cdpr_struct.fem_reference.cable_damping import damping_rates
 from cdpr_struct.fem_reference.cable_modes import CableModes, cable_count_below, cable_modes, end_dynamic_stiffness
@@ -59,6 +60,7 @@ __all__ = [
     "UnstableEquilibriumError",
     "WindNotSettledError",
     "Wrap",
+    "ambient_record",
     "cable_count_below",
     "cable_modes",
     "count_below",

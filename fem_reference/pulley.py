@@ -18,12 +18,17 @@ and wrap angle. The potential of wrap and first bar, with W half the weight of t
     strain energy of the wrap + strain energy of the bar - weight of the bar . ((x + p) / 2 - reference),
 
 minimised over the unstrained length s on the wrap; the bar weighs in proportion to what s leaves it, and the
-reference point makes the tension of the wrap T + W . t, that of the cable at the exit. The path length wrap + bar
-changes by t . dx, the wrap angle by n . dx / l and the swivel by o . dx / rho, with (t, n, o) the tangent, its
-normals in and out of the pulley's plane, l the bar's length and rho the distance of x from the axis. The gradient
+reference point, the exit, makes the tension of the wrap T + W . t, that of the cable at the exit. The path length
+wrap + bar changes by t . dx, the wrap angle by n . dx / l and the swivel by o . dx / rho, with (t, n, o) the tangent,
+its normals in and out of the pulley's plane, l the bar's length and rho the distance of x from the axis. The gradient
 is the pull T t and, where the axis leans, the force -(W . o) R (1 - cos theta) / rho o by which the swivelling
-exit hands its weight on; the exact second derivative is `bar_stiffness`. The weight and the inertia of the cable
-on the pulley are neglected, its stretch counts.
+exit hands its weight on. The weight and the inertia of the cable on the pulley are neglected, its stretch counts.
+
+Stiffness. As the cable turns by n . dx / l, the exit moves on by R n . dx / l along t, and it swings along o. The
+reference follows it. That changes s, and so the force at x, but it is no work: cable that weighs nothing on the pulley
+gains weight where it rolls off. So the force has no potential, and its derivative is not symmetric.
+`bar_stiffness` is the symmetric part of that derivative. One effect of it is an artefact that grows as bars shrink;
+`_not_softened` takes it back.
 """
 
 from __future__ import annotations
@@ -136,7 +141,7 @@ class Wrap:
         """The same for both nodes of the first bar (6, 6); the start is the held entry point."""
         matrix = np.zeros((6, 6))
         block = self.bar_stiffness(tension, free_length, axial_stiffness)
-        matrix[3:, 3:] = block + self._not_softened(block, tension / (free_length * (1.0 + tension / axial_stiffness)))
+        matrix[3:, 3:] = block + self._not_softened(block)
         return matrix
 
     def first_bar_mass(
@@ -148,16 +153,26 @@ class Wrap:
         matrix[3:, 3:] = motion.T @ mass @ motion
         return matrix
 
-    def _not_softened(self, block: np.ndarray, turning: float) -> np.ndarray:
-        """Stiffness (3, 3) [N/m] against the swivel that takes back what its coupling with `turning` [N/m] invents.
+    def _not_softened(self, block: np.ndarray) -> np.ndarray:
+        """Stiffness (3, 3) [N/m] that takes back a softening which only the symmetric part has.
 
-        Where the axis leans, the weight that rolls off couples motion o across the pulley's plane with motion n in it
-        by c = w . o R / (2 l), half of what the real, unsymmetric stiffness has on one side only. As n gives way to o,
-        the symmetric part softens o by c^2 / (T / l), which grows without bound as bars shrink; the real one does not.
+        A motion u of the bar's end along the normal rolls off R u / l of cable, and its weight w per length adds the
+        force w R u / l across the normal, along the cable and out of the plane. Motion across has no such effect on the
+        force along the normal. In these two, the derivative of the force is
+
+            [[T / l, 0], [w R / l, k]],    inverse    [[l / T, 0], [-(1 / k) w R / T, 1 / k]]:
+
+        across, short bars give way by 1 / k. The symmetric part has c = w R / 2 l on both sides. Eliminating u leaves
+        k - c c^T l / T, which is softer without bound as bars shrink. With c c^T l / T added, it is k again, and the
+        inverse is the symmetric part of the one above, but for squares of w R / 2 T. For T / l stands what the block
+        has there, which the curvature changes by half of R / radius of curvature: with T / l itself that share of
+        the softening would remain. An upright pulley couples u with motion along the cable only, which shows where
+        the cable is soft or something elastic is in line.
         """
-        _, normal, across = self.directions()
-        coupling = float(normal @ block @ across)
-        return np.asarray(coupling**2 / turning * np.outer(across, across))
+        _, normal, _ = self.directions()
+        turning = float(normal @ block @ normal)
+        coupling = block @ normal - turning * normal
+        return np.asarray(np.outer(coupling, coupling) / turning)
 
     def _riding_weight_stiffness(self, bar: float) -> np.ndarray:
         """Part (3, 3) [N/m] of the weight on the moving exit, together with the tension step W . t there."""

@@ -5,6 +5,10 @@ a winch, and the piece on a pulley. The same tension prevails there. The only un
 the unstrained length s behind the start, over which the strain energy of both pieces, less the work of the bar's
 weight, is minimised; the bar weighs in proportion to what s leaves it, as `pulley.py` says. A spring of compliance c
 in line is such a path of the length c EA: under T both let c T of cable pass, strained as T strains it.
+
+A held point keeps its height, and what slides out there weighs w . t per length: the start gives way along the bar by
+c / (1 - c w . t). On a pulley the exit moves along the cable as that rolls on, and with it the place to which the bar's
+weight refers. That acts on s, but nothing acts back: the symmetric part of it is taken.
 """
 
 from __future__ import annotations
@@ -55,7 +59,7 @@ class SlidingBar:
         down = float(self.half_weight @ tangent)
         weight = (self.half_weight + down * wound) / self.free_length
         gained = np.outer(weight, sliding) + np.outer(sliding, weight)
-        gained += 2.0 * on / self.free_length * down * np.outer(sliding, sliding)
+        gained -= down / self.free_length * (np.outer(sliding, wound) + np.outer(wound, sliding))
         gained += np.outer(weight, weight) * self.behind * self.free_length / (self.axial_stiffness * soft)
         return np.asarray(self.axial_stiffness / soft * np.outer(path, path) - gained)
 

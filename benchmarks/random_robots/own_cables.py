@@ -79,7 +79,7 @@ def _hung(force: np.ndarray, length: np.ndarray, stiff: np.ndarray, weight: np.n
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # of the branches that are not taken
         grown = np.where(rising, (length + mean) / _nonzero(at_frame + frame_pull), 0.0) * weight
         fallen = np.where(falling, (length - mean) / _nonzero(pull - up), 0.0) * weight
-        through = np.log(_nonzero(up + pull)) + np.log(_nonzero(frame_pull - at_frame)) - 2.0 * np.log(_nonzero(across))
+        through = np.arcsinh(up / _nonzero(across)) - np.arcsinh(at_frame / _nonzero(across))
         bend = np.where(rising, np.log1p(grown), np.where(falling, np.log1p(fallen), through)) / weight
     flat = force[..., :2] * (length / stiff + bend)[..., None]
     return np.concatenate([flat, ((up + at_frame) * length / (2.0 * stiff) + mean)[..., None]], axis=-1)
@@ -114,7 +114,8 @@ def solved(
         left = end_offset(pull, length, stiff, weight, wheels) - offset
         step = np.linalg.solve(compliance(pull, length, stiff, weight, wheels), left[..., None])[..., 0]
         size = np.linalg.norm(pull, axis=1)
-        pull = pull - step * np.minimum(1.0, 0.5 * size / np.maximum(np.linalg.norm(step, axis=1), 1e-300))[:, None]
+        half = 0.5 * size
+        pull = pull - step * (half / np.maximum(np.linalg.norm(step, axis=1), half))[:, None]
         if (np.linalg.norm(step, axis=1) <= 1e-13 * size).all():
             break
     pull = _off_axis(pull)

@@ -32,7 +32,7 @@ def holdable(robot: Robot, pose: Pose, free: bool = False) -> str:
         pulls, chord = _directions(robot.frame_anchors - pose.position)
     own = robot.weight_per_length * (chord + _loose(robot, arms, free))
     weight = np.array([0.0, 0.0, -robot.platform.mass * robot.gravity])
-    scale = max(float(np.linalg.norm(weight)), float(robot.force_min.sum()), 1e-300)
+    scale = max(float(np.linalg.norm(weight)), float(robot.force_min.sum()), 1e-12 * float(robot.axial_stiffness.max()))
     cones, low, high = _widest(robot, pulls, _widths(robot, arms, chord, free), own)
     rows, load = _balance(robot, pose, cones, arms, forces_only=free)
     if _unbalanced(rows, load, low, high, scale) > _ZERO:

@@ -37,6 +37,7 @@ MORE = {
     "transient": ("damping.md", "damping and responses"),
     "spectrogram": ("recordings.md", "how to use recordings"),
     "audit": ("limits.md", "limits of the closed form"),
+    "ambient": ("ambient_records.md", "ambient records"),
     "diagnose": ("measuring.md", "how to measure and read a verdict"),
     "view": ("live_view.md", "how to watch a robot live"),
     "plan": ("measuring.md", "how to measure and read a verdict"),

@@ -10,6 +10,7 @@ import typer
 from typer.exceptions import Abort
 
 from cdpr_struct.cli import (
+    ambient,
     audit,
     cable,
     derive,
@@ -62,6 +63,7 @@ COMMANDS = (
     transient,
     spectrogram,
     audit,
+    ambient,
     diagnose,
     plan,
     new_robot,

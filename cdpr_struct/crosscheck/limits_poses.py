@@ -19,7 +19,8 @@ from cdpr_struct.dynamics.taut_cables import taut_cables
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.free_orientation import names_of
-from cdpr_struct.statics.inverse_kinematics import InverseSolution, InverseStatus, hung_solution, inverse
+from cdpr_struct.statics.hanging_solution import hung_solution
+from cdpr_struct.statics.inverse_kinematics import InverseSolution, InverseStatus, inverse
 from cdpr_struct.statics.shared_winches import resting_orientation
 from cdpr_struct.workspace.pose_batches import PoseBatches
 from cdpr_struct.workspace.work_list import Columns

@@ -9,7 +9,7 @@ from scipy.special import chdtr, fdtrc
 from cdpr_struct.hypotheses.detectable import FALSE_ALARMS
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.scale_mixture import TAU_DEGREES
-from cdpr_struct.measurement.campaign import SIGNALS, Campaign, Sheet
+from cdpr_struct.measurement.campaign import AMBIENT, SIGNALS, Campaign, Sheet
 
 SENSORS = ("position", "rotation", "tension", "length", "cable_frequency", "frf")
 """Names of the kinds of sensors, in the order of their numbers."""
@@ -22,6 +22,7 @@ _NEEDED = {
     "static_state": ("tension_N", "length_m", *_POSE), "loaded_pose": ("length_m", *_POSE),
     "cable_frequency": ("frequency_hz", *_POSE), "robot_frequency": ("frequency_hz", *_POSE),
     "frf": ("frequency_hz",), "free_decay": ("frequency_hz",), "platform_motion": ("frequency_hz", *_POSE),
+    AMBIENT: ("frequency_hz",),
 }  # fmt: skip
 _RANGE = {"position_m": (1e-6, 0.05), "rotation_deg": (1e-5, 5.0), "length_m": (1e-6, 0.05)}
 _SHARE = {"tension_N": (1e-5, 0.3), "frequency_hz": (1e-6, 0.2)}  # of the median reading
@@ -107,7 +108,7 @@ def _used(sheet: Sheet, name: str) -> Used:
     value = getattr(sheet.sigmas, name)
     words = _DEFAULT_FREQUENCY if value is None else f"{value:g} {_UNIT[name]}"
     source = "stated" if name in sheet.stated else "default"
-    if value is None and sheet.kind in SIGNALS:
+    if value is None and sheet.kind in (*SIGNALS, AMBIENT):
         words, source = "of each identified mode", "signal"
     if "sigma" in sheet.columns and name == _main(sheet):
         source = f"column sigma, else {source}"

@@ -130,22 +130,7 @@ def frame_ends(point: OperatingPoint) -> FrameEnds | None:
     if give is None:
         return None
     q = give.compliance.shape[-1]
-    spring = 1.0 / np.maximum(give.compliance, give.least)
-    spring[..., 0] += _weight_let_out(point)
-    return FrameEnds(give.directions.reshape(-1, 3, q), spring.reshape(-1, q))
-
-
-def _weight_let_out(point: OperatingPoint) -> np.ndarray:
-    """(..., m) stiffness [N/m] along cables at held tension at their frame ends: the weight of what is let out there.
-
-    A cable that leaves its winch downwards pulls with more as it pays out; zero where winches hold the length.
-    """
-    cables, winch = point.cables, point.arrays.winch_tension > 0.0
-    if not winch.any():
-        return np.zeros(cables.length.shape)
-    tension = cables.tension_at_frame
-    upwards = np.einsum("...i,...i->...", cables.force_at_frame, cables.up) / tension
-    return np.where(winch, cables.weight * upwards / (1.0 + tension / cables.axial_stiffness), 0.0)
+    return FrameEnds(give.directions.reshape(-1, 3, q), give.stiffness.reshape(-1, q))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

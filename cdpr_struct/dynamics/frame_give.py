@@ -15,14 +15,23 @@ _SHORT = 1e-9  # of a cable's length: what is shorter gives way no more than a f
 class FrameGive:
     """How far frame ends give way: directions (..., m, 3, q) and compliance (..., m, q) [m/N] along them.
 
-    Directions are orthonormal but for what leans the plane of a wheel by its cable's weight (`_leant`).
+    Directions are orthonormal but for what leans them at a wheel by its cable's weight (`_leant`, `_drawn`).
 
-    least : (..., m, q) compliance that counts as none
+    least   : (..., m, q) compliance that counts as none
+    let_out : (..., m) stiffness [N/m] in the first direction beside that of what is elastic (`_weight_let_out`)
     """
 
     directions: np.ndarray
     compliance: np.ndarray
     least: np.ndarray
+    let_out: np.ndarray
+
+    @property
+    def stiffness(self) -> np.ndarray:
+        """(..., m, q) along the directions [N/m]."""
+        spring = 1.0 / np.maximum(self.compliance, self.least)
+        spring[..., 0] += self.let_out
+        return np.asarray(spring)
 
 
 def frame_give(point: OperatingPoint) -> FrameGive | None:
@@ -42,11 +51,12 @@ def frame_give(point: OperatingPoint) -> FrameGive | None:
     gives = [np.where(arrays.winch_tension > 0.0, np.inf, along)]
     if arrays.has_pulleys:
         wheel = _Wheel.of(arrays, tangent)
-        directions = [_leant(point, wheel, tangent), _leant(point, wheel, wheel.across)]
+        across = _leant(point, wheel, wheel.across) + _drawn(point, wheel, along)[..., None] * tangent
+        directions = [_leant(point, wheel, tangent), across]
         gives.append(arrays.pulley_radius * wheel.half_tangent / tension)
         least.append(short / tension)
-    stacked = (np.stack(np.broadcast_arrays(*parts), axis=-1) for parts in (directions, gives, least))
-    return FrameGive(*stacked)
+    ways, given, none = (np.stack(np.broadcast_arrays(*parts), axis=-1) for parts in (directions, gives, least))
+    return FrameGive(ways, given, none, _weight_let_out(point))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,9 +93,35 @@ def _leant(point: OperatingPoint, wheel: _Wheel, direction: np.ndarray) -> np.nd
     symmetric; its symmetric part, which alone shifts frequencies to first order, is that of an end that gives way along
     d + b n / 2, with n the way of turning and b = (w . d / T) R / (1 - k R).
     """
-    cables, radius = point.cables, point.arrays.pulley_radius
-    stretched = cables.tension_at_frame * (1.0 + cables.tension_at_frame / cables.axial_stiffness)
-    upwards = (cables.weight / stretched)[..., None] * cables.up
+    radius = point.arrays.pulley_radius
+    upwards = _held_up(point) / point.cables.tension_at_frame[..., None]
     rolled = radius / (1.0 - radius * np.einsum("...mi,...mi->...m", upwards, wheel.turning))
     lean = 0.5 * rolled * np.einsum("...mi,...mi->...m", upwards, direction)
     return np.asarray(direction + lean[..., None] * wheel.turning)
+
+
+def _drawn(point: OperatingPoint, wheel: _Wheel, along: np.ndarray) -> np.ndarray:
+    """(..., m) motion along the cable per motion across the wheel, for compliances (..., m) along the cable [m/N].
+
+    What slides out as something in line gives way has weight, too, and pulls a leaning wheel round: by w . o for each
+    length, o the way across. The wheel does not draw cable out; of this half counts, as for `_leant`.
+    """
+    sideways = -np.einsum("...mi,...mi->...m", _held_up(point), wheel.across)
+    return np.asarray(0.5 * along * sideways)
+
+
+def _weight_let_out(point: OperatingPoint) -> np.ndarray:
+    """(..., m) stiffness [N/m] along cables at their frame ends, by the weight of what slides out or in there.
+
+    A cable that leaves downwards pulls with more as it slides out, whether a winch holds its tension or what is elastic
+    in line gives way.
+    """
+    tangent = point.cables.force_at_frame / point.cables.tension_at_frame[..., None]
+    return np.asarray(np.einsum("...mi,...mi->...m", _held_up(point), tangent))
+
+
+def _held_up(point: OperatingPoint) -> np.ndarray:
+    """(..., m, 3) upwards, the weight of a length of cable as it hangs at the frame end [N/m]."""
+    cables = point.cables
+    strained = 1.0 + cables.tension_at_frame / cables.axial_stiffness
+    return np.asarray((cables.weight / strained)[..., None] * cables.up)

@@ -45,7 +45,7 @@ class FrameSprings:
         if give is None:
             return None
         directions = np.einsum("cxmn,nmxq->cqmn", axes, give.directions, optimize=True)
-        stiffness = 1.0 / np.moveaxis(np.maximum(give.compliance, give.least), (2, 1, 0), (0, 1, 2))
+        stiffness = np.moveaxis(give.stiffness, (2, 1, 0), (0, 1, 2))
         arrays = point.arrays
         upright = not (arrays.pulley_axis[..., :2].any(axis=-1) & (arrays.pulley_radius > 0.0)).any()
         return cls(directions, np.ascontiguousarray(stiffness), _groups(upright, len(stiffness)))
@@ -82,7 +82,7 @@ def _groups(upright: bool, count: int) -> Groups:
 
 def beside_springs(point: OperatingPoint) -> np.ndarray | None:
     """(n, m, 3, 3) what the static stiffness of the platform ends has beside that of cables on such springs, world
-    [N/m]: rolling on the wheel, and the weight of the cable that is let out. None where all frame ends are fixed.
+    [N/m]: what weight does on wheels, beyond its symmetric part. None where all frame ends are fixed.
 
     A pull at the platform end is one at the frame end, but for the weight between them; with K the free cable's
     stiffness, on springs it is therefore (1 + K B)^-1 K.
@@ -90,9 +90,7 @@ def beside_springs(point: OperatingPoint) -> np.ndarray | None:
     give = frame_give(point)
     if give is None:
         return None
-    compliance = (give.directions * np.maximum(give.compliance, give.least)[..., None, :]) @ np.swapaxes(
-        give.directions, -1, -2
-    )
+    compliance = (give.directions / give.stiffness[..., None, :]) @ np.swapaxes(give.directions, -1, -2)
     free = cable_stiffness(point.cables)
     return np.asarray(point.end_stiffness - np.linalg.solve(np.eye(3) + free @ compliance, free))
 

@@ -9,13 +9,14 @@ import numpy as np
 from cdpr_struct.errors import InputError, UnholdablePoseError
 from cdpr_struct.interface.arguments import one_of
 from cdpr_struct.interface.winches import require_locked_lengths, require_own_winches, wound
-from cdpr_struct.robot.pose import Pose, angles_from_rotation
+from cdpr_struct.robot.pose import Pose, angle_between, angles_from_rotation
 from cdpr_struct.robot.robot import FREEDOMS, Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.equilibrium import PlatformArms
 from cdpr_struct.statics.even_orientation import even_orientation
 from cdpr_struct.statics.free_orientation import ANGLES, free_orientation, left_free, names_of, turn_with_guide
-from cdpr_struct.statics.inverse_kinematics import InverseSolution, hung_solution
+from cdpr_struct.statics.hanging_solution import hung_solution
+from cdpr_struct.statics.inverse_kinematics import InverseSolution
 from cdpr_struct.statics.unholdable_poses import behind_wheels, half_turn_error
 from cdpr_struct.workspace.margins import largest_tilt
 
@@ -23,6 +24,7 @@ FreeAngles: TypeAlias = str | Iterable[str]
 """Names of angles, or their text with commas between them: rx, ry, rz."""
 HANGING, EVEN = ORIENTS = ("hanging", "even")
 _EXPECTED = "give some of rx,ry,rz"
+_FAR = np.radians(30.0)  # so far from where its search began an orientation is not what one expects
 _DECIMALS = 6  # of angles in sentences [deg]: smaller ones are rounding
 
 
@@ -33,6 +35,7 @@ class HangingPose:
     free : (3,) bool, of rx, ry, rz;  added : names of angles that were not asked for, but are free, too
     solution : the tensions there;  spread : of the tensions [-] if the angles are those of the most even ones, or None
     held_by : what holds the platform, in words
+    turned : from where the search began [rad]
     """
 
     pose: Pose
@@ -41,11 +44,13 @@ class HangingPose:
     added: tuple[str, ...]
     spread: float | None = None
     held_by: str = "cables"
+    turned: float = 0.0
 
     def json(self) -> dict[str, Any]:
         """The key `free` of results."""
         angles = np.degrees(self.pose.angles).tolist()
         told = {"angles": names_of(self.free), "added": list(self.added), "orientation_deg": angles}
+        told["turned_deg"] = float(np.degrees(self.turned))
         return {"free": told if self.spread is None else {**told, "orient": EVEN, "tension_spread": self.spread}}
 
     def sentence(self) -> str:
@@ -59,6 +64,8 @@ class HangingPose:
             )
         many = f"; {', '.join(self.added)} because so few {self.held_by} cannot hold more" if self.added else ""
         hangs = f"the platform hangs at ({rx:.4g}, {ry:.4g}, {rz:.4g})° about x, y, z."
+        if self.turned > _FAR:
+            hangs += f" That is {np.degrees(self.turned):.0f}° from the angles given, near which none was found."
         return f"{_were_left_free(self.free)}{many}: {hangs}"
 
 
@@ -195,7 +202,9 @@ def even_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "saggin
             f"the platform nowhere near, or the search has not settled. Move the pose, or begin at another orientation."
         )
     pose, spread = Pose(where.position, found.angles[0]), float(found.spread[0])
-    return HangingPose(pose, found.solution.at(0), free, (), spread)
+    return HangingPose(
+        pose, found.solution.at(0), free, (), spread, turned=float(angle_between(where.rotation, pose.rotation))
+    )
 
 
 def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sagging") -> HangingPose:
@@ -210,7 +219,8 @@ def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sag
     if robot.shared_winches:
         hung = wound(robot, where, free, model).hung
         pose = Pose(where.position, hung.angles[0])
-        return HangingPose(pose, hung_solution(robot, hung).at(0), free, added, held_by="winches")
+        turned = float(angle_between(where.rotation, pose.rotation))
+        return HangingPose(pose, hung_solution(robot, hung).at(0), free, added, held_by="winches", turned=turned)
     _require_no_half_turn(robot, [where, Pose(where.position, np.where(free, 0.0, where.angles))])
     found = free_orientation(robot, where.position[None], where.angles, free, model=model)
     if not found.found[0]:
@@ -224,7 +234,10 @@ def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sag
             f"no orientation is found at which the platform hangs freely about {names}: {left}. "
             f"{hint}, or begin at another orientation."
         )
-    return HangingPose(Pose(where.position, found.angles[0]), hung_solution(robot, found).at(0), free, added)
+    pose = Pose(where.position, found.angles[0])
+    return HangingPose(
+        pose, hung_solution(robot, found).at(0), free, added, turned=float(angle_between(where.rotation, pose.rotation))
+    )
 
 
 def _require_no_half_turn(robot: Robot, starts: list[Pose]) -> None:

@@ -11,7 +11,8 @@ from cdpr_struct.robot.robot import FREEDOMS, Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.free_orientation import left_free
-from cdpr_struct.statics.inverse_kinematics import InverseSolution, hung_solution
+from cdpr_struct.statics.hanging_solution import hung_solution
+from cdpr_struct.statics.inverse_kinematics import InverseSolution
 from cdpr_struct.statics.shared_winches import WoundRest, wound_rest
 
 SAME_WINDING = 2e-5  # [m], by which lengths of cables on one winch may differ from equal changes: they are rounded

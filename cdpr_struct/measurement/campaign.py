@@ -11,10 +11,13 @@ from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.robot.robot import Robot
 
 if TYPE_CHECKING:
+    from cdpr_struct.measurement.ambient_records import AmbientRecord
     from cdpr_struct.measurement.identified import Identified
 
 SIGNALS = ("frf", "free_decay", "platform_motion")
 """Kinds of data whose frequencies are identified in records."""
+AMBIENT = "ambient"
+"""Kind of accelerations under unknown forces, whose frequencies count like a list's."""
 NOT_SAID, PLATFORM = -1, -2
 """Labels of a peak of the robot: of nothing that is known, and of the platform."""
 KINDS = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency", *SIGNALS)
@@ -194,6 +197,7 @@ class Campaign:
     stated : names of the tolerances that the file gives; the others are defaults
     checked : causes that a check beside the robot has bounded, with one sigma of what they may still be
     identified : modes found in the signals of `series`; those used are among `robot_frequencies`
+    ambient : modes found in ambient records, all of them among `robot_frequencies`
     sheets : the data files, with the sigmas used
     memory : correlation of a sensor's noise in one state with that in the next, 0 for independent noise
     relative_lengths : each encoder counts from an unknown start, the same in all states
@@ -223,6 +227,7 @@ class Campaign:
     relative_lengths: bool = False
     loss: Loss = Loss()  # noqa: RUF009 - frozen
     frames: Frames | None = None
+    ambient: tuple["AmbientRecord", ...] = ()
 
     @property
     def cable_model(self) -> str:
@@ -237,7 +242,7 @@ class Campaign:
     def without_robot_peaks(self) -> "Campaign":
         """The campaign without frequencies of the robot, from lists and from signals."""
         peaks = RobotFrequencies(*(np.zeros(0, dtype=t) for t in (int, float, float)))
-        return replace(self, robot_frequencies=peaks, series=(), identified=())
+        return replace(self, robot_frequencies=peaks, series=(), identified=(), ambient=())
 
     def kinds(self) -> list[str]:
         """Kinds of data that the campaign holds, in the fixed order."""

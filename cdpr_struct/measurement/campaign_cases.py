@@ -1,6 +1,6 @@
 """Rows of several files become states: the same case in two files is the same state with the same readings."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +8,7 @@ import numpy as np
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.assumed_angles import angle_note
 from cdpr_struct.measurement.campaign import (
+    AMBIENT,
     NOT_SAID,
     SIGNALS,
     CableFrequencies,
@@ -55,6 +56,7 @@ class Gathering:
     cable_rows: list[tuple[int, int, int, bool, float, float]] = field(default_factory=list)
     robot_rows: list[tuple[int, float, float, int, int]] = field(default_factory=list)
     series: list[tuple[Series, Sigmas]] = field(default_factory=list)
+    ambient: list[tuple[Series, Sigmas]] = field(default_factory=list)
     shapes: dict[int, np.ndarray] = field(default_factory=dict)
     origins: dict[int, tuple[int, int]] = field(default_factory=dict)
 
@@ -66,9 +68,10 @@ class Gathering:
         InputError : a case with two poses or payloads, a cable given twice or not at all.
         """
         if rows.kind in SIGNALS:
-            labels = {k: tuple(v) for k, v in rows.words.items() if k != "case"}
-            signals = Series(rows.kind, rows.file, tuple(rows.words["case"]), dict(rows.numbers), labels)
-            self.series.append((signals, sigmas))
+            self.series.append((_series(rows), sigmas))
+            return
+        if rows.kind == AMBIENT:
+            self._ambient(rows, sigmas)
             return
         states = [self._state(rows, i, sigmas) for i in range(len(rows))]
         if rows.kind == "static_state":
@@ -128,6 +131,19 @@ class Gathering:
             self.origins[len(self.robot_rows)] = origin
             self.shapes[len(self.robot_rows)] = shape
             self.robot_rows.append((place, hertz, sigma, NOT_SAID, NOT_SAID))
+
+    def _ambient(self, rows: Rows, sigmas: Sigmas) -> None:
+        """Ambient records, whose cases are states; their clocks are not the campaign's."""
+        names = rows.words["case"]
+        timeless = replace(rows, numbers={k: v for k, v in rows.numbers.items() if k != "time_s"})
+        for case in dict.fromkeys(names):
+            self._state(timeless, names.index(case), sigmas)
+        self.ambient.append((_series(rows), sigmas))
+
+    def ambient_states(self) -> np.ndarray:
+        """Numbers of the states that have an ambient record."""
+        order = {name: i for i, name in enumerate(self.known)}
+        return np.array([order[c] for s, _ in self.ambient for c in dict.fromkeys(s.case)], dtype=int)
 
     def _static(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         own = rows.get("sigma")
@@ -224,6 +240,11 @@ class Gathering:
             origin[row] = made
         body, mode = table[:, 3:].astype(int).T
         return RobotFrequencies(table[:, 0].astype(int), table[:, 1], table[:, 2], shape, origin, body, mode)
+
+
+def _series(rows: Rows) -> Series:
+    labels = {k: tuple(v) for k, v in rows.words.items() if k != "case"}
+    return Series(rows.kind, rows.file, tuple(rows.words["case"]), dict(rows.numbers), labels)
 
 
 def _other_length(rows: Rows, i: int, state: _State, length: np.ndarray) -> InputError:

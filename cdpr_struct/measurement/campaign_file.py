@@ -8,8 +8,10 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cdpr_struct.errors import InputError, not_utf8
+from cdpr_struct.measurement.ambient_cases import ambient_notes, join_ambient
+from cdpr_struct.measurement.ambient_choice import given_choice
 from cdpr_struct.measurement.assumed_angles import angle_note
-from cdpr_struct.measurement.campaign import UNKNOWN_ZERO, Campaign, Sheet, Sigmas, States, Tolerances
+from cdpr_struct.measurement.campaign import AMBIENT, UNKNOWN_ZERO, Campaign, Sheet, Sigmas, States, Tolerances
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.campaign_sources import is_there
@@ -33,7 +35,14 @@ from cdpr_struct.robot.robot_file import (
 from cdpr_struct.robot.toml_text import toml_table
 
 Kind = Literal[
-    "static_state", "loaded_pose", "cable_frequency", "robot_frequency", "frf", "free_decay", "platform_motion"
+    "static_state",
+    "loaded_pose",
+    "cable_frequency",
+    "robot_frequency",
+    "frf",
+    "free_decay",
+    "platform_motion",
+    "ambient",
 ]
 
 _CASES_NAMED = 6  # of those with a pose, where one is asked for
@@ -56,6 +65,9 @@ class MeasurementTable(_Table):
     kind: Kind
     file: str
     sigma: SigmaTable = SigmaTable()
+    band_hz: Annotated[list[NotNegative], Field(min_length=2, max_length=2)] | None = None
+    order: int | None = None
+    frequencies_hz: Annotated[list[Positive], Field(min_length=1)] | None = None
 
 
 class NominalTable(_Table):
@@ -120,8 +132,9 @@ def load_campaign(
     lowest = table.lower_bound_N if lower_bound is None else lower_bound
     commanding, relative = _commanding(robot, lowest, source), table.encoders == "relative"
     gathering = Gathering(len(robot.cables))
-    sheets, cases = [], {}
+    sheets, cases, choices = [], {}, []
     for number, entry in enumerate(table.measurement, start=1):
+        choices += given_choice(entry.kind == AMBIENT, entry.model_dump(), str(source), f"measurement[{number}]")
         rows, sigmas = _rows(entry, source, number, len(robot.cables), planned, relative), _sigmas(entry)
         gathering.add(rows, sigmas)
         cases[entry.file] = rows.words.get("case", [])
@@ -129,8 +142,9 @@ def load_campaign(
     _check_poses(gathering)
     check_scale(str(path), robot, _absolute(gathering.states(), relative))
     check_robot_scale(str(path), robot, gathering.states(), gathering.tension_files())
-    vibrating = np.concatenate([gathering.cable_frequencies().state, gathering.robot_frequencies().state])
-    check_placed(str(path), gathering.states(), vibrating)
+    listed = (gathering.cable_frequencies().state, gathering.robot_frequencies().state, gathering.ambient_states())
+    check_placed(str(path), gathering.states(), np.concatenate(listed))
+    ambient = join_ambient(gathering, choices)
     identified = join_signals(gathering, commanding, table.model)
     given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
     return Campaign(
@@ -156,7 +170,9 @@ def load_campaign(
             *(note for sheet in sheets if (note := angle_note(sheet.file, sheet.columns))),
             *misspelt_notes(cases),
             *missing_notes(gathering.states()),
+            *ambient_notes(ambient),
         ),
+        ambient=ambient,
     )
 
 

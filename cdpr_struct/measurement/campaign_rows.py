@@ -7,8 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from cdpr_struct.errors import NOTHING, InputError, known_names
+from cdpr_struct.measurement.ambient_columns import ambient_known, ambient_needed
 from cdpr_struct.measurement.assumed_angles import ANGLES
 from cdpr_struct.measurement.cable_columns import EITHER, LENGTH, QUANTITIES
+from cdpr_struct.measurement.campaign import AMBIENT
 from cdpr_struct.measurement.column_names import renaming
 from cdpr_struct.measurement.data_table import DataTable, read_table
 from cdpr_struct.measurement.quaternions import QUATERNION, quaternion_headings, with_angles
@@ -99,7 +101,8 @@ def read_rows(kind: str, path: Path, cables: int, planned: bool = False, relativ
     rows = Rows(kind, str(path), with_angles(str(path), numbers), words, headings=quaternion_headings(numbers))
     _check_values(rows, cables)
     if "case" not in words:
-        words["case"] = [path.stem] * len(rows) if kind == "platform_motion" else _cases_from_poses(rows)
+        named = kind == "platform_motion" or (kind == AMBIENT and not set(POSITION) & set(names))
+        words["case"] = [path.stem] * len(rows) if named else _cases_from_poses(rows)
     return _long(rows, cables) if wide else rows
 
 
@@ -173,6 +176,8 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
 
 
 def _needed(kind: str, columns: Sequence[str], cables: int) -> tuple[str, ...]:
+    if kind == AMBIENT:
+        return ambient_needed(columns)
     own = _WIDE_NEEDED if is_wide(kind, columns) else _NEEDED[kind]
     if kind in _READINGS_MAY_LACK and not set(POSITION) & set(columns):
         own = tuple(name for name in own if name not in POSITION)  # a state without a measured position
@@ -188,6 +193,8 @@ def _needs(kind: str, columns: Sequence[str], cables: int) -> str:
 
 def _known(kind: str, columns: Sequence[str], cables: int) -> list[str]:
     """Columns that a file of this kind and form may have."""
+    if kind == AMBIENT:
+        return ambient_known(columns)
     own = [name for q in QUANTITIES.get(kind, ()) for name in q.columns(cables)]
     if is_wide(kind, columns):
         return [*_ALWAYS, *_WIDE_ALSO[kind], *own]

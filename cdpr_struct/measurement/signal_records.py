@@ -6,7 +6,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from cdpr_struct.errors import InputError
-from cdpr_struct.measurement.campaign import Series
+from cdpr_struct.measurement.ambient_columns import ambient_channels
+from cdpr_struct.measurement.campaign import AMBIENT, Series
 from cdpr_struct.measurement.campaign_rows import POSE, length_columns
 
 ACCELERATION = ("ax", "ay", "az")
@@ -56,8 +57,7 @@ def _record(series: Series, rows: np.ndarray, case: str, cables: int) -> SignalR
     else:
         axis = columns["time_s"]
         _check_even(series.file, case, axis)
-        given = ACCELERATION if series.kind == "free_decay" else MOTION
-        signal, channels = _samples(series.kind, columns), given
+        signal, channels = _samples(series.kind, columns)
     position, angles = _rest(series, columns, case)
     lengths = np.full(cables, np.nan)
     if all(name in columns for name in length_columns(cables)):
@@ -66,13 +66,15 @@ def _record(series: Series, rows: np.ndarray, case: str, cables: int) -> SignalR
     return SignalRecord(series.kind, case, series.file, axis, signal, channels, position, angles, payload, lengths)
 
 
-def _samples(kind: str, columns: dict[str, np.ndarray]) -> np.ndarray:
-    if kind == "free_decay":
-        return np.stack([columns[name] for name in ACCELERATION], axis=1)
+def _samples(kind: str, columns: dict[str, np.ndarray]) -> tuple[np.ndarray, tuple[str, ...]]:
+    """Samples (n, c) and the names of their channels."""
+    if kind in ("free_decay", AMBIENT):
+        names = ACCELERATION if kind == "free_decay" else tuple(ambient_channels(list(columns)))
+        return np.stack([columns[name] for name in names], axis=1), names
     position = np.stack([columns[name] for name in POSE[:3]], axis=1)
     turn = _turns(columns)
     away = (turn * turn.mean().inv()).as_rotvec()
-    return np.concatenate([position - position.mean(axis=0), away], axis=1)
+    return np.concatenate([position - position.mean(axis=0), away], axis=1), MOTION
 
 
 def _turns(columns: dict[str, np.ndarray]) -> Rotation:

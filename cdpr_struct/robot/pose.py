@@ -41,6 +41,12 @@ class Pose:
         return [*self.position.tolist(), *np.degrees(self.angles).tolist()]
 
 
+def angle_between(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Angle (...) [rad] by which rotation matrices (..., 3, 3) differ."""
+    cosine = 0.5 * (np.einsum("...ij,...ij->...", first, second) - 1.0)
+    return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
+
+
 def angles_from_rotation(rotation: np.ndarray) -> np.ndarray:
     """Angles rx, ry, rz [rad] (..., 3) of rotation matrices (..., 3, 3) = Rz Ry Rx.
 

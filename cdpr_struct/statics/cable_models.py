@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.statics.cable_response import cable_response, let_out
+from cdpr_struct.statics.cable_response import cable_response, chord_tension_rate, let_out
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span, span_and_rise
 from cdpr_struct.statics.catenary import CableStatus
 from cdpr_struct.statics.catenary_length import SLACKEST, force_z_curvature
@@ -147,6 +147,9 @@ class SaggingModel:
         states, length_rate = held_hanging(arrays, points, chord_tension)
         locked = replace(arrays, series_compliance=np.zeros(1), winch_tension=np.zeros(1))
         response = cable_response(locked, states)
+        if arrays.has_pulleys:
+            tension_rate = chord_tension_rate(locked, states, response)
+            length_rate = np.where(tension_rate < 0.0, 1.0 / tension_rate, length_rate)
         bend = -force_z_curvature(states.span, states.rise, chord_tension, states.weight)
         return HeldCables(states, -response.length_rate * length_rate[..., None], bend)
 

@@ -11,6 +11,8 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates, cable_stiffness
 from cdpr_struct.statics.pulley import exit_rates
 
+_STEEP = 1e-3  # span over chord below which a chord tension by span is rounded
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CableResponse:
@@ -18,10 +20,12 @@ class CableResponse:
 
     stiffness    : (..., m, 3, 3) with respect to the position of the platform end [N/m]
     length_rate  : (..., m, 3) with respect to the unstrained length paid out beyond the frame anchor [N/m]
+    frame_rate   : (..., m, 3) of the tension vector at the frame end with respect to that length [N/m]
     """
 
     stiffness: np.ndarray
     length_rate: np.ndarray
+    frame_rate: np.ndarray
 
 
 def end_stiffness(arrays: RobotArrays, states: CableStates) -> np.ndarray:
@@ -46,9 +50,10 @@ def cable_response(arrays: RobotArrays, states: CableStates) -> CableResponse:
     cable as the tension grows, which enters that system alike. A winch that holds the tension lets out what keeps it.
     """
     free = cable_stiffness(states)
+    free_rate = _free_rate(states, free)
+    top_rate = free_rate - states.weight[..., None] * states.up
     if not arrays.has_yielding_frame_ends:
-        return CableResponse(free, _free_rate(states, free))
-    top_rate = _free_rate(states, free) - states.weight[..., None] * states.up
+        return CableResponse(free, free_rate, top_rate)
     from_tension, matrix = _exit_equation(arrays, states, free, top_rate)
     inverse = np.linalg.inv(matrix)
     lets_out = np.einsum("...i,...ij->...j", from_tension, inverse)
@@ -56,7 +61,25 @@ def cable_response(arrays: RobotArrays, states: CableStates) -> CableResponse:
         lets_out, inverse = _at_held_tension(arrays, states, top_rate, lets_out, inverse)
     weight = states.weight[..., None] * states.up
     back = inverse + weight[..., :, None] * lets_out[..., None, :]
-    return CableResponse(back @ free, np.einsum("...ij,...j->...i", back, top_rate) + weight)
+    length_rate = np.einsum("...ij,...j->...i", back, top_rate) + weight
+    return CableResponse(back @ free, length_rate, np.einsum("...ij,...j->...i", inverse, top_rate))
+
+
+def chord_tension_rate(arrays: RobotArrays, states: CableStates, response: CableResponse) -> np.ndarray:
+    """(..., m) derivative of the chord tension fx c / s (2.17) by the length paid out [N/m]; nan at steep cables.
+
+    The exit from the pulley moves with the direction of the tension there, and with it chord c and span s.
+    """
+    tension, direction = _pull_at_frame(states)
+    turned = response.frame_rate - (response.frame_rate * direction).sum(axis=-1, keepdims=True) * direction
+    moves = exit_rates(direction, arrays.pulley_axis, arrays.pulley_radius)[0]
+    shift = -np.einsum("...ij,...j->...i", moves, turned / tension[..., None])
+    span, chord = states.span, states.chord
+    regular = span > _STEEP * chord
+    across = np.where(regular, span, 1.0)
+    growing = (response.length_rate * states.heading).sum(axis=-1) * chord
+    lengthening = (shift * states.offset).sum(axis=-1) / chord - (shift * states.heading).sum(axis=-1) * chord / across
+    return np.where(regular, (growing + states.force_x * lengthening) / across, np.nan)
 
 
 def exit_jacobian(arrays: RobotArrays, states: CableStates) -> np.ndarray:

@@ -14,7 +14,8 @@ import numpy.typing as npt
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.statics.free_orientation import free_orientation, within_largest_turn
+from cdpr_struct.statics.free_orientation import free_orientation
+from cdpr_struct.statics.hanging_search import within_largest_turn
 from cdpr_struct.statics.inverse_kinematics import InverseSolution, inverse
 
 _ROUNDS = 80

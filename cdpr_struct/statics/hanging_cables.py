@@ -8,15 +8,15 @@ from cdpr_struct.statics.cable_segments import LoadedLength, Loading, forces_at_
 from cdpr_struct.statics.cable_state import CableStates, heading_and_span, span_and_rise
 from cdpr_struct.statics.catenary import CatenaryForces, solve_end_forces
 from cdpr_struct.statics.catenary_length import CatenaryLength, length_at_chord_tension
+from cdpr_struct.statics.fixed_point import FixedPoint
 from cdpr_struct.statics.lost_cables import counted_lost
-from cdpr_struct.statics.pulley import pulley_exit, straight_exit, turned_back
+from cdpr_struct.statics.pulley import pulley_exit, straight_exit, turned_back, within_wheel
 from cdpr_struct.statics.tension_winches import held_at_frame, with_winches
 
 _EXIT_ITERATIONS = 30
-_EXIT_REPEATED = 200  # times at most, at large wheels and short cables
+_EXIT_REPEATED = 80  # times at most, at large wheels and short or slack cables
 _EXIT_TOLERANCE = 1e-14  # of the tension and EA, or of the unit direction
 _EXIT_MET = 1e-10  # of the same: above it the exit from the pulley was not found
-_EXIT_FIRST, _EXIT_SLOWEST = 8, 0.97  # after so many times, a direction that turns less slowly swings to and fro
 
 
 def hanging(
@@ -87,7 +87,10 @@ def _catenary_over_pulley(
     """Newton on the tension vector at the frame end: its direction places the exit from the pulley, its size strains
     the wrapped piece and what is in line behind it."""
     direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
-    states, near = _leaving(arrays, offset, length, direction, np.zeros(length.shape), near)
+    exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
+    strained = arrays.pulley_radius * exit_.wrap_angle + np.linalg.norm(offset - exit_.point, axis=-1)
+    taut = arrays.axial_stiffness * np.maximum(strained / length - 1.0, 0.0)  # what is on the wheel stretches, too
+    states, near = _leaving(arrays, offset, length, direction, taut, near)
     vector = states.force_at_frame
     for _ in range(_EXIT_ITERATIONS):
         tension = np.linalg.norm(vector, axis=-1)
@@ -146,19 +149,19 @@ def _catenary_at_tension(
 def _held_over_pulley(
     arrays: RobotArrays, offset: np.ndarray, chord_tension: np.ndarray
 ) -> tuple[CableStates, np.ndarray]:
-    """Fixed point of the exit direction; contracts by about radius over chord."""
+    """Fixed point of the exit direction; repetition contracts by about radius over chord, extrapolation does more."""
     direction = straight_exit(offset, arrays.pulley_axis, arrays.pulley_radius)
-    turned = np.full(offset.shape[:-1], np.inf)
-    for count in range(_EXIT_REPEATED):
+    search, nowhere = FixedPoint(), within_wheel(offset, arrays.pulley_axis, arrays.pulley_radius)
+    for _ in range(_EXIT_REPEATED):
         exit_ = pulley_exit(direction, arrays.pulley_axis, arrays.pulley_radius)
         wrap = arrays.pulley_radius * exit_.wrap_angle
         states, length_rate = _catenary_at_tension(arrays, offset - exit_.point, chord_tension, wrap)
-        before = direction
-        direction = states.force_at_frame / states.tension_at_frame[..., None]
-        last, turned = turned, np.abs(direction - before).max(axis=-1)
-        going = (turned > _EXIT_TOLERANCE) & ((turned < _EXIT_SLOWEST * last) | (count < _EXIT_FIRST))
-        if not going.any():
+        leaving = states.force_at_frame / states.tension_at_frame[..., None]
+        turned = np.abs(leaving - direction).max(axis=-1)
+        if (nowhere | (turned <= _EXIT_TOLERANCE)).all():
             break
-    back = turned_back(direction, arrays.pulley_axis, arrays.pulley_radius)
+        direction = search.next(direction, leaving)
+        direction /= np.linalg.norm(direction, axis=-1, keepdims=True)
+    back = turned_back(leaving, arrays.pulley_axis, arrays.pulley_radius)
     states = counted_lost(states, back | ~(turned <= _EXIT_MET))
     return states, length_rate * (1.0 + states.wrapped_length / states.length)  # the wrapped piece stretches alike

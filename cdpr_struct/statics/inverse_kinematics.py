@@ -20,7 +20,6 @@ from cdpr_struct.statics import holding_tensions
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import cable_wrench
-from cdpr_struct.statics.free_orientation import FreeOrientation
 from cdpr_struct.statics.guides import free_part
 from cdpr_struct.statics.holding_tensions import HoldingProblem, allowed_unbalance, force_bounds
 from cdpr_struct.statics.lost_cables import lost
@@ -29,6 +28,7 @@ from cdpr_struct.statics.stiffening import settled_stiffness
 from cdpr_struct.statics.taut_tensions import suits, taut_tensions
 from cdpr_struct.statics.unholdable_poses import (
     behind_wheels,
+    ends_within_wheels,
     half_turn_error,
     no_length_error,
     unholdable,
@@ -132,6 +132,9 @@ def inverse(
         if not allow_unheld:
             raise no_length_error(nothing)
         problem = _moved_off(problem, degenerate)
+    within = ends_within_wheels(problem.arrays, problem.arms.points)
+    if within.any() and not allow_unheld:
+        raise half_turn_error(arrays, within)
     solution = _solve(problem)
     if arrays.has_tension_winches:
         problem, solution = _with_winches(problem, solution)
@@ -168,13 +171,6 @@ def _with_winches(problem: HoldingProblem, solution: InverseSolution) -> tuple[H
             break
         at_platform = np.maximum(solution.tensions + miss, 0.0)
     return problem, _cut_short(solution, (np.abs(miss) > BALANCED * wanted.max()).any(axis=-1))
-
-
-def hung_solution(robot: Robot | RobotArrays, hung: FreeOrientation) -> InverseSolution:
-    """The tensions (k, m) of platforms that hang freely."""
-    status = np.where(hung.found, InverseStatus.HELD, InverseStatus.UNHOLDABLE)
-    lengths = RobotArrays.of(robot).reading(hung.cables.total_length)
-    return InverseSolution(hung.cables, lengths, hung.wrench, status, np.zeros(len(status), dtype=int))
 
 
 def _stiffening(problem: HoldingProblem, solution: InverseSolution) -> tuple[HoldingProblem, InverseSolution]:

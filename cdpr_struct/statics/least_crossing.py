@@ -22,8 +22,9 @@ class LeastCrossing:
 
     @property
     def cable(self) -> int:
-        """The cable whose bound gives way most, from 0."""
-        return int(np.maximum(self.above, self.below).argmax())
+        """The cable whose bound gives way most, from 0; of equal ones the first."""
+        amounts = np.maximum(self.above, self.below)
+        return int(np.flatnonzero(amounts >= (1.0 - _LATER) * amounts.max())[0])
 
     @property
     def amount(self) -> float:

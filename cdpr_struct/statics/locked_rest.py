@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cdpr_struct.errors import ConvergenceError
-from cdpr_struct.robot.pose import Pose
+from cdpr_struct.robot.pose import Pose, angle_between
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel, cable_model
@@ -53,8 +53,7 @@ class LockedRest:
 
 def turned(start: Pose, solution: ForwardSolution) -> float:
     """Angle between the platform's orientations at the start and at rest [rad]."""
-    cosine = 0.5 * (np.trace(start.rotation.T @ solution.rotation) - 1.0)
-    return float(np.arccos(np.clip(cosine, -1.0, 1.0)))
+    return float(angle_between(start.rotation, solution.rotation))
 
 
 def locked_rest(

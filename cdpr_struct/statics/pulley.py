@@ -7,8 +7,9 @@ cable lies in its plane, so t alone fixes everything: with e the unit normal par
     t = sin(phi) e + cos(phi) a,      E = B + R (1 - cos(phi)) e + R sin(phi) a,      wrapped length R phi (strained).
 
 R = 0 is a fixed point, E = B. A cable that would turn by more than 180 degrees, to a point behind the wheel and nearer
-to the swivel axis than 2 R, is not covered; to a point on the axis the wheel might face any way. Weight of the wrapped
-piece and friction are left out, so the cable tension on the wheel is that at E.
+to the swivel axis than 2 R, is not covered, nor is one that ends within the wheel; to a point on the axis the wheel
+might face any way. Weight of the wrapped piece and friction are left out, so the cable tension on the wheel is that at
+E.
 """
 
 from dataclasses import dataclass
@@ -61,9 +62,17 @@ def turned_back(direction: np.ndarray, axis: np.ndarray, radius: np.ndarray) -> 
 
 
 def behind_wheel(offset: np.ndarray, axis: np.ndarray, radius: np.ndarray) -> np.ndarray:
-    """(...) bool: straight cables to points `offset` (..., 3) from B [m] would turn by more than 180 degrees."""
+    """(...) bool: straight cables to points `offset` (..., 3) from B [m] would turn by more than 180 degrees, or end
+    within the wheel."""
     along, distance, _ = _in_plane(offset, axis)
-    return np.asarray((radius > 0.0) & (along < 0.0) & (distance < 2.0 * radius))
+    behind = (radius > 0.0) & (along < 0.0) & (distance < 2.0 * radius)
+    return np.asarray(behind | within_wheel(offset, axis, radius))
+
+
+def within_wheel(offset: np.ndarray, axis: np.ndarray, radius: np.ndarray) -> np.ndarray:
+    """(...) bool: points `offset` (..., 3) from B [m] that lie within a wheel turned towards them."""
+    along, distance, _ = _in_plane(offset, axis)
+    return np.asarray(np.hypot(distance - radius, along) < radius)
 
 
 def straight_exit(offset: np.ndarray, axis: np.ndarray, radius: np.ndarray) -> np.ndarray:

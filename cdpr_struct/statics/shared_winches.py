@@ -21,7 +21,8 @@ from cdpr_struct.statics.batch_items import BatchItems
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.equilibrium import platform_radius, rotation_from_vector
 from cdpr_struct.statics.forward_kinematics import ForwardSolution, forward
-from cdpr_struct.statics.free_orientation import FreeOrientation, free_orientation, turning_axes
+from cdpr_struct.statics.free_orientation import FreeOrientation, free_orientation
+from cdpr_struct.statics.hanging_search import turning_axes
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.locked_balance import LockedBalance
 from cdpr_struct.statics.minimum_norm import QuadraticPrograms, solve_programs

@@ -45,8 +45,7 @@ def constant(force: np.ndarray | float) -> Wanted:
 def chord_tension_at(problem: HoldingProblem, wanted: Wanted) -> tuple[np.ndarray, np.ndarray]:
     """Chord tension at which each cable pulls as wanted, on its taut side.
 
-    Newton from the taut side, where the tension is a rising convex function of the chord tension. Over pulleys the
-    rate of the force leaves out that the exit turns: where a step has gone too far, the slope between its ends counts.
+    Newton from the taut side, where the tension is a rising convex function of the chord tension.
 
     Returns
     -------
@@ -57,13 +56,11 @@ def chord_tension_at(problem: HoldingProblem, wanted: Wanted) -> tuple[np.ndarra
     tau = np.maximum(6.0 * least, 1.0)
     tau = np.maximum(tau, _shallow_guess(problem, wanted(_held(problem, tau).states)))
     lost, nothing = np.zeros(tau.shape, dtype=bool), _NOTHING * tau
-    step = before = np.zeros(tau.shape)
     for _ in range(MAX_ITERATIONS):
         held = _held(problem, tau)
         pull, growth = _pull_and_growth(held)
         short = wanted(held.states) - pull
         lost |= (growth < _TURNING) & (short < 0.0)
-        growth, before = np.maximum(growth, _slope_if_passed(step, before, short)), short
         step = np.clip(short / np.maximum(growth, _TURNING), -0.6 * tau, 2.0 * tau + np.abs(pull))
         step = np.where(lost, 0.0, np.maximum(step, least - tau))
         tau, pull = tau + step, pull + growth * step
@@ -78,12 +75,6 @@ def chord_tension_at(problem: HoldingProblem, wanted: Wanted) -> tuple[np.ndarra
         tau = np.where(lost, _turning_point(problem, tau), tau)
         pull = _held(problem, tau).states.tension_at_platform
     return tau, pull
-
-
-def _slope_if_passed(step: np.ndarray, before: np.ndarray, short: np.ndarray) -> np.ndarray:
-    """(k, m) mean slope of the tension over a step that went past what is wanted; 0 elsewhere."""
-    passed = before * short < 0.0
-    return np.where(passed, (before - short) / np.where(passed, step, 1.0), 0.0)
 
 
 def _shallow_guess(problem: HoldingProblem, tension: np.ndarray) -> np.ndarray:

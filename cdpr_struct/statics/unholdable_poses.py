@@ -7,7 +7,7 @@ from cdpr_struct.errors import UnholdablePoseError
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.least_crossing import LeastCrossing, least_crossing
-from cdpr_struct.statics.pulley import behind_wheel
+from cdpr_struct.statics.pulley import behind_wheel, within_wheel
 
 DIRECTIONS = ("force x", "force y", "force z", "moment x", "moment y", "moment z")
 _NO_LENGTH = 1e-9  # of the robot's size: ends of a cable this near to each other leave it no direction
@@ -31,18 +31,24 @@ def no_length_error(nothing: np.ndarray) -> UnholdablePoseError:
 
 
 def behind_wheels(arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
-    """(k, m) bool: platform anchors (k, m, 3) behind the wheels of pulleys, to which a cable turns by over 180 deg."""
+    """(k, m) bool: platform anchors (k, m, 3) behind the wheels of pulleys, to which a cable turns by over 180 deg, or
+    within them."""
     return behind_wheel(points - arrays.frame_anchors, arrays.pulley_axis, arrays.pulley_radius)
 
 
+def ends_within_wheels(arrays: RobotArrays, points: np.ndarray) -> np.ndarray:
+    """(k, m) bool: platform anchors (k, m, 3) within the wheels of pulleys."""
+    return within_wheel(points - arrays.frame_anchors, arrays.pulley_axis, arrays.pulley_radius)
+
+
 def half_turn_error(arrays: RobotArrays, behind: np.ndarray) -> UnholdablePoseError:
-    """Error about cables behind their wheels, (k, m) bool."""
+    """Error about cables that end behind or within their wheels, (k, m) bool."""
     pose, cable = (int(i) for i in np.argwhere(behind)[0])
     where = "this pose" if len(behind) == 1 else f"pose {pose + 1} of {len(behind)}"
     across = 2.0 * float(np.broadcast_to(arrays.pulley_radius, behind.shape)[pose, cable])
     return UnholdablePoseError(
         f"cable {cable + 1} would turn by more than 180° on its pulley at {where}, which is not covered: its platform "
-        f"anchor lies behind the wheel, nearer to the swivel axis than the wheel is wide ({across:.4g} m). "
+        f"anchor lies behind or within the wheel, nearer to the swivel axis than the wheel is wide ({across:.4g} m). "
         "Move the pose, or turn the swivel axis.",
         cable + 1,
     )

@@ -8,7 +8,7 @@ import numpy as np
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.free_orientation import ANGLES, FreeOrientation, free_orientation, names_of
-from cdpr_struct.statics.inverse_kinematics import hung_solution
+from cdpr_struct.statics.hanging_solution import hung_solution
 from cdpr_struct.statics.shared_winches import resting_orientation
 from cdpr_struct.workspace.margins import stable_where_held
 from cdpr_struct.workspace.pose_batches import PoseBatches

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.statics.inverse_kinematics import InverseSolution, hung_solution
+from cdpr_struct.statics.hanging_solution import hung_solution
+from cdpr_struct.statics.inverse_kinematics import InverseSolution
 from cdpr_struct.statics.shared_winches import resting_orientation
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.inserted_poses import InsertedPoses

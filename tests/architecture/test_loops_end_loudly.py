@@ -38,7 +38,7 @@ DEFENDED = {
     "cdpr_struct/statics/catenary.py:_solve_span": LEFT + "solve_end_forces marks cables by their residual",
     "cdpr_struct/statics/distribution_problem.py:_advance": HALVED,
     "cdpr_struct/statics/distribution_problem.py:search": LEFT + "step and imbalance, which make the status",
-    "cdpr_struct/statics/free_orientation.py:_newton": LEFT + "imbalance, from which `found` is made",
+    "cdpr_struct/statics/hanging_search.py:newton": LEFT + "imbalance, from which `found` is made",
     "cdpr_struct/statics/free_orientation.py:hang_freely": LEFT + "imbalance, from which `found` is made",
     "cdpr_struct/statics/guessed_programs.py:solve_guessed": LEFT + "items go to the safeguarded solver",
     "cdpr_struct/statics/minimum_norm.py:_ascend": LEFT + "numbers of the programs without a solution",

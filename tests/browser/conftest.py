@@ -29,6 +29,7 @@ COMMANDS = {
     "distribute": "distribute thesis-5 --trajectory helix --bound frequency",
     "transient": "transient thesis-3-1 --initial-velocity 0.3,0,0 --duration 3",
     "spectrogram": "spectrogram examples/stop/acceleration.csv --robot thesis-3-1",
+    "ambient": "ambient examples/ambient/campaign.toml",
     "diagnose": "diagnose examples/table-4-4/campaign.toml",
     "plan": "plan examples/table-4-4/campaign.toml",
     "robots": "robots",

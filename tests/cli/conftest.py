@@ -19,6 +19,7 @@ EXAMPLES = [
     if command.NAME not in ENDLESS
     for number, line in enumerate(command.EXAMPLES)
 ]
+EXTRA = {"ambient": "pyoma2"}  # packages of extras that examples need
 FAILS = {"audit": 1}  # what its examples check does not hold, as the pages show
 
 
@@ -34,6 +35,8 @@ def runs(tmp_path_factory) -> Callable[[str, int], Path]:
     done: dict[tuple[str, int], Path] = {}
 
     def of(name: str, number: int) -> Path:
+        if name in EXTRA:
+            pytest.importorskip(EXTRA[name])
         if (name, number) not in done:
             line = next(line for n, k, line in EXAMPLES if (n, k) == (name, number))
             directory = base / f"{name}-{number}"

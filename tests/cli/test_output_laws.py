@@ -46,6 +46,7 @@ SAME = {
     "spectrogram": [("modes.csv", "frequency_hz", "natural_frequencies_hz")],
     "transient": [("modes.csv", "frequency_hz", "natural_frequencies_hz")],
     "verify": [("eigenfrequencies.csv", "fem_hz", "eigenfrequencies.*.fem_hz")],
+    "ambient": [("modes.csv", "frequency_hz", "records.*.modes.*.frequency_hz")],
     "plan": [("detectable.csv", "cause", "detectable.*.cause")],
     "derive": [("formulas.csv", "id", "formulas.*.id")],
 }

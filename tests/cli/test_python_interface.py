@@ -35,6 +35,7 @@ MAIN_TABLE = {
     "transient": "transient.csv",
     "spectrogram": "modes.csv",
     "audit": "audit.csv",
+    "ambient": "modes.csv",
     "diagnose": "residuals.csv",
     "plan": "detectable.csv",
 }

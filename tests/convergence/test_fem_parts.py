@@ -4,13 +4,14 @@ import dataclasses
 
 import numpy as np
 import pytest
+import scipy.optimize
 
 from cdpr_struct.fem_reference import CableData, PlatformData, RobotData
 from cdpr_struct.fem_reference.bar_element import internal_forces
 from cdpr_struct.fem_reference.cable_statics import solve_cable
 from cdpr_struct.fem_reference.cable_wind import pressure
 from cdpr_struct.fem_reference.masts import beam_flexibility
-from cdpr_struct.fem_reference.sliding_bar import sliding_mass
+from cdpr_struct.fem_reference.sliding_bar import Eyelet, sliding_mass
 from cdpr_struct.fem_reference.substructure import condensed_and_counted, condensed_both_ends, condensed_ends
 from cdpr_struct.fem_reference.winch import Winch
 
@@ -100,6 +101,39 @@ def test_the_first_bar_of_a_winch_is_the_second_derivative_of_its_energy():
     np.testing.assert_allclose(found[:3, :3], expected, rtol=1e-5, atol=1e-5 * np.abs(expected).max())
     np.testing.assert_array_equal(found, np.block([[found[:3, :3], -found[:3, :3]], [-found[:3, :3], found[:3, :3]]]))
     assert winch.unstrained_length == 500.0
+
+
+def test_the_first_bar_of_an_eyelet_is_the_second_derivative_of_its_energy():
+    """Strain energies of bar and path behind, less the weight at the bar's middle; central differences of the slope.
+
+    What slides out, f - f0, weighs once: against the pull of a soft path that is what shows, and beside a winch.
+    """
+    stiffness, total, weight_rate = 5e4, 901.0, np.array([0.3, -0.2, -3.0])  # N, m, N/m
+    vector, path = np.array([0.5, 0.9, -0.4]), 901.0
+
+    def free_length(d):
+        def slope(f):
+            return 0.5 * stiffness * ((path / (total - f)) ** 2 - (np.linalg.norm(d) / f) ** 2) - weight_rate @ d
+
+        long = float(np.linalg.norm(d))
+        return scipy.optimize.brentq(slope, 0.99 * long, 1.01 * long, xtol=1e-15)
+
+    def slope(d):
+        f, long = free_length(d), np.linalg.norm(d)
+        return stiffness * (long - f) / f * d / long - weight_rate * f
+
+    step = 1e-4
+    expected = np.stack([(slope(vector + step * e) - slope(vector - step * e)) / (2.0 * step) for e in np.eye(3)])
+    f = free_length(vector)
+    tension = stiffness * (float(np.linalg.norm(vector)) / f - 1.0)
+    eyelet = Eyelet.at(np.zeros(3), path, vector, tension, weight_rate * f, stiffness)
+    assert eyelet.unstrained_length + f == pytest.approx(total, abs=1e-6)
+    found = eyelet.first_bar_stiffness(tension, f, stiffness)[:3, :3]
+    np.testing.assert_allclose(found, expected, atol=1e-5 * np.abs(expected).max())
+    winch = Winch.at(np.zeros(3), eyelet.tension, 0.0, 5.0, vector, weight_rate * f)
+    along = eyelet.direction
+    held = along @ (found - winch.first_bar_stiffness(tension, f, stiffness)[:3, :3]) @ along
+    assert held == pytest.approx(stiffness / path, rel=2e-2)
 
 
 def test_held_ends_carry_the_cable_and_every_mass_on_it():

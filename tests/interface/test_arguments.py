@@ -142,6 +142,7 @@ BAD = {
     "no file": (lambda: cs.distribute("thesis-5", "x.csv"), "trajectory: got 'x.csv'; no such file"),
     "bound rule": (lambda: cs.distribute("thesis-5", "helix", bound="x"), "bound: got 'x'; one of"),
     "campaign": (lambda: cs.diagnose("none.toml"), "campaign: got 'none.toml'; no such file"),
+    "campaign without a record": (lambda: cs.ambient(LEVEL), "measurement: got 'no ambient record'"),
     "campaign of a number": (lambda: cs.plan(5), "campaign: got 5; a Campaign, or the path"),
     "budget": (lambda: cs.diagnose(LEVEL, budget="big"), "budget: got 'big'; small or full"),
     "item": (lambda: cs.reproduce("table-9"), "items: got 'table-9'; one of: table-2.2"),

@@ -32,6 +32,7 @@ ANSWERS = {
     "audit of a grid": lambda: cs.audit(NAME, grid="-1:1:2,-1:1:2,0.5"),
     "audit of a motion": lambda: cs.audit("thesis-5", trajectory="line:0,0,2:1,0,2.5:4"),
     "distribute": lambda: cs.distribute("thesis-5", "helix", instants=31, compare=["fixed"]),
+    "ambient": lambda: pytest.importorskip("pyoma2") and cs.ambient(ROOT / "examples/ambient/campaign.toml"),
     "plan": lambda: cs.plan(ROOT / "examples/table-4-4/level.toml"),
     "reproduce": lambda: cs.reproduce("fig-2.4"),
 }
@@ -64,7 +65,7 @@ def test_figure(name, answers):
     assert isinstance(axes, Axes)
     assert axes.get_title().splitlines()[0] == found.title
     if name not in NAMELESS:
-        assert any(robot in found.title for robot in (NAME, "thesis-5", "cogiro"))
+        assert any(robot in found.title for robot in (NAME, "thesis-5", "cogiro", "six-cable-4mm"))
     axes.figure.canvas.draw()
     title = axes.title.get_window_extent()
     (low_x, low_y), (high_x, high_y) = axes.figure.bbox.min, axes.figure.bbox.max

@@ -27,6 +27,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import (
 from cdpr_struct.dynamics.taut_cable_expansion import expand_taut_cables
 from cdpr_struct.dynamics.taut_cables import taut_cables
 from cdpr_struct.robot.cable import Pulley
+from cdpr_struct.robot.extensions import Extensions
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.cable_response import end_stiffness
@@ -114,6 +115,29 @@ def test_weight_that_rolls_off_a_leaning_wheel_couples_its_swivel_with_turns_of_
     assert relative_gap(force_of_static_shapes(held), statics) < 1e-5  # measured 4.5e-6
     monkeypatch.setattr(frame_give_module, "_leant", lambda point, wheel, direction: direction)
     assert relative_gap(force_of_static_shapes(held), statics) > 1e-4, "ends that do not lean must be seen"
+
+
+@pytest.mark.parametrize(
+    ("wheel", "allowed"),
+    [(None, 1e-5), (Pulley(0.3), 1e-4), (Pulley(0.3, np.array([0.4, 0.2, 1.0])), 1e-4)],
+    ids=["eyelet", "upright wheel", "leaning wheel"],
+)
+def test_what_slides_out_of_an_elastic_line_weighs(wheel, allowed, monkeypatch):
+    """Soft lines: the symmetric part of the statics' stiffness, on wheels but for squares of what couples."""
+    robot = load_robot("six-cable-8mm")
+    light, soft = dataclasses.replace(robot.platform, mass=10.0), Extensions.of(6, {"series_compliance": 5e-3})
+    wheels = robot.pulleys if wheel is None else (wheel,) * 6
+    robot = dataclasses.replace(robot, pulleys=wheels, platform=light, extensions=soft)
+    position = robot.home.position
+    held = OperatingPoint(robot, position, np.eye(3), inverse(robot, position, np.eye(3)).cables)
+    statics = static_ends(held)
+    statics = 0.5 * (statics + np.swapaxes(statics, 1, 2))
+    assert relative_gap(force_of_static_shapes(held), statics) < allowed  # measured 1.1e-6, 7.1e-5, 5.2e-5
+    if wheel is not None and wheel.axis[0]:
+        monkeypatch.setattr(frame_give_module, "_drawn", lambda point, wheel, along: np.zeros(along.shape))
+        assert relative_gap(force_of_static_shapes(held), statics) > 2e-3, "it pulls a leaning wheel round"
+    monkeypatch.setattr(frame_give_module, "_weight_let_out", lambda point: 0.0)
+    assert relative_gap(force_of_static_shapes(held), statics) > 5e-3, "without weight"
 
 
 def static_ends(point):

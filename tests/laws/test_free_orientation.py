@@ -9,6 +9,7 @@ import pytest
 from scipy.optimize import minimize
 
 import cdpr_struct as cs
+from benchmarks.random_robots.drawing import drawn
 from cdpr_struct.crosscheck.fem_robot import solve_in_fem
 from cdpr_struct.errors import InputError, UnholdablePoseError
 from cdpr_struct.robot.cable import Cable
@@ -247,21 +248,32 @@ def test_the_most_even_tensions_are_met_by_a_search_without_derivatives():
 
 def found_from(robot: cs.Robot, angles: np.ndarray, monkeypatch: pytest.MonkeyPatch, lost: int) -> bool:
     """Whether a search from `angles` finds the platform hanging if its first `lost` starts lead nowhere."""
-    newton, begun = free_orientation._newton, []
+    newton, begun = free_orientation.newton, []
 
     def failing(problem, ends):
         begun.append(ends.angles[0])
         return ends if len(begun) <= lost else newton(problem, ends)
 
-    monkeypatch.setattr(free_orientation, "_newton", failing)
+    monkeypatch.setattr(free_orientation, "newton", failing)
     place = robot.home.position[None]
     return bool(free_orientation.free_orientation(robot, place, angles, [True, True, False]).found[0])
 
 
-def test_a_single_pose_is_begun_again_level_and_from_beside_its_angles(monkeypatch):
+def test_a_single_pose_is_begun_again_level_and_from_all_around_its_angles(monkeypatch):
     robot, angles = cs.load_robot("cogiro"), np.array([0.05, -0.1, 0.0])
     assert found_from(robot, angles, monkeypatch, 2)  # the angles given, level ones
-    assert not found_from(robot, angles, monkeypatch, 6)  # and four beside
+    assert not found_from(robot, angles, monkeypatch, 3)  # and all around
+
+
+@pytest.mark.parametrize(("seed", "turned"), [(12, 46.0), (111, 53.0)])
+def test_a_platform_that_hangs_far_from_the_angles_given_is_found_and_told(seed, turned):
+    # an own search from a grid of 36 orientations finds them, too; before, both were refused
+    case = drawn(seed)
+    found = cs.inverse(case.robot, case.pose, free=case.free)
+    forces, tensions = found.solution.cables.force_on_platform, found.solution.tensions
+    assert np.abs(moment_about(case.robot, found.pose, tensions, forces)[:2]).max() <= 1e-9  # about rx, ry
+    assert found.answer["free"]["turned_deg"] == pytest.approx(turned, abs=4.0)
+    assert "from the angles given, near which none was found" in " ".join(found.warnings)
 
 
 def test_an_end_that_tensions_carry_is_never_given_up_for_one_that_they_do_not():

@@ -181,6 +181,17 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.recordings,
         ),
         Row(
+            case="ambient records of 20 robots, ten minutes, 128 modes, 24 of them in pairs",
+            reference="modes of the finite elements that move the platform",
+            metric="largest error in sigmas; sigmas of 0.2 % or less; modes missed and invented",
+            acceptance="3; all; 0 and 0",
+            command="python -m tests.crosscheck.ambient_robots",
+            test=f"{_CROSS}/test_ambient_fem.py::test_twenty_robots",
+            twin=f"{_CROSS}/test_ambient_fem.py::test_a_wrong_model_is_seen",
+            source="2026-11-26",
+            figure=measured("2.0; 98 %; 2 and 0", met=False),
+        ),
+        Row(
             case="blind campaigns without a hidden error",
             reference="sealed truth",
             metric="false alarms",

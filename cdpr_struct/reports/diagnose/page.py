@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
+from cdpr_struct.reports.ambient_page import ambient_plates
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.diagnose import tables
 from cdpr_struct.reports.diagnose.recordings import length_tables, stretch_table
@@ -76,7 +77,8 @@ def plates(found: Diagnosis, result: Mapping[str, Any]) -> list[Plate]:
     )
     said += "dominates or several share the probability. Unknown: laws outside the library."
     shown.append(Plate("probabilities", "How probable each answer is", drawn, said))
-    return shown + signal_plates(found.damped, found.campaign.identified)
+    signals = signal_plates(found.damped, found.campaign.identified)
+    return shown + signals + ambient_plates(found.campaign.ambient)
 
 
 def robot_comments(result: Mapping[str, Any]) -> list[str]:

@@ -14,6 +14,7 @@ from cdpr_struct.hypotheses.drift import CELLS, ENCODERS, TRACKER
 from cdpr_struct.hypotheses.judge import NEAR
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.planning.recommendations import Recommendation
+from cdpr_struct.reports.ambient_result import record_json
 from cdpr_struct.reports.diagnose import signals
 from cdpr_struct.reports.diagnose.amplitudes import amplitude_json
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
@@ -86,6 +87,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "not_used": _not_used(found),
         "signals": [signals.signal_json(item) for item in found.campaign.identified],
         "recording": recording_json(found.recording),
+        "ambient": [record_json(one) for one in found.campaign.ambient],
         "peaks_apart": _apart(found),
         "internal_force": _forces(found),
         "damping": None if found.damped is None else signals.damping_json(found.damped),
