@@ -41,7 +41,7 @@ class Found:
         told = self.result.answer
         size = next(iter(told["candidates"][0]["parameters"].values()))
         keys = ("frames", "states", "independent_frames", "stretches_chi2_per_dof", "sigma_factor",
-                "explained_by_speed", "explained_by_acceleration", "remainder")  # fmt: skip
+                "explained_by_speed", "explained_by_acceleration", "bend_of_speed", "remainder")  # fmt: skip
         return {
             "status": told["verdict"]["status"], "causes": told["verdict"]["causes"],
             "delay_ms": _MS * size["value"], "sigma_ms": _MS * size["sigma"],

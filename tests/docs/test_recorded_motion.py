@@ -40,6 +40,7 @@ def test_the_page_says_its_numbers():
         f"another {NUMBERS['remainder']['log_evidence_gain']:.0f} nats",
         f"| {NUMBERS['remainder']['ahead_nats']:.0f} nats |",
         f"{100 * by_speed['after']:.0f} %, before {100 * by_speed['before']:.0f} %",
+        f"all that speed explains | {100 * NUMBERS['bend_of_speed']['size']:.0f} % |",
         f"another {100 * by_acceleration['after']:.0f} % of the variance",
         f"About {np.mean([row[2] for row in NUMBERS['later_mm']]):.1f} mm remain",
     ]

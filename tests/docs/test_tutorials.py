@@ -21,7 +21,7 @@ from cdpr_struct.cli.main import run
 ROOT = Path(__file__).parents[2]
 PAGES = (
     "tutorial_own_robot", "tutorial_model_right", "tutorial_diagnosis", "tutorial_trajectory", "pulleys", "ropes",
-    "recordings", "notebooks", "templates", "formats", "first_day", "trust",
+    "recordings", "recorded_motion", "notebooks", "templates", "formats", "first_day", "trust",
 )  # fmt: skip
 ROBOTS = sorted((ROOT / "examples" / "robots").glob("*/README.md"))
 BLOCK = re.compile(
