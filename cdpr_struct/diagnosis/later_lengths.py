@@ -10,6 +10,18 @@ from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.residuals.recorded import recorded
 
 
+def require_same_robot(campaign: Campaign, later: Campaign) -> None:
+    """Refuse another campaign whose robot cannot be that of a first one.
+
+    Raises
+    ------
+    InputError : another number of cables.
+    """
+    m = len(campaign.robot.cables)
+    if len(later.robot.cables) != m:
+        raise InputError(later.source, "robot", f"{len(later.robot.cables)} cables", f"the robot diagnosed, {m} cables")
+
+
 def later_lengths(found: Diagnosis, later: Campaign) -> LengthErrors:
     """Errors of the lengths of another campaign of the same robot, at its measured poses.
 
@@ -17,9 +29,7 @@ def later_lengths(found: Diagnosis, later: Campaign) -> LengthErrors:
     ------
     InputError : the other campaign has another number of cables, or no lengths at measured poses.
     """
-    m = len(found.campaign.robot.cables)
-    if len(later.robot.cables) != m:
-        raise InputError(later.source, "robot", f"{len(later.robot.cables)} cables", f"the robot diagnosed, {m} cables")
+    require_same_robot(found.campaign, later)
     every = AllFrames.read(recorded(later))
     if not len(every.frames):
         raise InputError(later.source, "measurement", "no lengths at measured poses", "states with poses and lengths")

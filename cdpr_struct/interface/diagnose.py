@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
-from cdpr_struct.diagnosis.later_lengths import later_lengths
+from cdpr_struct.diagnosis.later_lengths import later_lengths, require_same_robot
 from cdpr_struct.hypotheses.search import BUDGETS
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of
@@ -96,6 +96,8 @@ def diagnose(
     one_of(budget, "budget", BUDGETS)
     measured = read_campaign(campaign, lower_bound, upper_bound)
     other = None if later is None else read_campaign(later, None, None)
+    if other is not None:
+        require_same_robot(measured, other)
     found = diagnosed(measured, budget, progress)
     progress("simulating the next measurement")
     told = with_dropped(result_json(found, recommendations(found)), measured)
