@@ -52,6 +52,10 @@ Predictions and checks:
 Measured data:
   new_campaign              Make a campaign file and data files with the planned poses and what the simulation
                             predicts, to be filled.
+  import_recording          Make a campaign of a recording (ROS bag, MCAP, TDMS, MDF, .mat, .xlsx, CSV) and a mapping
+                            of its channels.
+  recording_channels        List the channels of a recording (bag, MCAP, TDMS, MDF, .mat, .xlsx, CSV), with a mapping
+                            file to fill in.
   load_campaign             Read a campaign file and the data files it names, all checked.
   causes                    List the causes that a diagnosis looks for, by name, those of installed packages among
                             them.
@@ -97,6 +101,7 @@ if TYPE_CHECKING:
     from cdpr_struct.interface.export import export
     from cdpr_struct.interface.forward import forward
     from cdpr_struct.interface.frf import frf
+    from cdpr_struct.interface.import_recording import import_recording, recording_channels
     from cdpr_struct.interface.inverse import inverse
     from cdpr_struct.interface.limits import limits
     from cdpr_struct.interface.map import map
@@ -125,6 +130,7 @@ _HOMES = {
     "interface.robots": ("robots", "write_robot"),
     "interface.new_robot": ("new_robot",),
     "interface.new_campaign": ("new_campaign",),
+    "interface.import_recording": ("import_recording", "recording_channels"),
     "interface.cable": ("cable",),
     "interface.inverse": ("inverse",),
     "interface.forward": ("forward",),
@@ -184,6 +190,7 @@ __all__ = [
     "export",
     "forward",
     "frf",
+    "import_recording",
     "inverse",
     "limits",
     "load_campaign",
@@ -194,6 +201,7 @@ __all__ = [
     "new_robot",
     "plan",
     "pose_error",
+    "recording_channels",
     "reproduce",
     "robots",
     "spectrogram",

@@ -94,6 +94,26 @@ def write_new(path: Path, content: str | bytes, overwrite: bool) -> None:
         raise InputError("--out", "", str(path), f"a file that can be written ({error.strerror})") from error
 
 
+def write_new_files(directory: Path, files: Mapping[str, str], overwrite: bool) -> None:
+    """Write files of these names into a directory, all of them or none; none may be there, unless `overwrite`.
+
+    Raises
+    ------
+    InputError : another file is there, or they cannot be written.
+    """
+    there = [name for name in files if (directory / name).exists()]
+    if there and not overwrite:
+        expected = "the file is there already; give another directory, or --overwrite"
+        raise InputError("--out", "", str(directory / there[0]), expected)
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        with _renamed_at_the_end(directory) as write:
+            for name, content in files.items():
+                write(name, content)
+    except OSError as error:
+        raise InputError("--out", "", str(directory), f"a directory that can be written ({error.strerror})") from error
+
+
 def write_whole(path: Path, content: str | bytes) -> None:
     """Write to a temporary name beside `path`, then rename."""
     with _renamed_at_the_end(path.parent) as write:

@@ -14,7 +14,7 @@ from cdpr_struct.measurement.campaign import AMBIENT
 from cdpr_struct.measurement.column_names import renaming
 from cdpr_struct.measurement.data_table import DataTable, read_table
 from cdpr_struct.measurement.quaternions import QUATERNION, quaternion_headings, with_angles
-from cdpr_struct.measurement.universal_rows import is_universal, universal_columns
+from cdpr_struct.measurement.universal_rows import is_universal, universal_columns, universal_modes
 from cdpr_struct.measurement.wide_table import check_wide, headings, is_wide, one_row_a_cable
 from cdpr_struct.robot.robot_file import LARGEST
 
@@ -137,9 +137,10 @@ def _long(rows: Rows, cables: int) -> Rows:
 
 
 def _universal(kind: str, path: Path) -> Rows:
-    if kind != "frf":
-        raise InputError(str(path), "kind", kind, "frf: universal files are read for FRFs only")
-    numbers, words = universal_columns(path)
+    if kind not in ("frf", "robot_frequency"):
+        expected = "frf or robot_frequency: universal files are read for FRFs and modes only"
+        raise InputError(str(path), "kind", kind, f"{expected}; a signal in time comes from import-recording")
+    numbers, words = universal_columns(path) if kind == "frf" else universal_modes(path)
     rows = Rows(kind, str(path), numbers, words)
     _check_frequencies(rows)
     return rows

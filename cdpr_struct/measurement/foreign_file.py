@@ -95,6 +95,7 @@ def _arrays(path: Path, form: str) -> InputError:
     name = converted(path).name
     if form == ".mat":
         how = f"in MATLAB, writetable(T, '{name}') with a table T whose variables are named like these columns"
+        how += f"; or import it by a mapping of its variables: cdpr-struct import-recording {path.name}"
         return InputError(str(path), "", "a MATLAB file", f"a CSV file with a header line: {how}")
     how = f"in Python, pandas.DataFrame({{'x_m': x, ...}}).to_csv('{name}', index=False) with one array a column"
     return InputError(str(path), "", "a numpy file", f"a CSV file with a header line: {how}")

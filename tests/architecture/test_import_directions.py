@@ -19,6 +19,7 @@ MAY_IMPORT = {
     "crosscheck": {"robot", "statics", "dynamics", "workspace"},
     "measurement": {"robot", "statics", "dynamics"},
     "observation": {"robot", "statics", "dynamics", "measurement"},
+    "recordings": {"robot", "measurement"},
     "inference": set(),
     "association": {"observation", "inference"},
     "residuals": EVIDENCE,
@@ -52,6 +53,7 @@ MAY_IMPORT = {
         "thesis",
         "reports",
         "live",
+        "recordings",
     },
     "live": {
         "robot",

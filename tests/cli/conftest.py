@@ -12,7 +12,14 @@ from cdpr_struct.cli.output import repeating
 
 ROOT = Path(__file__).parents[2]
 ENDLESS = {"view"}  # serves a window until it is interrupted
-OTHERS = {"import-caspr", "new-robot", "new-campaign", "export", "rerun"}  # they write files of their own kind
+OTHERS = {
+    "import-caspr",
+    "import-recording",
+    "new-robot",
+    "new-campaign",
+    "export",
+    "rerun",
+}  # they write files of their own kind
 EXAMPLES = [
     (command.NAME, number, line)
     for command in COMMANDS

@@ -134,6 +134,12 @@ def test_the_record_of_keys_is_of_this_version_and_a_lost_key_is_seen():
 def test_what_the_other_commands_print_has_a_version_too(name, tmp_path, capsys):
     words = {
         "import-caspr": ["examples/caspr/bodies.xml", "examples/caspr/cables.xml", "--out", str(tmp_path / "r.toml")],
+        "import-recording": [
+            "examples/recordings/log.csv",
+            "examples/recordings/log.toml",
+            "--out",
+            str(tmp_path / "mine"),
+        ],
         "new-robot": ["crane", "--cables", "6", "--size", "12,12,8", "--out", str(tmp_path / "r.toml")],
         "new-campaign": ["cogiro", "--kinds", "tensions", "--poses", "0,0,1", "--out", str(tmp_path / "mine")],
         "export": ["cogiro", "--to", "moorpy", "--out", str(tmp_path / "cogiro.txt")],

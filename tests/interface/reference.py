@@ -22,6 +22,7 @@ _GROUPS = {
         "interface.plan",
         "interface.campaigns",
         "interface.new_campaign",
+        "interface.import_recording",
     ),
     "Errors": ("errors", "crosscheck."),
     "Values": ("workspace.", "statics.", "interface.result"),

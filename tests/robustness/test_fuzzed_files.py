@@ -185,3 +185,11 @@ def test_a_search_for_poles_turns_back_where_they_grow_beyond_all_numbers(finite
         return
     np.testing.assert_array_equal(separable_fit(basis, signal, np.ones((1, 1)), start).poles, start)
     assert len(calls) > 1, "the search took a step, and came back"
+
+
+def test_a_tension_next_to_nothing_is_no_overflow(tmp_path):
+    """NumPy warned where a cable's weight was divided by it."""
+    rows = "".join(f"a,0,0,1.2,{i},{'1e-310' if i == 3 else 300}\n" for i in range(1, 9))
+    (tmp_path / "states.csv").write_text(HEAD + rows)
+    (tmp_path / "campaign.toml").write_text(CAMPAIGN)
+    assert load_campaign(tmp_path / "campaign.toml").states.tension[0, 2] == 1e-310

@@ -121,6 +121,99 @@ def test_broken_universal_files(content, tmp_path, capsys):
     assert "point.uff" in complaint(tmp_path, capsys, "frf", "point.uff")
 
 
-def test_universal_files_are_frfs_only(tmp_path, capsys):
+def test_universal_files_are_frfs_and_modes_only(tmp_path, capsys):
     universal(tmp_path / "point.uff")
-    assert "FRFs only" in complaint(tmp_path, capsys, "free_decay", "point.uff")
+    assert "FRFs and modes only" in complaint(tmp_path, capsys, "free_decay", "point.uff")
+
+
+def units_of(path, length: float, force: float) -> None:
+    """Dataset 164 in front of a file's other datasets."""
+    told = pyuff.prepare_164(
+        units_code=9, units_description="own", temp_mode=1, length=length, force=force, temp=1.0, temp_offset=0.0
+    )
+    rest = path.read_bytes()
+    pyuff.UFF(str(path)).write_sets([told], mode="overwrite")
+    path.write_bytes(path.read_bytes() + rest)
+
+
+def test_responses_come_in_the_units_of_the_file(tmp_path):
+    """Dataset 164: what is in mm and mN is divided by 1000 for lengths and for forces, so that mm/mN is m/N."""
+    universal(tmp_path / "plain.uff")
+    universal(tmp_path / "mm.uff")
+    units_of(tmp_path / "mm.uff", length=1000.0, force=1.0)
+    plain, _ = universal_columns(tmp_path / "plain.uff")
+    in_mm, _ = universal_columns(tmp_path / "mm.uff")
+    np.testing.assert_allclose(1000.0 * in_mm["real"], plain["real"], rtol=1e-6)
+    universal(tmp_path / "mn.uff")
+    units_of(tmp_path / "mn.uff", length=1.0, force=1000.0)
+    np.testing.assert_allclose(universal_columns(tmp_path / "mn.uff")[0]["imag"], 1000.0 * plain["imag"], rtol=1e-6)
+
+
+def test_datasets_of_vendors_do_no_harm(tmp_path):
+    """Headers (151) and kinds that are not known are passed over, damaged ones among them."""
+    universal(tmp_path / "point.uff")
+    before, _ = universal_columns(tmp_path / "point.uff")
+    kinds = ((b"   151", b"model\nall that a vendor says"), (b"  2411", b"rubbish"), (b"  1858", b"own"))
+    foreign = b"".join(b"    -1\n" + kind + b"\n" + text + b"\n    -1\n" for kind, text in kinds)
+    (tmp_path / "point.uff").write_bytes(foreign + (tmp_path / "point.uff").read_bytes())
+    after, _ = universal_columns(tmp_path / "point.uff")
+    np.testing.assert_array_equal(before["real"], after["real"])
+
+
+@pytest.mark.parametrize(
+    ("damaged", "words"),
+    [
+        (b"    -1\n    58\nrubbish\n    -1\n", ["dataset 2", "of type 58", "cannot be read"]),
+        (b"    -1\n   164\nrubbish\n    -1\n", ["dataset 2", "of type 164"]),
+        (
+            b"    -1\n   164\n         1SI                          2\n 0.0 1.0 1.0\n 0.0\n    -1\n",
+            ["dataset 2", "164"],
+        ),
+    ],
+    ids=range(3),
+)
+def test_a_damaged_dataset_is_answered_with_its_number(damaged, words, tmp_path, capsys):
+    universal(tmp_path / "point.uff")
+    with (tmp_path / "point.uff").open("ab") as file:
+        file.write(damaged)
+    line = complaint(tmp_path, capsys, "frf", "point.uff")
+    assert all(word in line for word in ["point.uff", *words]), line
+
+
+def modes(path, *hertz: float, complex_: bool = False) -> None:
+    """Datasets 55: a shape of one node each."""
+    shape = {"node_nums": np.array([1]), "r1": np.array([0.1]), "r2": np.array([0.2]), "r3": np.array([0.3])}
+    sets = []
+    for number, one in enumerate(hertz, start=1):
+        common = {"type": 55, "id1": "a", "id2": "b", "id3": "c", "id4": "d", "id5": "e", "model_type": 1, "data_ch": 2,
+                  "spec_data_type": 8, "n_data_per_node": 3, "load_case": 1, "mode_n": number}  # fmt: skip
+        if complex_:
+            root = -0.1 + 2j * np.pi * one
+            shape = {name: value.astype(complex) if name != "node_nums" else value for name, value in shape.items()}
+            own = {"analysis_type": 3, "data_type": 5, "eig": root, "modal_a": 1.0 + 0j, "modal_b": 1.0 + 0j}
+        else:
+            own = {"analysis_type": 2, "data_type": 2, "freq": one, "modal_m": 1.0, "modal_damp_vis": 0.01,
+                   "modal_damp_his": 0.0}  # fmt: skip
+        sets.append({**common, **own, **shape})
+    pyuff.UFF(str(path)).write_sets(sets, mode="overwrite")
+
+
+@pytest.mark.parametrize("complex_", [False, True])
+def test_modes_are_frequencies_of_the_robot(complex_, tmp_path):
+    modes(tmp_path / "rest.uff", 2.78, 3.49, complex_=complex_)
+    states = (Path(__file__).parents[2] / "examples" / "table-4-4" / "level.csv").read_text().splitlines()
+    head, *rows = [line for line in states if not line.startswith("#")]
+    case = rows[0].split(",")[0]
+    (tmp_path / f"{case}.uff").write_bytes((tmp_path / "rest.uff").read_bytes())
+    (tmp_path / "one.csv").write_text("\n".join([head, *(row for row in rows if row.split(",")[0] == case)]) + "\n")
+    path = tmp_path / "campaign.toml"
+    more = '[[measurement]]\nkind = "static_state"\nfile = "one.csv"\n'
+    text = CAMPAIGN.format(kind="robot_frequency", file=f"{case}.uff").replace("thesis-3-1", "cogiro")
+    path.write_text(text + more)
+    assert load_campaign(path).robot_frequencies.hertz == pytest.approx([2.78, 3.49], rel=1e-5)
+
+
+def test_a_universal_file_without_modes_says_what_it_has(tmp_path, capsys):
+    universal(tmp_path / "point.uff")
+    line = complaint(tmp_path, capsys, "robot_frequency", "point.uff")
+    assert "datasets: got '58'; at least one dataset 55" in line

@@ -249,6 +249,17 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
     ),
     "The program: does it hold up in use?": (
         Row(
+            case="one motion in 14 forms of recordings (ROS, MCAP, TDMS, MDF, MATLAB, Excel, text, universal)",
+            reference="the arrays that were written",
+            metric="largest relative deviation of lengths and tensions",
+            acceptance="1e-9",
+            command="python -m pytest tests/recordings/test_formats.py",
+            test="tests/recordings/test_formats.py::test_every_form_gives_the_campaign_that_was_written",
+            twin="tests/recordings/test_formats.py::test_a_scale_that_is_off_is_seen",
+            source="2026-11-26",
+            figure=measured("5.0e-10 (ten digits are written)"),
+        ),
+        Row(
             case="random robots and poses",
             reference="an independent second implementation of the mechanics, a linear program",
             metric="answers that violate them",
