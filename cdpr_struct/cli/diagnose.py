@@ -19,6 +19,7 @@ EXAMPLES = (
     "cdpr-struct diagnose examples/table-4-4/level.toml --json",
 )
 BUDGET_HELP = "small (10 s, half a minute where much is wrong, minutes with signals) or full."
+LATER_HELP = "Campaign of the same robot, not fitted: how far its cable lengths are off, before and after."
 Bounds = tuple[float | None, float | None]
 
 
@@ -27,6 +28,7 @@ def run(
     budget: Annotated[str, typer.Option("--budget", help=BUDGET_HELP)] = "small",
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
+    later: Annotated[str | None, typer.Option("--later", metavar="CAMPAIGN.toml", help=LATER_HELP)] = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
     *,
@@ -38,12 +40,16 @@ def run(
     check_workers(workers, scheduler)
     for campaign in campaigns:
         require_file(campaign)
+    if later is not None:
+        require_file(later)
+        if len(campaigns) > 1:
+            raise InputError("--later", "", later, "a single campaign to diagnose")
     bounds = read_bounds(lower_bound, upper_bound)
     if len(campaigns) > 1:
         return _many(tuple(campaigns), budget, bounds, (workers, scheduler), output)
     with output.steps(5) as progress:
         found = cs.diagnose(
-            campaigns[0], budget=budget, lower_bound=bounds[0], upper_bound=bounds[1], progress=progress
+            campaigns[0], budget=budget, lower_bound=bounds[0], upper_bound=bounds[1], later=later, progress=progress
         )
     output.give(found)
     return 0

@@ -7,6 +7,8 @@ import numpy as np
 
 from cdpr_struct.diagnosis import stories
 from cdpr_struct.diagnosis.added_modes import least_evidence
+from cdpr_struct.diagnosis.all_frames import AllFrames
+from cdpr_struct.diagnosis.common_first import common_first
 from cdpr_struct.diagnosis.damped import NEEDS_SIGNALS, Damped, damped
 from cdpr_struct.diagnosis.decision import Decision, decided
 from cdpr_struct.diagnosis.detectable_sizes import detectable_sizes
@@ -28,6 +30,8 @@ from cdpr_struct.diagnosis.left_out import LeftOut, left_out, rows_of
 from cdpr_struct.diagnosis.peaks_apart import PeaksApart, peaks_apart
 from cdpr_struct.diagnosis.piled_up import piled_up
 from cdpr_struct.diagnosis.recommended import Recommendation, recommended
+from cdpr_struct.diagnosis.recording import Recording, pieces_of, recording
+from cdpr_struct.diagnosis.remainder import remainder
 from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind, doubts, noise_of_kinds, sigmas_used
 from cdpr_struct.diagnosis.set_aside import set_aside
 from cdpr_struct.diagnosis.unassigned import peak_count, uncertain_peaks
@@ -43,6 +47,8 @@ from cdpr_struct.hypotheses.significant import SIGNIFICANT
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.measurement.loss import Loss
+from cdpr_struct.residuals.condensed import condensed
+from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.robot import Robot
 
 KEEPS = 1.0  # nats that a cause must keep without the block of data that it needs most: else it explains that block
@@ -66,19 +72,47 @@ def diagnosed(
     InputError : the campaign holds nothing that can be diagnosed.
     """
     require_known(campaign.source, campaign.checked)
+    whole, campaign = campaign, condensed(campaign)
     campaign, found = _explained(campaign, budget, progress)
     told = {id(one): stories.candidates(one) for one in found}
     beliefs = believed(found)
     hidden = stories.without_size(found, list(told.values()))
     loss = campaign.loss if loss is None else loss
     decision = _decided(beliefs, loss, hidden, stories.p_value(found))
+    decision, story, moved, pile = _weighed(whole, campaign, found, decision)
+    progress("predicting what was left out")
+    answer = _Said.of(campaign, story, decision, loss)
+    rows = told[id(story)] if id(story) in told else stories.candidates(story)
+    return _assembled(found, beliefs, answer, rows, pile, moved)
+
+
+def _weighed(
+    whole: Campaign, campaign: Campaign, found: Sequence[Explained], decision: Decision
+) -> tuple[Decision, Explained, Recording | None, Pile | None]:
+    """The decision with what outliers and frames of a motion say of it, the story that it believes, and those two.
+
+    whole : the campaign with all its frames
+    """
+    frames = _all_frames(whole, campaign, found[0])
+    beside = None if frames is None else remainder(frames, pieces_of(frames, found[0]), found, decision)
+    decision = decision if beside is None else beside.decision
     story = stories.believed_data(found, decision)
     pile = piled_up(story.search.data, story.search.where, stories.chosen_of(story, decision))
     if pile is not None:
-        decision = Decision(UNKNOWN, (), 1.0 - pile.p)
-    progress("predicting what was left out")
-    answer = _Said.of(campaign, story, decision, loss)
-    return _assembled(found, beliefs, answer, told[id(story)], pile)
+        decision, beside = Decision(UNKNOWN, (), 1.0 - pile.p), None
+    frames = frames if story is found[0] else _all_frames(whole, campaign, story)
+    story = common_first(story, stories.chosen_of(story, decision))
+    null, chosen = stories.null_of(story).best, stories.chosen_of(story, decision)
+    moved = recording(campaign, frames, story, null, chosen, beside)
+    if moved is not None and moved.unnamed_motion and decision.classes:
+        decision = Decision(UNKNOWN, (), 1.0 - moved.p_of_unnamed)
+    return decision, story, moved, pile
+
+
+def _all_frames(whole: Campaign, campaign: Campaign, story: Explained) -> AllFrames | None:
+    """Of a campaign as recorded; of corrected data those that were fitted."""
+    every = campaign.frames is not None and story.correction is None
+    return AllFrames.of(recorded(whole) if every else story.search.data)
 
 
 def _explained(campaign: Campaign, budget: str, progress: Callable[[str], None]) -> tuple[Campaign, list[Explained]]:
@@ -195,8 +229,9 @@ def _confirmed(chosen: Judged, left: LeftOut | None, added: float | None) -> boo
 
 
 def _assembled(
-    found: Sequence[Explained], beliefs: Sequence[Belief], said: _Said, rows: Sequence[Candidate], pile: Pile | None
-) -> Diagnosis:
+    found: Sequence[Explained], beliefs: Sequence[Belief], said: _Said, rows: Sequence[Candidate], pile: Pile | None,
+    moved: Recording | None,
+) -> Diagnosis:  # fmt: skip
     """Everything of a diagnosis."""
     story, null, chosen, campaign = said.story, said.null, said.chosen, said.campaign
     data, search, recorded = story.search.data, story.search, stories.as_recorded(found)
@@ -211,7 +246,8 @@ def _assembled(
         campaign=campaign, decision=decision, beliefs=tuple(sorted(beliefs, key=lambda one: -one.probability)),
         p_value=min(stories.p_value(found), by_forces, by_peaks, 1.0 if pile is None else pile.p), piled_up=pile,
         p_adequate=_p_adequate(noise), explained=story, correction=story.correction,
-        chosen=chosen, null=null, sizes=said.sizes, drift=stories.drift_of(story, chosen), candidates=tuple(rows),
+        chosen=chosen, null=null, sizes=said.sizes if moved is None else moved.widened(said.sizes),
+        drift=stories.drift_of(story, chosen), candidates=tuple(rows),
         tried=tuple(stories.tried(found, story)), set_aside=aside,
         peaks=Peaks(peak_count(data), tuple(uncertain_peaks(data, chosen))), noise=tuple(noise),
         errors=tuple(errors_of_kinds(recorded)), location=said.location,
@@ -221,7 +257,7 @@ def _assembled(
         fitted=fitted, recommendations=(*advice, *_again(aside)),
         sigmas=tuple(sigmas_used(campaign)), doubts=tuple(doubts(campaign, noise)),
         not_testable=search.hidden | unseen | ({} if campaign.identified else NEEDS_SIGNALS), minimum_detectable=least,
-        detectable_by_pattern=by_pattern,
+        detectable_by_pattern=by_pattern, recording=moved,
     )  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from cdpr_struct.diagnosis.internal_forces import InternalForces
 from cdpr_struct.diagnosis.left_out import LeftOut
 from cdpr_struct.diagnosis.peaks_apart import PeaksApart
 from cdpr_struct.diagnosis.recommended import Recommendation
+from cdpr_struct.diagnosis.recording import Recording
 from cdpr_struct.diagnosis.sensor_sigmas import Doubt, NoiseOfKind, Used
 from cdpr_struct.diagnosis.unassigned import UncertainPeak
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
@@ -162,6 +163,7 @@ class Diagnosis:
     fitted : the decision without what internal forces say beside encoders
     minimum_detectable : by cause, parameter's name to the size found in four of five campaigns
     detectable_by_pattern : the same of every pattern
+    recording : what frames of a motion say beyond single states, None without any
     """
 
     campaign: Campaign
@@ -200,6 +202,7 @@ class Diagnosis:
     not_testable: dict[str, str]
     minimum_detectable: dict[str, dict[str, float | str]]
     detectable_by_pattern: dict[str, list[dict[str, float | str]]]
+    recording: Recording | None
 
     @property
     def by_damping(self) -> bool:

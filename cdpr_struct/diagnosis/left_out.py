@@ -66,7 +66,7 @@ def left_out(data: Recorded, where: Layout, found: Judged) -> LeftOut | None:
     if not causes or len(sums.gram) < 2:
         return None
     after = _predictions(sums, np.concatenate(causes))
-    kept = np.array([min(_gain(sums, own, k) for k in range(len(sums.gram))) for own in causes])
+    kept = np.array([min(sums.gain(own, np.array([k])) for k in range(len(sums.gram))) for own in causes])
     return _read(data, where, found, sums, after, kept)
 
 
@@ -106,26 +106,12 @@ def _beside_modes(sums: BlockSums, found: Judged) -> BlockSums:
 
 def _predictions(sums: BlockSums, causes: np.ndarray) -> np.ndarray:
     """(n,) residuals less what the causes make of each block's, fitted to the other blocks."""
-    gram, score = sums.gram.sum(axis=0), sums.score.sum(axis=0)
     after = sums.residual.copy()
     for k in range(len(sums.gram)):
-        z = np.linalg.solve(np.eye(len(gram)) + gram - sums.gram[k], score - sums.score[k])
+        z = np.linalg.solve(*sums.without(np.array([k])))
         rows = sums.block == k
         after[rows] -= sums.columns[rows][:, causes] @ z[causes]
     return after
-
-
-def _gain(sums: BlockSums, own: np.ndarray, k: int) -> float:
-    """Log evidence that a cause's columns add to all others, without a block."""
-    gram = np.eye(sums.gram.shape[1]) + sums.gram.sum(axis=0) - sums.gram[k]
-    score = sums.score.sum(axis=0) - sums.score[k]
-    others = np.setdiff1d(np.arange(len(score)), own)
-    return _log(gram, score) - _log(gram[np.ix_(others, others)], score[others])
-
-
-def _log(gram: np.ndarray, score: np.ndarray) -> float:
-    factor = np.linalg.cholesky(gram)
-    return float(0.5 * (np.linalg.solve(factor, score) ** 2).sum() - np.log(np.diagonal(factor)).sum())
 
 
 def _labels(data: Recorded, where: Layout, modes: np.ndarray) -> np.ndarray:

@@ -57,7 +57,7 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
                 yield _in_unit(said, new, size, own)
     for unit, factor in LENGTH_UNITS.items():
         for what in ("length", "position"):
-            new = with_states(campaign, **{what: getattr(states, what) * factor})
+            new = _with_scaled(campaign, what, factor)
             yield _in_unit(f"the {what}s are in {unit}", new, factor, _columns(what, m))
     turned = ((np.degrees(1.0), "are in rad"), (np.radians(1.0), "were converted from rad, though in deg"))
     for factor, wrong in turned if several_tilted(states) else ():
@@ -74,6 +74,12 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
             yield Correction(
                 "unit_error", f"the {what.replace('_', ' ')} are in rad/s", new, parameters={"factor": turn}
             )
+
+
+def _with_scaled(campaign: Campaign, what: str, factor: float) -> Campaign:
+    """Readings of a kind times a factor, and with lengths their rates."""
+    new, frames = with_states(campaign, **{what: getattr(campaign.states, what) * factor}), campaign.frames
+    return new if what != "length" or frames is None else replace(new, frames=frames.scaled(factor))
 
 
 def _in_unit(said: str, new: Campaign, factor: float, columns: np.ndarray) -> Correction:
@@ -117,6 +123,8 @@ def _swaps(campaign: Campaign) -> Iterator[Correction]:
             new = with_states(
                 campaign, **{what: values[:, order], f"{what}_sigma": getattr(states, f"{what}_sigma")[:, order]}
             )
+            if what == "length" and campaign.frames is not None:
+                new = replace(new, frames=campaign.frames.in_order(order))
             says = f"the {what} channels of cables {i + 1} and {j + 1} are swapped"
             yield Correction("swapped_channels", says, new, parameters={"first": i + 1, "second": j + 1})
 

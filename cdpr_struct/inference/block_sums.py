@@ -47,6 +47,22 @@ class BlockSums:
             np.concatenate([sigma.ravel() for _, sigma in parts]),
         )
 
+    def without(self, blocks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Precision (t, t), prior included, and score (t,) of z by all blocks but some."""
+        rest = np.setdiff1d(np.arange(len(self.gram)), blocks)
+        return np.eye(self.gram.shape[1]) + self.gram[rest].sum(axis=0), self.score[rest].sum(axis=0)
+
+    def gain(self, own: np.ndarray, blocks: np.ndarray) -> float:
+        """Log evidence [nat] that some numbers of z add to all others, without some blocks."""
+        precision, score = self.without(blocks)
+        others = np.setdiff1d(np.arange(len(score)), own)
+        return _log(precision, score) - _log(precision[np.ix_(others, others)], score[others])
+
+
+def _log(precision: np.ndarray, score: np.ndarray) -> float:
+    factor = np.linalg.cholesky(precision)
+    return float(0.5 * (np.linalg.solve(factor, score) ** 2).sum() - np.log(np.diagonal(factor)).sum())
+
 
 def _of_stack(
     stack: Stack, variance: np.ndarray, soft: SoftExpectation | None, known: int

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
+from cdpr_struct.diagnosis.later_lengths import later_lengths, require_same_robot
 from cdpr_struct.hypotheses.search import BUDGETS
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of
@@ -13,6 +14,7 @@ from cdpr_struct.interface.campaigns import read_campaign, with_dropped
 from cdpr_struct.interface.given import CampaignLike, Progress
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.planning.recommendations import recommendations
+from cdpr_struct.reports.diagnose.recordings import later_json
 from cdpr_struct.reports.diagnose.residual_table import residual_columns
 from cdpr_struct.reports.diagnose.result import result_json
 from cdpr_struct.reports.diagnose.text import diagnosis_sentences, result_text
@@ -74,6 +76,7 @@ def diagnose(
     budget: str = "small",
     lower_bound: float | None = None,
     upper_bound: float | None = None,
+    later: CampaignLike | None = None,
     progress: Progress = silent,
 ) -> DiagnoseResult:
     """Name the cause of differences between a simulation and measured data.
@@ -83,6 +86,7 @@ def diagnose(
     campaign : Campaign, or path of a campaign file
     budget : small or full search
     lower_bound, upper_bound : of the cable forces [N], with a path only; default: those of the robot file
+    later : campaign of the same robot, not fitted, whose cable lengths are predicted at its measured poses
     progress : called with the name of each step
 
     Raises
@@ -91,7 +95,11 @@ def diagnose(
     """
     one_of(budget, "budget", BUDGETS)
     measured = read_campaign(campaign, lower_bound, upper_bound)
+    other = None if later is None else read_campaign(later, None, None)
+    if other is not None:
+        require_same_robot(measured, other)
     found = diagnosed(measured, budget, progress)
     progress("simulating the next measurement")
     told = with_dropped(result_json(found, recommendations(found)), measured)
+    told["later_lengths"] = None if other is None else later_json(other.source, later_lengths(found, other))
     return DiagnoseResult(with_extensions(told, measured.robot, "diagnose"), found)

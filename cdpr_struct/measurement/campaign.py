@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cdpr_struct.measurement.frames import Frames
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.robot.robot import Robot
 
@@ -202,6 +203,7 @@ class Campaign:
     relative_lengths : each encoder counts from an unknown start, the same in all states
     notes : what was assumed where the data files say nothing, in sentences for a person
     loss : what mistakes of a diagnosis cost
+    frames : what is known of states that stand for the frames of a motion, None where every frame is a state
     """
 
     source: str
@@ -224,6 +226,7 @@ class Campaign:
     notes: tuple[str, ...] = ()
     relative_lengths: bool = False
     loss: Loss = Loss()  # noqa: RUF009 - frozen
+    frames: Frames | None = None
     ambient: tuple["AmbientRecord", ...] = ()
 
     @property
@@ -234,7 +237,7 @@ class Campaign:
     def with_states_only(self, states: States) -> "Campaign":
         """The same campaign of these states, without frequencies and signals."""
         cables = CableFrequencies(*(np.zeros(0, dtype=t) for t in (int, int, int, bool, float, float)))
-        return replace(self.without_robot_peaks(), states=states, cable_frequencies=cables)
+        return replace(self.without_robot_peaks(), states=states, cable_frequencies=cables, frames=None)
 
     def without_robot_peaks(self) -> "Campaign":
         """The campaign without frequencies of the robot, from lists and from signals."""

@@ -37,12 +37,12 @@ class Circumstances:
     @classmethod
     def of(cls, campaign: Campaign, rotation: np.ndarray, position: np.ndarray) -> "Circumstances":
         """At poses (S, 3), (S, 3, 3) near the measured ones."""
-        states, more = campaign.states, campaign.robot.extensions
+        states, more, frames = campaign.states, campaign.robot.extensions, campaign.frames
         return cls(
             payload=states.payload,
             hours=_hours(states),
-            rate=length_rates(states),
-            acceleration=accelerations(states),
+            rate=length_rates(states) if frames is None else frames.rate,
+            acceleration=accelerations(states) if frames is None else frames.acceleration,
             approach=np.where(np.isfinite(states.approach), states.approach, 0.0),
             wrap=exit_turns(campaign.robot, position, rotation),
             center=more.hose_center if more.hose else position.mean(axis=0),

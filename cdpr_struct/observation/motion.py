@@ -35,7 +35,7 @@ def moving(rates: np.ndarray) -> np.ndarray:
 def _derivatives(time: np.ndarray, values: np.ndarray, orders: tuple[int, ...]) -> np.ndarray:
     """(S, k, q) derivatives of q orders by time of values (S, k) along runs of frames, else zero."""
     found = np.zeros((*values.shape, len(orders)))
-    for run in _runs(time):
+    for run in runs(time):
         for column in range(values.shape[1]):
             own = run[np.isfinite(values[run, column])]
             if len(own) >= FEWEST:
@@ -44,7 +44,7 @@ def _derivatives(time: np.ndarray, values: np.ndarray, orders: tuple[int, ...]) 
     return found
 
 
-def _runs(time: np.ndarray) -> Iterator[np.ndarray]:
+def runs(time: np.ndarray) -> Iterator[np.ndarray]:
     """States (k,) that follow each other as frames, in order of time; at times that differ."""
     order = np.argsort(time, kind="stable")[: int(np.isfinite(time).sum())]
     steps = np.diff(time[order])

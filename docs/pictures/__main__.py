@@ -3,7 +3,8 @@
     python docs/pictures            # about a minute
     python docs/pictures --check    # the effects of all causes are those that were drawn; exit code 1 if not
 
-Writes docs/anatomy_*.svg, docs/causes/pictures/*.svg, docs/causes/pictures/effects.json and docs/causes/gallery.md.
+Writes docs/anatomy_*.svg, docs/recorded_motion.*, docs/causes/pictures/*.svg, docs/causes/pictures/effects.json and
+docs/causes/gallery.md.
 """
 
 import json
@@ -13,6 +14,7 @@ from pathlib import Path
 import anatomy
 import flow
 import gallery
+import recorded_motion
 from compact import compact
 from small_multiples import picture
 from typical import effects
@@ -37,6 +39,10 @@ def main() -> int:
         return bool(stale)
     for name, (size, draw) in DRAWN.items():
         (DOCS / f"{name}.svg").write_text(compact(svg(name.replace("_", "-"), size, draw)), encoding="utf-8")
+    recording = recorded_motion.found()
+    recorded_motion.written(recording)
+    drawn = svg("recorded-motion", recorded_motion.SIZE, lambda figure: recorded_motion.draw(figure, recording))
+    (DOCS / "recorded_motion.svg").write_text(compact(drawn), encoding="utf-8")
     for name, effect in found.items():
         (gallery.PICTURES / f"{name}.svg").write_text(picture(name, effect), encoding="utf-8")
     numbers = {name: {"size": effect.size, **effect.numbers()} for name, effect in found.items()}

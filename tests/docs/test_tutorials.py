@@ -21,7 +21,8 @@ from cdpr_struct.cli.main import run
 ROOT = Path(__file__).parents[2]
 PAGES = (
     "tutorial_own_robot", "tutorial_model_right", "tutorial_diagnosis", "tutorial_trajectory", "pulleys", "ropes",
-    "recordings", "importing_recordings", "notebooks", "templates", "formats", "first_day", "trust",
+    "recordings", "recorded_motion", "notebooks", "templates", "formats", "first_day", "trust",
+    "importing_recordings",
 )  # fmt: skip
 NEEDED = {"importing_recordings": "rosbags"}  # packages of extras
 ROBOTS = sorted((ROOT / "examples" / "robots").glob("*/README.md"))

@@ -132,6 +132,13 @@ def mutation() -> Figure:
     return Figure(f"{scores['all']}; weakest: {weakest}, {scores[weakest]}", number(scores["all"]) >= 0.9)
 
 
+def recorded_motion() -> Figure:
+    """Errors of lengths that were not fitted, after over before, of the best and the worst cable."""
+    rows = table("recorded_motion.md", "cable", "robot as entered")
+    shares = [float(row[3]) / float(row[1]) for row in rows]
+    return Figure(f"{min(shares):.2f} to {max(shares):.2f}", max(shares) <= 1.0 / 3.0)
+
+
 def pythons() -> Figure:
     """Versions of Python on which tests were run."""
     rows = table("install.md", "Python", "packages")

@@ -181,6 +181,17 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.recordings,
         ),
         Row(
+            case="a moving robot recorded by others, 400 frames fitted",
+            reference="cable lengths in 200 later frames",
+            metric="rms error with the cause that was named over that as entered, by cable",
+            acceptance="1/3 each",
+            command="python -m pytest -mslow tests/docs/test_recorded_motion.py",
+            test="tests/docs/test_recorded_motion.py::test_the_program_still_finds_it",
+            twin="tests/docs/test_recorded_motion.py::test_without_the_delay_in_the_library_nothing_is_named",
+            source="recorded_motion.md",
+            figure=figures.recorded_motion,
+        ),
+        Row(
             case="ambient records of 20 robots, ten minutes, 128 modes, 24 of them in pairs",
             reference="modes of the finite elements that move the platform",
             metric="largest error in sigmas; sigmas of 0.2 % or less; modes missed and invented",

@@ -126,8 +126,10 @@ class Cause:
     along     : words, if the parameter after the ways goes along in half of the patterns
     seen_in   : kinds of rows it shows in;  needs : why these data cannot show it, or ""
     outside   : whether it sits in the data alone: the extended robot does not have it
+    in_motion : whether it shows in proportion to speed, and not at rest
     becomes   : causes that it is where some of its parameters are zero
     sentence  : for a person, with {value} and {unit} of the first parameter;  sign : what a number above zero means
+    senses    : words for {sense} where the mean of the numbers is above zero, and below it; {size} is its size
     separated_by : measurements that tell it from its rivals;  extension : what of the extended robot holds it
     """
 
@@ -145,9 +147,11 @@ class Cause:
     seen_in: tuple[str, ...] = ()
     needs: Callable[[Seen], str] = always
     outside: bool = False
+    in_motion: bool = False
     becomes: tuple[str, ...] = ()
     sentence: str = ""
     sign: str = ""
+    senses: tuple[str, str] = ("more", "less")
     separated_by: str = ""
     extension: str = ""
     known: Mapping[str, float] = field(default_factory=dict)

@@ -7,6 +7,7 @@ from cdpr_struct.diagnosis.diagnosis import Diagnosis
 from cdpr_struct.reports.ambient_page import ambient_plates
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.diagnose import tables
+from cdpr_struct.reports.diagnose.recordings import length_tables, stretch_table
 from cdpr_struct.reports.diagnose.residual_table import residual_columns
 from cdpr_struct.reports.diagnose.signals import signal_plates, signal_table
 from cdpr_struct.reports.diagnose.state_errors import state_table, tension_table
@@ -148,6 +149,8 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
         tension_table(result),
         tables.candidates(result["candidates"], 20, 3),
         tables.left_out(result["gain"]),
+        *length_tables(result),
+        stretch_table(result),
         tables.next_steps(result["next_measurements"]),
         tables.set_aside(result["set_aside"]),
         tables.noise(result["noise"]),

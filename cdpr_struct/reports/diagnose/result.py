@@ -18,6 +18,7 @@ from cdpr_struct.reports.ambient_result import record_json
 from cdpr_struct.reports.diagnose import signals
 from cdpr_struct.reports.diagnose.amplitudes import amplitude_json
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
+from cdpr_struct.reports.diagnose.recordings import recording_json
 from cdpr_struct.reports.diagnose.sentences import finite, sentence
 from cdpr_struct.reports.diagnose.state_errors import state_errors
 from cdpr_struct.reports.diagnose.words import doubt, place, recommendation
@@ -85,6 +86,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "warnings": _warnings(found),
         "not_used": _not_used(found),
         "signals": [signals.signal_json(item) for item in found.campaign.identified],
+        "recording": recording_json(found.recording),
         "ambient": [record_json(one) for one in found.campaign.ambient],
         "peaks_apart": _apart(found),
         "internal_force": _forces(found),
@@ -212,7 +214,7 @@ def _of_candidate(found: Diagnosis, one: Candidate) -> Iterator[dict[str, Any]]:
     """One row for each cause of a fit."""
     left = found.left_out if one.best is found.chosen else None
     after = None if left is None else left.rms(np.ones(len(left.kind), dtype=bool))[1]
-    for size in one.sizes:
+    for size in found.sizes if left is not None else one.sizes:
         name = size.part.cause.name
         yield {
             "cause": name, "with": [other for other in one.names if other != name],

@@ -11,6 +11,12 @@ from cdpr_struct.hypotheses.drift import CELLS, ENCODERS, TRACKER
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.reports.diagnose.amplitudes import amplitude_sentence
 from cdpr_struct.reports.diagnose.corrected_columns import corrected
+from cdpr_struct.reports.diagnose.recordings import (
+    condensed_sentence,
+    gain_sentence,
+    remainder_sentence,
+    unnamed_motion_sentence,
+)
 from cdpr_struct.reports.diagnose.signals import damping_sentence
 from cdpr_struct.reports.diagnose.words import described, listed, place, plain, reading
 from cdpr_struct.reports.text import with_sigma
@@ -37,6 +43,7 @@ def sentence(found: Diagnosis) -> str:
         parts = _unknown(found)
     else:
         parts = _named(found)
+    parts += [condensed_sentence(found.recording)]
     parts += ["" if found.by_peaks else _peaks(found), _line(found), _aside(found), _drift(found)]
     if not found.by_damping:
         parts += [_forces(found) if status != "adequate" else "", _damping(found)]
@@ -171,8 +178,8 @@ def _standing(found: Diagnosis) -> str:
         return "With this correction all readings agree within their uncertainty."
     chosen = next((one for one in found.candidates if one.best is found.chosen), None)
     share = 0.0 if chosen is None else 100.0 * chosen.explained
-    said = [f"This accounts for {share:.0f} % of the error beyond noise."] if share >= 0.5 else []
-    left = found.left_out
+    rest, left = remainder_sentence(found.recording), found.left_out
+    said = [f"This accounts for {share:.0f} % of the error beyond noise."] if share >= 0.5 and not rest else []
     if left is None and found.added is None:
         return " ".join([*said, "A single state leaves no held-out data to confirm it."])
     if not found.confirmed:
@@ -182,13 +189,15 @@ def _standing(found: Diagnosis) -> str:
     if left is not None:
         ratio = left.ratio(left.concerned)
         fall = f"falls by a factor of {ratio:.1f}" if ratio > _BETTER else "is no smaller"
-        said.append(f"In held-out states the prediction error of the affected readings {fall}.")
-    return " ".join(said)
+        kept = gain_sentence(found.recording)
+        said.append(kept or f"In held-out states the prediction error of the affected readings {fall}.")
+    return " ".join(filter(None, [*said, rest]))
 
 
 def _unknown(found: Diagnosis) -> list[str]:
     """What no cause explains: where it is, what comes nearest, through what it acts."""
     parts = [f"There is a significant error in {place(found.location)}, and no cause in the library explains it."]
+    parts += [unnamed_motion_sentence(found.recording)]
     pile = found.piled_up
     if pile is not None:
         parts.append(

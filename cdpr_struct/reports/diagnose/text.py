@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from cdpr_struct.reports.diagnose import tables
+from cdpr_struct.reports.diagnose.recordings import length_tables, stretch_table
 from cdpr_struct.reports.diagnose.state_errors import state_table, tension_table
 from cdpr_struct.reports.html import HtmlTable
 from cdpr_struct.reports.text import paragraphs, plain_table
@@ -18,6 +19,8 @@ def result_text(result: Mapping[str, Any]) -> str:
         tension_table(result, 5),
         tables.candidates(result["candidates"], 8, 2),
         tables.left_out(result["gain"]),
+        *length_tables(result),
+        stretch_table(result),
         tables.noise(result["noise"], all_of_them=False),
         tables.set_aside(result["set_aside"]),
     )

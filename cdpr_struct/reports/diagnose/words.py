@@ -34,11 +34,12 @@ def described(size: WholeSize) -> str:
         "value": f"{first['value']:.3g}", "percent": _per_cent(float(np.exp(value.mean()))),
         "rms": f"{value[0]:+.2g}" if single else f"{rms:.2g}", "norm": f"{norm:.2g}", "unit": str(first["unit"]),
         "far": f"{value[0]:+.2g}" if single else f"{norm / np.sqrt(max(len(value) // 3, 1)):.2g}",
+        "size": f"{abs(value.mean()):.3g}", "sense": cause.senses[int(value.mean() < 0.0)],
         "parts": _by_unit(pattern, value), "named": _by_name(pattern, value),
     }  # fmt: skip
     text = cause.sentence.format(**words)
     text = text.replace(" on average", "") if single else text
-    notes = [pattern.label, cause.sign if single else ""]
+    notes = [pattern.label, cause.sign if single and "{sense}" not in cause.sentence else ""]
     if "{percent}" in cause.sentence and not single:
         notes.append(f"from {_per_cent(float(np.exp(value.min())))} to {_per_cent(float(np.exp(value.max())))}")
     note = ", ".join(filter(None, notes))
