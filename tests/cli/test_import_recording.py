@@ -7,6 +7,7 @@ import pytest
 
 import cdpr_struct as cs
 from cdpr_struct.cli.main import run
+from cdpr_struct.reports.plain_json import result_text
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "recordings"
 LOG, MAPPING = str(EXAMPLES / "log.csv"), str(EXAMPLES / "log.toml")
@@ -108,3 +109,11 @@ def test_a_listing_and_a_mapping_in_python(tmp_path):
     assert path == tmp_path / "c" / "campaign.toml"
     with pytest.raises(cs.InputError, match="mapping: tims: got"):
         cs.import_recording(LOG, {"tims": {}})
+
+
+def test_python_lists_the_channels_that_the_command_lists(capsys):
+    assert run(["import-recording", LOG, "--list", "--json"]) == 0
+    commanded = json.loads(capsys.readouterr().out)["channels"]
+    asked = cs.recording_channels(LOG)
+    listed = {"channels": [dict(channel.answer()) for channel in asked.channels]}
+    assert json.loads(result_text(listed))["channels"] == commanded

@@ -11,7 +11,7 @@ import cdpr_struct as cs
 from cdpr_struct.cli.main import COMMANDS
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.plain_json import result_text
-from tests.cli.conftest import EXAMPLES, ROOT, words_of
+from tests.cli.conftest import EXAMPLES, OTHERS, ROOT, words_of
 
 NOT_IN_PYTHON = {
     "derive",
@@ -42,7 +42,7 @@ MAIN_TABLE = {
 CASES = [
     pytest.param(name, number, marks=pytest.mark.slow) if name in LONG and number == 0 else (name, number)
     for name, number, _ in EXAMPLES
-    if name not in NOT_IN_PYTHON
+    if name not in {*NOT_IN_PYTHON, *OTHERS}
 ]
 
 
