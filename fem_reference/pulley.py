@@ -162,10 +162,10 @@ class Wrap:
 
             [[T / l, 0], [w R / l, k]],    inverse    [[l / T, 0], [-(1 / k) w R / T, 1 / k]]:
 
-        across, short bars give way by 1 / k. The symmetric part has c = w R / 2 l on both sides. Eliminating u leaves
-        k - c c^T l / T, which is softer without bound as bars shrink. With c c^T l / T added, it is k again, and the
-        inverse is the symmetric part of the one above, but for squares of w R / 2 T. For T / l stands what the block
-        has there, which the curvature changes by half of R / radius of curvature: with T / l itself that share of
+        across the normal, a short bar gives way by 1 / k. The symmetric part has c = w R / 2 l on both sides. Without
+        u, k - c c^T l / T is left, which is softer without bound as bars shrink. With c c^T l / T added, it is k again,
+        and the inverse is the symmetric part of the one above, but for squares of w R / 2 T. For T / l stands what the
+        block has there, which the curvature changes by half of R / radius of curvature: with T / l itself that share of
         the softening would remain. An upright pulley couples u with motion along the cable only, which shows where
         the cable is soft or something elastic is in line.
         """

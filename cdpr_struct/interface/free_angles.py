@@ -202,9 +202,7 @@ def even_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "saggin
             f"the platform nowhere near, or the search has not settled. Move the pose, or begin at another orientation."
         )
     pose, spread = Pose(where.position, found.angles[0]), float(found.spread[0])
-    return HangingPose(
-        pose, found.solution.at(0), free, (), spread, turned=float(angle_between(where.rotation, pose.rotation))
-    )
+    return HangingPose(pose, found.solution.at(0), free, (), spread, turned=_turned(where, pose))
 
 
 def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sagging") -> HangingPose:
@@ -219,8 +217,8 @@ def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sag
     if robot.shared_winches:
         hung = wound(robot, where, free, model).hung
         pose = Pose(where.position, hung.angles[0])
-        turned = float(angle_between(where.rotation, pose.rotation))
-        return HangingPose(pose, hung_solution(robot, hung).at(0), free, added, held_by="winches", turned=turned)
+        solution, turned = hung_solution(robot, hung).at(0), _turned(where, pose)
+        return HangingPose(pose, solution, free, added, held_by="winches", turned=turned)
     _require_no_half_turn(robot, [where, Pose(where.position, np.where(free, 0.0, where.angles))])
     found = free_orientation(robot, where.position[None], where.angles, free, model=model)
     if not found.found[0]:
@@ -235,9 +233,12 @@ def hanging_pose(robot: Robot, where: Pose, given: FreeAngles, model: str = "sag
             f"{hint}, or begin at another orientation."
         )
     pose = Pose(where.position, found.angles[0])
-    return HangingPose(
-        pose, hung_solution(robot, found).at(0), free, added, turned=float(angle_between(where.rotation, pose.rotation))
-    )
+    return HangingPose(pose, hung_solution(robot, found).at(0), free, added, turned=_turned(where, pose))
+
+
+def _turned(start: Pose, end: Pose) -> float:
+    """Angle between two orientations [rad]."""
+    return float(angle_between(start.rotation, end.rotation))
 
 
 def _require_no_half_turn(robot: Robot, starts: list[Pose]) -> None:

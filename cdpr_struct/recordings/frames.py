@@ -20,7 +20,7 @@ class Frames:
     """States (k,) at rising times [s].
 
     position : (k, 3) [m];  rotation : k;  lengths : (k, m) [m];  tensions : (k, m) [N], nan where not read
-    sigma    : of what a scatter was measured, by the campaign's keys
+    sigma    : of readings whose scatter was measured, by their keys in campaign.toml
     said     : how they came about, in a sentence
     left_out : frames that lie in gaps
     """
