@@ -4,6 +4,7 @@ A pose is a position and the rotation Rz(rz) Ry(ry) Rx(rx). Each other conventio
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from itertools import permutations
 
 import numpy as np
@@ -41,6 +42,7 @@ def conventions(campaign: Campaign) -> Iterator[Correction]:
         angles = states.angles.copy()
         angles[whole] = angles_from_rotation(axes @ _written(states.angles[whole]).as_matrix() @ axes.T)
         new = with_states(campaign, position=states.position @ axes.T, angles=angles)
+        new = new if new.frames is None else replace(new, frames=new.frames.in_axes(axes))
         yield Correction(CAUSE, f"the poses are written in a frame whose {wrong}", new)
 
 

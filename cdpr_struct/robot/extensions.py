@@ -59,6 +59,9 @@ class Extensions:
     creep: float
     slip: np.ndarray
     encoder_delay: np.ndarray
+    cell_delay: np.ndarray
+    clock_drift: float
+    clock_start: float
     accelerometer_gain: np.ndarray
     sensor_mass: float
     internal_mass: float
