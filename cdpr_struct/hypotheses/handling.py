@@ -10,7 +10,7 @@ from itertools import combinations
 import numpy as np
 
 from cdpr_struct.hypotheses.conventions import conventions
-from cdpr_struct.hypotheses.correction import Correction, several_tilted, with_states
+from cdpr_struct.hypotheses.correction import BEYOND_NOISE, Correction, several_tilted, with_states
 from cdpr_struct.measurement.campaign import Campaign, States
 
 TENSION_UNITS = {"kgf": 9.80665, "lbf": 4.4482216, "kN": 1000.0, "daN": 10.0}
@@ -60,7 +60,7 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
             new = _with_scaled(campaign, what, factor)
             yield _in_unit(f"the {what}s are in {unit}", new, factor, _columns(what, m))
     turned = ((np.degrees(1.0), "are in rad"), (np.radians(1.0), "were converted from rad, though in deg"))
-    for factor, wrong in turned if several_tilted(states) else ():
+    for factor, wrong in turned if several_tilted(states, BEYOND_NOISE) else ():
         new = with_states(campaign, angles=states.angles * factor)
         yield _in_unit(f"the pose angles {wrong}", new, factor, _columns("angles", m))
     for factor, unit in ((0.45359237, "lb"), (1.0 / 9.80665, "N")) if np.any(states.payload) else ():
