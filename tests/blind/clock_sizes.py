@@ -113,11 +113,14 @@ class Seen:
 
     def size(self, columns: list[np.ndarray], pattern: np.ndarray, nuisance: list[np.ndarray]) -> float:
         """Smallest detectable multiple of a pattern (d,) of changes (F, 6 + m) each, beside nuisances of one sigma."""
+        sigmas = self.sigmas(np.tensordot(pattern, np.array(columns), axes=1), nuisance)
+        return float(sigmas_to_find(int(np.count_nonzero(pattern))) / sigmas)
+
+    def sigmas(self, change: np.ndarray, nuisance: list[np.ndarray]) -> float:
+        """By how many sigmas a change (F, 6 + m) stands out of noise, tolerances and nuisances."""
         root = np.linalg.cholesky(self.noise())
-        white = [np.linalg.solve(root, part[..., None]).ravel() for part in (*columns, *self.tolerances(), *nuisance)]
-        count = len(columns)
-        signal, spread = np.array(white[:count]).T @ pattern, np.array(white[count:]).T
-        inner = np.eye(spread.shape[1]) + spread.T @ spread
+        white = np.linalg.solve(root, np.stack([change, *self.tolerances(), *nuisance], axis=-1))
+        signal, spread = white[..., 0].ravel(), white[..., 1:].reshape((change.size, -1))
         across = spread.T @ signal
-        power = signal @ signal - across @ np.linalg.solve(inner, across)
-        return float(sigmas_to_find(int(np.count_nonzero(pattern))) / np.sqrt(power))
+        inner = np.eye(spread.shape[1]) + spread.T @ spread
+        return float(np.sqrt(signal @ signal - across @ np.linalg.solve(inner, across)))

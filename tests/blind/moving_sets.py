@@ -11,16 +11,17 @@ import pandas as pd
 from scipy.spatial.transform import Rotation
 
 from cdpr_struct.fem_reference import FemError
-from tests.blind.case_drawing import ATTEMPTS, Case, RejectedDrawError
+from tests.blind.case_drawing import Case, RejectedDrawError
 from tests.blind.clock_sizes import Seen
 from tests.blind.deviations import Deviations, drawn_tolerances
 from tests.blind.entered_robot import EnteredRobot, entered_robot
 from tests.blind.measuring_plan import angles_deg
-from tests.blind.motion import MARGIN, STEP, Motion, commanded, drawn_curve, moved
+from tests.blind.motion import MARGIN, STEP, Motion, commanded, drawn_curve, moved, planned
 from tests.blind.observation import SlackStateError
 from tests.blind.sensors import POSE
 
 ROBOTS = ("thesis-3-1", "cogiro", "thesis-5", "four-cables")
+ATTEMPTS = 400  # most draws are too slow or too fast for a delay that occurs
 FRAMES = 144
 LONG = 240  # frames where clocks run apart
 MULTIPLE = 4.0  # of what can be detected
@@ -31,6 +32,8 @@ START = 0.03  # s rms, by which clocks differ that were never set alike
 SMALLEST = {"position_m": 0.0005, "length_m": 0.0003, "tension_N": 1.0}
 LARGEST = {"position_m": 0.003, "length_m": 0.0015, "tension_N": 4.0}
 LEVER = 0.5  # m, over which a tracker's markers tell its turn
+SEPARABLE = 3.0  # sigmas that what else may be wrong with the same cables leaves of a second effect
+WIDE = 0.01  # m: one sigma of what else may be wrong
 SECOND = ("frame_anchor_position", "unstrained_length_offset", "axial_stiffness")
 PLAUSIBLE = {"frame_anchor_position": 0.05, "unstrained_length_offset": 0.05, "axial_stiffness": 0.5}
 UNITS = {"frame_anchor_position": "m", "unstrained_length_offset": "m", "axial_stiffness": "ln ratio"}
@@ -88,15 +91,13 @@ def _attempt(kind: MovingKind, seed: np.random.SeedSequence) -> Case:
     sigma, time = drawn_sigma(choice), STEP * np.arange(frames)
     tolerances = drawn_tolerances(robot.cables, workshop)
     deviations = tolerances.plus("pulley_radius", -tolerances["pulley_radius"])
-    commands = commanded(robot, curve, frames)
-    exact = moved(robot, Deviations.none(robot.cables), commands)
-    seen = Seen.of(robot, exact, time, sigma, kind.tensions)
+    seen = Seen.of(robot, planned(robot, curve, frames), time, sigma, kind.tensions)
     late, effects = drawn_delays(kind, seen, hidden)
     if kind.second:
         change, record = _second(kind.second, seen, hidden)
         deviations = deviations.plus(kind.second, change)
         effects.append(record)
-    real = moved(robot, deviations, commands)
+    real = moved(robot, deviations, commanded(robot, curve, frames))
     table = read(robot, real, late, sigma, kind.tensions, noise)
     truth = _truth(kind, robot, effects, deviations, {**sigma, "frames": frames})
     return Case(robot, {"static_state": table}, truth, sigma=sigma)
@@ -185,10 +186,30 @@ def _second(name: str, seen: Seen, rng: np.random.Generator) -> tuple[np.ndarray
     else:
         columns, change = [seen.stretched()], pattern * np.ones(m)
     size = MULTIPLE * seen.size(columns, pattern, [])
-    if size > PLAUSIBLE[name]:
+    left = seen.sigmas(size * np.tensordot(pattern, np.array(columns), axes=1), _rivals(name, seen, own))
+    if size > PLAUSIBLE[name] or left < SEPARABLE:
         raise RejectedDrawError
-    record = {"cause": name, "multiple": MULTIPLE, "size": size, "unit": UNITS[name], "change": (size * change).tolist()}
-    return size * change, record
+    record = {"cause": name, "multiple": MULTIPLE, "size": size, "unit": UNITS[name], "sigmas_left": left}
+    return size * change, record | {"change": (size * change).tolist()}
+
+
+def _rivals(name: str, seen: Seen, own: np.ndarray) -> list[np.ndarray]:
+    """Rows of what else may be wrong with the same cables, of a plausible size: where these are as good, no name is owed.
+
+    An offset needs no such test: another cause needs three numbers, which have to lie along the cable by chance.
+    """
+    if name == "unstrained_length_offset":
+        return []
+    none = np.zeros((len(seen.time), seen.robot.cables))
+    lengths = seen.motion.at("lengths", seen.time)
+    offset, scale = seen.rows(none, WIDE * own + none), seen.rows(none, WIDE / 5.0 * lengths * own)
+    turned = Rotation.from_rotvec(seen.motion.at("turns", seen.time)).as_matrix()
+    joints = np.einsum("fmx,fxk->fmk", seen.along, turned)
+    anchors = [seen.rows(none, WIDE * joints[..., axis] * own) for axis in range(3)]
+    if name == "axial_stiffness":
+        every = np.eye(seen.robot.cables)
+        return [seen.rows(none, WIDE * one + none) for one in every] + [seen.rows(none, WIDE / 5.0 * lengths)]
+    return [offset, scale, *anchors]
 
 
 def read(

@@ -46,7 +46,7 @@ class Command:
     approach : (m,) +1 if the winch last wound in, else -1
     position, rotation : where the platform should come to rest, (3,) [m], (3, 3)
     day      : share of the campaign that is over, 0 at the first state and 1 at the last
-    acceleration : (3,) [m/s^2] of a platform that moves without turning
+    motion : (3, 3) acceleration of the platform's origin [m/s^2], angular velocity and acceleration [rad/s, rad/s^2]
     """
 
     lengths: np.ndarray
@@ -55,7 +55,7 @@ class Command:
     position: np.ndarray
     rotation: np.ndarray
     day: float = 0.0
-    acceleration: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    motion: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))
 
 
 def true_lengths(deviations: Deviations, command: Command) -> np.ndarray:
@@ -176,10 +176,15 @@ def placed_force(
 
 
 def inertia_force(platform: PlatformData, command: Command) -> PointForce | None:
-    """D'Alembert's force on an accelerated platform, at its centre of mass; nothing else may push it then."""
-    if not np.any(command.acceleration):
+    """D'Alembert's force and moment on a moving platform; nothing else may push it then."""
+    if not np.any(command.motion):
         return None
-    return PointForce(-platform.mass * command.acceleration, platform.center_of_mass)
+    moved, spin, turned = command.motion
+    center = command.rotation @ platform.center_of_mass
+    inertia = command.rotation @ platform.inertia @ command.rotation.T
+    there = moved + np.cross(turned, center) + np.cross(spin, np.cross(spin, center))
+    moment = inertia @ turned + np.cross(spin, inertia @ spin)
+    return PointForce(-platform.mass * there, platform.center_of_mass, -moment)
 
 
 def balancer_stiffness(robot: EnteredRobot, deviations: Deviations, position: np.ndarray) -> np.ndarray:

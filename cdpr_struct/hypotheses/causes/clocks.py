@@ -20,9 +20,7 @@ def _delay(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
 
 
 def _drift(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
-    """Rate of the clocks against each other, and the delay of the poses when the recording began."""
-    late = -theta[..., 1:]
-    return plus(arrays, clock_drift=theta[..., 0], encoder_delay=late, cell_delay=late)
+    return plus(arrays, clock_drift=theta[..., 0])
 
 
 def _moving(seen: Seen) -> str:
@@ -62,15 +60,13 @@ CAUSES = (
     Cause(
         "clock_drift",
         "clock of the poses against that of the other readings",
-        (Parameter("drift", "1", _RATE), Parameter("delay_at_start", "s", _LATE)),
+        (Parameter("drift", "1", _RATE),),
         _drift,
-        shapes=(("set alike at the start", [0], 0.5), ("never set alike", [0, 1], 0.5)),
-        fitted=2,
         seen_in=("CO", "EQ"),
         needs=_lasting,
         in_motion=True,
-        sentence="the clocks of the poses and of the other readings run apart: {named}",
-        sign="positive: it runs fast, so that the poses grow older",
+        sentence="the clocks of the poses and of the other readings run apart by {value} s a second from the start on",
+        sign="positive: that of the poses is fast, so that they grow older",
         separated_by="a longer recording; a common trigger at its start and at its end",
         extension="clock_drift",
     ),
