@@ -3,7 +3,7 @@
 Two differences scatter about zero if nothing is wrong: length read less length at the pose read, and the wrench of the
 tensions read less the platform's weight. A delay adds the rate of what is late; an effect of the catalogue changes what
 it changes. Sizes are those of `detectability`: found beside tolerances and noise with power 0.8 at a false-alarm rate
-of 0.001.
+of 0.001. Where tensions are not read, internal forces are unknown to their own size.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from tests.blind.controller import exit_points
 from tests.blind.detectability import sigmas_to_find
 from tests.blind.deviations import TOLERANCES
-from tests.blind.entered_robot import EnteredRobot
+from tests.blind.entered_robot import FREEDOMS, EnteredRobot
 from tests.blind.motion import Motion
 
 TINY = 1e-4  # s, of differences in time
@@ -79,9 +79,21 @@ class Seen:
         size = np.repeat([self.sigma["position_m"], np.radians(self.sigma["rotation_deg"])], 3)
         found = np.zeros((len(self.time), 6 + m, 6 + m))
         found[:, 6:, 6:] = (pose * size**2) @ np.swapaxes(pose, 1, 2) + self.sigma["length_m"] ** 2 * np.eye(m)
+        if not self.with_tensions:
+            found[:, 6:, 6:] += self._unknown_preload()
         force = self.sigma["tension_N"] ** 2 * self.wrenches @ np.swapaxes(self.wrenches, 1, 2)
         found[:, :6, :6] = force + 1e-6 * np.eye(6) if self.with_tensions else np.eye(6)
         return found
+
+    def _unknown_preload(self) -> np.ndarray:
+        """(F, m, m) covariance of lengths that are stretched by internal forces nobody read."""
+        m = self.robot.cables
+        if m <= FREEDOMS:
+            return np.zeros((m, m))
+        null = np.linalg.svd(self.wrenches)[2][:, FREEDOMS:]
+        tensions, lengths = (self.motion.at(name, self.time) for name in ("tensions", "lengths"))
+        stretched = null * (tensions.mean() * lengths / self.robot.axial_stiffness)[:, None]
+        return np.asarray(np.swapaxes(stretched, 1, 2) @ stretched)
 
     def tolerances(self) -> list[np.ndarray]:
         """Rows of one sigma of each tolerance."""

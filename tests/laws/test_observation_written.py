@@ -84,7 +84,8 @@ OF_READINGS = (
     "slip",
     "accelerometer_gain",
 )
-ALONE = [name for name in EXTENSIONS if name not in (*AUXILIARY, "sensor_mass", "drag_width", "encoder_delay")]
+CLOCKS = ("encoder_delay", "cell_delay", "clock_drift")
+ALONE = [name for name in EXTENSIONS if name not in (*AUXILIARY, "sensor_mass", "drag_width", *CLOCKS)]
 """Wind on cables is refused; delays need states in motion, see `test_sensor_delay.py`."""
 
 
