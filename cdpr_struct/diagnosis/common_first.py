@@ -42,7 +42,9 @@ def _alike(story: Explained, chosen: Judged, index: int) -> Judged:
     """The fit with one number for all carriers in one of its parts, at the likeliest scale."""
     data, where, parts = story.search.data, story.search.where, list(chosen.hypothesis.parts)
     own = parts[index]
-    pattern = next(one for one in own.cause.patterns(story.search.seen) if one.label == own.pattern.label.replace(EACH, ALIKE, 1))
+    pattern = next(
+        one for one in own.cause.patterns(story.search.seen) if one.label == own.pattern.label.replace(EACH, ALIKE, 1)
+    )
     middle = float(np.mean(chosen.sizes[index])) * own.scale
     scale = min(SCALES, key=lambda one: abs(np.log(one / max(abs(middle), SCALES[0]))))
     parts[index] = Part(own.cause, pattern, scale)

@@ -53,7 +53,7 @@ def inertial(states: States) -> tuple[np.ndarray, np.ndarray]:
         inside, time = slice(_ENDS, -_ENDS), states.time[own]
         found[own[inside]] = _second(time, values, time)[inside]
         halves = [_second(time[k::2], values[k::2, :3], time)[inside] for k in (0, 1)]
-        unknown[own[inside]] = np.sqrt(3.0 * np.mean((0.5 * (halves[0] - halves[1])) ** 2))
+        unknown[own[inside]] = np.sqrt(((0.5 * (halves[0] - halves[1])) ** 2).sum(axis=1).mean())
     return found, unknown
 
 

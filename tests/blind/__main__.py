@@ -115,9 +115,7 @@ def _groups(name: str, release: str, total: int, out: Path, sealed: Path) -> lis
 def _moving(name: str, release: str, total: int, out: Path, sealed: Path) -> list[_Moving]:
     """What is still to be made of a set of motions."""
     base = set_seed(name, release)
-    jobs = [
-        (kind, f"c{n:03d}", (base, n), out, sealed) for n, kind in enumerate(moving_kinds(total, base), start=1)
-    ]
+    jobs = [(kind, f"c{n:03d}", (base, n), out, sealed) for n, kind in enumerate(moving_kinds(total, base), start=1)]
     return [job for job in jobs if not (campaigns_of(out) / job[1] / "manifest.json").exists()]
 
 

@@ -113,7 +113,9 @@ def moving_page(scores: dict[str, Any]) -> str:
     """The figures as a table (Markdown), and every case that is not right."""
     run, figures = scores["run"], scores["figures"]
     lines = [f"# Campaigns along a motion, set `{run['set']}`", "", f"Budget `{run['budget']}`, {run['date']}.", ""]
-    lines += ["| hidden | right | or in a class of 3 | delay or drift named | 95 % interval holds | wrong name, P > .9 |"]
+    lines += [
+        "| hidden | right | or in a class of 3 | delay or drift named | 95 % interval holds | wrong name, P > .9 |"
+    ]
     lines[-1] += " a convention said | median s |"
     lines += ["|---" * 8 + "|"]
     for name, row in figures.items():
@@ -125,5 +127,7 @@ def moving_page(scores: dict[str, Any]) -> str:
             said = "; ".join(one if isinstance(one, str) else " or ".join(one) for one in row["said"])
             chance = "" if row["probability"] is None else f"{row['probability']:.2f}"
             sizes = ", ".join(f"{size:.3g}" for size in row["sizes"])
-            lines.append(f"| {row['case']} | {row['robot']} | {row['way']} | {sizes} | {row['status']} {said} | {chance} |")
+            lines.append(
+                f"| {row['case']} | {row['robot']} | {row['way']} | {sizes} | {row['status']} {said} | {chance} |"
+            )
     return "\n".join(lines) + "\n"

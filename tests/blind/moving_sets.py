@@ -139,7 +139,9 @@ def drawn_delays(kind: MovingKind, seen: Seen, rng: np.random.Generator) -> tupl
     delay = _within(size * np.abs(pattern).max(), DELAYS, size) * pattern
     record = {"cause": DELAY, "multiple": MULTIPLE, "size": size, "unit": "s", "shape": kind.way}
     every = np.ones(m) * delay if kind.way != "one" else delay[0] * (np.arange(m) == cable)
-    late = Late(every if kind.way != "tensions" else 0.0 * every, every if kind.way in ("alike", "tensions") else 0 * every)
+    late = Late(
+        every if kind.way != "tensions" else 0.0 * every, every if kind.way in ("alike", "tensions") else 0 * every
+    )
     return late, [record | {"total": delay.tolist() if kind.way != "one" else [0.0] * cable + delay.tolist()}]
 
 
@@ -213,7 +215,12 @@ def _rivals(name: str, seen: Seen, own: np.ndarray) -> list[np.ndarray]:
 
 
 def read(
-    robot: EnteredRobot, real: Motion, late: Late, sigma: dict[str, float], with_tensions: bool, rng: np.random.Generator
+    robot: EnteredRobot,
+    real: Motion,
+    late: Late,
+    sigma: dict[str, float],
+    with_tensions: bool,
+    rng: np.random.Generator,
 ) -> pd.DataFrame:
     """A row for every cable at every frame: what is filed under one time was not read at one time.
 

@@ -6,7 +6,16 @@ from dataclasses import replace
 from importlib.metadata import entry_points
 
 from cdpr_struct.errors import InputError, known_names
-from cdpr_struct.hypotheses.causes import accelerometers, cables, clocks, geometry, platform, pulleys, sensors, stiffness
+from cdpr_struct.hypotheses.causes import (
+    accelerometers,
+    cables,
+    clocks,
+    geometry,
+    platform,
+    pulleys,
+    sensors,
+    stiffness,
+)
 from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen
 
 FAMILIES = (stiffness, geometry, pulleys, platform, cables, sensors, clocks, accelerometers)

@@ -271,6 +271,7 @@ DESCRIPTIONS = {
         "are found, sensor_delay and clock_drift",
         "above 0: the clock of the poses is fast, so that they grow older than what is filed with them",
         "As of a delay that is nothing at the start and grows evenly: the same motion shows larger errors each time",
+        "Mills, *Computer Network Time Synchronization*, 2nd edition, 2011: clocks differ by an offset and a rate",
     ),
     "accelerometer_gain": Description(
         "the FRF is multiplied by the gain",
