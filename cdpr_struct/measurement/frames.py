@@ -9,7 +9,7 @@ import numpy as np
 class Frames:
     """Of S states that were chosen among the frames of motions; what they stand for is known from all frames.
 
-    rate, pull (S, m, 2) : derivatives of the encoders' lengths [m/s, m/s^2] and of the load cells' readings [N/s, N/s^2]
+    rate, pull (S, m, 2) : derivatives of lengths [m/s, m/s^2] and of tensions [N/s, N/s^2] as they were read
     inertial (S, 6) : acceleration of the platform's origin [m/s^2], angular acceleration [rad/s^2], world axes
     acceleration (S,) : of it what is not known [m/s^2];  all four 0 in states at rest
     count (S,) : frames that each state stands for, itself among them; 1 of states that are no frames
@@ -29,7 +29,7 @@ class Frames:
         return int(self.count.sum())
 
     def scaled(self, what: str, factor: float | np.ndarray) -> "Frames":
-        """With lengths, tensions or positions in another unit, one factor for all or for each cable (m,) or axis (3,)."""
+        """With lengths, tensions or positions in another unit, one factor or one a cable (m,) or axis (3,)."""
         if what == "length":
             return replace(self, rate=self.rate * _each(factor))
         if what == "tension":

@@ -17,7 +17,7 @@ class Circumstances:
 
     payload (S,) [kg];  hours (S,) since the first reading with a time, 0 without
     clock (S,) : since the clocks of poses and of other readings agree [s]: since the first reading unless entered
-    rate, pull (S, m, 2) : derivatives of the encoders' lengths [m/s, m/s^2] and of the load cells' readings [N/s, N/s^2]
+    rate, pull (S, m, 2) : derivatives of lengths [m/s, m/s^2] and of tensions [N/s, N/s^2] as they were read
     inertial (S, 6) : acceleration of the platform's origin [m/s^2], angular acceleration [rad/s^2], world axes
     acceleration (S,) : of it what is not known [m/s^2];  all four 0 in states that are no frames of a motion
     approach (S, m) : +1 if the winch last wound in, -1 if it paid out, 0 unknown

@@ -33,8 +33,9 @@ def condensed(campaign: Campaign) -> Campaign:
     if len(chosen) == len(campaign.states.names):
         return campaign
     states = campaign.states
-    rates = (length_rates(states), tension_rates(states), *inertial(states))
-    frames = Frames(*(values[chosen] for values in rates), count, worth)
+    moved, unknown = inertial(states)
+    rates = length_rates(states)[chosen], tension_rates(states)[chosen]
+    frames = Frames(*rates, moved[chosen], unknown[chosen], count, worth)
     return replace(_with(campaign, chosen), frames=frames)
 
 

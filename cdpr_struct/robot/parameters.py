@@ -162,7 +162,7 @@ EXTENSIONS: dict[str, Parameter] = {
     "slip": _extra(_EACH, 0.0, "m/h", "of the winch"),
     "encoder_delay": _extra(_EACH, 0.0, "s", "by which lengths are older than the poses that are filed with them"),
     "cell_delay": _extra(_EACH, 0.0, "s", "by which tensions are older than the poses that are filed with them"),
-    "clock_drift": _extra((), 0.0, "1", "by how much faster the clock of the poses runs than that of lengths and tensions"),
+    "clock_drift": _extra((), 0.0, "1", "by how much faster the clock of poses runs than that of lengths and tensions"),
     "clock_start": _extra((), 0.0, "s", "time_s at which these clocks agree"),
     "accelerometer_gain": _extra((6,), 1.0, "1", "accelerometer reading = gain * acceleration, x to rz", above=0.0),
     "sensor_mass": _extra((), 0.0, "kg", "on the platform origin while vibration is measured, not when tensions are",

@@ -25,7 +25,7 @@ TINY = 1e-4  # s, of differences in time
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """Differences of F frames as rows (F, 6 + m): wrench [N], moments over the radius, lengths [m], white after `white`.
+    """Differences of F frames as rows (F, 6 + m): wrench [N], moments over the radius, lengths [m].
 
     along (F, m, 3) : unit vectors from platform to frame;  arms (F, m, 3) [m]
     rates (F, m) of lengths [m/s], pulls (F, m) of tensions [N/s]

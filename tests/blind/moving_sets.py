@@ -196,7 +196,7 @@ def _second(name: str, seen: Seen, rng: np.random.Generator) -> tuple[np.ndarray
 
 
 def _rivals(name: str, seen: Seen, own: np.ndarray) -> list[np.ndarray]:
-    """Rows of what else may be wrong with the same cables, of a plausible size: where these are as good, no name is owed.
+    """Rows of what else may be wrong with the same cables, of a plausible size: where it is as good, no name is owed.
 
     An offset needs no such test: another cause needs three numbers, which have to lie along the cable by chance.
     """

@@ -1,4 +1,4 @@
-"""Clocks along a motion: what delays and a drift do to readings, what inertia asks of tensions, and what noise is not."""
+"""Clocks along a motion: what delays and a drift do to readings, what inertia asks of tensions, what is noise."""
 
 from dataclasses import replace
 
