@@ -1,0 +1,96 @@
+"""How a robot at rest answers small changes of its numbers while its winches stay as they are.
+
+The wrench that a change leaves at the old pose moves the platform by K^-1 of it; where it then is, cables and
+everything else are evaluated again. Both are central differences of the statics themselves, so nothing is left out.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
+from cdpr_struct.observation.dependence import Dependence
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.robot.tolerances import VARIED, change_count, changed, places
+from cdpr_struct.statics.cable_models import cable_model
+from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.locked_balance import LockedBalance
+
+_SHARE = 1e-4  # of a value, or of the tension: steps change nothing by more than this
+_SHORTEST = 1e-10  # of the chord: shorter steps are lost in rounding
+_NEUTRAL = 1e-13  # of the largest singular value: a smaller one is zero but for rounding
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LockedResponse:
+    """What changes (p,) of the robot's numbers do at locked lengths, to first order, in the units of `VARIED`.
+
+    pose       : (p, 6) motion of the platform origin and turn, world axes [m, rad]
+    tension    : (p, m) at the platform [N]
+    dependence : (p, n) of `Dependence.vector`, on which vibration depends
+    """
+
+    pose: np.ndarray
+    tension: np.ndarray
+    dependence: np.ndarray
+
+
+def locked_response(point: OperatingPoint, assembly: Assembly = "consistent") -> LockedResponse:
+    """Response of one robot at rest, no batch axes; a neutral freedom stays where it is.
+
+    Cables that stiffen with tension do so as they are at this rest: that EA itself follows the tension is left out.
+    """
+    arrays, step = point.arrays, step_sizes(point)
+    count = len(step)
+    sides = np.concatenate([np.diag(step), -np.diag(step)])
+    balance = _balance(arrays, point.cables, sides)
+    place = np.repeat(point.position[None], 2 * count, axis=0)
+    turn = np.repeat(point.rotation[None], 2 * count, axis=0)
+    left = balance.evaluate(place, turn).wrench
+    rest = _balance(arrays, point.cables, np.zeros((1, count))).evaluate(place[:1], turn[:1])
+    motion = 0.5 * (left[:count] - left[count:]) @ np.linalg.pinv(rest.tangent[0], _NEUTRAL).T
+    there, turned = balance.moved(place, turn, np.concatenate([motion, -motion]))
+    cables = balance.states(there, turned)
+    robots = balance.arrays
+    depends = Dependence.of(OperatingPoint(robots, there, turned, cables), assembly).vector
+    turns = Rotation.from_matrix(turned[:count] @ np.swapaxes(turned[count:], -1, -2)).as_rotvec()
+    pose = np.concatenate([there[:count] - there[count:], turns], axis=-1)
+    twice = 2.0 * step[:, None]
+    tension = cables.tension_at_platform
+    return LockedResponse(
+        pose / twice, (tension[:count] - tension[count:]) / twice, (depends[:count] - depends[count:]) / twice
+    )
+
+
+def step_sizes(point: OperatingPoint) -> np.ndarray:
+    """(p,) changes small enough for everything to be linear, and large against rounding."""
+    arrays, cables = point.arrays, point.cables
+    chord = cables.chord
+    strained = cables.tension_at_platform * cables.length / cables.axial_stiffness
+    short = np.clip(_SHARE * strained, _SHORTEST * chord, _SHARE * chord)
+    body = _SHARE * max(float(np.linalg.norm(arrays.platform_anchors, axis=-1).mean()), 1e-3)
+    sizes = {
+        "frame_anchors": np.repeat(short, 3),
+        "platform_anchors": np.repeat(short, 3),
+        "length_offset": short,
+        "mass": np.array([_SHARE * float(arrays.mass)]),
+        "center_of_mass": np.full(3, body),
+        "cell_bias": np.ones(arrays.cable_count),
+        "pulley_radius": short,
+    }
+    result = np.full(change_count(arrays.cable_count), _SHARE)
+    for one, place in zip(VARIED, places(arrays.cable_count), strict=True):
+        if one.field in sizes:
+            result[place] = sizes[one.field]
+    return result
+
+
+def _balance(arrays: RobotArrays, cables: CableStates, change: np.ndarray) -> LockedBalance:
+    """Robots with changes (n, p), their winches as the robot at rest has them."""
+    robots = changed(arrays, change)
+    length = robots.paid_out(arrays.reading(cables.paid_out))
+    lead = (len(change),)
+    length = np.broadcast_to(length, (*lead, arrays.cable_count))
+    return LockedBalance(robots.flattened(lead), length, np.zeros((*lead, 6)), cable_model("sagging"))
