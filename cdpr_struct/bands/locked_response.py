@@ -12,10 +12,8 @@ from scipy.spatial.transform import Rotation
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.observation.dependence import Dependence
-from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.tolerances import VARIED, change_count, changed, places
 from cdpr_struct.statics.cable_models import cable_model
-from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.locked_balance import LockedBalance
 
 _SHARE = 1e-4  # of a value, or of the tension: steps change nothing by more than this
@@ -37,19 +35,21 @@ class LockedResponse:
     dependence: np.ndarray
 
 
-def locked_response(point: OperatingPoint, assembly: Assembly = "consistent") -> LockedResponse:
+def locked_response(point: OperatingPoint, assembly: Assembly = "consistent", model: str = "sagging") -> LockedResponse:
     """Response of one robot at rest, no batch axes; a neutral freedom stays where it is.
+
+    model : of the cables, sagging or spring
 
     Cables that stiffen with tension do so as they are at this rest: that EA itself follows the tension is left out.
     """
-    arrays, step = point.arrays, step_sizes(point)
+    step = step_sizes(point)
     count = len(step)
     sides = np.concatenate([np.diag(step), -np.diag(step)])
-    balance = _balance(arrays, point.cables, sides)
+    balance = _balance(point, sides, model)
     place = np.repeat(point.position[None], 2 * count, axis=0)
     turn = np.repeat(point.rotation[None], 2 * count, axis=0)
     left = balance.evaluate(place, turn).wrench
-    rest = _balance(arrays, point.cables, np.zeros((1, count))).evaluate(place[:1], turn[:1])
+    rest = _balance(point, np.zeros((1, count)), model).evaluate(place[:1], turn[:1])
     motion = 0.5 * (left[:count] - left[count:]) @ np.linalg.pinv(rest.tangent[0], _NEUTRAL).T
     there, turned = balance.moved(place, turn, np.concatenate([motion, -motion]))
     cables = balance.states(there, turned)
@@ -87,10 +87,10 @@ def step_sizes(point: OperatingPoint) -> np.ndarray:
     return result
 
 
-def _balance(arrays: RobotArrays, cables: CableStates, change: np.ndarray) -> LockedBalance:
+def _balance(point: OperatingPoint, change: np.ndarray, model: str) -> LockedBalance:
     """Robots with changes (n, p), their winches as the robot at rest has them."""
+    arrays, lead = point.arrays, (len(change),)
     robots = changed(arrays, change)
-    length = robots.paid_out(arrays.reading(cables.paid_out))
-    lead = (len(change),)
+    length = robots.paid_out(arrays.reading(point.cables.paid_out))
     length = np.broadcast_to(length, (*lead, arrays.cable_count))
-    return LockedBalance(robots.flattened(lead), length, np.zeros((*lead, 6)), cable_model("sagging"))
+    return LockedBalance(robots.flattened(lead), length, np.zeros((*lead, 6)), cable_model(model))

@@ -12,7 +12,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import ModesApartError
 from cdpr_struct.observation.expanded_modes import ExpandedModes
 
-_BEYOND = 1.05  # times the last frequency asked for: closed form and finite elements differ from the exact model
+_BEYOND = 1.15  # times the last frequency asked for: up to there modes may come down and change places with it
 _ALIKE = 0.2  # relative distance of a frequency from the exact model's beyond which it is another mode
 _NEAR = 4.0  # sigmas of the change of their distance within which two modes may meet
 
@@ -21,7 +21,7 @@ _NEAR = 4.0  # sigmas of the change of their distance within which two modes may
 class ModeRates:
     """Changes of ln f of k modes per change of each number, `VARIED` says which.
 
-    hertz : (k,) [Hz], ascending
+    hertz : (k,) [Hz], ascending; more than were asked for, since these may change places with them
     own : (p, k) of each mode as if it were alone
     pairs : (q, 2) modes that may meet;  mixing : (p, q) by which a change turns them into each other, in ln f
     groups : (k,) number of the group of modes that are linked by pairs
@@ -42,7 +42,7 @@ def mode_rates(
     assembly: Assembly = "consistent",
     model: CableModel = "exact",
 ) -> ModeRates:
-    """Rates of the frequencies hertz (k,) [Hz] of one robot at rest, all above zero, ascending.
+    """Rates of the frequencies hertz (k,) [Hz] of one robot at rest, all above zero, ascending, and of some beyond them.
 
     spread : (p, t) changes per sigma of independent numbers: how far modes may move, and so which may meet
     model : whose relative rates are taken, exact or static; frequencies of dsm and fem have those of exact
@@ -52,8 +52,8 @@ def mode_rates(
     ModesApartError : the model's frequencies are not these, mode by mode.
     """
     found = _expanded(point, float(hertz[-1]), assembly, model)
-    shapes = found.shapes.modes(slice(0, len(hertz)))
-    _require_alike(shapes.omega[0] / (2.0 * np.pi), hertz)
+    shapes = found.shapes
+    hertz = _with_those_beyond(shapes.omega[0] / (2.0 * np.pi), hertz)
     squared = shapes.omega[0] ** 2
     own = response.dependence @ found.gradient(shapes)[0] / (2.0 * squared)
     pairs = _near(np.log(hertz), own, spread)
@@ -70,12 +70,15 @@ def _expanded(point: OperatingPoint, last: float, assembly: Assembly, model: Cab
     return ExpandedModes.at(batch, 2.0 * np.pi * _BEYOND * last, assembly, model)
 
 
-def _require_alike(own: np.ndarray, hertz: np.ndarray) -> None:
-    if len(own) < len(hertz) or (np.abs(own / hertz - 1.0) > _ALIKE).any():
+def _with_those_beyond(own: np.ndarray, hertz: np.ndarray) -> np.ndarray:
+    """Frequencies (k,), and behind them those of the model (n,) that are more, in the same proportion as the last."""
+    count = len(hertz)
+    if len(own) < count or (np.abs(own[:count] / hertz - 1.0) > _ALIKE).any():
         raise ModesApartError(
             "the model's frequencies lie too far from those of the exact model for its rates to be taken; "
             "ask for bands of the model exact"
         )
+    return np.concatenate([hertz, own[count:] * (hertz[-1] / own[count - 1])])
 
 
 def _near(logarithm: np.ndarray, own: np.ndarray, spread: np.ndarray) -> np.ndarray:

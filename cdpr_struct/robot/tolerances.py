@@ -39,6 +39,11 @@ class Tolerances:
     pulley_radius_m: float = 0.0002
 
 
+def tolerance_unit(name: str) -> str:
+    """Unit of a tolerance, which ends its name; "" of those that are shares of the value entered."""
+    return next((ending for ending in ("m", "kg", "N") if name.endswith(f"_{ending}")), "")
+
+
 @dataclass(frozen=True, slots=True)
 class Varied:
     """A number of a robot, or one of each cable, that may be off.
