@@ -5,12 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
+from cdpr_struct.observation.expanded_modes import ExpandedModes
 from cdpr_struct.observation.robot_modes import frequencies_at
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.tolerances import changed
-from cdpr_struct.statics.cable_models import CableModel
 from cdpr_struct.statics.forward_kinematics import forward
 
 _AT_ONCE = 64  # robots whose vibration is computed together
@@ -44,14 +45,17 @@ def drawn_robots(
     count: int,
     hertz: np.ndarray | None = None,
     assembly: Assembly = "consistent",
-    model: str | CableModel = "sagging",
+    model: str = "sagging",
+    vibrating: CableModel = "exact",
 ) -> DrawnRobots:
     """Draw robots like one at rest, and bring them to rest from there at locked lengths.
 
     Parameters
     ----------
     spread : (p, t) changes per sigma of independent numbers
-    hertz : (k,) frequencies of the robot as entered, if those of the drawn ones are asked for, by the exact model [Hz]
+    hertz : (k,) frequencies of the robot as entered, if those of the drawn ones are asked for [Hz]
+    model : of the cables at rest;  vibrating : of the cables in vibration, exact or static; frequencies are in
+        proportion to those that it has of the robot as entered
     """
     arrays, cables = point.arrays, point.cables
     drawn = np.random.default_rng(_SEED).standard_normal((count, spread.shape[1])) @ spread.T
@@ -65,8 +69,7 @@ def drawn_robots(
     turned = angles_from_rotation(rests.rotation) - angles
     around = np.remainder(turned + np.pi, 2.0 * np.pi) - np.pi
     pose = np.concatenate([rests.position, angles + around], axis=-1)
-    rows = [] if hertz is None else [_frequencies(part, hertz, assembly) for part in _parts(rests)]
-    modes = np.concatenate(rows) if rows else np.zeros((len(kept), 0))
+    modes = np.zeros((len(kept), 0)) if hertz is None else _like(point, rests, hertz, assembly, vibrating)
     return DrawnRobots(pose, rests.cables.tension_at_platform, modes, count - len(kept))
 
 
@@ -77,9 +80,22 @@ def _parts(rests: OperatingPoint) -> Iterator[OperatingPoint]:
         yield OperatingPoint(robots, rests.position[index], rests.rotation[index], rests.cables.at(index))
 
 
-def _frequencies(rests: OperatingPoint, hertz: np.ndarray, assembly: Assembly) -> np.ndarray:
+def _like(
+    point: OperatingPoint, rests: OperatingPoint, hertz: np.ndarray, assembly: Assembly, model: CableModel
+) -> np.ndarray:
+    """(n, k) frequencies of robots at rest, in proportion to hertz (k,) of the one at a point [Hz]."""
+    entered = OperatingPoint(point.arrays, point.position[None], point.rotation[None], point.cables.at(None))
+    own = _frequencies(entered, hertz, assembly, model)
+    return np.concatenate([_frequencies(part, hertz, assembly, model) for part in _parts(rests)]) * (hertz / own)
+
+
+def _frequencies(rests: OperatingPoint, hertz: np.ndarray, assembly: Assembly, model: CableModel) -> np.ndarray:
     """(n, k) first frequencies [Hz]."""
-    count = len(hertz)
-    logarithm, _ = frequencies_at(rests, 2.0 * np.pi * _ROOM * float(hertz[-1]), assembly)
+    count, highest = len(hertz), 2.0 * np.pi * _ROOM * float(hertz[-1])
+    if model == "static":
+        omega = ExpandedModes.at(rests, highest, assembly, model).shapes.omega
+        logarithm = np.log(omega / (2.0 * np.pi))
+    else:
+        logarithm, _ = frequencies_at(rests, highest, assembly)
     found = np.exp(logarithm)[:, :count]
     return np.pad(found, [(0, 0), (0, count - found.shape[1])], constant_values=np.inf)

@@ -10,6 +10,7 @@ from cdpr_struct.bands.frequency_bands import FrequencyBands, frequency_bands
 from cdpr_struct.bands.locked_response import LockedResponse, locked_response
 from cdpr_struct.bands.mode_rates import mode_rates
 from cdpr_struct.bands.rest_bands import RestBands, rest_bands
+from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import CdprError, InputError
@@ -89,15 +90,16 @@ class Banded:
         """The same of a result about frequencies (k,) [Hz], as a model of the cables has them."""
         vibrating = hertz > 0.0
         found = _of_modes(self, hertz[vibrating], model)
-        drawn = self._drawn(hertz[vibrating]) if vibrating.any() else self._drawn(None)
+        drawn = self._drawn(hertz[vibrating] if vibrating.any() else None, model)
         rest = rest_bands(self.point, self.response, self.spread, self.asked.level)
         told = frequencies_told(found, hertz, drawn, self.asked.level)
         return self._head() | told, self._checks(rest, drawn)
 
-    def _drawn(self, hertz: np.ndarray | None) -> DrawnRobots | None:
+    def _drawn(self, hertz: np.ndarray | None, model: str = "exact") -> DrawnRobots | None:
         if not self.asked.samples:
             return None
-        return drawn_robots(self.point, self.spread, self.asked.samples, hertz, self.assembly, self.model)
+        models = self.assembly, self.model, vibrating_like(model)
+        return drawn_robots(self.point, self.spread, self.asked.samples, hertz, *models)
 
     def _head(self) -> dict[str, Any]:
         return {
@@ -110,9 +112,14 @@ class Banded:
         return slack_check(self.point.cables.tension_at_platform, rest.tension_sigma, drawn)
 
 
+def vibrating_like(model: str) -> CableModel:
+    """The model whose rates the frequencies of a model have."""
+    return "static" if model == "static" else "exact"
+
+
 def _of_modes(banded: Banded, hertz: np.ndarray, model: str) -> FrequencyBands:
     if not len(hertz):
         return FrequencyBands(hertz, hertz, hertz, [])
-    way = "static" if model == "static" else "exact"
+    way = vibrating_like(model)
     rates = mode_rates(banded.point, hertz, banded.response, banded.spread, banded.assembly, way)
     return frequency_bands(rates, banded.spread, banded.asked.level)

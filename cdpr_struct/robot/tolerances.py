@@ -64,6 +64,11 @@ class Varied:
         """Whether changes are those of the logarithm."""
         return self.unit == "1"
 
+    @property
+    def of_cells(self) -> bool:
+        """Whether it changes what load cells say, and no robot."""
+        return self.field.startswith("cell_")
+
     def count(self, cables: int) -> int:
         """Numbers in it."""
         return int(np.prod([cables if n == CABLES else n for n in self.shape], dtype=int))
