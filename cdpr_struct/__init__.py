@@ -33,6 +33,8 @@ Predictions and checks:
   pose_error                Compute the static pose error over a grid, split into what sag adds and what stretch adds.
   map                       Map a quantity over a grid of poses, or the workspace: where all requirements hold.
   modes                     Compute the eigenfrequencies of a robot at rest, none missing, with their kind.
+  sensitivity               Tell what moves frequencies, pose and tensions of a robot at rest, and what to change for
+                            another frequency.
   frf                       Compute frequency responses, with the certified eigenfrequencies beside their peaks.
   transient                 Predict the vibration after an emergency stop, or along a trajectory, by modal
                             superposition.
@@ -113,6 +115,7 @@ if TYPE_CHECKING:
     from cdpr_struct.interface.reproduce import reproduce
     from cdpr_struct.interface.result import Result
     from cdpr_struct.interface.robots import robots, write_robot
+    from cdpr_struct.interface.sensitivity import sensitivity
     from cdpr_struct.interface.spectrogram import spectrogram
     from cdpr_struct.interface.transient import transient
     from cdpr_struct.interface.verify import verify
@@ -137,6 +140,7 @@ _HOMES = {
     "interface.pose_error": ("pose_error",),
     "interface.map": ("map",),
     "interface.modes": ("modes",),
+    "interface.sensitivity": ("sensitivity",),
     "interface.frf": ("frf",),
     "interface.transient": ("transient",),
     "interface.spectrogram": ("spectrogram",),
@@ -204,6 +208,7 @@ __all__ = [
     "recording_channels",
     "reproduce",
     "robots",
+    "sensitivity",
     "spectrogram",
     "transient",
     "verify",
