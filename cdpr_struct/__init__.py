@@ -61,6 +61,8 @@ Measured data:
   load_campaign             Read a campaign file and the data files it names, all checked.
   causes                    List the causes that a diagnosis looks for, by name, those of installed packages among
                             them.
+  compare                   Compare readings of one state of rest with predictions: each in its band or not, and all
+                            of them together.
   diagnose                  Name the cause of differences between a simulation and measured data.
   plan                      Tell before measuring which causes a campaign can find, which it confuses, and what to
                             measure next.
@@ -98,6 +100,7 @@ if TYPE_CHECKING:
     from cdpr_struct.interface.audit import audit
     from cdpr_struct.interface.cable import cable
     from cdpr_struct.interface.campaigns import causes, load_campaign
+    from cdpr_struct.interface.compare import compare
     from cdpr_struct.interface.diagnose import diagnose
     from cdpr_struct.interface.distribute import distribute
     from cdpr_struct.interface.export import export
@@ -141,6 +144,7 @@ _HOMES = {
     "interface.map": ("map",),
     "interface.modes": ("modes",),
     "interface.sensitivity": ("sensitivity",),
+    "interface.compare": ("compare",),
     "interface.frf": ("frf",),
     "interface.transient": ("transient",),
     "interface.spectrogram": ("spectrogram",),
@@ -189,6 +193,7 @@ __all__ = [
     "audit",
     "cable",
     "causes",
+    "compare",
     "diagnose",
     "distribute",
     "export",

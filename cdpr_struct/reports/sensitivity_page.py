@@ -11,8 +11,8 @@ from cdpr_struct.reports.sensitivity_told import effects, raise_rows, row_column
 from cdpr_struct.reports.sensitivity_told import tornado as largest
 
 _HOW = (
-    "Rates are first derivatives at rest with the winches locked: a change moves the platform and the tensions, and all "
-    "of it counts. Modes at the same frequency have the rates of their mean.",
+    "Rates are first derivatives at rest with the winches locked: a change moves platform and tensions, and all of "
+    "it counts. Modes at the same frequency have the rates of their mean.",
     "Changes of a design (--raise) hold the pose instead: the cables are wound anew, with the tensions of least norm, "
     "and each frequency given was computed again with the changed robot.",
 )
