@@ -145,8 +145,7 @@ def compare(
 def _predicted(
     banded: Banded, readings: list[Reading], model: CableModel, file: str
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Of n readings: the mode or cable (n,), prediction (n,), ends of its band (n, 2) and rates (p, n), all in the units
-    of the readings."""
+    """Of n readings, in their units: mode or cable (n,), prediction (n,), ends of its band (n, 2), rates (p, n)."""
     numbers = np.array([one.number for one in readings])
     vibrating = np.array([one.column == "frequency_hz" for one in readings])
     values, ends = np.zeros(len(readings)), np.zeros((len(readings), 2))
@@ -197,7 +196,7 @@ def _frequencies(
 
 
 def _enough_modes(banded: Banded, model: CableModel, highest: float, last: int) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies [Hz] and shares of the platform in the energy, up to beyond the highest reading and the last label."""
+    """Frequencies [Hz] and the platform's shares of the energy, to beyond the highest reading and the last label."""
     count = max(_FIRST, last)
     while True:
         some = 6 - len(banded.point.entered.guided) if model == "static" else count
