@@ -35,6 +35,8 @@ Predictions and checks:
   modes                     Compute the eigenfrequencies of a robot at rest, none missing, with their kind.
   sensitivity               Tell what moves frequencies, pose and tensions of a robot at rest, and what to change for
                             another frequency.
+  accept                    Say whether a robot within its tolerances meets requirements: pass, fail, or cannot be
+                            said.
   frf                       Compute frequency responses, with the certified eigenfrequencies beside their peaks.
   transient                 Predict the vibration after an emergency stop, or along a trajectory, by modal
                             superposition.
@@ -96,6 +98,7 @@ if TYPE_CHECKING:
         UnholdablePoseError,
         UnstableEquilibriumError,
     )
+    from cdpr_struct.interface.accept import accept
     from cdpr_struct.interface.ambient import ambient
     from cdpr_struct.interface.audit import audit
     from cdpr_struct.interface.cable import cable
@@ -144,6 +147,7 @@ _HOMES = {
     "interface.map": ("map",),
     "interface.modes": ("modes",),
     "interface.sensitivity": ("sensitivity",),
+    "interface.accept": ("accept",),
     "interface.compare": ("compare",),
     "interface.frf": ("frf",),
     "interface.transient": ("transient",),
@@ -189,6 +193,7 @@ __all__ = [
     "UnholdablePoseError",
     "UnstableEquilibriumError",
     "__version__",
+    "accept",
     "ambient",
     "audit",
     "cable",

@@ -10,6 +10,7 @@ import typer
 from typer.exceptions import Abort
 
 from cdpr_struct.cli import (
+    accept,
     ambient,
     audit,
     cable,
@@ -58,6 +59,7 @@ COMMANDS = (
     map,
     modes,
     sensitivity,
+    accept,
     verify,
     reproduce,
     import_caspr,
