@@ -6,6 +6,8 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 from scipy.special import chdtrc, ndtri
 
+from cdpr_struct.observation.robot_modes import PLATFORM_SHARE
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Compared:
@@ -49,6 +51,11 @@ def compared(
     whitened = np.linalg.solve(np.linalg.cholesky(covariance), off)
     inside = (measured >= low) & (measured <= high)
     return Compared(low, high, inside, off / sigma, float(chdtrc(len(off), float(whitened @ whitened))))
+
+
+def seen_on_platform(share: np.ndarray) -> np.ndarray:
+    """Which modes a sensor on the platform sees, by its share (k,) of their kinetic energy."""
+    return np.flatnonzero(share >= PLATFORM_SHARE)
 
 
 def assigned(measured: np.ndarray, hertz: np.ndarray, sigma: np.ndarray) -> np.ndarray:

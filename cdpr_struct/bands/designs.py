@@ -163,8 +163,8 @@ class Design:
     def _slope(self, names: Sequence[str], place: np.ndarray) -> np.ndarray:
         """(k,) d ln f / d ln p, by central differences of whole solutions."""
         ways = _SLOPE * np.eye(len(names))
-        ends = [[np.log(self._at(names, place + sign * way)) for way in ways] for sign in (1.0, -1.0)]
-        return np.asarray(np.subtract(*ends) / (2.0 * _SLOPE))
+        above, below = (np.array([self._at(names, place + side * way) for way in ways]) for side in (1.0, -1.0))
+        return np.asarray(np.log(above / below) / (2.0 * _SLOPE))
 
     def _stepped(
         self, names: Sequence[str], place: np.ndarray, goal: np.ndarray, hertz: float, wanted: float

@@ -17,6 +17,7 @@ from cdpr_struct.cli.options import (
     Wrench,
 )
 from cdpr_struct.cli.output import Output
+from cdpr_struct.interface.requirements import read_requirements
 
 NAME = "accept"
 EXAMPLES = ("cdpr-struct accept cogiro requirements.toml --out results/accept",)
@@ -24,9 +25,7 @@ EXAMPLES = ("cdpr-struct accept cogiro requirements.toml --out results/accept",)
 
 def run(
     robot: RobotName,
-    requirements: Annotated[
-        Path, typer.Argument(metavar="REQUIREMENTS.toml", help="Limits and poses.")
-    ],
+    requirements: Annotated[Path, typer.Argument(metavar="REQUIREMENTS.toml", help="Limits and poses.")],
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     payload: Payload = 0.0,
@@ -40,7 +39,8 @@ def run(
     output: Output,
 ) -> int:
     """Pass, fail or cannot be said: requirements on a robot within its tolerances."""
-    with output.steps(1) as begin:
+    poses = read_requirements(requirements, cs.load_robot(robot)).poses
+    with output.steps(len(poses)) as begin:
         found = cs.accept(
             robot, requirements, lower_bound=lower_bound, upper_bound=upper_bound, payload=payload, mass=mass,
             wrench=wrench, temperature=temperature, model=model, assembly=assembly, force=force, progress=begin,

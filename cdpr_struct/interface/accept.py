@@ -1,7 +1,7 @@
 """Does a robot within its tolerances meet requirements, and how surely?"""
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -10,13 +10,13 @@ import numpy as np
 from cdpr_struct.bands.chances import DrawnRest, chance
 from cdpr_struct.bands.frequency_bands import chance_above, frequency_bands
 from cdpr_struct.bands.mode_rates import ModeRates, mode_rates
-from cdpr_struct.crosscheck.robot_modes import robot_modes
+from cdpr_struct.crosscheck.robot_modes import OutsideValidityError, robot_modes
 from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.errors import CdprError
-from cdpr_struct.interface.answering import answered
+from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_robot
 from cdpr_struct.interface.bands import AskedBand, Banded, vibrating_like
-from cdpr_struct.interface.given import Numbers, RobotLike
+from cdpr_struct.interface.given import Numbers, Progress, RobotLike
 from cdpr_struct.interface.modes import ASSEMBLIES
 from cdpr_struct.interface.operating_point import rest
 from cdpr_struct.interface.requirements import Requirements, RequirementTable, read_requirements
@@ -86,7 +86,7 @@ def accept(
     model: str = "exact",
     assembly: str = "consistent",
     force: bool = False,
-    progress: Callable[[str], None] = lambda name: None,
+    progress: Progress = silent,
 ) -> AcceptResult:
     """Say whether a robot within its tolerances meets requirements: pass, fail, or cannot be said.
 
@@ -114,18 +114,19 @@ def accept(
     for number, pose in enumerate(asked.poses, start=1):
         progress(f"pose {number} of {len(asked.poses)}")
         found.append(_AtPose.of(machine, pose, asked, name, way, force))
+    rows = [told.verdict_row(one, [at.kept[i] for at in found]) for i, one in enumerate(asked.limits)]
     answer = {
         "robot": machine.name,
         "model": name,
         "assembly": way,
         "level": 100.0 * _LEVEL,
         "poses": [one.pose for one in found],
-        "requirements": [told.verdict_row(one, [at.kept[i] for at in found]) for i, one in enumerate(asked.limits)],
+        "requirements": rows,
         "not_held": [{"pose": one.pose, "why": one.why} for one in found if one.why],
         "tolerances": tolerances_told(machine.tolerances),
         "warnings": [],
     }
-    holds = all(row["verdict"] != "fail" for row in answer["requirements"])
+    holds = all(row["verdict"] != "fail" for row in rows)
     return AcceptResult(with_extensions(answer, machine, "accept", name), holds)
 
 
@@ -149,6 +150,8 @@ class _AtPose:
             banded = Banded.at(state.point, AskedBand(_LEVEL), True, assembly=assembly)
             drawn = DrawnRest.of(state.point, banded.response, banded.spread)
             modes = _modes(banded, asked, model)
+        except OutsideValidityError:
+            raise
         except CdprError as error:
             return cls(place, [told.Kept.nowhere(place) for _ in asked.limits], str(error))
         return cls(place, [_kept(one, banded, drawn, modes, place) for one in asked.limits])

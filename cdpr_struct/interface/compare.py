@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cdpr_struct.bands.compared import assigned, compared
+from cdpr_struct.bands.compared import assigned, compared, seen_on_platform
 from cdpr_struct.bands.frequency_bands import frequency_bands
 from cdpr_struct.bands.mode_rates import mode_rates
 from cdpr_struct.bands.rest_bands import pose_by_motion, rest_bands
@@ -25,7 +25,6 @@ from cdpr_struct.interface.operating_point import pose_in_degrees, rest
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.vibration_model import dropped_by, read_model, require_valid
 from cdpr_struct.measurement.compared_readings import POSE_COLUMNS, Reading, read_readings
-from cdpr_struct.observation.robot_modes import PLATFORM_SHARE
 from cdpr_struct.reports import compare_told as told
 from cdpr_struct.reports.bands_told import tolerances_told
 from cdpr_struct.reports.extension_notes import with_extensions
@@ -126,8 +125,8 @@ def compare(
     banded = Banded.at(state.point, asked, True, assembly=way)
     with state.advised():
         numbers, predicted, ends, rates = _predicted(banded, readings, name, os.fspath(measured))
-    values = np.array([[one.measured, one.sigma] for one in readings]).T
-    found = compared(*values, predicted, ends, rates, banded.spread, asked.level)
+    values, noise = np.array([[one.measured, one.sigma] for one in readings]).T
+    found = compared(values, noise, predicted, ends, rates, banded.spread, asked.level)
     answer = {
         "robot": machine.name,
         "pose": pose_in_degrees(state.point),
@@ -181,7 +180,7 @@ def _frequencies(
         raise InputError(file, "mode", int(labels.max()), f"the model {model} has {len(hertz)} modes here")
     found = mode_rates(banded.point, hertz, banded.response, banded.spread, banded.assembly, vibrating_like(model))
     bands = frequency_bands(found, banded.spread, banded.asked.level)
-    free = np.setdiff1d(np.flatnonzero(energy >= PLATFORM_SHARE), labels - 1)
+    free = np.setdiff1d(seen_on_platform(energy), labels - 1)
     unknown = labels == 0
     if unknown.sum() > len(free):
         free = np.setdiff1d(np.arange(len(hertz)), labels - 1)

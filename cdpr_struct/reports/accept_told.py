@@ -36,10 +36,12 @@ class Kept:
 class Requirement(Protocol):
     """A limit and the probability asked for."""
 
-    name: str
-    quantity: str
-    probability: float
-
+    @property
+    def name(self) -> str: ...
+    @property
+    def quantity(self) -> str: ...
+    @property
+    def probability(self) -> float: ...
     @property
     def limit(self) -> float: ...
     @property
