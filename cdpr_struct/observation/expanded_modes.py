@@ -91,7 +91,9 @@ def _catenary_modes(
     smooth = not (point.arrays.bending_stiffness.any() or point.arrays.added_mass.any())
     order = polynomial_order(point, highest, rough=smooth and not fine)
     expansion = expand_catenaries_at(point, order)
-    if not (fine or point.arrays.has_masts):  # the reduction keeps how cables answer the platform, not how they answer masts
+    if not (
+        fine or point.arrays.has_masts
+    ):  # the reduction keeps how cables answer the platform, not how they answer masts
         expansion = expansion.reduced(highest)
     below = (expansion.omega_squared < highest**2).sum(axis=(-2, -1)).max()
     shapes = ritz_modes(point, expansion, int(below) + beyond_cables(point), assembly).above_zero

@@ -63,6 +63,14 @@ def differences(point: OperatingPoint, step: np.ndarray) -> np.ndarray:
     return np.concatenate(parts)
 
 
+def slope(point: OperatingPoint, step: np.ndarray) -> np.ndarray:
+    """The same per step of this direction: whole solutions, small steps for modes that are close to each other, larger
+    ones for tensions, which are solved to a part in 10^11 of the forces."""
+    size = step.sum() / step_sizes(point)[step != 0.0].sum()
+    coarse, fine = (differences(point, factor * step) / (2.0 * factor * size) for factor in (2.0, 1.0))
+    return (4.0 * fine - coarse) / 3.0
+
+
 @pytest.mark.parametrize("name", ["cogiro", "thesis-3-1", "six-cable-8mm"])
 def test_rates_are_those_of_solutions_made_anew(name):
     """Frequencies, pose and tensions, by a frame anchor, a length, EA, density, mass, centre of mass and inertia."""
@@ -75,11 +83,11 @@ def test_rates_are_those_of_solutions_made_anew(name):
     chosen = [place.start + (place.stop - place.start) // 2 for place in places(cables)]
     for one, index in zip(VARIED, chosen, strict=True):
         step = steps[index] * np.eye(len(steps))[index]
-        coarse, fine = (differences(point, factor * step) / (2.0 * factor * steps[index]) for factor in (2.0, 1.0))
-        expected = np.split((4.0 * fine - coarse) / 3.0, [4, 7])
+        expected = np.split(np.concatenate([slope(point, 0.1 * step)[:4], slope(point, 2.0 * step)[4:]]), [4, 7])
+        expected = [part / steps[index] for part in expected]
         own = [found.own[index, :4], response.pose[index, :3], response.tension[index]]
         for rate, difference in zip(own, expected, strict=True):
-            assert np.abs(rate - difference).max() <= 1e-6 * max(np.abs(difference).max(), 1e-3), one.field
+            assert np.abs(rate - difference).max() <= 1e-6 * max(np.abs(difference).max(), 1e-2), one.field
 
 
 def test_reels_share_half_of_the_variance():
@@ -98,7 +106,7 @@ def test_frequencies_that_may_meet_have_the_bands_of_drawn_robots():
     found = mode_rates(point, hertz, locked_response(point), spread)
     bands = frequency_bands(found, spread, 0.9)
     assert any(len(group) > 6 for group in bands.meeting)
-    drawn = drawn_robots(point, spread, 500, hertz)
+    drawn = drawn_robots(point, spread, 400, hertz)
     assert drawn.lost == 0
     ends = drawn.quantiles("hertz", 0.9)
     width = ends[:, 1] - ends[:, 0]
