@@ -9,6 +9,7 @@ import numpy as np
 from cdpr_struct.measurement.frames import Frames
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.tolerances import Tolerances
 
 if TYPE_CHECKING:
     from cdpr_struct.measurement.ambient_records import AmbientRecord
@@ -24,32 +25,6 @@ KINDS = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency", *S
 UNKNOWN_ZERO = 1.0
 """m, one sigma of a length's zero of which nothing is known."""
 MODELS = ("static", "dsm", "exact", "spring")
-
-
-@dataclass(frozen=True, slots=True)
-class Tolerances:
-    """One sigma of what is never exactly known about a robot; the defaults are those of a carefully built one.
-
-    anchor_m             : each coordinate of each anchor, both ends [m]
-    length_m             : zero of each cable's length [m]
-    axial_stiffness, linear_density : relative, per cable, half of the variance common to all (one reel)
-    platform_mass_kg, center_of_mass_m, platform_inertia (relative)
-    load_cell_gain       : relative;  load_cell_bias_N [N]
-    damping              : relative
-    pulley_radius_m      : each pulley [m]
-    """
-
-    anchor_m: float = 0.001
-    length_m: float = 0.0005
-    axial_stiffness: float = 0.03
-    linear_density: float = 0.01
-    platform_mass_kg: float = 0.1
-    center_of_mass_m: float = 0.002
-    platform_inertia: float = 0.03
-    load_cell_gain: float = 0.005
-    load_cell_bias_N: float = 0.5
-    damping: float = 0.3
-    pulley_radius_m: float = 0.0002
 
 
 @dataclass(frozen=True, slots=True)

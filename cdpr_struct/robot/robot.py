@@ -1,6 +1,6 @@
 """The robot: a platform on m cables in a frame."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -36,6 +36,7 @@ class Robot:
     extensions       : compliance in line, masts, loads, encoders and sensors; neutral if not given
     bodies           : what cables must keep away from; statics and dynamics know nothing of them
     lumps            : point masses on cables
+    tolerances       : those that the file states, by name; see `Tolerances`
     """
 
     name: str
@@ -52,6 +53,7 @@ class Robot:
     down: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
     bodies: tuple[Body, ...] = ()
     lumps: tuple[Lump, ...] = ()
+    tolerances: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._settle_gravity()

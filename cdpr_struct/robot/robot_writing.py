@@ -36,6 +36,8 @@ def robot_toml(robot: Robot, name: str, comments: Sequence[str] = ()) -> str:
         lines += ["", *lump_lines(lump)]
     for obstacle in robot.bodies:
         lines += ["", *body_lines(obstacle, _quotable)]
+    if robot.tolerances:
+        lines += ["", "[tolerances]", *(f"{name} = {float(size)!r}" for name, size in robot.tolerances.items())]
     return "\n".join(lines) + "\n"
 
 
