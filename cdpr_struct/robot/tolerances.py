@@ -138,6 +138,36 @@ def tolerance_factor(tolerances: Tolerances, cables: int) -> np.ndarray:
     return np.asarray(block_diag(*blocks))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Spread:
+    """Which robots are probable: changes of a robot's numbers are normal.
+
+    root : (p, t) changes per sigma of independent numbers, so that the covariance is root root'
+    mean : (p,) what a diagnosis found beside its causes; zero of a robot that nobody measured
+    """
+
+    root: np.ndarray
+    mean: np.ndarray
+
+    @classmethod
+    def within(cls, tolerances: Tolerances, cables: int) -> "Spread":
+        """Of a robot that is known to within its tolerances."""
+        root = tolerance_factor(tolerances, cables)
+        return cls(root, np.zeros(len(root)))
+
+    def sigma(self, rates: np.ndarray) -> np.ndarray:
+        """(k,) of numbers with rates (p, k)."""
+        return np.linalg.norm(rates.T @ self.root, axis=1)
+
+    def shift(self, rates: np.ndarray) -> np.ndarray:
+        """(k,) by which numbers with rates (p, k) lie beside those of the robot as entered, in the mean."""
+        return np.asarray(self.mean @ rates)
+
+    def drawn(self, normal: np.ndarray) -> np.ndarray:
+        """(n, p) changes from standard normal numbers (n, t)."""
+        return np.asarray(self.mean + normal @ self.root.T)
+
+
 def tolerated(arrays: RobotArrays, tolerances: Tolerances, u: np.ndarray) -> RobotArrays:
     """The robot whose independent numbers are u (..., t) sigmas off; (...) are batch axes of its fields."""
     return changed(arrays, u @ tolerance_factor(tolerances, arrays.cable_count).T)
