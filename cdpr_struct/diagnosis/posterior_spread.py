@@ -24,7 +24,7 @@ def posterior_spread(data: Recorded, found: Judged, extended: RobotArrays) -> Sp
     count = len(mean)
     slope = (change[:count] - change[count : 2 * count]).T / (2.0 * _STEP)
     left, size, _ = np.linalg.svd(slope @ _root(covariance), full_matrices=False)
-    kept = size > _SMALL * max(float(size.max(initial=0.0)), 1e-300)
+    kept = size > _SMALL * size[:1]
     beside = change[-1] - change_between(data.arrays, extended)[0]
     return Spread(left[:, kept] * size[kept], beside)
 
