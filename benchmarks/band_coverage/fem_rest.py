@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 import cdpr_struct.fem_reference as fem
 from benchmarks.robot_reference import romberg
 
-_FIRST, _FINEST = 20, 640  # bars a cable
+_MESHES = (20, 40, 80, 160, 320, 640)  # bars a cable
 _BY_EACH = 3  # meshes whose limit is taken
 SURE = 0.05  # of a sigma of the prediction: so little should the limit change with the finest mesh
 
@@ -38,18 +38,17 @@ def fem_rest(
     ------
     FemError : no rest, or no modes.
     """
-    elements, found = _FIRST, list[FemRest]()
-    while True:
+    found: list[FemRest] = []
+    for elements in _MESHES:
         rest = fem.solve_robot(robot, position, rotation, elements)
         position, rotation = rest.position, rest.rotation
-        found.append(_told(rest, len(sigma.hertz)))
-        last = found[-_BY_EACH:]
-        if len(last) == _BY_EACH:
-            best, coarser = _limit(last), _limit(last[:-1])
+        found = [*found, _told(rest, len(sigma.hertz))][-_BY_EACH:]
+        if len(found) == _BY_EACH:
+            best, coarser = _limit(found), _limit(found[:-1])
             change = float((np.abs(best.all - coarser.all) / sigma.all).max())
-            if change <= SURE or elements >= _FINEST:
-                return best, change, elements
-        elements *= 2
+            if change <= SURE:
+                break
+    return best, change, elements
 
 
 def _told(rest: fem.RobotEquilibrium, count: int) -> FemRest:

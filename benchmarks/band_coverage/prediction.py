@@ -53,15 +53,15 @@ class Prediction:
         return 0.5 - 0.25 * (least + most) if below else 0.5 + 0.25 * (least + most)
 
 
-def predicted(case: Case) -> Prediction:
-    """Bands of all levels.
+def predicted(case: Case, levels: tuple[int, ...] = LEVELS) -> Prediction:
+    """Bands of all levels [%].
 
     Raises
     ------
     CdprError : the robot has no modes there.
     """
     bands = {}
-    for level in LEVELS:
+    for level in levels:
         rest = cs.inverse(case.robot, case.pose, band=level)
         modes = cs.modes(case.robot, case.pose, band=level, count=FREQUENCIES)
         told = rest.answer["bands"]

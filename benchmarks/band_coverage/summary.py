@@ -16,8 +16,8 @@ Told = dict[str, Any]
 
 def limits(count: int, level: float) -> tuple[int, int]:
     """Least and most of `count` independent truths that lie inside bands of a level (0 to 1), but for 1 % of chance."""
-    ends = binom.ppf([0.5 * _CHANCE, 1.0 - 0.5 * _CHANCE], count, level)
-    return int(ends[0]), int(ends[1])
+    least, most = (int(binom.ppf(share, count, level)) for share in (0.5 * _CHANCE, 1.0 - 0.5 * _CHANCE))
+    return least, most
 
 
 def inside(told: Told, quantity: str, level: int) -> list[bool]:
@@ -107,8 +107,10 @@ def _mean(found: Sequence[Told], quantity: str, level: int) -> float:
 
 def meshes(found: Sequence[Told]) -> str:
     """How sure the finite elements are."""
-    change = np.array([told["mesh_change"] for told in found if "lost" not in told])
+    changes = [told["mesh_change"] for told in found if "lost" not in told]
+    if not changes:
+        return ""
     return (
-        f"The finest meshes change the truth by {np.median(change):.1g} sigmas in the median and by at most "
-        f"{change.max():.1g}."
+        f"The finest meshes change the truth by {np.median(changes):.1g} sigmas in the median and by at most "
+        f"{max(changes):.1g}."
     )

@@ -41,11 +41,3 @@ def drawn_true_robot(rng: np.random.Generator, robot: Robot, lengths: np.ndarray
         np.array([0.0, 0.0, -robot.gravity]),
         pulleys,
     )
-
-
-def as_entered(robot: Robot, lengths: np.ndarray) -> fem.RobotData:
-    """The robot without a tolerance: what finite elements make of it differs from the prediction by their mesh."""
-    exact = {name: 0.0 for name in robot.tolerances}
-    from dataclasses import replace
-
-    return drawn_true_robot(np.random.default_rng(0), replace(robot, tolerances=exact), lengths)
