@@ -4,7 +4,7 @@ eigenproblem at many draws."""
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtri
+from scipy.special import ndtr, ndtri
 
 from cdpr_struct.bands.mode_rates import ModeRates
 
@@ -37,14 +37,30 @@ def frequency_bands(rates: ModeRates, spread: np.ndarray, level: float) -> Frequ
     members = [np.flatnonzero(rates.groups == g) for g in range(rates.groups.max(initial=-1) + 1)]
     meeting = [group for group in members if len(group) > 1]
     if meeting:
-        drawn = np.random.default_rng(_SEED).standard_normal((DRAWS // 2, spread.shape[1]))
-        changes = np.concatenate([drawn, -drawn]) @ spread.T
+        changes = drawn_changes(spread)
     for group in meeting:
         logarithm = _drawn_frequencies(rates, group, changes)
         sigma[group] = logarithm.std(axis=0)
         ends = np.exp(np.quantile(logarithm, [0.5 - 0.5 * level, 0.5 + 0.5 * level], axis=0))
         low[group], high[group] = ends
     return FrequencyBands(low, high, sigma, [(group + 1).tolist() for group in meeting])
+
+
+def chance_above(rates: ModeRates, spread: np.ndarray, mode: int, hertz: float) -> float:
+    """Probability that a frequency, from 0 counted from the lowest, lies above a limit [Hz]."""
+    group = np.flatnonzero(rates.groups == rates.groups[mode])
+    if len(group) == 1:
+        sigma = float(np.linalg.norm(rates.own[:, mode] @ spread))
+        gap = float(np.log(rates.hertz[mode] / hertz))
+        return float(ndtr(gap / sigma)) if sigma > 0.0 else float(gap > 0.0)
+    drawn = _drawn_frequencies(rates, group, drawn_changes(spread))[:, int(np.searchsorted(group, mode))]
+    return float((drawn > np.log(hertz)).mean())
+
+
+def drawn_changes(spread: np.ndarray) -> np.ndarray:
+    """(n, p) changes of the robot's numbers, drawn in pairs of opposite sign, always the same."""
+    drawn = np.random.default_rng(_SEED).standard_normal((DRAWS // 2, spread.shape[1]))
+    return np.concatenate([drawn, -drawn]) @ spread.T
 
 
 def _drawn_frequencies(rates: ModeRates, group: np.ndarray, changes: np.ndarray) -> np.ndarray:

@@ -42,7 +42,7 @@ def mode_rates(
     assembly: Assembly = "consistent",
     model: CableModel = "exact",
 ) -> ModeRates:
-    """Rates of the frequencies hertz (k,) [Hz] of one robot at rest, all above zero, ascending, and of some beyond them.
+    """Rates of the frequencies hertz (k,) [Hz] of one robot at rest, all above zero, ascending, and some beyond.
 
     spread : (p, t) changes per sigma of independent numbers: how far modes may move, and so which may meet
     model : whose relative rates are taken, exact or static; frequencies of dsm and fem have those of exact

@@ -141,7 +141,7 @@ def load_campaign(
         robot_name=table.robot,
         model=table.model,
         tolerances=_tolerances(robot, given, relative, source),
-        stated=frozenset(given | robot.tolerances),
+        stated=frozenset({**robot.tolerances, **given}),
         states=gathering.states(),
         cable_frequencies=gathering.cable_frequencies(),
         robot_frequencies=gathering.robot_frequencies(),
@@ -175,7 +175,7 @@ def _tolerances(robot: Robot, given: dict[str, float], relative: bool, source: P
     if relative and "length_m" in given:
         expected = 'no tolerance of the zeros beside encoders = "relative": these are unknown'
         raise InputError(str(source), "tolerances.length_m", given["length_m"], expected)
-    return Tolerances(**(robot.tolerances | given | ({"length_m": UNKNOWN_ZERO} if relative else {})))
+    return Tolerances(**{**robot.tolerances, **given, **({"length_m": UNKNOWN_ZERO} if relative else {})})
 
 
 def _table(source: Path) -> CampaignTable:

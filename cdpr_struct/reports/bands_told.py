@@ -126,7 +126,8 @@ def band_note(bands: Mapping[str, Any]) -> str:
 def band_words(bands: Mapping[str, Any], key: str, digits: int) -> list[str]:
     """A band in words for each value of a key: those of drawn robots where these differ, marked by a star."""
     ends = np.asarray(bands[key], dtype=float)
-    drawn, differ = bands.get("samples", {}), ()
+    drawn: Mapping[str, Any] = bands.get("samples", {})
+    differ: tuple[int, ...] = ()
     if key in drawn:
         differ = _numbers_of(drawn["differ"], key)
         ends = np.where(np.isin(np.arange(1, len(ends) + 1), differ)[:, None], np.asarray(drawn[key], float), ends)
