@@ -8,13 +8,12 @@ from scipy.special import ndtr
 import cdpr_struct as cs
 from benchmarks.band_coverage.drawing import FREQUENCIES, Case
 from benchmarks.band_coverage.fem_rest import FemRest
-from cdpr_struct.bands.frequency_bands import frequency_bands
+from cdpr_struct.bands.frequency_bands import chance_above
 from cdpr_struct.bands.mode_rates import mode_rates
 from cdpr_struct.interface.bands import AskedBand, Banded
 from cdpr_struct.interface.modes import ModesResult
 
 LEVELS = (50, 90, 99)
-_HALVINGS = 10  # of the level of a band until the truth lies on its end
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,17 +39,9 @@ class Prediction:
         return [self._below(float(truth.hertz[frequency]), frequency), *rest]
 
     def _below(self, hertz: float, number: int) -> float:
-        """By the level of the central band that ends at a frequency."""
         banded = Banded.at(self.modes.point, AskedBand(0.5), True)
         rates = mode_rates(banded.point, self.middle.hertz, banded.response, banded.spread)
-        below = hertz < frequency_bands(rates, banded.spread, 1e-9).low[number]
-        least, most = 0.0, 1.0
-        for _ in range(_HALVINGS):
-            level = 0.5 * (least + most)
-            band = frequency_bands(rates, banded.spread, level)
-            inside = band.low[number] <= hertz if below else hertz <= band.high[number]
-            least, most = (least, level) if inside else (level, most)
-        return 0.5 - 0.25 * (least + most) if below else 0.5 + 0.25 * (least + most)
+        return 1.0 - chance_above(rates, banded.spread, number, hertz)
 
 
 def predicted(case: Case, levels: tuple[int, ...] = LEVELS) -> Prediction:
