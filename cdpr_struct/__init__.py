@@ -37,6 +37,8 @@ Predictions and checks:
                             another frequency.
   accept                    Say whether a robot within its tolerances meets requirements: pass, fail, or cannot be
                             said.
+  compare                   Compare readings of one state of rest with predictions: each in its band or not, and all
+                            of them together.
   frf                       Compute frequency responses, with the certified eigenfrequencies beside their peaks.
   transient                 Predict the vibration after an emergency stop, or along a trajectory, by modal
                             superposition.
@@ -63,8 +65,6 @@ Measured data:
   load_campaign             Read a campaign file and the data files it names, all checked.
   causes                    List the causes that a diagnosis looks for, by name, those of installed packages among
                             them.
-  compare                   Compare readings of one state of rest with predictions: each in its band or not, and all
-                            of them together.
   diagnose                  Name the cause of differences between a simulation and measured data.
   plan                      Tell before measuring which causes a campaign can find, which it confuses, and what to
                             measure next.

@@ -1,7 +1,8 @@
 """How a robot at rest answers small changes of its numbers while its winches stay as they are.
 
 The wrench that a change leaves at the old pose moves the platform by K^-1 of it; where it then is, cables and
-everything else are evaluated again. Both are central differences of the statics themselves, so nothing is left out.
+everything else are evaluated again. Both are central differences of fourth order of the statics themselves, so nothing
+is left out.
 """
 
 from dataclasses import dataclass
@@ -16,7 +17,9 @@ from cdpr_struct.robot.tolerances import VARIED, change_count, changed, places
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.locked_balance import LockedBalance
 
-_SHARE = 1e-4  # of a value, or of the tension: steps change nothing by more than this
+_SHARE = 1e-3  # of a value, or of the tension: steps change nothing by more than this
+_STATIONS = (1.0, -1.0, 2.0, -2.0)  # steps at which values are taken
+_WEIGHTS = (2.0 / 3.0, -2.0 / 3.0, -1.0 / 12.0, 1.0 / 12.0)  # their parts in a derivative of fourth order
 _SHORTEST = 1e-10  # of the chord: shorter steps are lost in rounding
 _NEUTRAL = 1e-13  # of the largest singular value: a smaller one is zero but for rounding
 
@@ -43,25 +46,25 @@ def locked_response(point: OperatingPoint, assembly: Assembly = "consistent", mo
     Cables that stiffen with tension do so as they are at this rest: that EA itself follows the tension is left out.
     """
     step = step_sizes(point)
-    count = len(step)
-    sides = np.concatenate([np.diag(step), -np.diag(step)])
-    balance = _balance(point, sides, model)
-    place = np.repeat(point.position[None], 2 * count, axis=0)
-    turn = np.repeat(point.rotation[None], 2 * count, axis=0)
-    left = balance.evaluate(place, turn).wrench
-    rest = _balance(point, np.zeros((1, count)), model).evaluate(place[:1], turn[:1])
-    motion = 0.5 * (left[:count] - left[count:]) @ np.linalg.pinv(rest.tangent[0], _NEUTRAL).T
-    there, turned = balance.moved(place, turn, np.concatenate([motion, -motion]))
+    ways = np.array(_STATIONS)[:, None, None] * np.diag(step)
+    balance = _balance(point, ways.reshape((-1, len(step))), model)
+    place = np.repeat(point.position[None], len(balance.length), axis=0)
+    turn = np.repeat(point.rotation[None], len(balance.length), axis=0)
+    rest = _balance(point, np.zeros((1, len(step))), model).evaluate(place[:1], turn[:1])
+    wrench = _slope(balance.evaluate(place, turn).wrench, step)
+    motion = (ways @ wrench @ np.linalg.pinv(rest.tangent[0], _NEUTRAL).T).reshape((-1, 6))
+    there, turned = balance.moved(place, turn, motion)
     cables = balance.states(there, turned)
-    robots = balance.arrays
-    depends = Dependence.of(OperatingPoint(robots, there, turned, cables), assembly).vector
-    turns = Rotation.from_matrix(turned[:count] @ np.swapaxes(turned[count:], -1, -2)).as_rotvec()
-    pose = np.concatenate([there[:count] - there[count:], turns], axis=-1)
-    twice = 2.0 * step[:, None]
-    tension = cables.tension_at_platform
-    return LockedResponse(
-        pose / twice, (tension[:count] - tension[count:]) / twice, (depends[:count] - depends[count:]) / twice
-    )
+    depends = Dependence.of(OperatingPoint(balance.arrays, there, turned, cables), assembly).vector
+    about = Rotation.from_matrix(turned @ np.swapaxes(point.rotation, -1, -2)).as_rotvec()
+    pose = np.concatenate([there - point.position, about], axis=-1)
+    return LockedResponse(*(_slope(values, step) for values in (pose, cables.tension_at_platform, depends)))
+
+
+def _slope(values: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """(p, n) derivative of values (4 p, n) at the stations about rest, in steps (p,)."""
+    stations = values.reshape((len(_STATIONS), len(step), -1))
+    return np.asarray(np.tensordot(_WEIGHTS, stations, axes=1) / step[:, None])
 
 
 def step_sizes(point: OperatingPoint) -> np.ndarray:

@@ -67,7 +67,7 @@ def mode_rates(
 
 def _expanded(point: OperatingPoint, last: float, assembly: Assembly, model: CableModel) -> ExpandedModes:
     batch = OperatingPoint(point.arrays, point.position[None], point.rotation[None], point.cables.at(None))
-    return ExpandedModes.at(batch, 2.0 * np.pi * _BEYOND * last, assembly, model)
+    return ExpandedModes.at(batch, 2.0 * np.pi * _BEYOND * last, assembly, model, fine=True)
 
 
 def _with_those_beyond(own: np.ndarray, hertz: np.ndarray) -> np.ndarray:

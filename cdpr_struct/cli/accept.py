@@ -20,7 +20,10 @@ from cdpr_struct.cli.output import Output
 from cdpr_struct.interface.requirements import read_requirements
 
 NAME = "accept"
-EXAMPLES = ("cdpr-struct accept cogiro requirements.toml --out results/accept",)
+EXAMPLES = (
+    "cdpr-struct accept examples/bands/robot.toml examples/bands/requirements.toml --out results/accept",
+    "cdpr-struct accept examples/bands/robot.toml examples/bands/requirements.toml --mass 110 --json",
+)
 
 
 def run(

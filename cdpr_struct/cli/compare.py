@@ -24,7 +24,10 @@ from cdpr_struct.cli.options import (
 from cdpr_struct.cli.output import Output
 
 NAME = "compare"
-EXAMPLES = ("cdpr-struct compare cogiro measured.csv --out results/compare",)
+EXAMPLES = (
+    "cdpr-struct compare examples/bands/robot.toml examples/bands/measured.csv --out results/compare",
+    "cdpr-struct compare examples/bands/robot.toml examples/bands/measured.csv --band 99 --json",
+)
 
 
 def run(

@@ -33,8 +33,12 @@ class ExpandedModes:
     expansion: ModalExpansion | None
 
     @classmethod
-    def at(cls, point: OperatingPoint, highest: float, assembly: Assembly, model: CableModel) -> "ExpandedModes":
+    def at(
+        cls, point: OperatingPoint, highest: float, assembly: Assembly, model: CableModel, fine: bool = False
+    ) -> "ExpandedModes":
         """Modes below `highest` [rad/s]; of massless cables all.
+
+        fine : frequencies to all digits and gradients to seven, not to six and five
 
         Raises
         ------
@@ -47,7 +51,7 @@ class ExpandedModes:
             shapes = ritz_modes(point, StaticCables(point).expansion(0.0), 6 + inner, assembly).above_zero
             return cls(point, shapes, now, None, None)
         if model == "exact":
-            return cls(point, *_catenary_modes(point, highest, assembly, now))
+            return cls(point, *_catenary_modes(point, highest, assembly, now, fine))
         raise ValueError(f"model must be 'exact' or 'static', got {model!r}")
 
     def gradient(self, shapes: RitzModes | None = None) -> np.ndarray:
@@ -82,12 +86,14 @@ class ExpandedModes:
 
 
 def _catenary_modes(
-    point: OperatingPoint, highest: float, assembly: Assembly, now: Dependence
+    point: OperatingPoint, highest: float, assembly: Assembly, now: Dependence, fine: bool
 ) -> tuple[RitzModes, Dependence, int, ModalExpansion]:
     smooth = not (point.arrays.bending_stiffness.any() or point.arrays.added_mass.any())
-    order = polynomial_order(point, highest, rough=smooth)
+    order = polynomial_order(point, highest, rough=smooth and not fine)
     expansion = expand_catenaries_at(point, order)
-    if not point.arrays.has_masts:  # the reduction keeps how cables answer the platform, not how they answer masts
+    if not (
+        fine or point.arrays.has_masts
+    ):  # the reduction keeps how cables answer the platform, not how they answer masts
         expansion = expansion.reduced(highest)
     below = (expansion.omega_squared < highest**2).sum(axis=(-2, -1)).max()
     shapes = ritz_modes(point, expansion, int(below) + beyond_cables(point), assembly).above_zero

@@ -1,5 +1,6 @@
 """What is never exactly known about a robot, and which robots are as probable as the one entered."""
 
+import math
 from dataclasses import dataclass
 from itertools import accumulate
 
@@ -71,7 +72,7 @@ class Varied:
 
     def count(self, cables: int) -> int:
         """Numbers in it."""
-        return int(np.prod([cables if n == CABLES else n for n in self.shape], dtype=int))
+        return math.prod(cables if isinstance(n, str) else n for n in self.shape)
 
 
 VARIED = (
