@@ -1,4 +1,4 @@
-"""Readings of a robot whose cables are stiffer than entered, from the finite elements: `python examples/bands/make.py`."""
+"""Readings of a robot whose cables are stiffer than entered, by finite elements: `python examples/bands/make.py`."""
 
 from dataclasses import replace
 from pathlib import Path
