@@ -62,8 +62,8 @@ def drawn(seed: int) -> Case:
         except CdprError:
             continue
         if held.answer["stable"] and not held.answer["neutral_freedoms"]:
-            chosen = (int(rng.integers(count)) for count in (FREQUENCIES, 6, len(robot.cables)))
-            return Case(seed, kind, robot, held, free, *chosen, attempt, rng)
+            mode, component, cable = (int(rng.integers(count)) for count in (FREQUENCIES, 6, len(robot.cables)))
+            return Case(seed, kind, robot, held, free, mode, component, cable, attempt, rng)
     raise RuntimeError(f"seed {seed}: none of {_ATTEMPTS} robots of kind {kind!r} is held")
 
 
@@ -79,7 +79,8 @@ def _sizes(rng: np.random.Generator) -> dict[str, float]:
 def _built_in(rng: np.random.Generator) -> tuple[Robot, Pose]:
     robot = cs.load_robot(str(rng.choice(builtin_names())))
     extent = np.ptp(robot.frame_anchors, axis=0)
-    place = robot.home.position + rng.uniform(-0.15, 0.15, 3) * extent
+    home = np.zeros(3) if robot.home is None else robot.home.position
+    place = home + rng.uniform(-0.15, 0.15, 3) * extent
     return robot, Pose(place, rng.uniform(-_TURN, _TURN, 3))
 
 

@@ -32,7 +32,7 @@ def drawn_true_robot(rng: np.random.Generator, robot: Robot, lengths: np.ndarray
     return fem.RobotData(
         robot.frame_anchors + size["anchor_m"] * normal((m, 3)),
         robot.platform_anchors + size["anchor_m"] * normal((m, 3)),
-        tuple(fem.CableData(*map(float, each)) for each in zip(paid, stiff, heavy, strict=True)),
+        tuple(fem.CableData(float(a), float(b), float(c)) for a, b, c in zip(paid, stiff, heavy, strict=True)),
         fem.PlatformData(
             body.mass + size["platform_mass_kg"] * normal(),
             body.center_of_mass + size["center_of_mass_m"] * normal(3),

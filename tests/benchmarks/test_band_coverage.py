@@ -117,6 +117,17 @@ def test_truths_of_a_few_robots_scatter_as_said_and_bands_of_half_the_width_are_
     )  # 4096 draws where modes meet
 
 
+def test_modes_of_a_group_push_each_other_even_if_they_do_not_meet_themselves():
+    # cogiro: modes 4 and 7 of nine that are linked; without their mixing mode 6 could not leave 2.91 to 2.97 Hz
+    case = drawn(116)
+    prediction = predicted(case, (99,))
+    true = drawn_true_robot(case.rng, case.robot, lengths_of(case))
+    truth, _, _ = fem_rest(true, case.pose.position, case.pose.rotation, prediction.sigma)
+    told = compared(case, prediction, truth)
+    assert prediction.meeting == list(range(1, 10))
+    assert told["inside"]["99"][-6:] == [True] * 6
+
+
 def told_lines(count: int, sigma: float = 1.0) -> list[dict]:
     """Robots whose truths are off by normal numbers of a deviation that bands take for one."""
     rng, reach = np.random.default_rng(4), {"50": 0.67449, "90": 1.64485, "99": 2.57583}
