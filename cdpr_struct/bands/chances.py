@@ -7,6 +7,7 @@ import numpy as np
 from cdpr_struct.bands.frequency_bands import drawn_changes
 from cdpr_struct.bands.locked_response import LockedResponse
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.robot.tolerances import Spread
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,8 +24,8 @@ class DrawnRest:
     rotation_error: np.ndarray
 
     @classmethod
-    def of(cls, point: OperatingPoint, response: LockedResponse, spread: np.ndarray) -> "DrawnRest":
-        """Drawn from the tolerances; spread (p, t): changes per sigma of independent numbers."""
+    def of(cls, point: OperatingPoint, response: LockedResponse, spread: Spread) -> "DrawnRest":
+        """Drawn from the tolerances; spread: which robots are probable."""
         changes = drawn_changes(spread)
         tension = point.cables.tension_at_platform + changes @ response.tension
         motion = changes @ response.pose

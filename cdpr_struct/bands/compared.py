@@ -7,6 +7,7 @@ from scipy.optimize import linear_sum_assignment
 from scipy.special import chdtrc, ndtri
 
 from cdpr_struct.observation.robot_modes import PLATFORM_SHARE
+from cdpr_struct.robot.tolerances import Spread
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,7 +33,7 @@ def compared(
     predicted: np.ndarray,
     ends: np.ndarray,
     rates: np.ndarray,
-    spread: np.ndarray,
+    spread: Spread,
     level: float,
 ) -> Compared:
     """Compare readings (n,).
@@ -40,12 +41,13 @@ def compared(
     Parameters
     ----------
     noise : (n,) sigma of each reading;  ends : (n, 2) band of what is predicted, tolerances only, at this level
-    rates : (p, n) of the predicted numbers;  spread : (p, t) changes of the robot per sigma of independent numbers
+    rates : (p, n) of the predicted numbers;  spread : which robots are probable
     """
     reach = ndtri(0.5 + 0.5 * level)
-    low = predicted - np.hypot(predicted - ends[:, 0], reach * noise)
-    high = predicted + np.hypot(ends[:, 1] - predicted, reach * noise)
-    off, own = measured - predicted, rates.T @ spread
+    middle = np.clip(predicted + spread.shift(rates), *ends.T)
+    low = middle - np.hypot(middle - ends[:, 0], reach * noise)
+    high = middle + np.hypot(ends[:, 1] - middle, reach * noise)
+    off, own = measured - middle, rates.T @ spread.root
     covariance = own @ own.T + np.diag(noise**2)
     sigma = np.sqrt(np.diag(covariance))
     whitened = np.linalg.solve(np.linalg.cholesky(covariance), off)

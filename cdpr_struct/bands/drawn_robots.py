@@ -11,7 +11,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.observation.expanded_modes import ExpandedModes
 from cdpr_struct.observation.robot_modes import frequencies_at
 from cdpr_struct.robot.pose import angles_from_rotation
-from cdpr_struct.robot.tolerances import changed
+from cdpr_struct.robot.tolerances import Spread, changed
 from cdpr_struct.statics.forward_kinematics import forward
 
 _AT_ONCE = 64  # robots whose vibration is computed together
@@ -41,7 +41,7 @@ class DrawnRobots:
 
 def drawn_robots(
     point: OperatingPoint,
-    spread: np.ndarray,
+    spread: Spread,
     count: int,
     hertz: np.ndarray | None = None,
     assembly: Assembly = "consistent",
@@ -52,13 +52,13 @@ def drawn_robots(
 
     Parameters
     ----------
-    spread : (p, t) changes per sigma of independent numbers
+    spread : which robots are probable
     hertz : (k,) frequencies of the robot as entered, if those of the drawn ones are asked for [Hz]
     model : of the cables at rest;  vibrating : of the cables in vibration, exact or static; frequencies are in
         proportion to those that it has of the robot as entered
     """
     arrays, cables = point.arrays, point.cables
-    drawn = np.random.default_rng(_SEED).standard_normal((count, spread.shape[1])) @ spread.T
+    drawn = spread.drawn(np.random.default_rng(_SEED).standard_normal((count, spread.root.shape[1])))
     robots, lengths = changed(arrays, drawn), arrays.reading(cables.paid_out)
     found = forward(robots, lengths, point.position, point.rotation, model)
     kept = np.flatnonzero(found.stable)

@@ -7,6 +7,7 @@ import numpy as np
 from scipy.special import ndtr, ndtri
 
 from cdpr_struct.bands.mode_rates import ModeRates
+from cdpr_struct.robot.tolerances import Spread
 
 DRAWS = 4096  # of each group of modes that may meet
 _SEED = 20
@@ -26,14 +27,15 @@ class FrequencyBands:
     meeting: list[list[int]]
 
 
-def frequency_bands(rates: ModeRates, spread: np.ndarray, level: float) -> FrequencyBands:
+def frequency_bands(rates: ModeRates, spread: Spread, level: float) -> FrequencyBands:
     """Central bands that hold with a probability `level`, each frequency by itself.
 
-    spread : (p, t) changes of the robot's numbers per sigma of independent ones
+    spread : which robots are probable
     """
-    sigma = np.linalg.norm(rates.own.T @ spread, axis=1)
+    sigma = spread.sigma(rates.own)
     reach = ndtri(0.5 + 0.5 * level) * sigma
-    low, high = rates.hertz * np.exp(-reach), rates.hertz * np.exp(reach)
+    middle = spread.shift(rates.own)
+    low, high = rates.hertz * np.exp(middle - reach), rates.hertz * np.exp(middle + reach)
     members = [np.flatnonzero(rates.groups == g) for g in range(rates.groups.max(initial=-1) + 1)]
     meeting = [group for group in members if len(group) > 1]
     if meeting:
@@ -46,21 +48,22 @@ def frequency_bands(rates: ModeRates, spread: np.ndarray, level: float) -> Frequ
     return FrequencyBands(low, high, sigma, [(group + 1).tolist() for group in meeting])
 
 
-def chance_above(rates: ModeRates, spread: np.ndarray, mode: int, hertz: float) -> float:
+def chance_above(rates: ModeRates, spread: Spread, mode: int, hertz: float) -> float:
     """Probability that a frequency, from 0 counted from the lowest, lies above a limit [Hz]."""
     group = np.flatnonzero(rates.groups == rates.groups[mode])
     if len(group) == 1:
-        sigma = float(np.linalg.norm(rates.own[:, mode] @ spread))
-        gap = float(np.log(rates.hertz[mode] / hertz))
+        own = rates.own[:, [mode]]
+        sigma = float(spread.sigma(own)[0])
+        gap = float(np.log(rates.hertz[mode] / hertz) + spread.shift(own)[0])
         return float(ndtr(gap / sigma)) if sigma > 0.0 else float(gap > 0.0)
     drawn = _drawn_frequencies(rates, group, drawn_changes(spread))[:, int(np.searchsorted(group, mode))]
     return float((drawn > np.log(hertz)).mean())
 
 
-def drawn_changes(spread: np.ndarray) -> np.ndarray:
+def drawn_changes(spread: Spread) -> np.ndarray:
     """(n, p) changes of the robot's numbers, drawn in pairs of opposite sign, always the same."""
-    drawn = np.random.default_rng(_SEED).standard_normal((DRAWS // 2, spread.shape[1]))
-    return np.concatenate([drawn, -drawn]) @ spread.T
+    drawn = np.random.default_rng(_SEED).standard_normal((DRAWS // 2, spread.root.shape[1]))
+    return spread.drawn(np.concatenate([drawn, -drawn]))
 
 
 def _drawn_frequencies(rates: ModeRates, group: np.ndarray, changes: np.ndarray) -> np.ndarray:

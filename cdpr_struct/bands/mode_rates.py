@@ -11,6 +11,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import ModesApartError
 from cdpr_struct.observation.expanded_modes import ExpandedModes
+from cdpr_struct.robot.tolerances import Spread
 
 _BEYOND = 1.15  # times the last frequency asked for: up to there modes may come down and change places with it
 _ALIKE = 0.2  # relative distance of a frequency from the exact model's beyond which it is another mode
@@ -39,13 +40,13 @@ def mode_rates(
     point: OperatingPoint,
     hertz: np.ndarray,
     response: LockedResponse,
-    spread: np.ndarray,
+    spread: Spread,
     assembly: Assembly = "consistent",
     model: CableModel = "exact",
 ) -> ModeRates:
     """Rates of the frequencies hertz (k,) [Hz] of one robot at rest, all above zero, ascending, and some beyond.
 
-    spread : (p, t) changes per sigma of independent numbers: how far modes may move, and so which may meet
+    spread : which robots are probable: how far modes may move, and so which may meet
     model : whose relative rates are taken, exact or static; frequencies of dsm and fem have those of exact
 
     Raises
@@ -57,7 +58,7 @@ def mode_rates(
     hertz = _with_those_beyond(shapes.omega[0] / (2.0 * np.pi), hertz)
     squared = shapes.omega[0] ** 2
     own = response.dependence @ found.gradient(shapes)[0] / (2.0 * squared)
-    groups = _groups(len(hertz), _near(np.log(hertz), own, spread))
+    groups = _groups(len(hertz), _near(np.log(hertz) + spread.shift(own), own, spread))
     pairs = np.argwhere(np.triu(groups[:, None] == groups, 1))
     mixing = np.zeros((len(own), 0))
     if len(pairs):
@@ -83,9 +84,9 @@ def _with_those_beyond(own: np.ndarray, hertz: np.ndarray) -> np.ndarray:
     return np.concatenate([hertz, own[count:] * (hertz[-1] / own[count - 1])])
 
 
-def _near(logarithm: np.ndarray, own: np.ndarray, spread: np.ndarray) -> np.ndarray:
+def _near(logarithm: np.ndarray, own: np.ndarray, spread: Spread) -> np.ndarray:
     """(q, 2) pairs whose distance may change by as much as it is."""
-    sigmas = own.T @ spread
+    sigmas = own.T @ spread.root
     apart = np.linalg.norm(sigmas[:, None] - sigmas[None], axis=-1)
     gap = np.abs(logarithm[:, None] - logarithm)
     return np.argwhere(np.triu(gap <= _NEAR * apart + 1e-9, 1))

@@ -8,6 +8,7 @@ from scipy.special import ndtri
 from cdpr_struct.bands.locked_response import LockedResponse
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.robot.pose import angles_from_rotation
+from cdpr_struct.robot.tolerances import Spread
 from cdpr_struct.statics.equilibrium import rotation_from_vector
 
 _TURN = 1e-5  # rad, by which angles are differentiated
@@ -27,13 +28,14 @@ class RestBands:
     tension_sigma: np.ndarray
 
 
-def rest_bands(point: OperatingPoint, response: LockedResponse, spread: np.ndarray, level: float) -> RestBands:
-    """Bands that hold with a probability `level`; spread (p, t): changes per sigma of independent numbers."""
+def rest_bands(point: OperatingPoint, response: LockedResponse, spread: Spread, level: float) -> RestBands:
+    """Bands that hold with a probability `level`; spread: which robots are probable."""
     reach = ndtri(0.5 + 0.5 * level) * np.array([-1.0, 1.0])
     motion = response.pose @ pose_by_motion(point.rotation).T
-    moved, pulled = (np.linalg.norm(rates.T @ spread, axis=1) for rates in (motion, response.tension))
-    pose = np.concatenate([point.position, angles_from_rotation(point.rotation)])
-    tension = np.maximum(point.cables.tension_at_platform[:, None] + pulled[:, None] * reach, 0.0)
+    moved, pulled = spread.sigma(motion), spread.sigma(response.tension)
+    pose = np.concatenate([point.position, angles_from_rotation(point.rotation)]) + spread.shift(motion)
+    pull = point.cables.tension_at_platform + spread.shift(response.tension)
+    tension = np.maximum(pull[:, None] + pulled[:, None] * reach, 0.0)
     return RestBands(pose[:, None] + moved[:, None] * reach, moved, tension, pulled)
 
 

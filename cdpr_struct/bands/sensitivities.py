@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.robot.tolerances import VARIED, Varied, places
+from cdpr_struct.robot.tolerances import VARIED, Spread, Varied, places
 
 _SAME = 1e-6  # relative distance below which modes share the rates of their mean
 
@@ -57,13 +57,13 @@ def of_equal_modes(hertz: np.ndarray, rates: np.ndarray) -> np.ndarray:
     return np.asarray(rates @ (together / together.sum(axis=0)))
 
 
-def variance_shares(rates: np.ndarray, spread: np.ndarray, cables: int) -> dict[str, np.ndarray]:
+def variance_shares(rates: np.ndarray, spread: Spread, cables: int) -> dict[str, np.ndarray]:
     """Share (k,) of the variance of each of k predictions that comes of each of `VARIED`, by field.
 
-    rates : (p, k);  spread : (p, t) changes per sigma of independent numbers
+    rates : (p, k);  spread : which robots are probable
     """
     parts = {
-        varied.field: ((rates[place].T @ spread[place]) ** 2).sum(axis=1)
+        varied.field: ((rates[place].T @ spread.root[place]) ** 2).sum(axis=1)
         for varied, place in zip(VARIED, places(cables), strict=True)
     }
     whole = np.maximum(np.sum(list(parts.values()), axis=0), np.finfo(float).tiny)

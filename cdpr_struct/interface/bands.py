@@ -17,7 +17,8 @@ from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.interface.arguments import one_of, real, whole
 from cdpr_struct.reports.bands_told import frequencies_told, rest_told, slack_check, tolerances_told
 from cdpr_struct.reports.trust import Check
-from cdpr_struct.robot.tolerances import Tolerances, tolerance_factor
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.tolerances import Spread, Tolerances
 
 MOST_SAMPLES = 100_000
 FEWEST_SAMPLES = 20
@@ -47,17 +48,22 @@ def read_band(band: float | None, samples: int | None = None) -> AskedBand | Non
     return AskedBand(level, 0 if samples is None else whole(samples, "samples", FEWEST_SAMPLES, MOST_SAMPLES))
 
 
+def spread_of(robot: Robot) -> Spread:
+    """Robots that are probable: after a diagnosis its posterior, else those within the tolerances."""
+    return robot.posterior or Spread.within(Tolerances(**robot.tolerances), len(robot.cables))
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Banded:
     """A robot at rest whose numbers may be off: what its predictions do then.
 
-    spread : (p, t) changes of its numbers per sigma of independent ones
+    spread : which robots are probable
     """
 
     point: OperatingPoint
     asked: AskedBand
     response: LockedResponse
-    spread: np.ndarray
+    spread: Spread
     model: str
     assembly: Assembly
 
@@ -76,9 +82,7 @@ class Banded:
         one_of(model, "model", ("sagging", "spring"))
         if not stable:
             raise CdprError("there is no band: the platform is not held there, and a small change moves it far")
-        tolerances = Tolerances(**point.entered.tolerances)
-        spread = tolerance_factor(tolerances, point.arrays.cable_count)
-        return cls(point, asked, locked_response(point, assembly, model), spread, model, assembly)
+        return cls(point, asked, locked_response(point, assembly, model), spread_of(point.entered), model, assembly)
 
     def rest(self) -> tuple[dict[str, Any], list[Check]]:
         """Key `bands` of a result about a state of rest, and what is to be doubted."""

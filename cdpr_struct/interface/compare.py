@@ -148,7 +148,7 @@ def _predicted(
     numbers = np.array([one.number for one in readings])
     vibrating = np.array([one.column == "frequency_hz" for one in readings])
     values, ends = np.zeros(len(readings)), np.zeros((len(readings), 2))
-    rates = np.zeros((len(banded.spread), len(readings)))
+    rates = np.zeros((len(banded.spread.root), len(readings)))
     if vibrating.any():
         own = [one for one in readings if one.column == "frequency_hz"]
         mode, *rest_of = _frequencies(banded, own, model, file)

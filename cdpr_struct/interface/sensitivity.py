@@ -19,7 +19,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_robot, real, whole
-from cdpr_struct.interface.bands import vibrating_like
+from cdpr_struct.interface.bands import spread_of, vibrating_like
 from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.modes import ASSEMBLIES
@@ -30,7 +30,7 @@ from cdpr_struct.reports import sensitivity_told as told
 from cdpr_struct.reports.bands_told import tolerances_told
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
-from cdpr_struct.robot.tolerances import Tolerances, tolerance_factor
+from cdpr_struct.robot.tolerances import Spread
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
@@ -164,9 +164,8 @@ def sensitivity(
 
 def _moved(point: OperatingPoint, hertz: np.ndarray, model: str, assembly: Assembly, mode: int) -> dict[str, Any]:
     """All rates, those that move one mode most, and shares of the variance."""
-    tolerances = Tolerances(**point.entered.tolerances)
     cables, count = point.arrays.cable_count, len(hertz)
-    spread = tolerance_factor(tolerances, cables)
+    spread = spread_of(point.entered)
     response = locked_response(point, assembly)
     found = mode_rates(point, hertz, response, spread, assembly, vibrating_like(model))
     own = of_equal_modes(found.hertz, found.own)[:, :count]
@@ -176,7 +175,7 @@ def _moved(point: OperatingPoint, hertz: np.ndarray, model: str, assembly: Assem
     numbers = range(1, cables + 1)
     names = [*(f"mode {i + 1}" for i in range(count)), *told.POSE, *(f"tension {i}" for i in numbers)]
     units = ["mm"] * 3 + ["deg"] * 3
-    sigma = np.linalg.norm(every.T @ spread, axis=1)
+    sigma = spread.sigma(every)
     sigmas = [f"{100.0 * s:.2g} %" for s in sigma[:count]]
     sigmas += [f"{s:.2g} {u}" for s, u in zip(sigma[count:], [*units, *["N"] * cables], strict=True)]
     return {
@@ -197,9 +196,9 @@ def _present(point: OperatingPoint, mover: Mover) -> bool:
     return bool((radius if mover.cable is None else radius[mover.cable - 1]).any())
 
 
-def _largest(moving: Sequence[Mover], own: np.ndarray, spread: np.ndarray) -> list[dict[str, Any]]:
+def _largest(moving: Sequence[Mover], own: np.ndarray, spread: Spread) -> list[dict[str, Any]]:
     """Single numbers by how far one sigma of each moves ln f, the largest first [%]."""
-    sigma = np.linalg.norm(spread, axis=1)
+    sigma = np.linalg.norm(spread.root, axis=1)
     rows = [
         {**told.place_of(one), "change_percent": 100.0 * float(rates_of(own, one)) * float(sigma[one.index[0]])}
         for one in moving

@@ -121,6 +121,33 @@ def changed(arrays: RobotArrays, change: np.ndarray) -> RobotArrays:
     return times(moved, **relative, inertia=stretch[..., :, None] * stretch[..., None, :])
 
 
+def change_between(entered: RobotArrays, arrays: RobotArrays) -> np.ndarray:
+    """Changes (n, p) that make one robot of another, its fields with axes (n or 1, 1) before their own.
+
+    What differs from state to state is no change of a robot.
+    """
+    m = entered.cable_count
+    parts = [_change_of(one, entered, arrays) for one in VARIED]
+    count = max(len(part) for part in parts)
+    whole = [np.broadcast_to(part, (count, one.count(m))) for one, part in zip(VARIED, parts, strict=True)]
+    return np.concatenate(whole, axis=-1)
+
+
+def _change_of(one: Varied, entered: RobotArrays, arrays: RobotArrays) -> np.ndarray:
+    """(n, c) of one kind of number."""
+    before, after = np.asarray(getattr(entered, one.field)), np.asarray(getattr(arrays, one.field))
+    axes = 2 if one.field == "inertia" else len(one.shape)
+    lead = after.shape[: after.ndim - axes]
+    if len(lead) > 1 and lead[-1] > 1:
+        return np.zeros((1, one.count(entered.cable_count)))
+    core = after.shape[after.ndim - axes :]
+    after = after.reshape((-1, *core))
+    if one.field == "inertia":
+        before, after = (np.diagonal(value, axis1=-2, axis2=-1) for value in (before, after))
+    change = np.log(after / before) if one.relative else after - before
+    return np.asarray(change.reshape((len(change), -1)))
+
+
 def tolerance_count(cables: int) -> int:
     """How many independent standard normal numbers describe how far a robot with so many cables is off."""
     return change_count(cables) + sum(one.reel for one in VARIED)
@@ -136,6 +163,36 @@ def tolerance_factor(tolerances: Tolerances, cables: int) -> np.ndarray:
         own = getattr(tolerances, one.tolerance) * np.eye(one.count(cables))
         blocks.append(_HALF * np.hstack([own, own.sum(axis=1, keepdims=True)]) if one.reel else own)
     return np.asarray(block_diag(*blocks))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Spread:
+    """Which robots are probable: changes of a robot's numbers are normal.
+
+    root : (p, t) changes per sigma of independent numbers, so that the covariance is root root'
+    mean : (p,) what a diagnosis found beside its causes; zero of a robot that nobody measured
+    """
+
+    root: np.ndarray
+    mean: np.ndarray
+
+    @classmethod
+    def within(cls, tolerances: Tolerances, cables: int) -> "Spread":
+        """Of a robot that is known to within its tolerances."""
+        root = tolerance_factor(tolerances, cables)
+        return cls(root, np.zeros(len(root)))
+
+    def sigma(self, rates: np.ndarray) -> np.ndarray:
+        """(k,) of numbers with rates (p, k)."""
+        return np.linalg.norm(rates.T @ self.root, axis=1)
+
+    def shift(self, rates: np.ndarray) -> np.ndarray:
+        """(k,) by which numbers with rates (p, k) lie beside those of the robot as entered, in the mean."""
+        return np.asarray(self.mean @ rates)
+
+    def drawn(self, normal: np.ndarray) -> np.ndarray:
+        """(n, p) changes from standard normal numbers (n, t)."""
+        return np.asarray(self.mean + normal @ self.root.T)
 
 
 def tolerated(arrays: RobotArrays, tolerances: Tolerances, u: np.ndarray) -> RobotArrays:

@@ -21,6 +21,7 @@ from cdpr_struct.interface.operating_point import rest
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.tolerances import (
     VARIED,
+    Spread,
     Tolerances,
     change_count,
     changed,
@@ -78,7 +79,7 @@ def test_rates_are_those_of_solutions_made_anew(name):
     cables = point.arrays.cable_count
     hertz = robot_modes(point, "exact", 4).hertz
     response = locked_response(point)
-    found = mode_rates(point, hertz, response, tolerance_factor(Tolerances(), cables))
+    found = mode_rates(point, hertz, response, Spread.within(Tolerances(), cables))
     steps = step_sizes(point)
     chosen = [place.start + (place.stop - place.start) // 2 for place in places(cables)]
     for one, index in zip(VARIED, chosen, strict=True):
@@ -101,7 +102,7 @@ def test_reels_share_half_of_the_variance():
 def test_frequencies_that_may_meet_have_the_bands_of_drawn_robots():
     """Twelve cable modes within 8 per cent: rates of single modes would give bands that are wrong by a half."""
     point = at_rest("thesis-3-1")
-    spread = tolerance_factor(Tolerances(), 8)
+    spread = Spread.within(Tolerances(), 8)
     hertz = robot_modes(point, "exact", 6).hertz
     found = mode_rates(point, hertz, locked_response(point), spread)
     bands = frequency_bands(found, spread, 0.9)
@@ -112,13 +113,13 @@ def test_frequencies_that_may_meet_have_the_bands_of_drawn_robots():
     width = ends[:, 1] - ends[:, 0]
     gap = np.abs(np.stack([bands.low[:6], bands.high[:6]], axis=-1) - ends)
     assert (gap <= 0.15 * width[:, None]).all()
-    alone = np.exp(1.645 * np.linalg.norm(found.own[:, :6].T @ spread, axis=1)) * hertz
+    alone = np.exp(1.645 * np.linalg.norm(found.own[:, :6].T @ spread.root, axis=1)) * hertz
     assert (np.abs(alone - ends[:, 1]) > 0.3 * width).any()
 
 
 def test_pose_and_tensions_have_the_bands_of_drawn_robots():
     point = at_rest("cogiro")
-    spread = tolerance_factor(Tolerances(), 8)
+    spread = Spread.within(Tolerances(), 8)
     found = rest_bands(point, locked_response(point), spread, 0.9)
     drawn = drawn_robots(point, spread, 800)
     for mine, name in ((found.pose, "pose"), (found.tension, "tension")):
@@ -130,16 +131,15 @@ def test_a_band_is_as_wide_as_its_tolerances():
     """Twice the tolerances, twice the sigma; none, no band."""
     point = at_rest("cogiro")
     response = locked_response(point)
-    sizes = [
-        rest_bands(point, response, factor * tolerance_factor(Tolerances(), 8), 0.5).pose_sigma for factor in (0, 1, 2)
-    ]
+    none, root = np.zeros(change_count(8)), tolerance_factor(Tolerances(), 8)
+    sizes = [rest_bands(point, response, Spread(factor * root, none), 0.5).pose_sigma for factor in (0, 1, 2)]
     assert not sizes[0].any()
     assert np.allclose(sizes[2], 2.0 * sizes[1])
 
 
 def test_two_modes_that_cross_repel_as_their_small_matrix_says():
     """Mixing alone splits a double frequency evenly: the lower one is never above, the upper never below."""
-    spread = np.array([[0.01]])
+    spread = Spread(np.array([[0.01]]), np.zeros(1))
     rates = ModeRates(np.array([2.0, 2.0]), np.zeros((1, 2)), np.array([[0, 1]]), np.ones((1, 1)), np.array([0, 0]))
     bands = frequency_bands(rates, spread, 0.9)
     assert bands.high[0] <= 2.0 <= bands.low[1]
@@ -150,7 +150,7 @@ def test_two_modes_that_cross_repel_as_their_small_matrix_says():
 def test_shares_of_the_variance_are_those_of_each_tolerance_alone():
     point = at_rest("cogiro")
     tension = locked_response(point).tension
-    shares = variance_shares(tension, tolerance_factor(Tolerances(), 8), 8)
+    shares = variance_shares(tension, Spread.within(Tolerances(), 8), 8)
     assert np.allclose(sum(shares.values()), 1.0)
     none = dict.fromkeys(Tolerances.__slots__, 0.0)
     only = tolerance_factor(Tolerances(**(none | {"anchor_m": 0.001})), 8)
@@ -168,7 +168,7 @@ def test_every_number_of_a_robot_moves_once():
 
 def test_chances_are_shares_of_robots_within_the_tolerances():
     point = at_rest("cogiro")
-    drawn = DrawnRest.of(point, locked_response(point), tolerance_factor(Tolerances(), 8))
+    drawn = DrawnRest.of(point, locked_response(point), Spread.within(Tolerances(), 8))
     middle = point.cables.tension_at_platform[2]
     assert abs(chance(drawn.tension[:, 2:3], middle, None) - 0.5) < 0.01
     assert chance(drawn.tension, None, 1e6) == 1.0
@@ -178,7 +178,7 @@ def test_chances_are_shares_of_robots_within_the_tolerances():
 
 def test_readings_are_judged_together():
     """Two readings that share one error: one sigma off alike is nothing, one sigma off against each other is much."""
-    rates, spread = np.array([[1.0, 1.0]]), np.array([[1.0]])
+    rates, spread = np.array([[1.0, 1.0]]), Spread(np.eye(1), np.zeros(1))
     ends = np.array([[-1.645, 1.645]] * 2)
     noise = np.full(2, 0.1)
 
