@@ -1,7 +1,7 @@
 """All benchmarks, or some, by one command.
 
     python -m benchmarks [QUESTION ..] [--quick] [--write]
-    python -m benchmarks random-robots [--seeds A:B] [--workers N] --out DIR
+    python -m benchmarks random-robots|band-coverage [--seeds A:B] [--workers N] --out DIR
 
 --quick : few runs and small cases, to see that all run; --write : put the answers and figures into docs/benchmarks.md
 """
@@ -25,6 +25,7 @@ from benchmarks import (
     verified_robots,
     vibration_floor,
 )
+from benchmarks.band_coverage import running as band_coverage
 from benchmarks.markdown_page import put
 from benchmarks.peers import versions
 from benchmarks.question import Question
@@ -45,7 +46,7 @@ QUESTIONS: tuple[Question, ...] = tuple(
         growth,
     )
 )
-STUDY = "random-robots"
+STUDIES = {study.NAME: study.main for study in (random_robots, band_coverage)}
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 
 
@@ -69,8 +70,8 @@ def processor() -> str:
 def main(words: list[str] | None = None) -> int:
     """Print, and write if asked; a study has arguments of its own."""
     given_words = sys.argv[1:] if words is None else words
-    if given_words[:1] == [STUDY]:
-        return random_robots.main(given_words[1:])
+    if given_words and (study := STUDIES.get(given_words[0])):
+        return study(given_words[1:])
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=(__doc__ or "").split("\n")[0])
     names = [question.name for question in QUESTIONS]
     parser.add_argument("question", nargs="*", help=f"of: {', '.join(names)}; all if none is named")

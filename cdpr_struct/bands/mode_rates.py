@@ -24,8 +24,9 @@ class ModeRates:
 
     hertz : (k,) [Hz], ascending; more than were asked for, since these may change places with them
     own : (p, k) of each mode as if it were alone
-    pairs : (q, 2) modes that may meet;  mixing : (p, q) by which a change turns them into each other, in ln f
-    groups : (k,) number of the group of modes that are linked by pairs
+    groups : (k,) number of the group of modes that are linked by modes that may meet
+    pairs : (q, 2) all of one group: two that do not meet by themselves still push each other while others pass
+    mixing : (p, q) by which a change turns the modes of a pair into each other, in ln f
     """
 
     hertz: np.ndarray
@@ -57,13 +58,14 @@ def mode_rates(
     hertz = _with_those_beyond(shapes.omega[0] / (2.0 * np.pi), hertz)
     squared = shapes.omega[0] ** 2
     own = response.dependence @ found.gradient(shapes)[0] / (2.0 * squared)
-    pairs = _near(np.log(hertz) + spread.shift(own), own, spread)
+    groups = _groups(len(hertz), _near(np.log(hertz) + spread.shift(own), own, spread))
+    pairs = np.argwhere(np.triu(groups[:, None] == groups, 1))
     mixing = np.zeros((len(own), 0))
     if len(pairs):
         first, second = pairs.T
         summed, differing = (found.gradient(found.mixed(first, second, sign))[0] for sign in (1.0, -1.0))
         mixing = response.dependence @ (summed - differing) / (4.0 * np.sqrt(squared[first] * squared[second]))
-    return ModeRates(hertz, own, pairs, mixing, _groups(len(hertz), pairs))
+    return ModeRates(hertz, own, pairs, mixing, groups)
 
 
 def _expanded(point: OperatingPoint, last: float, assembly: Assembly, model: CableModel) -> ExpandedModes:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import cdpr_struct as cs
+from benchmarks import seed_runs
 from benchmarks.random_robots import running
 from benchmarks.random_robots.altering import scaled
 from benchmarks.random_robots.drawing import KINDS, drawn, plain
@@ -205,13 +206,13 @@ def test_seeds_draw_every_kind_always_alike():
 
 
 def test_a_run_goes_on_after_a_line_that_was_cut_short(tmp_path, monkeypatch, capsys):
-    file = tmp_path / running.FILE
+    file = tmp_path / seed_runs.FILE
     done = {"seed": 0, "kind": "hanging", "inverse": "answered", "violations": ["balance: 1e-3 is left"]}
     file.write_text(json.dumps(done) + '\n{"seed": 1, "ki', "utf-8")
     assert running.main(["--seeds", "0:2", "--out", str(tmp_path)]) == 1
-    assert sorted(running.read(file)) == [0, 1]
+    assert sorted(seed_runs.read(file)) == [0, 1]
     assert "balance: # is left" in capsys.readouterr().out
-    assert "| all | 2 |" in summary(list(running.read(file).values()))
+    assert "| all | 2 |" in summary(list(seed_runs.read(file).values()))
     with pytest.raises(SystemExit):
         running.main(["--seeds", "two", "--out", str(tmp_path)])
 

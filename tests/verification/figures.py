@@ -93,6 +93,17 @@ def random_robots() -> Figure:
     return Figure(f"{count} robots, worst balance {worst}, {violations} violations", int(violations) == 0)
 
 
+def band_coverage() -> Figure:
+    """Counts inside the bands, each beside what chance allows in the last row."""
+    *rows, allowed = table("benchmarks.md", "chosen", "in 50 %")
+    spans = [tuple(map(int, cell.split(" to "))) for cell in allowed[1:4]]
+    inside = [least <= int(n) <= most for row in rows for n, (least, most) in zip(row[1:4], spans, strict=True)]
+    uniform = [number(row[4]) >= number(allowed[4]) for row in rows]
+    (robots,) = sentence("benchmarks.md", r"(\d+) robots with bands that the program does not doubt")
+    counts = "; ".join(f"{row[0]} {', '.join(row[1:4])}" for row in rows)
+    return Figure(f"of {robots}: {counts}; p {min(row[4] for row in rows)} or more", all(inside + uniform))
+
+
 def one_cable() -> Figure:
     """Smallest error of twenty frequencies of a cable."""
     row = table("benchmarks.md", "code", "20 frequencies within 1e-03")[0]

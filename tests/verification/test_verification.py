@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.__main__ import QUESTIONS, STUDY
+from benchmarks.__main__ import QUESTIONS, STUDIES
 from cdpr_struct.cli.main import COMMANDS
 from tests.verification import figures
 from tests.verification.page import PAGE, page
@@ -36,7 +36,7 @@ def can_run(command: str) -> bool:
         case ["python", "-m", "pytest", *paths]:
             return bool(paths) and all((ROOT / path).exists() for path in paths if not path.startswith("-"))
         case ["python", "-m", "benchmarks", question, *_]:
-            return question in {STUDY, *(known.name for known in QUESTIONS)}
+            return question in {*STUDIES, *(known.name for known in QUESTIONS)}
         case ["python", "-m", module, *_]:
             return find_spec(module) is not None
         case ["cdpr-struct", name, *_]:
