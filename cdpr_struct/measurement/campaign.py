@@ -23,6 +23,8 @@ NOT_SAID, PLATFORM = -1, -2
 KINDS = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency", *SIGNALS)
 UNKNOWN_ZERO = 1.0
 """m, one sigma of a length's zero of which nothing is known."""
+UNKNOWN_SWIVEL = 100.0
+"""deg, one sigma of a swivel encoder's zero of which nothing is known: as wide as a full turn spreads."""
 MODELS = ("static", "dsm", "exact", "spring")
 
 
@@ -37,6 +39,7 @@ class Tolerances:
     load_cell_gain       : relative;  load_cell_bias_N [N]
     damping              : relative
     pulley_radius_m      : each pulley [m]
+    swivel_deg           : zero of each encoder on a swivel axis [deg]; unknown unless given
     """
 
     anchor_m: float = 0.001
@@ -50,6 +53,7 @@ class Tolerances:
     load_cell_bias_N: float = 0.5
     damping: float = 0.3
     pulley_radius_m: float = 0.0002
+    swivel_deg: float = UNKNOWN_SWIVEL
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +66,7 @@ class Sigmas:
     length_m: float = 0.0005
     frequency_hz: float | None = None
     acceleration: float | None = None
+    swivel_deg: float = 0.1
 
     def frequency(self, hertz: np.ndarray) -> np.ndarray:
         """Sigma of natural frequencies [Hz]."""
@@ -98,6 +103,7 @@ class States:
     loaded  : (S,) bool, the state is a row of a `loaded_pose` file
     static  : (S,) bool, the state is in a `static_state` file
     temperature : (S,) [K];  approach : (S, m) sign of the last motion;  time : (S,) [s]
+    swivel, swivel_sigma : (S, m) of each cable's pulley about its swivel axis [rad]; nan unless given
     """
 
     names: tuple[str, ...]
@@ -116,6 +122,13 @@ class States:
     temperature: np.ndarray
     approach: np.ndarray
     time: np.ndarray
+    swivel: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+    swivel_sigma: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+
+    def __post_init__(self) -> None:
+        for name in ("swivel", "swivel_sigma"):
+            if getattr(self, name).shape != self.tension.shape:
+                object.__setattr__(self, name, np.full_like(self.tension, np.nan))
 
     @property
     def has_tension(self) -> np.ndarray:

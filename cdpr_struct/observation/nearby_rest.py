@@ -13,6 +13,7 @@ import numpy as np
 from cdpr_struct.observation.circumstances import Circumstances
 from cdpr_struct.observation.readings import Readings, paid_out, true_pose, true_tension
 from cdpr_struct.observation.rest import Rest, at_states, rest
+from cdpr_struct.observation.swivel import swivel_angle, within_turn
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.cable_state import CableStates
@@ -71,6 +72,13 @@ class NearbyRest:
         rows = [force.sum(axis=-2) + load[..., :3], (moment + load[..., 3:]) / self.radius, gap]
         lead = np.broadcast_shapes(*(part.shape[:-1] for part in rows))
         return np.concatenate([np.broadcast_to(part, (*lead, part.shape[-1])) for part in rows], axis=-1)
+
+    def swivels(self, arrays: RobotArrays, readings: Readings, reference: np.ndarray) -> np.ndarray:
+        """(..., S, m) what encoders on the swivel axes say [rad], within a turn; zero directions `reference` (m, 3)."""
+        there = at_states(arrays, self.known)
+        arms = PlatformArms.at(there, *true_pose(there, readings))
+        found = self._cables(there, arms, true_tension(there, readings, self.known))
+        return within_turn(swivel_angle(found[..., 3:6], there.pulley_axis, reference) + there.swivel_zero)
 
     def _cables(self, there: RobotArrays, arms: PlatformArms, tension: np.ndarray) -> np.ndarray:
         """(..., S, m, 7) outputs."""

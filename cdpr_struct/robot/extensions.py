@@ -59,6 +59,7 @@ class Extensions:
     creep: float
     slip: np.ndarray
     encoder_delay: np.ndarray
+    swivel_zero: np.ndarray
     accelerometer_gain: np.ndarray
     sensor_mass: float
     internal_mass: float

@@ -100,7 +100,7 @@ def test_slopes_by_every_parameter_of_every_cause(about, name):
 
 def test_slopes_by_every_tolerance(about):
     data, nearby = about
-    count = tolerance_count(data.cables)
+    count = tolerance_count(data.cables, data.arrays.has_pulleys)
 
     def changed(u: np.ndarray) -> RobotArrays:
         return tolerated(data.arrays, data.campaign.tolerances, u)
