@@ -152,7 +152,7 @@ class Gathering:
 
     def _static(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         own = rows.get("sigma")
-        has_tension = "tension_N" in rows.numbers
+        has_tension, has_length = "tension_N" in rows.numbers, "length_m" in rows.numbers
         seen = set()
         for i, state in enumerate(states):
             cable = int(rows.numbers["cable"][i]) - 1
@@ -161,12 +161,16 @@ class Gathering:
             seen.add((state.name, cable))
             state.static = True
             given = own[i] if np.isfinite(own[i]) else None
-            state.tension[cable] = rows.get("tension_N")[i]
-            state.tension_sigma[cable] = given or sigmas.tension_N
-            state.length[cable] = rows.get("length_m")[i]
-            state.length_sigma[cable] = sigmas.length_m if has_tension else given or sigmas.length_m
-            state.length_file = state.tension_file = rows.file
-            state.approach[cable] = rows.get("approach")[i]
+            if has_tension or not state.tension_file:
+                state.tension[cable] = rows.get("tension_N")[i]
+                state.tension_sigma[cable] = given or sigmas.tension_N
+                state.tension_file = rows.file if has_tension else ""
+            if has_length or not state.length_file:
+                state.length[cable] = rows.get("length_m")[i]
+                state.length_sigma[cable] = sigmas.length_m if has_tension else given or sigmas.length_m
+                state.length_file = rows.file if has_length else ""
+            if "approach" in rows.numbers:
+                state.approach[cable] = rows.numbers["approach"][i]
             take_swivel(state, rows, i, cable, rows.get("swivel_deg")[i], sigmas.swivel_deg)
 
     def _loaded(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:

@@ -13,13 +13,13 @@ import numpy as np
 from cdpr_struct.observation.circumstances import Circumstances
 from cdpr_struct.observation.readings import Readings, paid_out, true_pose, true_tension
 from cdpr_struct.observation.rest import Rest, at_states, rest
-from cdpr_struct.observation.swivel import swivel_angle, within_turn
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, load_wrench
 from cdpr_struct.statics.masts import MastShapes
 from cdpr_struct.statics.pulley import pulley_exit
+from cdpr_struct.statics.swivel_angle import swivel_angle, within_turn
 from cdpr_struct.statics.tensioned_cables import tensioned
 
 _ANCHOR, _SHARE, _COMPLIANCE = 1e-5, 1e-5, 1e-10  # steps: m, of the value, m/N

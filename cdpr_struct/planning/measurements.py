@@ -13,7 +13,6 @@ from cdpr_struct.dynamics.natural_frequencies import static_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.generated.platform import rotation
 from cdpr_struct.measurement.campaign import CableFrequencies, Campaign, RobotFrequencies, Sigmas, States
-from cdpr_struct.observation.swivel import swivel_angle, swivel_reference
 from cdpr_struct.planning.places import (
     AXES,
     CORNERS,
@@ -32,6 +31,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import InverseSolution
+from cdpr_struct.statics.swivel_angle import swivel_angle, swivel_reference
 
 MOST = 4  # states of a series
 CABLE_MODES = 4  # in-plane modes of every cable

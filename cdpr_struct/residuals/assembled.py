@@ -10,9 +10,9 @@ from cdpr_struct.residuals.layout import Layout, Shelf
 from cdpr_struct.residuals.linearised import Local, Rows
 from cdpr_struct.residuals.modal_sizes import MODEL, measured_sizes
 
-FLOOR = (0.05, 2e-5, 3e-4, 5e-3, 1e-5)
-"""N, m, of ln f, of ln A, rad: what the model misses of balance, lengths, frequencies, modal constants, swivel
-angles."""
+FLOOR = (0.05, 2e-5, 3e-4, 5e-3)
+"""N, m, of ln f, of ln A: what the model misses of the FEM's balance, lengths, frequencies and modal constants."""
+_FLOOR_OF_SWIVELS = 1e-5  # rad, far below what encoders resolve
 
 
 def linear_model(local: Local, where: Layout) -> LinearModel:
@@ -154,7 +154,7 @@ def _floor(local: Local, where: Layout, shelf: Shelf, shape: tuple[int, ...]) ->
     balance += np.where(shelf.states >= 0, inertia, 0.0)[..., None]
     floor[:, p * own : p * own + c] = np.where(shelf.cables >= 0, FLOOR[2], 1.0)
     last = p * own + c
-    floor[:, last : last + w] = np.where(shelf.swivels >= 0, FLOOR[4], 1.0)
+    floor[:, last : last + w] = np.where(shelf.swivels >= 0, _FLOOR_OF_SWIVELS, 1.0)
     return floor
 
 

@@ -12,8 +12,8 @@ from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.circumstances import Circumstances
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.observation.rest import rest
-from cdpr_struct.observation.swivel import swivel_angle, swivel_reference, within_turn
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.statics.swivel_angle import swivel_angle, swivel_reference, within_turn
 
 
 @dataclass(frozen=True, slots=True, eq=False)
