@@ -162,3 +162,31 @@ def test_where_an_encoder_begins_says_nothing(shift):
     campaign = measured(truth())
     moved = with_states(campaign, swivel=campaign.states.swivel + shift * np.array([1.0, -1.3, 0.4, 0.0]))
     assert recorded(moved).swivels.angle == pytest.approx(recorded(campaign).swivels.angle, abs=1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("which", "said"),
+    [
+        (slice(None), "the sense of the swivel angles is wrong"),
+        (2, "the sense of the swivel angle of cable 3 is wrong"),
+    ],
+)
+def test_encoders_that_count_the_other_way_round_are_a_wrong_sign(which, said):
+    campaign = measured(truth())
+    swivel = campaign.states.swivel.copy()
+    swivel[:, which] *= -1.0
+    found = diagnosed(with_states(campaign, swivel=swivel))
+    assert found.decision.status == "named"
+    assert found.decision.classes == (("sign_error",),)
+    assert found.correction is not None
+    assert found.correction.sentence == said
+
+
+@pytest.mark.slow
+def test_exchanged_channels_of_swivel_angles():
+    campaign = measured(truth())
+    found = diagnosed(with_states(campaign, swivel=campaign.states.swivel[:, [1, 0, 2, 3]]))
+    assert found.decision.classes == (("swapped_channels",),)
+    assert found.correction is not None
+    assert found.correction.sentence == "the swivel channels of cables 1 and 2 are swapped"

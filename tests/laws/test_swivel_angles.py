@@ -176,6 +176,7 @@ def unposed(text: str) -> str:
     return "\n".join(",".join(row) for row in lines) + "\n"
 
 
+@pytest.mark.slow
 def test_pages_say_degrees(tmp_path):
     rows = "".join(f"{n},150,160,3.2,3.{k},12.5,-17{k}\n" for k, n in enumerate("abc", start=4))
     loaded(tmp_path, on_wheels(), states=WIDE + rows)
