@@ -7,11 +7,18 @@ import numpy as np
 import pytest
 
 import cdpr_struct as cs
+from cdpr_struct.diagnosis.left_out import rows_of
 from cdpr_struct.diagnosis.sensor_sigmas import sigmas_used
 from cdpr_struct.errors import InputError
+from cdpr_struct.hypotheses.hypothesis import Hypothesis
+from cdpr_struct.hypotheses.judge import judged
+from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.interface.new_campaign import new_campaign
 from cdpr_struct.measurement.campaign import UNKNOWN_SWIVEL, Campaign
 from cdpr_struct.measurement.campaign_file import load_campaign
+from cdpr_struct.observation.rest import rest
+from cdpr_struct.residuals.assembled import linear_model
+from cdpr_struct.residuals.layout import layout
 from cdpr_struct.residuals.linearised import Local, Point
 from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.cable import Pulley
@@ -19,6 +26,7 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.robot.robot_writing import robot_toml
 from cdpr_struct.statics.swivel_angle import swivel_angle, swivel_reference, within_turn
+from tests.laws.written_campaigns import on_pulleys, plan_of, with_states, written
 
 TWO = Path(__file__).parents[1] / "blind" / "robots" / "two-cables.toml"
 ENTRY = '[[measurement]]\nkind = "{}"\nfile = "{}"\n'
@@ -183,3 +191,55 @@ def test_pages_say_degrees(tmp_path):
     found = cs.diagnose(tmp_path / "campaign.toml")
     by_kind = {row["kind"]: row["unit"] for row in found.to_json()["errors_by_state"]}
     assert by_kind["swivel angles"] == "deg"
+
+
+@pytest.fixture(scope="module")
+def beside_all() -> Campaign:
+    """Exact readings of eight cables: four states, two of them at the locked lengths of the first, plucked and shaken
+    in one of each kind; swivel angles of some cables, where the wheels face."""
+    robot = on_pulleys("cogiro", 0.05)
+    campaign = written(robot, plan_of(robot, 2, loads=(10.0, 20.0), cables_in=(0,), robot_in=(1,), modes=8))
+    data = recorded(campaign)
+    angle = data.swivels.reference, rest(data.arrays, data.readings, data.known).cables.force_at_frame
+    swivel = swivel_angle(angle[1], data.arrays.pulley_axis, angle[0]) + np.radians(np.linspace(-170.0, 170.0, 8))
+    swivel[0, 2], swivel[3, :5] = np.nan, np.nan
+    return with_states(campaign, swivel=swivel, swivel_sigma=np.full_like(swivel, np.radians(0.05)))
+
+
+def test_a_wrong_swivel_angle_stands_in_the_row_of_its_state_and_cable(beside_all):
+    """Between cable frequencies and modes, in a block of locked states and alone."""
+    for state, cable in ((0, 5), (2, 1), (1, 7)):
+        swivel = beside_all.states.swivel.copy()
+        swivel[state, cable] += np.radians(2.0)
+        data = recorded(with_states(beside_all, swivel=swivel))
+        where = layout(data)
+        found = judged(data, where, Hypothesis())
+        rows = rows_of(data, where, found, NoiseState.stated(found.model.groups))
+        own = np.flatnonzero(rows.kind == "SW")
+        assert len(own) == len(data.swivels) == 8 * 4 - 6
+        worst = own[np.abs(rows.before[own]).argmax()]
+        assert (rows.state[worst], rows.cable[worst]) == (state, cable)
+        assert np.degrees(rows.before[worst]) == pytest.approx(2.0, abs=0.01)
+        assert (rows.kind == "CF").sum() == 4 * 8
+        rest_ = np.delete(np.arange(len(rows.kind)), worst)
+        assert np.abs(rows.before[rest_] / rows.sigma[rest_])[rows.kind[rest_] != "RF"].max() < 0.3
+
+
+def test_a_swivel_angle_depends_on_the_pose_of_its_own_state_alone(beside_all):
+    """Rows of the block that four states share, against differences of the wheels' angles."""
+    data = recorded(beside_all)
+    where, local = layout(data), Local.about(data, Point.entered(data))
+    model = linear_model(local, where)
+    stack, shelf = next(
+        (stack, shelf) for stack, shelf in zip(model.stacks, where.shelves, strict=True) if len(shelf.states[0]) == 3
+    )
+    first = 3 * (6 + 8) + shelf.cables.shape[1]
+    at = stack.A[0, first : first + shelf.swivels.shape[1]]
+    step = 1e-4
+    for place, state in enumerate(shelf.states[0].tolist()):
+        moved = np.zeros_like(data.sigma)
+        moved[state, 0] = step / data.sigma[state, 0]
+        there = local.nearby.swivels(local.arrays, local.point.readings(data, moved), data.swivels.reference)
+        slope = (local.r.swivels - data.swivels.missed(there))[shelf.swivels[0]] / step * data.sigma[state, 0]
+        np.testing.assert_allclose(at[:, place * (6 + 8)], slope, atol=1e-3 * np.abs(slope).max())
+        assert (slope != 0.0).sum() == (data.swivels.state == state).sum()
