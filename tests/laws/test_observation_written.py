@@ -84,8 +84,11 @@ OF_READINGS = (
     "slip",
     "accelerometer_gain",
 )
-ALONE = [name for name in EXTENSIONS if name not in (*AUXILIARY, "sensor_mass", "drag_width", "encoder_delay")]
-"""Wind on cables is refused; delays need states in motion, see `test_sensor_delay.py`."""
+ALONE = [
+    name for name in EXTENSIONS if name not in (*AUXILIARY, "sensor_mass", "drag_width", "encoder_delay", "swivel_zero")
+]
+"""Wind on cables is refused; delays need states in motion, see `test_sensor_delay.py`; for swivels
+see `test_swivel_angles.py`."""
 
 
 def seen(campaign) -> Local:

@@ -26,7 +26,7 @@ from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.robot.robot_writing import robot_toml
 from cdpr_struct.statics.swivel_angle import swivel_angle, swivel_reference, within_turn
-from tests.laws.written_campaigns import on_pulleys, plan_of, with_states, written
+from tests.laws.written_campaigns import extended, on_pulleys, plan_of, with_states, written
 
 TWO = Path(__file__).parents[1] / "blind" / "robots" / "two-cables.toml"
 ENTRY = '[[measurement]]\nkind = "{}"\nfile = "{}"\n'
@@ -243,3 +243,15 @@ def test_a_swivel_angle_depends_on_the_pose_of_its_own_state_alone(beside_all):
         slope = (local.r.swivels - data.swivels.missed(there))[shelf.swivels[0]] / step * data.sigma[state, 0]
         np.testing.assert_allclose(at[:, place * (6 + 8)], slope, atol=1e-3 * np.abs(slope).max())
         assert (slope != 0.0).sum() == (data.swivels.state == state).sum()
+
+
+def test_a_zero_in_the_robot_file_is_added_to_what_its_encoder_says(beside_all):
+    """Zeros of -170 to 170 degrees as the extension `swivel_zero`, their tolerance stated: nothing is left."""
+    zero = np.radians(np.linspace(-170.0, 170.0, 8))
+    known = replace(beside_all, stated=frozenset({"swivel_deg"}))
+    left = []
+    for own in (zero, np.zeros(8)):
+        data = recorded(replace(known, robot=extended(known.robot, swivel_zero=own)))
+        left.append(np.degrees(np.abs(Local.about(data, Point.entered(data)).r.swivels)).max())
+    assert left[0] < 1e-6
+    assert left[1] == pytest.approx(170.0, abs=1e-6)
