@@ -226,7 +226,12 @@ def reference_size(
 
 
 def typical_size(robot: str, effect: str) -> float | None:
-    """Smallest detectable size of the usual pattern: all alike, or a random direction for vectors."""
+    """Smallest detectable size of the usual pattern: all alike, or a random direction for vectors.
+
+    None of robots that are in sets without frequencies only.
+    """
+    if robot in (*FEW, *UNREAD):
+        return None
     labels, gram, internal = _table(robot)
     own = labels == effect
     own_gram = internal if effect == "internal_force" else gram[np.ix_(own, own)]

@@ -12,7 +12,7 @@ from tests.blind.campaign_files import write_case
 from tests.blind.case_drawing import Case
 from tests.blind.catalogue import LIBRARY
 from tests.blind.controller import hanging
-from tests.blind.detectability import FEW, UNREAD, reference_size
+from tests.blind.detectability import FEW, UNREAD, reference_size, typical_size
 from tests.blind.deviations import Deviations
 from tests.blind.entered_robot import EnteredRobot, entered_robot
 from tests.blind.measuring_plan import PlanSize
@@ -98,7 +98,7 @@ def test_a_robot_hangs_where_its_forces_meet_the_weight():
     assert np.abs(force[:2]).max() < 0.01 * carried
 
 
-@pytest.mark.parametrize("robot", FEW)
+@pytest.mark.parametrize("robot", [*FEW, *UNREAD])
 def test_a_mass_shows_as_far_as_the_cells_allow(robot):
     """Gains of .5 % of single cells and .1 kg: with m cells 4.1 sigmas of a mass are some per cent of it."""
     entered = entered_robot(robot)
@@ -106,4 +106,5 @@ def test_a_mass_shows_as_far_as_the_cells_allow(robot):
     assert size is not None
     assert 4.1 * 0.1 < size < 0.05 * entered.mass
     assert reference_size(robot, "internal_force", np.ones(2), 1, True) is None
+    assert typical_size(robot, "platform_mass") is None  # it stands in no set with frequencies
     assert LIBRARY["platform_mass"].largest > 4.0 * size
