@@ -15,7 +15,7 @@ from scipy.stats import chi2
 from benchmarks.markdown_page import table
 from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.dynamics.natural_frequencies import static_frequencies
-from cdpr_struct.measurement.campaign import Campaign, Tolerances
+from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.observation.rest import at_states, static_residuals
 from cdpr_struct.reports.diagnose.result import result_json
@@ -23,6 +23,7 @@ from cdpr_struct.reports.diagnose.tables import hypotheses
 from cdpr_struct.residuals.commanded_lengths import null_space
 from cdpr_struct.residuals.linearised import Local, Point, tolerance_term
 from cdpr_struct.residuals.recorded import Recorded, recorded
+from cdpr_struct.robot.tolerances import Tolerances
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.thesis import cable_tables, cogiro_vibration
 from cdpr_struct.thesis.reproduction import printed_table

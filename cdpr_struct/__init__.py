@@ -33,6 +33,12 @@ Predictions and checks:
   pose_error                Compute the static pose error over a grid, split into what sag adds and what stretch adds.
   map                       Map a quantity over a grid of poses, or the workspace: where all requirements hold.
   modes                     Compute the eigenfrequencies of a robot at rest, none missing, with their kind.
+  sensitivity               Tell what moves frequencies, pose and tensions of a robot at rest, and what to change for
+                            another frequency.
+  accept                    Say whether a robot within its tolerances meets requirements: pass, fail, or cannot be
+                            said.
+  compare                   Compare readings of one state of rest with predictions: each in its band or not, and all
+                            of them together.
   frf                       Compute frequency responses, with the certified eigenfrequencies beside their peaks.
   transient                 Predict the vibration after an emergency stop, or along a trajectory, by modal
                             superposition.
@@ -92,10 +98,12 @@ if TYPE_CHECKING:
         UnholdablePoseError,
         UnstableEquilibriumError,
     )
+    from cdpr_struct.interface.accept import accept
     from cdpr_struct.interface.ambient import ambient
     from cdpr_struct.interface.audit import audit
     from cdpr_struct.interface.cable import cable
     from cdpr_struct.interface.campaigns import causes, load_campaign
+    from cdpr_struct.interface.compare import compare
     from cdpr_struct.interface.diagnose import diagnose
     from cdpr_struct.interface.distribute import distribute
     from cdpr_struct.interface.export import export
@@ -113,6 +121,7 @@ if TYPE_CHECKING:
     from cdpr_struct.interface.reproduce import reproduce
     from cdpr_struct.interface.result import Result
     from cdpr_struct.interface.robots import robots, write_robot
+    from cdpr_struct.interface.sensitivity import sensitivity
     from cdpr_struct.interface.spectrogram import spectrogram
     from cdpr_struct.interface.transient import transient
     from cdpr_struct.interface.verify import verify
@@ -137,6 +146,9 @@ _HOMES = {
     "interface.pose_error": ("pose_error",),
     "interface.map": ("map",),
     "interface.modes": ("modes",),
+    "interface.sensitivity": ("sensitivity",),
+    "interface.accept": ("accept",),
+    "interface.compare": ("compare",),
     "interface.frf": ("frf",),
     "interface.transient": ("transient",),
     "interface.spectrogram": ("spectrogram",),
@@ -181,10 +193,12 @@ __all__ = [
     "UnholdablePoseError",
     "UnstableEquilibriumError",
     "__version__",
+    "accept",
     "ambient",
     "audit",
     "cable",
     "causes",
+    "compare",
     "diagnose",
     "distribute",
     "export",
@@ -204,6 +218,7 @@ __all__ = [
     "recording_channels",
     "reproduce",
     "robots",
+    "sensitivity",
     "spectrogram",
     "transient",
     "verify",

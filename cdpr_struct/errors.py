@@ -96,6 +96,10 @@ class CrowdedModesError(CdprError):
     """A cable hangs so slack that it has more modes in the band than can be told apart."""
 
 
+class ModesApartError(CdprError):
+    """The frequencies of two models are not the same modes."""
+
+
 class ConvergenceError(CdprError):
     """An iteration stopped before it converged; holds the last residual."""
 

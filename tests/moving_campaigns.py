@@ -13,10 +13,11 @@ from scipy.spatial.transform import Rotation
 
 import cdpr_struct.fem_reference as fem
 from cdpr_struct.crosscheck.fem_robot import to_fem
-from cdpr_struct.measurement.campaign import Campaign, States, Tolerances
+from cdpr_struct.measurement.campaign import Campaign, States
 from cdpr_struct.robot.cable import Cable
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.tolerances import Tolerances
 from cdpr_struct.statics.inverse_kinematics import inverse
 from tests.laws.written_campaigns import NO_CABLES, NO_PEAKS
 

@@ -6,10 +6,12 @@ import typer
 
 import cdpr_struct as cs
 from cdpr_struct.cli.options import (
+    Band,
     Lengths,
     Mass,
     Payload,
     RobotName,
+    Samples,
     Start,
     Temperature,
     Wrench,
@@ -35,6 +37,8 @@ def run(
     equilibria: Annotated[
         bool, typer.Option("--equilibria", help="List and draw all stable poses that are found at these lengths.")
     ] = False,
+    band: Band = None,
+    samples: Samples = None,
     *,
     output: Output,
 ) -> int:
@@ -49,6 +53,8 @@ def run(
         model=model,
         start=start,
         equilibria=equilibria,
+        band=band,
+        samples=samples,
     )
     output.give(found)
     return 0 if found.stable else 1

@@ -6,6 +6,7 @@ import typer
 
 import cdpr_struct as cs
 from cdpr_struct.cli.options import (
+    Band,
     Free,
     LowerBound,
     Mass,
@@ -13,6 +14,7 @@ from cdpr_struct.cli.options import (
     Payload,
     PoseText,
     RobotName,
+    Samples,
     Temperature,
     UpperBound,
     Wrench,
@@ -38,6 +40,8 @@ def run(
     temperature: Temperature = None,
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
+    band: Band = None,
+    samples: Samples = None,
     *,
     output: Output,
 ) -> int:  # fmt: skip
@@ -45,7 +49,7 @@ def run(
     found = cs.inverse(
         robot, pose, free=free, orient=orient, payload=payload, mass=mass, model=model,
         wrench=wrench, temperature=temperature, lower_bound=lower_bound,
-        upper_bound=upper_bound,
+        upper_bound=upper_bound, band=band, samples=samples,
     )  # fmt: skip
     output.give(found)
     return 0 if found.answer["stable"] else 1

@@ -10,9 +10,11 @@ import typer
 from typer.exceptions import Abort
 
 from cdpr_struct.cli import (
+    accept,
     ambient,
     audit,
     cable,
+    compare,
     derive,
     diagnose,
     distribute,
@@ -32,6 +34,7 @@ from cdpr_struct.cli import (
     reproduce,
     rerun,
     robots,
+    sensitivity,
     spectrogram,
     transient,
     verify,
@@ -55,6 +58,8 @@ COMMANDS = (
     pose_error,
     map,
     modes,
+    sensitivity,
+    accept,
     verify,
     reproduce,
     import_caspr,
@@ -65,6 +70,7 @@ COMMANDS = (
     spectrogram,
     audit,
     ambient,
+    compare,
     diagnose,
     plan,
     new_robot,

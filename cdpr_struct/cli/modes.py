@@ -7,6 +7,7 @@ import typer
 import cdpr_struct as cs
 from cdpr_struct.cli.options import (
     AssemblyName,
+    Band,
     Free,
     Lengths,
     LowerBound,
@@ -14,6 +15,7 @@ from cdpr_struct.cli.options import (
     Payload,
     PoseText,
     RobotName,
+    Samples,
     Start,
     Temperature,
     UniversalFile,
@@ -56,6 +58,8 @@ def run(
             "platform end that moves most.",
         ),
     ] = None,
+    band: Band = None,
+    samples: Samples = None,
     uff: UniversalFile = False,
     *,
     output: Output,
@@ -66,6 +70,7 @@ def run(
         payload=payload, mass=mass,
         wrench=wrench, temperature=temperature,
         model=model, assembly=assembly, elements=elements, count=count, force=force, amplitude=amplitude,
+        band=band, samples=samples,
     )  # fmt: skip
     output.give(found, lambda: {"modes.uff": found.universal_file()} if uff else {})
     return 0

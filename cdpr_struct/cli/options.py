@@ -145,3 +145,21 @@ GridText = Annotated[
     typer.Option("--grid", metavar="X0:X1:NX,Y0:Y1:NY,Z[,RX,RY,RZ]", help="Poses [m, deg]; x, y, z: value or range."),
 ]  # fmt: skip
 UniversalFile = Annotated[bool, typer.Option("--uff", help="Write a universal file, too (pyuff and modal software).")]
+Band = Annotated[
+    float | None,
+    typer.Option(
+        "--band",
+        parser=number,
+        metavar="PERCENT",
+        help="Band that holds with this probability, like 90: within the tolerances of the robot file.",
+    ),
+]
+Samples = Annotated[
+    int | None,
+    typer.Option(
+        "--samples",
+        parser=whole_number,
+        metavar="N",
+        help="With --band: so many robots drawn within the tolerances check it.",
+    ),
+]

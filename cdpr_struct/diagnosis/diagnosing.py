@@ -23,12 +23,13 @@ from cdpr_struct.diagnosis.diagnosis import (
     SetAside,
 )
 from cdpr_struct.diagnosis.errors_of_kinds import errors_of_kinds, located
-from cdpr_struct.diagnosis.extended import extended_robot
+from cdpr_struct.diagnosis.extended import extended_arrays, extended_robot
 from cdpr_struct.diagnosis.generic_fit import generic_ratio
 from cdpr_struct.diagnosis.internal_forces import InternalForces, internal_forces
 from cdpr_struct.diagnosis.left_out import LeftOut, left_out, rows_of
 from cdpr_struct.diagnosis.peaks_apart import PeaksApart, peaks_apart
 from cdpr_struct.diagnosis.piled_up import piled_up
+from cdpr_struct.diagnosis.posterior_spread import posterior_spread
 from cdpr_struct.diagnosis.recommended import Recommendation, recommended
 from cdpr_struct.diagnosis.recording import Recording, pieces_of, recording
 from cdpr_struct.diagnosis.remainder import remainder
@@ -173,7 +174,7 @@ class _Said:
         added = least_evidence(data, where, chosen) if decision.classes else None
         confirmed = _confirmed(chosen, left, added) if decision.classes else True
         sizes = tuple(whole_sizes(data, story.search.seen, chosen))
-        robot = _extended(story, decision, sizes)
+        robot = _extended(story, decision, sizes, chosen)
         doubtful = Decision("class", decision.classes, min(decision.probability, loss.least_said))
         by_signals = damped(campaign, robot, loss)
         said = decision if confirmed else doubtful
@@ -266,12 +267,13 @@ def _rows(story: Explained, found: Judged) -> LeftOut:
     return rows_of(story.search.data, story.search.where, found, NoiseState.stated(found.model.groups))
 
 
-def _extended(story: Explained, decision: Decision, sizes: Sequence[WholeSize]) -> Robot | None:
-    """The robot with what the decision names."""
+def _extended(story: Explained, decision: Decision, sizes: Sequence[WholeSize], chosen: Judged) -> Robot | None:
+    """The robot with what the decision names, and how sure its numbers are."""
     if not decision.classes:
         return None
-    own = [] if story.correction is None else [story.correction.cause]
-    return extended_robot(story.search.data, sizes, [*own, *(size.part.cause.name for size in sizes)])
+    own, data = [] if story.correction is None else [story.correction.cause], story.search.data
+    robot = extended_robot(data, sizes, [*own, *(size.part.cause.name for size in sizes)])
+    return replace(robot, posterior=posterior_spread(data, chosen, extended_arrays(data, sizes)))
 
 
 def _p_adequate(noise: Sequence[NoiseOfKind]) -> float:

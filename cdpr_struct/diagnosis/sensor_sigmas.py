@@ -11,6 +11,7 @@ from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.scale_mixture import TAU_DEGREES
 from cdpr_struct.measurement.cable_columns import SWIVEL
 from cdpr_struct.measurement.campaign import AMBIENT, SIGNALS, Campaign, Sheet
+from cdpr_struct.robot.tolerances import tolerance_unit
 
 SENSORS = ("position", "rotation", "tension", "length", "cable_frequency", "frf", "swivel")
 """Names of the kinds of sensors, in the order of their numbers."""
@@ -123,11 +124,6 @@ def _main(sheet: Sheet) -> str:
     if sheet.kind == "static_state":
         return "tension_N" if "tension_N" in sheet.columns else "length_m"
     return "position_m" if sheet.kind == "loaded_pose" else "frequency_hz"
-
-
-def tolerance_unit(name: str) -> str:
-    """Unit of a tolerance, which ends its name; "" of those that are shares of the value entered."""
-    return next((ending for ending in ("m", "kg", "N") if name.endswith(f"_{ending}")), "")
 
 
 def doubts(campaign: Campaign, noise: list[NoiseOfKind]) -> list[Doubt]:

@@ -50,7 +50,7 @@ class WholeSize:
 def whole_sizes(data: Recorded, seen: Seen, found: Judged) -> list[WholeSize]:
     """Of each cause of a hypothesis; laws outside the model have no parameters, and those and lines are left out."""
     arrays = found.point.robot(data)
-    mean, covariance = _over_scales(found)
+    mean, covariance = over_scales(found)
     tolerance, start = found.point.terms[0], len(mean) - sum(len(p.pattern.prior) for p in found.hypothesis.parts)
     rows = []
     for part in found.hypothesis.parts:
@@ -65,7 +65,7 @@ def whole_sizes(data: Recorded, seen: Seen, found: Judged) -> list[WholeSize]:
     return rows
 
 
-def _over_scales(found: Judged) -> tuple[np.ndarray, np.ndarray]:
+def over_scales(found: Judged) -> tuple[np.ndarray, np.ndarray]:
     """Mean (t,) and covariance (t, t) of all numbers, the scale of each single one averaged over.
 
     A fit is that of the likeliest scale, which draws a large number towards nothing. Vectors keep theirs, since it says

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_lengths, read_pose, read_robot
+from cdpr_struct.interface.bands import Banded, read_band
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.inverse import MODELS
 from cdpr_struct.interface.lumps import require_lumps_on_cables, require_sagging
@@ -62,7 +63,7 @@ class ForwardResult(Result):
 
     def columns(self) -> Mapping[str, Any]:
         """Columns of cables.csv."""
-        return statics_rest.cable_columns(self.rest.solution.cables)
+        return statics_rest.cable_columns(self.rest.solution.cables, self.answer)
 
     def figure(self) -> "tuple[Draw, tuple[float, float]]":
         """The robot at rest, cables coloured by tension."""
@@ -87,6 +88,8 @@ def forward(
     model: str = "sagging",
     start: PoseLike | None = None,
     equilibria: bool = False,
+    band: float | None = None,
+    samples: int | None = None,
 ) -> ForwardResult:
     """Find the pose that the platform takes at locked cable lengths, and other stable ones.
 
@@ -100,6 +103,8 @@ def forward(
     model : sagging, spring or ideal cables
     start : Pose, or x, y, z[, rx, ry, rz] [m, deg], where to look; default: the way continues from the home pose
     equilibria : print and draw the other stable poses, too
+    band : level of bands about pose and tensions [%], like 90: within the robot's tolerances
+    samples : with band, so many robots drawn within the tolerances check it
 
     Raises
     ------
@@ -111,6 +116,7 @@ def forward(
         one_of(model, "model", MODELS),
     )
     require_sagging(machine, chosen)
+    asked = read_band(band, samples)
     length = read_lengths(lengths, machine)
     begin = None if start is None else read_pose(start, machine, "start")
     found = locked_rest(machine, length, begin, chosen)
@@ -118,7 +124,12 @@ def forward(
     length = _paid_out(machine, length, found)
     rest = found.solution
     point = OperatingPoint(machine, rest.position, rest.rotation, rest.cables)
-    told = statics_rest.forward_json(machine, chosen, length, rest) | AtRest(point, found).told(moves=False)
+    bands, checks = ({}, []) if asked is None else Banded.at(point, asked, bool(rest.stable), chosen).rest()
+    told = {
+        **statics_rest.forward_json(machine, chosen, length, rest),
+        **({"bands": bands} if bands else {}),
+        **AtRest(point, found).told(*checks, moves=False),
+    }
     return ForwardResult(with_extensions(told, machine, "forward", chosen), machine, found, equilibria)
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_pose, read_robot
+from cdpr_struct.interface.bands import Banded, read_band
 from cdpr_struct.interface.free_angles import FreeAngles, chosen_pose
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.lumps import require_lumps_on_cables, require_sagging
@@ -56,7 +57,7 @@ class InverseResult(Result):
 
     def columns(self) -> Mapping[str, Any]:
         """Columns of cables.csv."""
-        return statics_rest.cable_columns(self.solution.cables)
+        return statics_rest.cable_columns(self.solution.cables, self.answer)
 
     def figure(self) -> "tuple[Draw, tuple[float, float]]":
         """The robot at rest, cables coloured by tension."""
@@ -83,6 +84,8 @@ def inverse(
     upper_bound: float | None = None,
     free: FreeAngles | None = None,
     orient: str | None = None,
+    band: float | None = None,
+    samples: int | None = None,
 ) -> InverseResult:
     """Find the cable lengths and tensions that hold a pose, of least norm where there is a choice.
 
@@ -98,6 +101,9 @@ def inverse(
     free : angles of the pose that hang freely, some of rx, ry, rz; they are found from those given
     orient : hanging, or even: the angles `free` (default: all) are those of the most even tensions instead
 
+    band : level of bands about pose and tensions at these lengths [%], like 90: within the robot's tolerances
+    samples : with band, so many robots drawn within the tolerances check it
+
     The result's `stable` says whether the platform is held there at locked lengths, or only balanced.
 
     Raises
@@ -105,7 +111,7 @@ def inverse(
     InputError : an unusable argument.
     UnholdablePoseError : the cables cannot hold the pose.
     """
-    chosen = one_of(model, "model", MODELS)
+    chosen, asked = one_of(model, "model", MODELS), read_band(band, samples)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True, winches=True)
     require_sagging(machine, chosen)
     where = read_pose(pose, machine)
@@ -114,9 +120,12 @@ def inverse(
     solution = held(machine, where, chosen) if hanging is None else hanging.solution
     require_lumps_on_cables(machine, solution.cables)
     point = OperatingPoint(machine, where.position, where.rotation, solution.cables)
+    stable = bool(held_stability(point.arrays, point.position, point.rotation, point.cables).stable)
+    bands, checks = ({}, []) if asked is None else Banded.at(point, asked, stable, chosen).rest()
     told = {
         **statics_rest.inverse_json(machine, chosen, where, solution),
-        "stable": bool(held_stability(point.arrays, point.position, point.rotation, point.cables).stable),
-        **AtRest(point, hanging=hanging).told(moves=False),
+        "stable": stable,
+        **({"bands": bands} if bands else {}),
+        **AtRest(point, hanging=hanging).told(*checks, moves=False),
     }
     return InverseResult(with_extensions(told, machine, "inverse", chosen), machine, where, solution)

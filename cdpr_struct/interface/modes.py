@@ -16,6 +16,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_numbers, read_robot, whole
+from cdpr_struct.interface.bands import Banded, read_band
 from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.operating_point import pose_in_degrees, rest
@@ -111,6 +112,8 @@ def modes(
     force: bool = False,
     free: FreeAngles | None = None,
     amplitude: Numbers | None = None,
+    band: float | None = None,
+    samples: int | None = None,
 ) -> ModesResult:
     """Compute the eigenfrequencies of a robot at rest, none missing, with their kind.
 
@@ -128,6 +131,8 @@ def modes(
     elements : a cable, for fem;  count : how many eigenfrequencies;  force : dsm outside its validity limits, too
     amplitude : up to 20, of the cables' platform end that moves most [m]; adds `large_motion`: frequencies of the
         platform's modes when each swings alone with these amplitudes
+    band : level of a band about each frequency [%], like 90: within the robot's tolerances, winches locked
+    samples : with band, so many robots drawn within the tolerances check it
 
     Raises
     ------
@@ -136,6 +141,7 @@ def modes(
     """
     whole(count, "count", 1, 500)
     whole(elements, "elements", 2, 2000)
+    asked = read_band(band, samples)
     way, name = one_of(assembly, "assembly", ASSEMBLIES), one_of(model, "model", MODELS)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True, winches=True)
     state = rest(machine, pose, lengths, start, free)
@@ -146,6 +152,9 @@ def modes(
         found = robot_modes(point, name, min(count, most), way, elements)
     motion, shares = mode_motion(point, found), direction_shares(point, found.platform)
     curves = None if amplitude is None else _curves(point, found, amplitude)
+    bands, checks = (
+        ({}, []) if asked is None else Banded.at(point, asked, True, assembly=way).frequencies(found.hertz, name)
+    )
     told = {
         "robot": machine.name,
         "pose": pose_in_degrees(point),
@@ -162,8 +171,12 @@ def modes(
         "tensions_N": point.cables.tension_at_platform,
         "lengths_m": RobotArrays.of(machine).reading(point.cables.paid_out),
         **({} if curves is None else {"large_motion": backbone_told(curves)}),
+        **({"bands": bands} if bands else {}),
         **state.told(
-            *dropped_by(name, machine), *mode_checks(found.hertz, found.count_certified), *backbone_checks(curves)
+            *dropped_by(name, machine),
+            *mode_checks(found.hertz, found.count_certified),
+            *backbone_checks(curves),
+            *checks,
         ),
     }
     return ModesResult(with_extensions(told, machine, "modes", name), point, found, motion)

@@ -9,6 +9,7 @@ import numpy as np
 from cdpr_struct.measurement.frames import Frames
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.tolerances import Tolerances
 
 if TYPE_CHECKING:
     from cdpr_struct.measurement.ambient_records import AmbientRecord
@@ -23,37 +24,7 @@ NOT_SAID, PLATFORM = -1, -2
 KINDS = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency", *SIGNALS)
 UNKNOWN_ZERO = 1.0
 """m, one sigma of a length's zero of which nothing is known."""
-UNKNOWN_SWIVEL = 100.0
-"""deg, one sigma of a swivel encoder's zero of which nothing is known: as wide as a full turn spreads."""
 MODELS = ("static", "dsm", "exact", "spring")
-
-
-@dataclass(frozen=True, slots=True)
-class Tolerances:
-    """One sigma of what is never exactly known about a robot; the defaults are those of a carefully built one.
-
-    anchor_m             : each coordinate of each anchor, both ends [m]
-    length_m             : zero of each cable's length [m]
-    axial_stiffness, linear_density : relative, per cable, half of the variance common to all (one reel)
-    platform_mass_kg, center_of_mass_m, platform_inertia (relative)
-    load_cell_gain       : relative;  load_cell_bias_N [N]
-    damping              : relative
-    pulley_radius_m      : each pulley [m]
-    swivel_deg           : zero of each encoder on a swivel axis [deg]; unknown unless given
-    """
-
-    anchor_m: float = 0.001
-    length_m: float = 0.0005
-    axial_stiffness: float = 0.03
-    linear_density: float = 0.01
-    platform_mass_kg: float = 0.1
-    center_of_mass_m: float = 0.002
-    platform_inertia: float = 0.03
-    load_cell_gain: float = 0.005
-    load_cell_bias_N: float = 0.5
-    damping: float = 0.3
-    pulley_radius_m: float = 0.0002
-    swivel_deg: float = UNKNOWN_SWIVEL
 
 
 @dataclass(frozen=True, slots=True)

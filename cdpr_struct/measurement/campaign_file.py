@@ -11,7 +11,7 @@ from cdpr_struct.errors import InputError, not_utf8
 from cdpr_struct.measurement.ambient_cases import ambient_notes, join_ambient
 from cdpr_struct.measurement.ambient_choice import given_choice
 from cdpr_struct.measurement.assumed_angles import angle_note
-from cdpr_struct.measurement.campaign import AMBIENT, UNKNOWN_ZERO, Campaign, Sheet, Sigmas, States, Tolerances
+from cdpr_struct.measurement.campaign import AMBIENT, UNKNOWN_ZERO, Campaign, Sheet, Sigmas, States
 from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.campaign_sources import is_there
@@ -33,6 +33,8 @@ from cdpr_struct.robot.robot_file import (
     builtin_names,
     load_robot,
 )
+from cdpr_struct.robot.tolerance_table import TolerancesTable
+from cdpr_struct.robot.tolerances import Tolerances
 from cdpr_struct.robot.toml_text import toml_table
 
 Kind = Literal[
@@ -80,21 +82,6 @@ class NominalTable(_Table):
     linear_density: Positive | None = None
     gravity: Positive | None = None
     assembly: Literal["consistent", "thesis"] = "consistent"
-
-
-class TolerancesTable(_Table):
-    anchor_m: NotNegative | None = None
-    length_m: NotNegative | None = None
-    axial_stiffness: NotNegative | None = None
-    linear_density: NotNegative | None = None
-    platform_mass_kg: NotNegative | None = None
-    center_of_mass_m: NotNegative | None = None
-    platform_inertia: NotNegative | None = None
-    load_cell_gain: NotNegative | None = None
-    load_cell_bias_N: NotNegative | None = None
-    damping: NotNegative | None = None
-    pulley_radius_m: NotNegative | None = None
-    swivel_deg: NotNegative | None = None
 
 
 class LossTable(_Table):
@@ -150,14 +137,14 @@ def load_campaign(
     check_placed(str(path), gathering.states(), np.concatenate(listed))
     ambient = join_ambient(gathering, choices)
     identified = join_signals(gathering, commanding, table.model)
-    given = {k: v for k, v in table.tolerances.model_dump().items() if v is not None}
+    given = table.tolerances.stated()
     return Campaign(
         source=str(path),
         robot=robot,
         robot_name=table.robot,
         model=table.model,
-        tolerances=_tolerances(given, relative, source),
-        stated=frozenset(given),
+        tolerances=_tolerances(robot, given, relative, source),
+        stated=frozenset({**robot.tolerances, **given}),
         states=gathering.states(),
         cable_frequencies=gathering.cable_frequencies(),
         robot_frequencies=gathering.robot_frequencies(),
@@ -185,12 +172,13 @@ def _absolute(states: States, relative: bool) -> States:
     return replace(states, length=np.full_like(states.length, np.nan)) if relative else states
 
 
-def _tolerances(given: dict[str, float], relative: bool, source: Path) -> Tolerances:
-    """Those stated, and the defaults of the others; where encoders begin anywhere, their zeros are not known at all."""
+def _tolerances(robot: Robot, given: dict[str, float], relative: bool, source: Path) -> Tolerances:
+    """Those stated here, those of the robot file, and the defaults of the others; where encoders begin anywhere, their
+    zeros are not known at all."""
     if relative and "length_m" in given:
         expected = 'no tolerance of the zeros beside encoders = "relative": these are unknown'
         raise InputError(str(source), "tolerances.length_m", given["length_m"], expected)
-    return Tolerances(**(given | ({"length_m": UNKNOWN_ZERO} if relative else {})))
+    return Tolerances(**{**robot.tolerances, **given, **({"length_m": UNKNOWN_ZERO} if relative else {})})
 
 
 def _table(source: Path) -> CampaignTable:

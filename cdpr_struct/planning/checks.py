@@ -9,11 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cdpr_struct.measurement.campaign import Tolerances
 from cdpr_struct.planning.information import Numbers
 from cdpr_struct.residuals.linearised import Term
-from cdpr_struct.residuals.tolerances import tolerated
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.robot.tolerances import Tolerances, tolerated
 from cdpr_struct.statics.masts import of_each_mast
 
 _STEP = 0.05  # of a prior sigma, of differences

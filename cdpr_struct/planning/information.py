@@ -11,7 +11,7 @@ import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import Cause, Pattern, Seen
 from cdpr_struct.residuals.linearised import Term
-from cdpr_struct.residuals.tolerances import tolerance_count
+from cdpr_struct.robot.tolerances import tolerance_count
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -8,6 +8,7 @@ import numpy as np
 from cdpr_struct.crosscheck.mode_motion import ModeMotion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.reports.backbone_text import backbone_columns
+from cdpr_struct.reports.bands_told import band_note, band_words
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import backbone, mode_ladder, mode_shapes, robot_drawing
 from cdpr_struct.reports.figures.drawing import Drawing
@@ -122,13 +123,13 @@ def _mode_table(result: Mapping[str, Any]) -> HtmlTable:
         for i, (hertz, share, kind, words) in enumerate(zip(*columns, strict=True), start=1)
     ]
     names = ["mode", "frequency [Hz]", "platform's share of the kinetic energy [%]", "kind", "platform motion"]
-    return HtmlTable(
-        "Modes",
-        names,
-        rows,
-        "All digits: modes.csv; motion of the platform: platform_motion.csv.",
-        prose=frozenset({3, 4}),
-    )
+    note = "All digits: modes.csv; motion of the platform: platform_motion.csv."
+    if bands := result.get("bands"):
+        names.insert(2, f"{bands['level']:g} % band [Hz]")
+        inside = band_words(bands, "frequencies_hz", 4)
+        rows = [[*row[:2], words, *row[2:]] for row, words in zip(rows, inside, strict=True)]
+        note = f"{note} {band_note(bands)}"
+    return HtmlTable("Modes", names, rows, note, prose=frozenset({len(names) - 2, len(names) - 1}))
 
 
 def _cable_table(point: OperatingPoint, result: Mapping[str, Any]) -> HtmlTable:

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.reports.backbone_text import backbone_text
+from cdpr_struct.reports.bands_told import band_columns, band_note, band_words
 from cdpr_struct.reports.text import paragraphs, plain_table
 
 _AXES = ("x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad")
@@ -27,9 +28,17 @@ def modes_text(result: Mapping[str, Any]) -> str:
         if result["count_certified"]
         else "The count could not be certified."
     )
-    table = plain_table(title, ["mode", "[Hz]", "platform energy [%]", "kind", "platform motion"], rows)
+    names = ["mode", "[Hz]", "platform energy [%]", "kind", "platform motion"]
+    noted = []
+    if bands := result.get("bands"):
+        names.insert(2, f"{bands['level']:g} % band [Hz]")
+        rows = [
+            [*row[:2], words, *row[2:]] for row, words in zip(rows, band_words(bands, "frequencies_hz", 4), strict=True)
+        ]
+        noted = [band_note(bands)]
+    table = plain_table(title, names, rows)
     large = [backbone_text(result["large_motion"])] if "large_motion" in result else []
-    return paragraphs(table, *large, certified)
+    return paragraphs(table, *large, *noted, certified)
 
 
 def modes_sentence(result: Mapping[str, Any]) -> str:
@@ -50,6 +59,7 @@ def modes_columns(result: Mapping[str, Any]) -> dict[str, Any]:
         "frequency_hz": result["frequencies_hz"],
         "platform_energy": result["platform_energy"],
         "kind": result["kinds"],
+        **(band_columns(result["bands"], "frequencies_hz", "frequency", "hz") if "bands" in result else {}),
     }
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.reports.bands_told import band_columns, band_note, band_words
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 from cdpr_struct.reports.text import paragraphs, place, plain_table, rounded
@@ -63,12 +64,13 @@ def forward_json(robot: Robot, model: str, lengths: Sequence[float], solution: F
 
 def inverse_text(result: Mapping[str, Any]) -> str:
     """Lengths and tensions for a terminal."""
-    return paragraphs(_cable_text(result), *_winches_text(result), residual_sentence(result))
+    return paragraphs(_cable_text(result), *_winches_text(result), *_bands_text(result), residual_sentence(result))
 
 
 def forward_text(result: Mapping[str, Any]) -> str:
     """Pose, stability and tensions for a terminal."""
-    return paragraphs(pose_sentence(result), _cable_text(result), *_winches_text(result), residual_sentence(result))
+    cables = _cable_text(result), *_winches_text(result), *_bands_text(result)
+    return paragraphs(pose_sentence(result), *cables, residual_sentence(result))
 
 
 def pose_sentence(result: Mapping[str, Any]) -> str:
@@ -161,11 +163,11 @@ def _files(
         holds=holds,
         facts=_facts(result, point.cables),
         plates=[plate, *more],
-        tables=[HtmlTable("Cables", _COLUMNS, _rows(point.cables)), *_winches_table(result)],
+        tables=[HtmlTable("Cables", _COLUMNS, _rows(point.cables)), *_winches_table(result), *_bands_table(result)],
         notes=[("How it was computed", how)],
     )
     return {
-        "cables.csv": csv_text(cable_columns(point.cables)),
+        "cables.csv": csv_text(cable_columns(point.cables, result)),
         **page_files(page),
     }
 
@@ -197,8 +199,8 @@ def _rows(cables: CableStates) -> list[list[str]]:
     ]
 
 
-def cable_columns(cables: CableStates) -> dict[str, Any]:
-    """Columns of cables.csv, one row a cable."""
+def cable_columns(cables: CableStates, result: Mapping[str, Any]) -> dict[str, Any]:
+    """Columns of cables.csv, one row a cable, with the band of the tension if there is one."""
     return {
         "cable": range(1, len(cables.length) + 1),
         "length_m": cables.total_length,
@@ -209,6 +211,7 @@ def cable_columns(cables: CableStates) -> dict[str, Any]:
         "sag_m": cables.sag,
         "elongation_m": cables.elongation,
         "slack": cables.slack.astype(int),
+        **(band_columns(result["bands"], "tensions_N", "tension", "N") if "bands" in result else {}),
     }
 
 
@@ -217,7 +220,43 @@ def _cable_text(result: Mapping[str, Any]) -> str:
         [f"cable {i}", f"{length:.5f}", f"{tension:.3f}"]
         for i, (length, tension) in enumerate(zip(result["lengths_m"], result["tensions_N"], strict=True), start=1)
     ]
-    return plain_table(f"{result['robot']}, {result['model']} cables", ["", "length [m]", "tension [N]"], rows)
+    names = ["", "length [m]", "tension [N]"]
+    if bands := result.get("bands"):
+        names.append(f"{bands['level']:g} % band [N]")
+        rows = [[*row, words] for row, words in zip(rows, band_words(bands, "tensions_N", 2), strict=True)]
+    return plain_table(f"{result['robot']}, {result['model']} cables", names, rows)
+
+
+def _bands_rows(result: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
+    """Column names and rows of the band of the pose."""
+    bands = result["bands"]
+    words = band_words(bands, "pose", 5)
+    names = ["", "value", f"{bands['level']:g} % band", "sigma"]
+    sigmas = [f"{1e3 * s:.3g} mm" for s in bands["pose_sigma"][:3]] + [f"{s:.3g}°" for s in bands["pose_sigma"][3:]]
+    labels = ["x [m]", "y [m]", "z [m]", "rx [°]", "ry [°]", "rz [°]"]
+    rows = [[n, f"{v:.5f}", w, s] for n, v, w, s in zip(labels, result["pose"], words, sigmas, strict=True)]
+    return names, rows
+
+
+def _bands_text(result: Mapping[str, Any]) -> list[str]:
+    if "bands" not in result:
+        return []
+    return [plain_table("Pose at these lengths", *_bands_rows(result)), band_note(result["bands"])]
+
+
+def _bands_table(result: Mapping[str, Any]) -> list[HtmlTable]:
+    if "bands" not in result:
+        return []
+    bands = result["bands"]
+    inside = band_words(bands, "tensions_N", 2)
+    pulls = [
+        [f"tension {i} [N]", f"{t:.2f}", words, f"{s:.3g} N"]
+        for i, (t, words, s) in enumerate(
+            zip(result["tensions_N"], inside, bands["tension_sigma_N"], strict=True), start=1
+        )
+    ]
+    names, rows = _bands_rows(result)
+    return [HtmlTable("Bands of pose and tensions", names, rows + pulls, band_note(bands))]
 
 
 def _winches_rows(result: Mapping[str, Any]) -> list[list[str]]:

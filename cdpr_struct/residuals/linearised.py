@@ -16,9 +16,9 @@ import numpy as np
 from cdpr_struct.observation.nearby_rest import NearbyRest
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.residuals.recorded import Recorded
-from cdpr_struct.residuals.tolerances import tolerance_count, tolerated
 from cdpr_struct.residuals.vibrations import Vibrating
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.robot.tolerances import tolerance_count, tolerated
 from cdpr_struct.statics.swivel_angle import within_turn
 
 

@@ -1,8 +1,8 @@
 """The robot: a platform on m cables in a frame."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,6 +14,9 @@ from cdpr_struct.robot.lump import Lump, lumps_fault
 from cdpr_struct.robot.platform import Platform, least_moved_mass
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.winches import Winches, winches_fault
+
+if TYPE_CHECKING:
+    from cdpr_struct.robot.tolerances import Spread
 
 _ROUNDING = 1e-15  # a vector whose length is one but for this is left as it is: files are read as written
 FREEDOMS = ("x", "y", "z", "rx", "ry", "rz")
@@ -36,6 +39,8 @@ class Robot:
     extensions       : compliance in line, masts, loads, encoders and sensors; neutral if not given
     bodies           : what cables must keep away from; statics and dynamics know nothing of them
     lumps            : point masses on cables
+    tolerances       : those that the file states, by name; see `Tolerances`
+    posterior        : what a diagnosis left uncertain, in place of the tolerances, or None
     """
 
     name: str
@@ -52,6 +57,8 @@ class Robot:
     down: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
     bodies: tuple[Body, ...] = ()
     lumps: tuple[Lump, ...] = ()
+    tolerances: Mapping[str, float] = field(default_factory=dict)
+    posterior: "Spread | None" = None
 
     def __post_init__(self) -> None:
         self._settle_gravity()

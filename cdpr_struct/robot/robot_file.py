@@ -18,6 +18,7 @@ from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import FREEDOMS, Robot, cable_drag_fault, internal_mass_fault, swinging_mass_fault
+from cdpr_struct.robot.tolerance_table import PosteriorTable, TolerancesTable
 from cdpr_struct.robot.toml_text import toml_table
 from cdpr_struct.robot.winches import winches_fault
 
@@ -79,6 +80,8 @@ class RobotTable(_Table):
     extensions: dict[str, Any] = {}
     bodies: list[BodyTable] = []
     lumps: list[LumpTable] = []
+    tolerances: TolerancesTable = TolerancesTable()
+    posterior: PosteriorTable | None = None
 
 
 def builtin_names() -> list[str]:
@@ -153,6 +156,8 @@ def _build(table: RobotTable, source: str) -> Robot:
             pulleys=pulleys,
             extensions=more,
             lumps=lumps,
+            tolerances=table.tolerances.stated(),
+            posterior=None if table.posterior is None else table.posterior.spread(len(cables), source),
             bodies=tuple(body_of(entry, source, i) for i, entry in enumerate(table.bodies, start=1)),
         )
     except InputError:

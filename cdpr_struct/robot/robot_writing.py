@@ -9,6 +9,7 @@ from cdpr_struct.robot.body_table import body_lines
 from cdpr_struct.robot.cable import STEEL, Cable
 from cdpr_struct.robot.lump import lump_lines
 from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.tolerances import VARIED, Spread
 
 
 def robot_toml(robot: Robot, name: str, comments: Sequence[str] = ()) -> str:
@@ -36,7 +37,28 @@ def robot_toml(robot: Robot, name: str, comments: Sequence[str] = ()) -> str:
         lines += ["", *lump_lines(lump)]
     for obstacle in robot.bodies:
         lines += ["", *body_lines(obstacle, _quotable)]
+    if robot.tolerances:
+        lines += ["", "[tolerances]", *(f"{name} = {float(size)!r}" for name, size in robot.tolerances.items())]
+    if robot.posterior is not None:
+        lines += ["", *_posterior(robot.posterior)]
     return "\n".join(lines) + "\n"
+
+
+def _posterior(spread: Spread) -> list[str]:
+    """Lines of the table of what a diagnosis left uncertain."""
+    order = ", ".join(one.field for one in VARIED)
+    return [
+        "[posterior]  # normal changes of the numbers above that readings leave probable, in place of [tolerances];",
+        f"# of {order}; covariance = root root'",
+        f"mean = [{_numbers(spread.mean)}]",
+        "root = [",
+        *(f"  [{_numbers(row)}]," for row in spread.root),
+        "]",
+    ]
+
+
+def _numbers(values: np.ndarray) -> str:
+    return ", ".join(f"{value:.6e}" if value else "0.0" for value in values.tolist())
 
 
 def printable(line: str) -> str:

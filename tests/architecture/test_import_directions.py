@@ -19,6 +19,7 @@ MAY_IMPORT = {
     "crosscheck": {"robot", "statics", "dynamics", "workspace"},
     "measurement": {"robot", "statics", "dynamics"},
     "observation": {"robot", "statics", "dynamics", "measurement"},
+    "bands": {"robot", "statics", "dynamics", "observation"},
     "recordings": {"robot", "measurement"},
     "inference": set(),
     "association": {"observation", "inference"},
@@ -29,6 +30,7 @@ MAY_IMPORT = {
     "workspace": {"robot", "statics", "dynamics"},
     "thesis": {"robot", "statics", "dynamics", "crosscheck", "workspace"},
     "reports": {
+        "bands",
         "robot",
         "statics",
         "dynamics",
@@ -41,6 +43,7 @@ MAY_IMPORT = {
         "thesis",
     },
     "interface": {
+        "bands",
         "robot",
         "statics",
         "dynamics",
@@ -78,7 +81,7 @@ MAY_IMPORT = {
         "interface",
     },
 }
-NUMERICS = ("generated", "statics", "dynamics", "crosscheck", "workspace", "residuals", "hypotheses")
+NUMERICS = ("generated", "statics", "dynamics", "bands", "crosscheck", "workspace", "residuals", "hypotheses")
 WINDOW = "viser"
 SCREEN_AND_FILES = {"matplotlib", "plotly", "rich", "typer", "jinja2", "pathlib", "json", "csv"}
 BESIDE = {"fem_reference", "derivations"}  # folders of their own; their directions are tested further down

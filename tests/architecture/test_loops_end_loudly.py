@@ -19,6 +19,7 @@ HALVED = "a step is halved; the search around it ends with an error or a mark wh
 LEFT = "its caller is told what is left: "
 DEFENDED = {
     "cdpr_struct/association/belief_propagation.py:_propagated": "an approximation; a test bounds its error",
+    "cdpr_struct/bands/designs.py:together": LEFT + "changes are raised in proportion, or `factors` is None",
     "cdpr_struct/dynamics/batched_modes.py:first_mode": LEFT + "nan goes to the general solver",
     "cdpr_struct/dynamics/bracketed_search.py:bracketed_crossings": "a budget of rounds; brackets stay brackets",
     "cdpr_struct/dynamics/bracketed_search.py:bracketed_minima": "a budget of rounds; brackets stay brackets",

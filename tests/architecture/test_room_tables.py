@@ -7,8 +7,8 @@ import pytest
 
 PACKAGE = Path(__file__).parents[2] / "cdpr_struct"
 ROOMS = (
-    "statics", "dynamics", "crosscheck", "workspace", "observation", "inference", "association", "residuals",
-    "hypotheses", "hypotheses/causes", "diagnosis", "planning", "interface", "live", "recordings",
+    "statics", "dynamics", "crosscheck", "workspace", "observation", "bands", "inference", "association",
+    "residuals", "hypotheses", "hypotheses/causes", "diagnosis", "planning", "interface", "live", "recordings",
 )  # fmt: skip
 LONGEST_CHAIN = 11  # files of one room that import each other in a row; only ever to become fewer
 SHORT = {"observation", "inference", "association", "residuals", "hypotheses", "diagnosis", "planning"}

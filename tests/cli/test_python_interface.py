@@ -44,6 +44,7 @@ CASES = [
     for name, number, _ in EXAMPLES
     if name not in {*NOT_IN_PYTHON, *OTHERS}
 ]
+RESERVED = {"raise": "raise_mode"}  # words that Python keeps for itself
 
 
 def value_of(text: str) -> object:
@@ -66,7 +67,8 @@ def called(line: str) -> cs.Result:
             positional.append(word)
         else:
             takes_value = words and not words[0].startswith("--")
-            given[word.removeprefix("--").replace("-", "_")] = value_of(words.pop(0)) if takes_value else True
+            option = word.removeprefix("--").replace("-", "_")
+            given[RESERVED.get(option, option)] = value_of(words.pop(0)) if takes_value else True
     function = getattr(cs, name.replace("-", "_"))
     if given.pop("limits", False):
         function = cs.limits

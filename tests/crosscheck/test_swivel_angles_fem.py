@@ -12,12 +12,13 @@ from cdpr_struct.crosscheck.fem_robot import to_fem
 from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
 from cdpr_struct.fem_reference import solve_robot
-from cdpr_struct.measurement.campaign import Campaign, States, Tolerances
+from cdpr_struct.measurement.campaign import Campaign, States
 from cdpr_struct.observation.rest import rest
 from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.tolerances import Tolerances
 from cdpr_struct.statics.swivel_angle import swivel_angle, within_turn
 from tests.laws.written_campaigns import NO_CABLES, NO_PEAKS, with_states
 

@@ -14,6 +14,7 @@ import cdpr_struct as cs
 
 ROOT = Path(__file__).parents[2]
 NAME = "thesis-3-1"
+BANDS = ROOT / "examples/bands"
 ANSWERS = {
     "robots": cs.robots,
     "cable": lambda: cs.cable(force=(100, -100), length=20, EA=2.5e5, rho=0.067),
@@ -24,6 +25,10 @@ ANSWERS = {
     "map of three axes": lambda: cs.map(NAME, "-1:1:3,-1:1:3,0.3:0.6:2", "sag-max"),
     "map of one axis": lambda: cs.map(NAME, "-1:1:3,0,0.5", "stiffness-min"),
     "modes": lambda: cs.modes(NAME, count=12),
+    "modes with bands": lambda: cs.modes(NAME, count=6, band=90),
+    "sensitivity": lambda: cs.sensitivity(NAME, count=3),
+    "compare": lambda: cs.compare(BANDS / "robot.toml", BANDS / "measured.csv"),
+    "accept": lambda: cs.accept(BANDS / "robot.toml", BANDS / "requirements.toml"),
     "frf": lambda: cs.frf(NAME, excite="fz", respond="x,z", band=(1, 4, 0.1)),
     "transient": lambda: cs.transient(NAME, initial_velocity=(0.3, 0, 0), duration=1, highest=8),
     "spectrogram": lambda: cs.spectrogram(ROOT / "examples/stop/acceleration.csv", NAME, highest=10),

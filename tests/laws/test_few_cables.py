@@ -12,7 +12,7 @@ from cdpr_struct.hypotheses.handled import promising, readings_felt
 from cdpr_struct.hypotheses.handling import corrections
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import judged
-from cdpr_struct.measurement.campaign import UNKNOWN_ZERO, Campaign, States, Tolerances
+from cdpr_struct.measurement.campaign import UNKNOWN_ZERO, Campaign, States
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.measurement.campaign_template import planned
 from cdpr_struct.observation.rest import rest
@@ -24,6 +24,7 @@ from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.tolerances import Tolerances
 from cdpr_struct.statics.forward_kinematics import forward
 from tests.laws.written_campaigns import NO_CABLES, NO_PEAKS, with_states
 

@@ -10,9 +10,9 @@ from cdpr_struct.observation.readings import Readings
 from cdpr_struct.observation.rest import static_residuals
 from cdpr_struct.residuals.linearised import Term, less
 from cdpr_struct.residuals.recorded import Recorded, recorded
-from cdpr_struct.residuals.tolerances import tolerance_count, tolerated
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.tolerances import tolerance_count, tolerated
 from tests.laws.written_campaigns import extended, mast_values, on_pulleys, plan_of, written
 
 SHARE = 2e-5  # of the largest slope: one-sided differences over a hundred-thousandth of a value err by as much

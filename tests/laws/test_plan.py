@@ -13,7 +13,7 @@ from cdpr_struct.hypotheses.detectable import FALSE_ALARMS, POWER, noncentrality
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.inference.screening import Screen
-from cdpr_struct.measurement.campaign import CableFrequencies, Campaign, RobotFrequencies, States, Tolerances
+from cdpr_struct.measurement.campaign import CableFrequencies, Campaign, RobotFrequencies, States
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.planning.campaign_plan import confusions, planned
 from cdpr_struct.planning.candidates import at_the_center_of, at_the_robot, checks
@@ -28,6 +28,7 @@ from cdpr_struct.residuals.assembled import linear_model, stacked
 from cdpr_struct.residuals.layout import layout
 from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.tolerances import Tolerances
 from cdpr_struct.statics.inverse_kinematics import inverse
 
 PAIRS = [

@@ -1,5 +1,6 @@
 """A robot that is written and read again is the same, and that of a diagnosis explains what it was fitted to."""
 
+import re
 from dataclasses import fields, replace
 
 import numpy as np
@@ -8,6 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.diagnosis.left_out import rows_of
+from cdpr_struct.errors import InputError
 from cdpr_struct.generated.platform import rotation
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import judged
@@ -16,9 +18,10 @@ from cdpr_struct.residuals.layout import layout
 from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.extensions import uprights_of
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.robot_file import load_robot, robot_of_text
 from cdpr_struct.robot.robot_from_arrays import bodily, robot_from_arrays
 from cdpr_struct.robot.robot_writing import robot_toml
+from cdpr_struct.robot.tolerances import Spread, places
 from cdpr_struct.statics.inverse_kinematics import inverse
 from cdpr_struct.statics.masts import carriers
 from tests.laws.written_campaigns import plan_of, written
@@ -114,3 +117,24 @@ def test_the_extended_robot_explains_its_campaign(cause, change, tmp_path):
     mended = replace(campaign, robot=load_robot(tmp_path / "robot.toml"))
     assert rms_in_sigmas(campaign) > 1.0
     assert rms_in_sigmas(mended) < 0.2
+    kept, known = found.extended.posterior, mended.robot.posterior
+    assert np.allclose(known.root, kept.root, rtol=1e-6, atol=1e-12)
+    assert np.allclose(known.mean, kept.mean, rtol=1e-6, atol=1e-12)
+    before = Spread.within(campaign.tolerances, 8)
+    own = np.eye(len(before.root))
+    narrower = known.sigma(own) <= 1.01 * before.sigma(own) + 1e-12
+    assert narrower[: places(8)[-3].start].all()  # of all but the load cells, one of which is the cause
+    anchors = places(8)[0]
+    assert (known.sigma(own)[anchors] > 0.0).all()
+    weights = np.linalg.pinv(before.root) @ known.root
+    assert np.linalg.svd(weights, compute_uv=False).min() < 0.3  # some combination is known much better
+
+
+@pytest.mark.parametrize(
+    ("broken", "said"),
+    [("mean = [0.0]\nroot = []\n", "posterior.mean: got '1 numbers'"), ("root = []\n", "posterior.mean")],
+)
+def test_a_posterior_that_does_not_fit_the_robot_is_refused(broken, said):
+    text = f"{robot_toml(load_robot('cogiro'), 'again')}\n[posterior]\n{broken}"
+    with pytest.raises(InputError, match=re.escape(said)):
+        robot_of_text(text, "robot.toml")

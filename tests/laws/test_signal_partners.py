@@ -9,7 +9,7 @@ import pytest
 from cdpr_struct.diagnosis.damped import damped
 from cdpr_struct.diagnosis.damping_law import damping_finding
 from cdpr_struct.diagnosis.damping_rows import _laws, damping_rows, left_out
-from cdpr_struct.measurement.campaign import Sigmas, Tolerances
+from cdpr_struct.measurement.campaign import Sigmas
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.measurement.modal_estimate import Modes
@@ -18,6 +18,7 @@ from cdpr_struct.measurement.signal_records import SignalRecord
 from cdpr_struct.measurement.signal_states import held_against, model_shapes, own_modes
 from cdpr_struct.measurement.state_modes import state_modes
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.tolerances import Tolerances
 
 ROBOT = load_robot("thesis-3-1")
 STIFFER = replace(ROBOT, cables=tuple(replace(c, axial_stiffness=1.2 * c.axial_stiffness) for c in ROBOT.cables))

@@ -14,7 +14,7 @@ from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import judged
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.interface.new_campaign import new_campaign
-from cdpr_struct.measurement.campaign import UNKNOWN_SWIVEL, Campaign
+from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.observation.rest import rest
 from cdpr_struct.residuals.assembled import linear_model
@@ -25,6 +25,7 @@ from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.robot.robot_writing import robot_toml
+from cdpr_struct.robot.tolerances import UNKNOWN_SWIVEL
 from cdpr_struct.statics.swivel_angle import swivel_angle, swivel_reference, within_turn
 from tests.laws.written_campaigns import extended, on_pulleys, plan_of, with_states, written
 

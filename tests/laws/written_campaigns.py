@@ -14,12 +14,13 @@ from cdpr_struct.dynamics.cable_dynamics import cable_dynamics
 from cdpr_struct.dynamics.certified_modes import certified_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.generated.platform import rotation
-from cdpr_struct.measurement.campaign import CableFrequencies, Campaign, RobotFrequencies, States, Tolerances
+from cdpr_struct.measurement.campaign import CableFrequencies, Campaign, RobotFrequencies, States
 from cdpr_struct.observation.circumstances import exit_turns
 from cdpr_struct.robot.cable import Pulley
 from cdpr_struct.robot.extensions import Extensions, masts_of
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_file import load_robot
+from cdpr_struct.robot.tolerances import Tolerances
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
 

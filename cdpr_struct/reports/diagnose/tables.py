@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from cdpr_struct.diagnosis.sensor_sigmas import tolerance_unit
 from cdpr_struct.reports.html import HtmlTable
 from cdpr_struct.reports.text import with_sigma
+from cdpr_struct.robot.tolerances import tolerance_unit
 
 Row = Mapping[str, Any]
 

@@ -31,6 +31,8 @@ def draw_ladder(figure: Figure, result: Mapping[str, Any]) -> None:
     upper.set_xlim(low, high)
     _stems(upper, hertz, 100.0 * np.asarray(result["platform_energy"], dtype=float), groups)
     _stacks(lower, hertz, groups, (high - low) / STACKS_ACROSS)
+    if "bands" in result:
+        _bands(lower, np.asarray(result["bands"]["frequencies_hz"], dtype=float), hertz, (high - low) / STACKS_ACROSS)
     _tensions(right, np.asarray(result["tensions_N"], dtype=float))
     figure.legend(*upper.get_legend_handles_labels(), loc="outside lower left", ncols=3)
 
@@ -86,6 +88,11 @@ def _stacks(axes: Axes, hertz: np.ndarray, groups: np.ndarray, width: float) -> 
     quiet(axes)
 
 
+def _bands(axes: Axes, ends: np.ndarray, hertz: np.ndarray, width: float) -> None:
+    """Bars from end to end of each mode's band, at the height of its mark."""
+    axes.hlines(stack_levels(hertz, width), ends[:, 0], ends[:, 1], color=GREY, linewidth=1.0, zorder=0.5)
+
+
 def _tensions(axes: Axes, tension: np.ndarray) -> None:
     number = np.arange(1, len(tension) + 1)
     axes.barh(number, tension, color=GREY, height=0.7)
@@ -114,6 +121,11 @@ def ladder_caption(result: Mapping[str, Any]) -> str:
     return (
         "Above: every mode at its frequency, as high as the platform's share of the kinetic energy. High stems are the "
         "modes that a sensor on the platform sees and a payload changes; in those at the bottom cables vibrate alone. "
-        f"Below: the same modes, stacked where they are close; {crowded}. Bars: the tensions at rest, on which the "
-        "frequencies of the cables depend."
+        f"Below: the same modes, stacked where they are close; {crowded}.{_of_bands(result)} Bars: the tensions at "
+        "rest, on which the frequencies of the cables depend."
     )
+
+
+def _of_bands(result: Mapping[str, Any]) -> str:
+    bands = result.get("bands")
+    return f" Grey lines: the {bands['level']:g} % band of each mode." if bands else ""

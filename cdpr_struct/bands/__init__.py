@@ -1,0 +1,1 @@
+"""How far may a prediction be off, and what moves it?"""

@@ -1,0 +1,99 @@
+"""How a robot at rest answers small changes of its numbers while its winches stay as they are.
+
+The wrench that a change leaves at the old pose moves the platform by K^-1 of it; where it then is, cables and
+everything else are evaluated again. Both are central differences of fourth order of the statics themselves, so nothing
+is left out.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
+from cdpr_struct.observation.dependence import Dependence
+from cdpr_struct.robot.tolerances import VARIED, change_count, changed, places
+from cdpr_struct.statics.cable_models import cable_model
+from cdpr_struct.statics.locked_balance import LockedBalance
+
+_SHARE = 1e-3  # of a value, or of the tension: steps change nothing by more than this
+_STATIONS = (1.0, -1.0, 2.0, -2.0)  # steps at which values are taken
+_WEIGHTS = (2.0 / 3.0, -2.0 / 3.0, -1.0 / 12.0, 1.0 / 12.0)  # their parts in a derivative of fourth order
+_SHORTEST = 1e-10  # of the chord: shorter steps are lost in rounding
+_NEUTRAL = 1e-13  # of the largest singular value: a smaller one is zero but for rounding
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LockedResponse:
+    """What changes (p,) of the robot's numbers do at locked lengths, to first order, in the units of `VARIED`.
+
+    pose       : (p, 6) motion of the platform origin and turn, world axes [m, rad]
+    tension    : (p, m) at the platform [N]
+    dependence : (p, n) of `Dependence.vector`, on which vibration depends
+    """
+
+    pose: np.ndarray
+    tension: np.ndarray
+    dependence: np.ndarray
+
+
+def locked_response(point: OperatingPoint, assembly: Assembly = "consistent", model: str = "sagging") -> LockedResponse:
+    """Response of one robot at rest, no batch axes; a neutral freedom stays where it is.
+
+    model : of the cables, sagging or spring
+
+    Cables that stiffen with tension do so as they are at this rest: that EA itself follows the tension is left out.
+    """
+    step = step_sizes(point)
+    ways = np.array(_STATIONS)[:, None, None] * np.diag(step)
+    balance = _balance(point, ways.reshape((-1, len(step))), model)
+    place = np.repeat(point.position[None], len(balance.length), axis=0)
+    turn = np.repeat(point.rotation[None], len(balance.length), axis=0)
+    rest = _balance(point, np.zeros((1, len(step))), model).evaluate(place[:1], turn[:1])
+    wrench = _slope(balance.evaluate(place, turn).wrench, step)
+    motion = (ways @ wrench @ np.linalg.pinv(rest.tangent[0], _NEUTRAL).T).reshape((-1, 6))
+    there, turned = balance.moved(place, turn, motion)
+    cables = balance.states(there, turned)
+    depends = Dependence.of(OperatingPoint(balance.arrays, there, turned, cables), assembly).vector
+    about = Rotation.from_matrix(turned @ np.swapaxes(point.rotation, -1, -2)).as_rotvec()
+    pose = np.concatenate([there - point.position, about], axis=-1)
+    return LockedResponse(*(_slope(values, step) for values in (pose, cables.tension_at_platform, depends)))
+
+
+def _slope(values: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """(p, n) derivative of values (4 p, n) at the stations about rest, in steps (p,)."""
+    stations = values.reshape((len(_STATIONS), len(step), -1))
+    return np.asarray(np.tensordot(_WEIGHTS, stations, axes=1) / step[:, None])
+
+
+def step_sizes(point: OperatingPoint) -> np.ndarray:
+    """(p,) changes small enough for everything to be linear, and large against rounding."""
+    arrays, cables = point.arrays, point.cables
+    chord = cables.chord
+    strained = cables.tension_at_platform * cables.length / cables.axial_stiffness
+    short = np.clip(_SHARE * strained, _SHORTEST * chord, _SHARE * chord)
+    body = _SHARE * max(float(np.linalg.norm(arrays.platform_anchors, axis=-1).mean()), 1e-3)
+    sizes = {
+        "frame_anchors": np.repeat(short, 3),
+        "platform_anchors": np.repeat(short, 3),
+        "length_offset": short,
+        "mass": np.array([_SHARE * float(arrays.mass)]),
+        "center_of_mass": np.full(3, body),
+        "cell_bias": np.ones(arrays.cable_count),
+        "pulley_radius": short,
+    }
+    result = np.full(change_count(arrays.cable_count), _SHARE)
+    for one, place in zip(VARIED, places(arrays.cable_count), strict=True):
+        if one.field in sizes:
+            result[place] = sizes[one.field]
+    return result
+
+
+def _balance(point: OperatingPoint, change: np.ndarray, model: str) -> LockedBalance:
+    """Robots with changes (n, p), their winches as the robot at rest has them."""
+    arrays, lead = point.arrays, (len(change),)
+    robots = changed(arrays, change)
+    length = robots.paid_out(arrays.reading(point.cables.paid_out))
+    length = np.broadcast_to(length, (*lead, arrays.cable_count))
+    return LockedBalance(robots.flattened(lead), length, np.zeros((*lead, 6)), cable_model(model))

@@ -1,0 +1,129 @@
+"""Bands of predictions: what was asked, and what results say of them."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cdpr_struct.bands.drawn_robots import DrawnRobots, drawn_robots
+from cdpr_struct.bands.frequency_bands import FrequencyBands, frequency_bands
+from cdpr_struct.bands.locked_response import LockedResponse, locked_response
+from cdpr_struct.bands.mode_rates import mode_rates
+from cdpr_struct.bands.rest_bands import RestBands, rest_bands
+from cdpr_struct.dynamics.cable_dynamics import CableModel
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
+from cdpr_struct.errors import CdprError, InputError
+from cdpr_struct.interface.arguments import one_of, real, whole
+from cdpr_struct.reports.bands_told import frequencies_told, rest_told, slack_check, tolerances_told
+from cdpr_struct.reports.trust import Check
+from cdpr_struct.robot.robot import Robot
+from cdpr_struct.robot.tolerances import Spread, Tolerances
+
+MOST_SAMPLES = 100_000
+FEWEST_SAMPLES = 20
+_LEVELS = "a level above 0 and below 100 in per cent, like 90"
+
+
+@dataclass(frozen=True, slots=True)
+class AskedBand:
+    """Level of central bands, 0 to 1, and by how many drawn robots they are checked, 0 for none."""
+
+    level: float
+    samples: int = 0
+
+
+def read_band(band: float | None, samples: int | None = None) -> AskedBand | None:
+    """What was asked; None if no band was.
+
+    Raises
+    ------
+    InputError : no such level, or samples without a band.
+    """
+    if band is None:
+        if samples is not None:
+            raise InputError("samples", "", samples, "it belongs to `band`; give that, too, or leave it out")
+        return None
+    level = 0.01 * real(band, "band", f"give {_LEVELS}", 0.0, 100.0)
+    return AskedBand(level, 0 if samples is None else whole(samples, "samples", FEWEST_SAMPLES, MOST_SAMPLES))
+
+
+def spread_of(robot: Robot) -> Spread:
+    """Robots that are probable: after a diagnosis its posterior, else those within the tolerances."""
+    return robot.posterior or Spread.within(Tolerances(**robot.tolerances), len(robot.cables))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Banded:
+    """A robot at rest whose numbers may be off: what its predictions do then.
+
+    spread : which robots are probable
+    """
+
+    point: OperatingPoint
+    asked: AskedBand
+    response: LockedResponse
+    spread: Spread
+    model: str
+    assembly: Assembly
+
+    @classmethod
+    def at(
+        cls, point: OperatingPoint, asked: AskedBand, stable: bool, model: str = "sagging",
+        assembly: Assembly = "consistent",
+    ) -> "Banded":  # fmt: skip
+        """Of a robot at rest with sagging or spring cables.
+
+        Raises
+        ------
+        CdprError : the platform is not held there.
+        InputError : ideal cables.
+        """
+        one_of(model, "model", ("sagging", "spring"))
+        if not stable:
+            raise CdprError("there is no band: the platform is not held there, and a small change moves it far")
+        return cls(point, asked, locked_response(point, assembly, model), spread_of(point.entered), model, assembly)
+
+    def rest(self) -> tuple[dict[str, Any], list[Check]]:
+        """Key `bands` of a result about a state of rest, and what is to be doubted."""
+        found = rest_bands(self.point, self.response, self.spread, self.asked.level)
+        drawn = self._drawn(None)
+        return self._head() | rest_told(found, drawn, self.asked.level), self._checks(found, drawn)
+
+    def frequencies(self, hertz: np.ndarray, model: str) -> tuple[dict[str, Any], list[Check]]:
+        """The same of a result about frequencies (k,) [Hz], as a model of the cables has them."""
+        vibrating = hertz > 0.0
+        found = _of_modes(self, hertz[vibrating], model)
+        drawn = self._drawn(hertz[vibrating] if vibrating.any() else None, model)
+        rest = rest_bands(self.point, self.response, self.spread, self.asked.level)
+        told = frequencies_told(found, hertz, drawn, self.asked.level)
+        return self._head() | told, self._checks(rest, drawn)
+
+    def _drawn(self, hertz: np.ndarray | None, model: str = "exact") -> DrawnRobots | None:
+        if not self.asked.samples:
+            return None
+        models = self.assembly, self.model, vibrating_like(model)
+        return drawn_robots(self.point, self.spread, self.asked.samples, hertz, *models)
+
+    def _head(self) -> dict[str, Any]:
+        return {
+            "level": 100.0 * self.asked.level,
+            "held": "locked lengths",
+            "tolerances": tolerances_told(self.point.entered.tolerances),
+        }
+
+    def _checks(self, rest: RestBands, drawn: DrawnRobots | None) -> list[Check]:
+        return slack_check(self.point.cables.tension_at_platform, rest.tension_sigma, drawn)
+
+
+def vibrating_like(model: str) -> CableModel:
+    """The model whose rates the frequencies of a model have."""
+    return "static" if model == "static" else "exact"
+
+
+def _of_modes(banded: Banded, hertz: np.ndarray, model: str) -> FrequencyBands:
+    if not len(hertz):
+        return FrequencyBands(hertz, hertz, hertz, [])
+    way = vibrating_like(model)
+    rates = mode_rates(banded.point, hertz, banded.response, banded.spread, banded.assembly, way)
+    return frequency_bands(rates, banded.spread, banded.asked.level)

@@ -1,0 +1,214 @@
+"""Rates, bands and chances of robots within their tolerances, against solutions made anew."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import cdpr_struct as cs
+from cdpr_struct.bands.chances import DrawnRest, chance
+from cdpr_struct.bands.compared import assigned, compared
+from cdpr_struct.bands.designs import KNOBS, Design
+from cdpr_struct.bands.drawn_robots import drawn_robots
+from cdpr_struct.bands.frequency_bands import chance_above, frequency_bands
+from cdpr_struct.bands.locked_response import locked_response, step_sizes
+from cdpr_struct.bands.mode_rates import ModeRates, mode_rates
+from cdpr_struct.bands.rest_bands import rest_bands
+from cdpr_struct.bands.sensitivities import movers, variance_shares
+from cdpr_struct.crosscheck.robot_modes import robot_modes
+from cdpr_struct.dynamics.operating_point import OperatingPoint
+from cdpr_struct.interface.operating_point import rest
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.robot.tolerances import (
+    VARIED,
+    Spread,
+    Tolerances,
+    change_count,
+    changed,
+    places,
+    tolerance_count,
+    tolerance_factor,
+)
+from cdpr_struct.statics.forward_kinematics import forward
+
+
+def entered(name: str) -> cs.Robot:
+    robot = cs.load_robot(name)
+    if not name.startswith("thesis-3-1"):
+        return robot
+    wheel = cs.Pulley(0.05, np.array([0.0, 0.0, 1.0]))
+    return replace(robot, pulleys=(wheel,) * len(robot.cables), guided=())
+
+
+def at_rest(name: str) -> OperatingPoint:
+    return rest(entered(name), None, None).point
+
+
+def with_change(point: OperatingPoint, change: np.ndarray) -> OperatingPoint:
+    """The changed robot at rest at the same lengths, solved anew."""
+    arrays = RobotArrays.of(point.entered)
+    robot = changed(arrays, change)
+    found = forward(robot, arrays.reading(point.cables.paid_out), point.position, point.rotation)
+    assert bool(found.stable)
+    return OperatingPoint(robot, found.position, found.rotation, found.cables)
+
+
+def differences(point: OperatingPoint, step: np.ndarray) -> np.ndarray:
+    """(7 + m,) ln f of four modes, position and tensions, with a change less with its opposite."""
+    up, down = with_change(point, step), with_change(point, -step)
+    parts = [
+        np.log(robot_modes(up, "exact", 4).hertz / robot_modes(down, "exact", 4).hertz),
+        up.position - down.position,
+        up.cables.tension_at_platform - down.cables.tension_at_platform,
+    ]
+    return np.concatenate(parts)
+
+
+def slope(point: OperatingPoint, step: np.ndarray) -> np.ndarray:
+    """The same per step of this direction: whole solutions, small steps for modes that are close to each other, larger
+    ones for tensions, which are solved to a part in 10^11 of the forces."""
+    size = step.sum() / step_sizes(point)[step != 0.0].sum()
+    coarse, fine = (differences(point, factor * step) / (2.0 * factor * size) for factor in (2.0, 1.0))
+    return (4.0 * fine - coarse) / 3.0
+
+
+@pytest.mark.parametrize("name", ["cogiro", "thesis-3-1", "six-cable-8mm"])
+def test_rates_are_those_of_solutions_made_anew(name):
+    """Frequencies, pose and tensions, by a frame anchor, a length, EA, density, mass, centre of mass and inertia."""
+    point = at_rest(name)
+    cables = point.arrays.cable_count
+    hertz = robot_modes(point, "exact", 4).hertz
+    response = locked_response(point)
+    found = mode_rates(point, hertz, response, Spread.within(Tolerances(), cables))
+    steps = step_sizes(point)
+    chosen = [place.start + (place.stop - place.start) // 2 for place in places(cables)]
+    for one, index in zip(VARIED, chosen, strict=True):
+        step = steps[index] * np.eye(len(steps))[index]
+        expected = np.split(np.concatenate([slope(point, 0.1 * step)[:4], slope(point, 2.0 * step)[4:]]), [4, 7])
+        expected = [part / steps[index] for part in expected]
+        own = [found.own[index, :4], response.pose[index, :3], response.tension[index]]
+        for rate, difference in zip(own, expected, strict=True):
+            assert np.abs(rate - difference).max() <= 1e-6 * max(np.abs(difference).max(), 1e-2), one.field
+
+
+def test_reels_share_half_of_the_variance():
+    factor = tolerance_factor(Tolerances(axial_stiffness=0.04), 3)
+    assert factor.shape == (change_count(3), tolerance_count(3))
+    place = places(3)[[one.field for one in VARIED].index("axial_stiffness")]
+    covariance = factor[place] @ factor[place].T
+    assert np.allclose(covariance, 0.04**2 * (0.5 * np.eye(3) + 0.5))
+
+
+def test_frequencies_that_may_meet_have_the_bands_of_drawn_robots():
+    """Twelve cable modes within 8 per cent: rates of single modes would give bands that are wrong by a half."""
+    point = at_rest("thesis-3-1")
+    spread = Spread.within(Tolerances(), 8)
+    hertz = robot_modes(point, "exact", 6).hertz
+    found = mode_rates(point, hertz, locked_response(point), spread)
+    bands = frequency_bands(found, spread, 0.9)
+    assert any(len(group) > 6 for group in bands.meeting)
+    drawn = drawn_robots(point, spread, 400, hertz)
+    assert drawn.lost == 0
+    ends = drawn.quantiles("hertz", 0.9)
+    width = ends[:, 1] - ends[:, 0]
+    gap = np.abs(np.stack([bands.low[:6], bands.high[:6]], axis=-1) - ends)
+    assert (gap <= 0.15 * width[:, None]).all()
+    alone = np.exp(1.645 * np.linalg.norm(found.own[:, :6].T @ spread.root, axis=1)) * hertz
+    assert (np.abs(alone - ends[:, 1]) > 0.3 * width).any()
+
+
+def test_pose_and_tensions_have_the_bands_of_drawn_robots():
+    point = at_rest("cogiro")
+    spread = Spread.within(Tolerances(), 8)
+    found = rest_bands(point, locked_response(point), spread, 0.9)
+    drawn = drawn_robots(point, spread, 800)
+    for mine, name in ((found.pose, "pose"), (found.tension, "tension")):
+        ends = drawn.quantiles(name, 0.9)
+        assert (np.abs(mine - ends) <= 0.12 * (ends[:, 1] - ends[:, 0])[:, None]).all()
+
+
+def test_a_band_is_as_wide_as_its_tolerances():
+    """Twice the tolerances, twice the sigma; none, no band."""
+    point = at_rest("cogiro")
+    response = locked_response(point)
+    none, root = np.zeros(change_count(8)), tolerance_factor(Tolerances(), 8)
+    sizes = [rest_bands(point, response, Spread(factor * root, none), 0.5).pose_sigma for factor in (0, 1, 2)]
+    assert not sizes[0].any()
+    assert np.allclose(sizes[2], 2.0 * sizes[1])
+
+
+def test_two_modes_that_cross_repel_as_their_small_matrix_says():
+    """Mixing alone splits a double frequency evenly: the lower one is never above, the upper never below."""
+    spread = Spread(np.array([[0.01]]), np.zeros(1))
+    rates = ModeRates(np.array([2.0, 2.0]), np.zeros((1, 2)), np.array([[0, 1]]), np.ones((1, 1)), np.array([0, 0]))
+    bands = frequency_bands(rates, spread, 0.9)
+    assert bands.high[0] <= 2.0 <= bands.low[1]
+    assert chance_above(rates, spread, 0, 2.0) == 0.0
+    assert chance_above(rates, spread, 1, 2.0) == 1.0
+
+
+def test_shares_of_the_variance_are_those_of_each_tolerance_alone():
+    point = at_rest("cogiro")
+    tension = locked_response(point).tension
+    shares = variance_shares(tension, Spread.within(Tolerances(), 8), 8)
+    assert np.allclose(sum(shares.values()), 1.0)
+    none = dict.fromkeys(Tolerances.__slots__, 0.0)
+    only = tolerance_factor(Tolerances(**(none | {"anchor_m": 0.001})), 8)
+    whole = np.linalg.norm(tension.T @ tolerance_factor(Tolerances(), 8), axis=1)
+    own = (np.linalg.norm(tension.T @ only, axis=1) / whole) ** 2
+    assert np.allclose(shares["frame_anchors"] + shares["platform_anchors"], own)
+
+
+def test_every_number_of_a_robot_moves_once():
+    single = [index for one in movers(6) if len(one.index) == 1 for index in one.index]
+    cells = sum(one.count(6) for one in VARIED if one.of_cells)
+    assert sorted(single) == sorted(set(single))
+    assert len(single) == change_count(6) - cells
+
+
+def test_chances_are_shares_of_robots_within_the_tolerances():
+    point = at_rest("cogiro")
+    drawn = DrawnRest.of(point, locked_response(point), Spread.within(Tolerances(), 8))
+    middle = point.cables.tension_at_platform[2]
+    assert abs(chance(drawn.tension[:, 2:3], middle, None) - 0.5) < 0.01
+    assert chance(drawn.tension, None, 1e6) == 1.0
+    assert chance(drawn.tension, 1e6, None) == 0.0
+    assert drawn.position_error.min() > 0.0
+
+
+def test_readings_are_judged_together():
+    """Two readings that share one error: one sigma off alike is nothing, one sigma off against each other is much."""
+    rates, spread = np.array([[1.0, 1.0]]), Spread(np.eye(1), np.zeros(1))
+    ends = np.array([[-1.645, 1.645]] * 2)
+    noise = np.full(2, 0.1)
+
+    def p(first: float, second: float) -> float:
+        return compared(np.array([first, second]), noise, np.zeros(2), ends, rates, spread, 0.9).p_value
+
+    assert p(1.0, 1.0) > 0.5
+    assert p(1.0, -1.0) < 1e-10
+
+
+def test_frequencies_without_a_number_go_to_the_nearest_modes():
+    found = assigned(np.array([2.05, 1.02]), np.array([1.0, 1.5, 2.0]), np.full(3, 0.02))
+    assert found.tolist() == [2, 0]
+
+
+@pytest.mark.parametrize("name", ["cogiro", "six-cable-4mm"])
+def test_a_design_reaches_the_frequency(name):
+    """What is found is put into the robot, and the command's own function asked again."""
+    robot = cs.load_robot(name)
+    design = Design(robot, robot.home, 0, "exact", "consistent")
+    wanted = 1.03 * design.frequency({})
+    changes = [design.alone("platform_mass", wanted), design.together(wanted, ("axial_stiffness", "frame_anchors"))]
+    for change in changes:
+        assert change.factors is not None
+        again = cs.modes(design.changed(change.factors), robot.home, count=1).answer["frequencies_hz"][0]
+        assert again == pytest.approx(wanted, rel=1e-6)
+
+
+def test_a_frequency_out_of_reach_is_said_so():
+    robot = cs.load_robot("six-cable-4mm")
+    change = Design(robot, robot.home, 0, "static", "consistent").alone("platform_mass", 1e3)
+    assert change.factors is None
+    assert set(KNOBS) >= {"platform_mass"}
