@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.diagnosis.all_frames import AllFrames, circular_shifts
+from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.hypotheses.significant import SIGNIFICANT
 from cdpr_struct.measurement.loss import Loss
 
@@ -52,6 +53,12 @@ def bend_of_speed(every: AllFrames, errors: np.ndarray) -> Bend | None:
     whole = straight + above
     p = (1.0 + float((bent[1:] >= bent[0]).sum())) / len(bent)
     return Bend(float(np.sqrt(above / whole)) if whole > 0.0 else 0.0, p)
+
+
+def bend_of_cause(every: AllFrames, found: Judged, part: int) -> Bend | None:
+    """Of the errors that one of the causes of a fit stands for; None with too few frames, or if it moves no length."""
+    errors = every.errors_without(found, part)
+    return None if np.allclose(errors, every.errors(found), equal_nan=True) else bend_of_speed(every, errors)
 
 
 def _of_place(every: AllFrames) -> np.ndarray:

@@ -21,7 +21,7 @@ ALIKE, EACH = "all alike", "each its own"
 def common_first(story: Explained, chosen: Judged) -> Explained:
     """The story with the chosen fit in its common form, where that is nearly as likely; itself where it is not."""
     parts = chosen.hypothesis.parts
-    index = next((i for i, p in enumerate(parts) if p.cause.in_motion and p.pattern.label == EACH), None)
+    index = next((i for i, p in enumerate(parts) if p.cause.in_motion and _is(p.pattern.label, EACH)), None)
     if index is None:
         return story
     data, where = story.search.data, story.search.where
@@ -33,11 +33,18 @@ def common_first(story: Explained, chosen: Judged) -> Explained:
     return replace(story, answers=tuple(answers))
 
 
+def _is(label: str, pattern: str) -> bool:
+    """Whether a label is that of a pattern, of whatever law."""
+    return label == pattern or label.startswith(f"{pattern}, ")
+
+
 def _alike(story: Explained, chosen: Judged, index: int) -> Judged:
     """The fit with one number for all carriers in one of its parts, at the likeliest scale."""
     data, where, parts = story.search.data, story.search.where, list(chosen.hypothesis.parts)
     own = parts[index]
-    pattern = next(one for one in own.cause.patterns(story.search.seen) if one.label == ALIKE)
+    pattern = next(
+        one for one in own.cause.patterns(story.search.seen) if one.label == own.pattern.label.replace(EACH, ALIKE, 1)
+    )
     middle = float(np.mean(chosen.sizes[index])) * own.scale
     scale = min(SCALES, key=lambda one: abs(np.log(one / max(abs(middle), SCALES[0]))))
     parts[index] = Part(own.cause, pattern, scale)

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
+from cdpr_struct.observation.circumstances import first_time
 from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
@@ -26,7 +27,10 @@ def extended_robot(data: Recorded, sizes: Sequence[WholeSize], causes: Sequence[
 def extended_arrays(data: Recorded, sizes: Sequence[WholeSize]) -> RobotArrays:
     """The robot as entered with causes at their whole sizes; hose and elasticity refer to the campaign's states."""
     arrays = replace(
-        data.arrays, hose_center=data.known.center, reference_tension=np.asarray(float(data.known.mean_tension))
+        data.arrays,
+        hose_center=data.known.center,
+        reference_tension=np.asarray(float(data.known.mean_tension)),
+        clock_start=np.asarray(first_time(data.campaign.states)),
     )
     for size in sizes:
         if size.part.cause.carrier != "state":

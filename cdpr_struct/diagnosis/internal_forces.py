@@ -19,6 +19,7 @@ from cdpr_struct.hypotheses.detectable import NAMED
 from cdpr_struct.hypotheses.drift import ENCODERS
 from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES
 from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.observation.motion import moving
 from cdpr_struct.observation.readings import cell_reading, true_tension
 from cdpr_struct.observation.rest import at_states
 from cdpr_struct.residuals.commanded_lengths import SIGMA, aligned, commanded_at, null_space
@@ -105,9 +106,9 @@ def internal_forces(
 
 
 def force_split(data: Recorded) -> ForceSplit | None:
-    """None where no state with all tensions has internal force."""
+    """None where no state at rest with all tensions has internal force."""
     states, campaign = data.campaign.states, data.campaign
-    index = np.flatnonzero(states.static & np.isfinite(states.tension).all(axis=1))
+    index = np.flatnonzero(states.static & np.isfinite(states.tension).all(axis=1) & ~moving(data.known.rate))
     if data.cables <= 6 or not len(index):
         return None
     off = states.tension[index] - simulated_tensions(data)[index]

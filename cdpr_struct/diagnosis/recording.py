@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.diagnosis.all_frames import AllFrames
-from cdpr_struct.diagnosis.bend_of_speed import SPEED_SHARE, Bend, bend_of_speed
+from cdpr_struct.diagnosis.bend_of_speed import SPEED_SHARE, Bend, bend_of_cause
 from cdpr_struct.diagnosis.decision import Decision
 from cdpr_struct.diagnosis.frame_blocks import FrameBlocks, frame_blocks, numbers_without, spans, stretches
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
@@ -109,7 +109,7 @@ def recording(
     by_speed = every.share_of_speed(before, pieces), every.share_of_speed(after, pieces)
     by_acceleration = every.share_of_acceleration(before, pieces), every.share_of_acceleration(after, pieces)
     p = 1.0 if chosen is null else every.p_of_speed(after, pieces)
-    bend = bend_of_speed(every, every.errors_without(chosen, moving[0])) if moving else None
+    bend = bend_of_cause(every, chosen, moving[0]) if moving else None
     held_out = _held_out(every, pieces, some, null, chosen) if pieces and chosen is not null else None
     count = len(every.frames) if frames is None else frames.of
     worth = float(count) if frames is None else frames.worth

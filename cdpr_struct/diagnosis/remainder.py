@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cdpr_struct.diagnosis.all_frames import AllFrames
-from cdpr_struct.diagnosis.bend_of_speed import SPEED_SHARE, bend_of_speed
+from cdpr_struct.diagnosis.bend_of_speed import SPEED_SHARE, bend_of_cause
 from cdpr_struct.diagnosis.decision import Decision
 from cdpr_struct.diagnosis.frame_blocks import frame_blocks
 from cdpr_struct.diagnosis.recording import Remainder
@@ -39,7 +39,7 @@ def remainder(
     if blocks is None or (blocks.gain <= 0.0).any():
         return None
     ahead = (alone.score - _best_without(found, names[0])) / blocks.dispersion
-    share, bend = every.share_of_speed(errors, pieces), bend_of_speed(every, every.errors_without(alone.best, 0))
+    share, bend = every.share_of_speed(errors, pieces), bend_of_cause(every, alone.best, 0)
     if ahead < NAMED or share is None or share > SPEED_SHARE or (bend is not None and bend.matters):
         return None
     size = np.sqrt(np.nanmean(errors**2, axis=0))

@@ -4,12 +4,13 @@ A pose is a position and the rotation Rz(rz) Ry(ry) Rx(rx). Each other conventio
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from itertools import permutations
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from cdpr_struct.hypotheses.correction import Correction, several_tilted, with_states
+from cdpr_struct.hypotheses.correction import BEYOND_NOISE, Correction, several_tilted, with_states
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.robot.pose import angles_from_rotation
 
@@ -33,7 +34,7 @@ def conventions(campaign: Campaign) -> Iterator[Correction]:
     whole = np.isfinite(states.angles).all(axis=1)
     if not several_tilted(states):
         return
-    for wrong, turn in _turns().items():
+    for wrong, turn in _turns().items() if several_tilted(states, BEYOND_NOISE) else ():
         angles = states.angles.copy()
         angles[whole] = angles_from_rotation(turn(states.angles[whole]).as_matrix())
         yield Correction(CAUSE, f"the rotations {wrong}", with_states(campaign, angles=angles))
@@ -41,6 +42,7 @@ def conventions(campaign: Campaign) -> Iterator[Correction]:
         angles = states.angles.copy()
         angles[whole] = angles_from_rotation(axes @ _written(states.angles[whole]).as_matrix() @ axes.T)
         new = with_states(campaign, position=states.position @ axes.T, angles=angles)
+        new = new if new.frames is None else replace(new, frames=new.frames.in_axes(axes))
         yield Correction(CAUSE, f"the poses are written in a frame whose {wrong}", new)
 
 

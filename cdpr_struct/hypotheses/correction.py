@@ -10,6 +10,7 @@ from cdpr_struct.hypotheses.hypothesis import PRICE
 from cdpr_struct.measurement.campaign import Campaign, States
 
 _TILTED = 0.05  # of the largest angle
+BEYOND_NOISE = 5.0  # sigmas of an angle: one of a million such readings of a level platform is larger
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,8 +45,12 @@ def with_states(campaign: Campaign, **changes: Any) -> Campaign:
     return replace(campaign, states=replace(campaign.states, **changes))
 
 
-def several_tilted(states: States) -> bool:
-    """Whether more than one orientation is of the largest's order: a single one may be any slip of the pen."""
+def several_tilted(states: States, sigmas: float = 0.0) -> bool:
+    """Whether more than one orientation is of the largest's order: a single one may be any slip of the pen.
+
+    sigmas : of its reading that an orientation must exceed; those of a level platform are noise in any convention
+    """
     size = np.abs(states.angles).max(axis=1, initial=0.0)
+    size = np.where(size > sigmas * states.sigma_rotation, size, 0.0)
     tilted = states.angles[(size > 0.0) & (size > _TILTED * size.max(initial=0.0))]
     return len(np.unique(tilted, axis=0)) > 1

@@ -10,7 +10,7 @@ from itertools import combinations
 import numpy as np
 
 from cdpr_struct.hypotheses.conventions import conventions
-from cdpr_struct.hypotheses.correction import Correction, several_tilted, with_states
+from cdpr_struct.hypotheses.correction import BEYOND_NOISE, Correction, several_tilted, with_states
 from cdpr_struct.measurement.campaign import Campaign, States
 
 TENSION_UNITS = {"kgf": 9.80665, "lbf": 4.4482216, "kN": 1000.0, "daN": 10.0}
@@ -52,7 +52,7 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
                 scale = np.ones(m)
                 scale[slice(None) if which < 0 else which] = size
                 who = "the tensions" if which < 0 else f"the tensions of cable {which + 1}"
-                new = with_states(campaign, tension=states.tension * scale, tension_sigma=states.tension_sigma)
+                new = _with_scaled(campaign, "tension", scale)
                 said, own = f"{who} {wrong}", np.concatenate([np.zeros(6, bool), scale != 1.0, np.zeros(m, bool)])
                 yield _in_unit(said, new, size, own)
     for unit, factor in LENGTH_UNITS.items():
@@ -60,7 +60,7 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
             new = _with_scaled(campaign, what, factor)
             yield _in_unit(f"the {what}s are in {unit}", new, factor, _columns(what, m))
     turned = ((np.degrees(1.0), "are in rad"), (np.radians(1.0), "were converted from rad, though in deg"))
-    for factor, wrong in turned if several_tilted(states) else ():
+    for factor, wrong in turned if several_tilted(states, BEYOND_NOISE) else ():
         new = with_states(campaign, angles=states.angles * factor)
         yield _in_unit(f"the pose angles {wrong}", new, factor, _columns("angles", m))
     for factor, unit in ((0.45359237, "lb"), (1.0 / 9.80665, "N")) if np.any(states.payload) else ():
@@ -76,10 +76,10 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
             )
 
 
-def _with_scaled(campaign: Campaign, what: str, factor: float) -> Campaign:
-    """Readings of a kind times a factor, and with lengths their rates."""
+def _with_scaled(campaign: Campaign, what: str, factor: float | np.ndarray) -> Campaign:
+    """Readings of a kind times a factor, and their rates."""
     new, frames = with_states(campaign, **{what: getattr(campaign.states, what) * factor}), campaign.frames
-    return new if what != "length" or frames is None else replace(new, frames=frames.scaled(factor))
+    return new if frames is None else replace(new, frames=frames.scaled(what, factor))
 
 
 def _in_unit(said: str, new: Campaign, factor: float, columns: np.ndarray) -> Correction:
@@ -108,6 +108,8 @@ def _signs(campaign: Campaign) -> Iterator[Correction]:
                     continue
                 values[rows, axis] *= -1.0
                 new = with_states(campaign, **{what: values})
+                if who < 0 and what == "position" and campaign.frames is not None:
+                    new = replace(new, frames=campaign.frames.scaled(what, 1.0 - 2.0 * (np.arange(3) == axis)))
                 yield Correction("sign_error", f"the sign of {name}{where} is wrong", new, parameters={"column": name})
 
 
@@ -135,8 +137,8 @@ def _swaps(campaign: Campaign) -> Iterator[Correction]:
             new = with_states(
                 campaign, **{what: values[:, order], f"{what}_sigma": getattr(states, f"{what}_sigma")[:, order]}
             )
-            if what == "length" and campaign.frames is not None:
-                new = replace(new, frames=campaign.frames.in_order(order))
+            if campaign.frames is not None:
+                new = replace(new, frames=campaign.frames.in_order(what, order))
             says = f"the {what} channels of cables {i + 1} and {j + 1} are swapped"
             yield Correction("swapped_channels", says, new, parameters={"first": i + 1, "second": j + 1})
 

@@ -24,6 +24,7 @@ _PRIOR = 0.4  # of the typical sizes below, at the scale 1: all coefficients of 
 _FORCE, _PLACE, _LENGTH = 10.0, 0.01, 2e-3  # typical sizes [N], [m], [m]
 _TENSION = 0.02  # of the mean tension
 _POSE = 5.0  # sigmas of the tracker
+_TILTED = 10.0  # sigmas rms of tilts: noise that a law of the tilt takes off then adds a nat in 200 readings
 _SMOOTH = 10  # functions that a Gaussian process over the position is made of
 _LEAST_LENGTHS = 8  # lengths of a cable: fewer hold no period
 _CELLS, _LENGTHS = "an error of the load cells", "an error of the cable lengths"
@@ -82,7 +83,7 @@ class _Known:
     def of(cls, local: Local) -> "_Known":
         readings, known = local.data.readings, local.data.known
         x = (readings.position - readings.position.mean(axis=0)) / np.maximum(readings.position.std(axis=0), 1e-3)
-        turn = Rotation.from_matrix(readings.rotation).as_rotvec()
+        turn = _tilts(local)
         turn = turn / max(float(np.abs(turn).max()), 1e-3)
         load = known.payload / max(float(np.ptp(known.payload)), 1e-9)
         day = np.linspace(-1.0, 1.0, len(x))  # states are filed in the order in which they were measured
@@ -98,6 +99,17 @@ class _Known:
         }
         typical = known.mean_tension
         return cls(of_states, readings.tension / typical - 1.0, readings.length, known.approach, typical)
+
+
+def _tilts(local: Local) -> np.ndarray:
+    """(S, 3) rotation vectors as read, or less their noise at the point where tilts do not stand out of it.
+
+    Read tilts that are mostly noise would make a law of the tilt out of that noise: it could take it off.
+    """
+    read = Rotation.from_matrix(local.data.readings.rotation).as_rotvec()
+    if np.sqrt(np.mean(read**2)) > _TILTED * np.sqrt(np.mean(local.data.sigma[:, 3:6] ** 2)):
+        return np.asarray(read)
+    return np.asarray(Rotation.from_matrix(local.point.readings(local.data).rotation).as_rotvec())
 
 
 def _smooth(x: np.ndarray) -> np.ndarray:

@@ -33,6 +33,7 @@ def seen_in(data: Recorded) -> Seen:
         relative=campaign.relative_lengths,
         poses=bool(data.read[:, :6].any()),
         moving=bool(moving(data.known.rate).any()),
+        pulling=bool(data.known.pull.any()),
         wheels=data.arrays.has_pulleys,
         bare=bool((data.arrays.pulley_radius == 0.0).any()),
         groups={

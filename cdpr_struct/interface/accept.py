@@ -10,12 +10,13 @@ import numpy as np
 from cdpr_struct.bands.chances import DrawnRest, chance
 from cdpr_struct.bands.frequency_bands import chance_above, frequency_bands
 from cdpr_struct.bands.mode_rates import ModeRates, mode_rates
-from cdpr_struct.crosscheck.robot_modes import OutsideValidityError, robot_modes
+from cdpr_struct.crosscheck.robot_modes import OutsideValidityError
 from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.errors import CdprError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_robot
 from cdpr_struct.interface.bands import AskedBand, Banded, vibrating_like
+from cdpr_struct.interface.enough_modes import enough_modes
 from cdpr_struct.interface.given import Numbers, Progress, RobotLike
 from cdpr_struct.interface.modes import ASSEMBLIES
 from cdpr_struct.interface.operating_point import rest
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
 _LEVEL = 0.9  # of the bands that are drawn
 _HALF = 0.5  # of the kinetic energy: a mode of the platform
+_OF_MODES = ("frequency", "platform_frequency")  # quantities
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -167,21 +169,12 @@ class _Modes:
 
 def _modes(banded: Banded, asked: Requirements, model: CableModel) -> _Modes | None:
     """The modes that the requirements are about, None if they are about none."""
-    count = max((one.mode for one in asked.limits if one.quantity == "frequency"), default=0)
-    platform = max((one.mode for one in asked.limits if one.quantity == "platform_frequency"), default=0)
+    count, platform = (max((one.mode for one in asked.limits if one.quantity == kind), default=0) for kind in _OF_MODES)
     if not count + platform:
         return None
-    most, wanted = (6 - len(banded.point.entered.guided), 0) if model == "static" else (320, 20)
-    wanted = min(max(count, wanted, 1 if model != "static" else most), most)
-    while True:
-        found = robot_modes(banded.point, model, wanted, banded.assembly, 0)
-        kept = found.hertz > 0.0
-        of_platform = np.flatnonzero(found.platform_energy[kept] >= _HALF)
-        if len(of_platform) >= platform or wanted >= most:
-            break
-        wanted = min(2 * wanted, most)
-    needed = max(count, int(of_platform[platform - 1]) + 1 if 0 < platform <= len(of_platform) else 0)
-    hertz = found.hertz[kept][:needed]
+    hertz, energy = enough_modes(banded, model, count, lambda _, share: int((share >= _HALF).sum()) >= platform)
+    of_platform = np.flatnonzero(energy >= _HALF)
+    hertz = hertz[: max(count, int(of_platform[:platform].max(initial=0)) + 1)]
     rates = mode_rates(banded.point, hertz, banded.response, banded.spread, banded.assembly, vibrating_like(model))
     bands = frequency_bands(rates, banded.spread, _LEVEL)
     return _Modes(rates, bands.low, bands.high, of_platform)
@@ -191,7 +184,7 @@ def _kept(
     one: RequirementTable, banded: Banded, drawn: DrawnRest, modes: _Modes | None, place: list[float]
 ) -> told.Kept:
     """What a requirement finds at a pose."""
-    if "frequency" in one.quantity:
+    if one.quantity in _OF_MODES:
         if modes is None:
             raise AssertionError("modes are computed wherever a requirement is about them")
         index = one.mode - 1

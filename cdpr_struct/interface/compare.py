@@ -12,12 +12,12 @@ from cdpr_struct.bands.compared import assigned, compared, seen_on_platform
 from cdpr_struct.bands.frequency_bands import frequency_bands
 from cdpr_struct.bands.mode_rates import mode_rates
 from cdpr_struct.bands.rest_bands import pose_by_motion, rest_bands
-from cdpr_struct.crosscheck.robot_modes import robot_modes
 from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_robot
 from cdpr_struct.interface.bands import AskedBand, Banded, read_band, vibrating_like
+from cdpr_struct.interface.enough_modes import enough_modes
 from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.modes import ASSEMBLIES
@@ -33,8 +33,7 @@ from cdpr_struct.robot.pose import angles_from_rotation
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
 
-_FIRST, _MOST = 20, 320  # modes that are computed before it is known how many reach the highest reading
-_ROOM = 1.1  # times the highest reading
+_ROOM = 1.1  # times the highest reading, up to which there may be its mode
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -175,7 +174,8 @@ def _frequencies(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """The same of readings of frequencies."""
     measured, labels = np.array([one.measured for one in readings]), np.array([one.number for one in readings])
-    hertz, energy = _enough_modes(banded, model, float(measured.max()), int(labels.max()))
+    highest = _ROOM * float(measured.max())
+    hertz, energy = enough_modes(banded, model, int(labels.max()), lambda found, _: bool(found[-1] > highest))
     if int(labels.max()) > len(hertz):
         raise InputError(file, "mode", int(labels.max()), f"the model {model} has {len(hertz)} modes here")
     found = mode_rates(banded.point, hertz, banded.response, banded.spread, banded.assembly, vibrating_like(model))
@@ -192,15 +192,3 @@ def _frequencies(
     mode[unknown] = free[assigned(measured[unknown], hertz[free], bands.sigma[free])]
     ends = np.stack([bands.low, bands.high], axis=-1)[mode]
     return mode + 1, hertz[mode], ends, found.own[:, mode] * hertz[mode]
-
-
-def _enough_modes(banded: Banded, model: CableModel, highest: float, last: int) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies [Hz] and the platform's shares of the energy, to beyond the highest reading and the last label."""
-    count = max(_FIRST, last)
-    while True:
-        some = 6 - len(banded.point.entered.guided) if model == "static" else count
-        found = robot_modes(banded.point, model, min(some, count), banded.assembly, 0)
-        kept = found.hertz > 0.0
-        if model == "static" or found.hertz[-1] > _ROOM * highest or count >= _MOST:
-            return found.hertz[kept], found.platform_energy[kept]
-        count *= 2

@@ -16,7 +16,7 @@ from cdpr_struct.crosscheck.robot_modes import robot_modes
 from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
-from cdpr_struct.errors import CdprError, InputError
+from cdpr_struct.errors import NOTHING, CdprError, InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_robot, real, whole
 from cdpr_struct.interface.bands import spread_of, vibrating_like
@@ -218,8 +218,11 @@ def _wanted(mode: str | int | None, to: float | None) -> tuple[int, float] | Non
         return None
     matched = None if mode is None else _RAISE.fullmatch(str(mode))
     if matched is None:
-        raise InputError("raise", "", "nothing" if mode is None else mode, "the number of a mode, like mode:1")
-    return int(matched[1]), real(to, "to", "the frequency in Hz, above zero, that the mode should have", 0.0)
+        raise InputError("raise", "", NOTHING if mode is None else mode, "the number of a mode, like mode:1")
+    expected = "the frequency in Hz, above zero, that the mode should have"
+    if to is None:
+        raise InputError("to", "", NOTHING, expected)
+    return int(matched[1]), real(to, "to", expected, 0.0)
 
 
 def _raised(state: AtRest, wanted: tuple[int, float], model: CableModel, assembly: Assembly) -> dict[str, Any]:

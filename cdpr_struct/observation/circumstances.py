@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.measurement.campaign import Campaign, States
-from cdpr_struct.observation.motion import accelerations, length_rates
+from cdpr_struct.observation.motion import inertial, length_rates, tension_rates
 from cdpr_struct.robot.robot import Robot
 
 _SECONDS = 3600.0  # of an hour
@@ -16,8 +16,10 @@ class Circumstances:
     """Of S states of a robot with m cables.
 
     payload (S,) [kg];  hours (S,) since the first reading with a time, 0 without
-    rate (S, m, 2) : derivatives of the encoders' lengths [m/s, m/s^2], acceleration (S,) : of the platform [m/s^2]; 0
-    in states that are no frames of a motion
+    clock (S,) : since the clocks of poses and of other readings agree [s]: since the first reading unless entered
+    rate, pull (S, m, 2) : derivatives of lengths [m/s, m/s^2] and of tensions [N/s, N/s^2] as they were read
+    inertial (S, 6) : acceleration of the platform's origin [m/s^2], angular acceleration [rad/s^2], world axes
+    acceleration (S,) : of it what is not known [m/s^2];  all four 0 in states that are no frames of a motion
     approach (S, m) : +1 if the winch last wound in, -1 if it paid out, 0 unknown
     wrap (S, m) : right angles by which a cable that comes up from a winch below turns at its exit
     center (3,) : what a hose refers to [m];  mean_tension : what nonlinear elasticity refers to [N]
@@ -26,7 +28,10 @@ class Circumstances:
 
     payload: np.ndarray
     hours: np.ndarray
+    clock: np.ndarray
     rate: np.ndarray
+    pull: np.ndarray
+    inertial: np.ndarray
     acceleration: np.ndarray
     approach: np.ndarray
     wrap: np.ndarray
@@ -38,11 +43,15 @@ class Circumstances:
     def of(cls, campaign: Campaign, rotation: np.ndarray, position: np.ndarray) -> "Circumstances":
         """At poses (S, 3), (S, 3, 3) near the measured ones."""
         states, more, frames = campaign.states, campaign.robot.extensions, campaign.frames
+        moved, unknown = inertial(states) if frames is None else (frames.inertial, frames.acceleration)
         return cls(
             payload=states.payload,
             hours=_hours(states),
+            clock=_since(states, more.clock_start if more.clock_drift else first_time(states)),
             rate=length_rates(states) if frames is None else frames.rate,
-            acceleration=accelerations(states) if frames is None else frames.acceleration,
+            pull=tension_rates(states) if frames is None else frames.pull,
+            inertial=moved,
+            acceleration=unknown,
             approach=np.where(np.isfinite(states.approach), states.approach, 0.0),
             wrap=exit_turns(campaign.robot, position, rotation),
             center=more.hose_center if more.hose else position.mean(axis=0),
@@ -59,15 +68,23 @@ class Circumstances:
 
     def at(self, some: np.ndarray) -> "Circumstances":
         """Those of some states."""
-        names = ("payload", "hours", "rate", "acceleration", "approach", "wrap")
+        names = ("payload", "hours", "clock", "rate", "pull", "inertial", "acceleration", "approach", "wrap")
         return replace(self, **{name: getattr(self, name)[some] for name in names})
 
 
 def _hours(states: States) -> np.ndarray:
-    known = np.isfinite(states.time)
-    if not known.any():
-        return np.zeros(len(states.time))
-    return np.where(known, (states.time - np.nanmin(states.time)) / _SECONDS, 0.0)
+    return _since(states, first_time(states)) / _SECONDS
+
+
+def first_time(states: States) -> float:
+    """[s] of the first reading with a time, 0 without."""
+    known = states.time[np.isfinite(states.time)]
+    return float(known.min()) if known.size else 0.0
+
+
+def _since(states: States, start: float) -> np.ndarray:
+    """(S,) [s] since a time, 0 of readings without one."""
+    return np.where(np.isfinite(states.time), states.time - start, 0.0)
 
 
 def _mean_tension(campaign: Campaign) -> float:

@@ -12,7 +12,7 @@ import numpy as np
 
 from cdpr_struct.observation.circumstances import Circumstances
 from cdpr_struct.observation.readings import Readings, paid_out, true_pose, true_tension
-from cdpr_struct.observation.rest import Rest, at_states, rest
+from cdpr_struct.observation.rest import Rest, at_states, inertia_wrench, rest
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.cable_state import CableStates
@@ -67,7 +67,7 @@ class NearbyRest:
         found = self._cables(there, arms, true_tension(there, readings, self.known))
         force, length = found[..., :3], found[..., 6]
         moment = np.cross(arms.arms, force).sum(axis=-2)
-        load = load_wrench(there, arms)
+        load = load_wrench(there, arms) + inertia_wrench(there, arms, rotation, self.known)
         gap = paid_out(there, readings, self.known) - length
         rows = [force.sum(axis=-2) + load[..., :3], (moment + load[..., 3:]) / self.radius, gap]
         lead = np.broadcast_shapes(*(part.shape[:-1] for part in rows))

@@ -44,7 +44,8 @@ def true_pose(arrays: RobotArrays, readings: Readings) -> tuple[np.ndarray, np.n
 
 def true_tension(arrays: RobotArrays, readings: Readings, known: Circumstances) -> np.ndarray:
     """(..., S, m) tensions at the platform that the load cells' readings mean [N]."""
-    read = (readings.tension - arrays.cell_bias) / arrays.cell_gain - arrays.pulley_drag * known.approach
+    later = readings.tension + _later(arrays, arrays.cell_delay, known, known.pull)
+    read = (later - arrays.cell_bias) / arrays.cell_gain - arrays.pulley_drag * known.approach
     return np.maximum(read * np.exp(-known.approach * _pulley_friction(arrays, known.wrap)), LEAST_TENSION)
 
 
@@ -70,15 +71,21 @@ def paid_out(arrays: RobotArrays, readings: Readings, known: Circumstances) -> n
     """
     more = (
         arrays.slip * known.hours[:, None]
-        + _later(arrays.encoder_delay, known.rate)
+        + _later(arrays, arrays.encoder_delay, known, known.rate)
         + 0.5 * arrays.backlash * known.approach
     )
     return arrays.paid_out(readings.length) + more * arrays.thermal_growth
 
 
-def _later(delay: np.ndarray, rate: np.ndarray) -> np.ndarray:
-    """(..., S, m) by how much lengths grow within delays (..., m) [s], rates (S, m, 2), to second order."""
-    return np.asarray(delay * rate[..., 0] + 0.5 * delay**2 * rate[..., 1])
+def _later(arrays: RobotArrays, delay: np.ndarray, known: Circumstances, rate: np.ndarray) -> np.ndarray:
+    """(..., S, m) by how much readings with rates (S, m, 2) change until the time of the poses, to second order.
+
+    delay : (..., m) by which they are older [s]; less where the clock of the poses has gained
+    """
+    if not arrays.clock_drift.any() and not delay.any():
+        return np.zeros(1)
+    older = delay - arrays.clock_drift[..., None] * known.clock[:, None]
+    return np.asarray(older * rate[..., 0] + 0.5 * older**2 * rate[..., 1])
 
 
 def cell_reading(arrays: RobotArrays, tension: np.ndarray, approach: np.ndarray, wrap: np.ndarray) -> np.ndarray:

@@ -53,9 +53,23 @@ def rest(arrays: RobotArrays, readings: Readings, known: Circumstances) -> Rest:
     return Rest(there, position, rotation, arms, cables)
 
 
-def unbalanced(state: Rest) -> np.ndarray:
-    """(..., S, 6) wrench of cables and load about the platform origin [N, N m]; zero if all were right."""
-    return cable_wrench(state.cables, state.arms) + load_wrench(state.arrays, state.arms)
+def unbalanced(state: Rest, known: Circumstances) -> np.ndarray:
+    """(..., S, 6) wrench of cables, load and inertia about the platform origin [N, N m]; zero if all were right."""
+    load = load_wrench(state.arrays, state.arms) + inertia_wrench(state.arrays, state.arms, state.rotation, known)
+    return cable_wrench(state.cables, state.arms) + load
+
+
+def inertia_wrench(arrays: RobotArrays, arms: PlatformArms, rotation: np.ndarray, known: Circumstances) -> np.ndarray:
+    """(..., S, 6) d'Alembert wrench of the accelerated platform about its origin, world axes [N, N m].
+
+    What goes with the square of its angular velocity is left out. Cables are light.
+    """
+    if not known.inertial.any():
+        return np.zeros(6)
+    moved, turned = known.inertial[:, :3], known.inertial[:, 3:]
+    force = -arrays.mass[..., None] * (moved + np.cross(turned, arms.center))
+    rate = (rotation @ (arrays.inertia @ (np.swapaxes(rotation, -1, -2) @ turned[..., None])))[..., 0]
+    return np.concatenate([force, np.cross(arms.center, force) - rate], axis=-1)
 
 
 def unfitting(state: Rest, readings: Readings, known: Circumstances) -> np.ndarray:
@@ -66,7 +80,7 @@ def unfitting(state: Rest, readings: Readings, known: Circumstances) -> np.ndarr
 def static_residuals(arrays: RobotArrays, readings: Readings, known: Circumstances, radius: float) -> np.ndarray:
     """(..., S, 6 + m): wrench, moments over the platform's radius [N], then lengths [m]."""
     state = rest(arrays, readings, known)
-    wrench, length = unbalanced(state), unfitting(state, readings, known)
+    wrench, length = unbalanced(state, known), unfitting(state, readings, known)
     rows = [wrench[..., :3], wrench[..., 3:] / radius, length]
     lead = np.broadcast_shapes(*(part.shape[:-1] for part in rows))
     return np.concatenate([np.broadcast_to(part, (*lead, part.shape[-1])) for part in rows], axis=-1)

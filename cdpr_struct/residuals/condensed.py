@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from cdpr_struct.measurement.campaign import Campaign, States
 from cdpr_struct.measurement.frames import Frames
-from cdpr_struct.observation.motion import accelerations, length_rates, runs
+from cdpr_struct.observation.motion import inertial, length_rates, runs, tension_rates
 from cdpr_struct.observation.rest import static_residuals
 from cdpr_struct.residuals.recorded import Recorded, recorded
 
@@ -33,7 +33,9 @@ def condensed(campaign: Campaign) -> Campaign:
     if len(chosen) == len(campaign.states.names):
         return campaign
     states = campaign.states
-    frames = Frames(length_rates(states)[chosen], accelerations(states)[chosen], count, worth)
+    moved, unknown = inertial(states)
+    rates = length_rates(states)[chosen], tension_rates(states)[chosen]
+    frames = Frames(*rates, moved[chosen], unknown[chosen], count, worth)
     return replace(_with(campaign, chosen), frames=frames)
 
 

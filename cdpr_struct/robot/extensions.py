@@ -60,6 +60,9 @@ class Extensions:
     slip: np.ndarray
     encoder_delay: np.ndarray
     swivel_zero: np.ndarray
+    cell_delay: np.ndarray
+    clock_drift: float
+    clock_start: float
     accelerometer_gain: np.ndarray
     sensor_mass: float
     internal_mass: float

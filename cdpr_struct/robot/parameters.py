@@ -162,6 +162,9 @@ EXTENSIONS: dict[str, Parameter] = {
     "slip": _extra(_EACH, 0.0, "m/h", "of the winch"),
     "swivel_zero": _extra(_EACH, 0.0, "rad", "reading of a pulley's swivel encoder = its swivel angle + swivel_zero"),
     "encoder_delay": _extra(_EACH, 0.0, "s", "by which lengths are older than the poses that are filed with them"),
+    "cell_delay": _extra(_EACH, 0.0, "s", "by which tensions are older than the poses that are filed with them"),
+    "clock_drift": _extra((), 0.0, "1", "by how much faster the clock of poses runs than that of lengths and tensions"),
+    "clock_start": _extra((), 0.0, "s", "time_s at which these clocks agree"),
     "accelerometer_gain": _extra((6,), 1.0, "1", "accelerometer reading = gain * acceleration, x to rz", above=0.0),
     "sensor_mass": _extra((), 0.0, "kg", "on the platform origin while vibration is measured, not when tensions are",
                           least=0.0),
@@ -178,13 +181,14 @@ EXTENSIONS: dict[str, Parameter] = {
 PARAMETERS: dict[str, Parameter] = {**_RULES, **EXTENSIONS}
 SENSORS = (
     "cell_gain", "cell_bias", "friction", "bearing_friction", "pulley_drag", "backlash", "tracker", "creep", "slip",
-    "encoder_delay", "accelerometer_gain", "sensor_mass", "swivel_zero",
+    "encoder_delay", "cell_delay", "clock_drift", "accelerometer_gain", "sensor_mass", "swivel_zero",
 )  # fmt: skip
 """Act only where readings are compared: they describe sensors, or need the time of a reading."""
 AUXILIARY = {
     "bending_fixity": ("bending_stiffness",),
     "added_mass_place": ("added_mass",),
     "mast_foot": ("mast_bending",),
+    "clock_start": ("clock_drift",),
     "wind": ("drag_area", "drag_width"),
     "air_density": ("drag_area", "drag_width"),
     "hose_center": ("hose",),

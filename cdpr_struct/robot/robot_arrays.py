@@ -46,7 +46,9 @@ class RobotArrays:
     tilt            : (..., 2) [rad];  temperature_change : (...) [K]
     drag_area       : (...) [m^2], drag_width : (..., m) [m] in wind (..., 3) [m/s] of air_density (...) [kg/m^3]
     nonlinearity, stiffening_exponent : (...) k and n with reference_tension (...) [N];  incremental_ratio : (...)
-    cell_gain, cell_bias, friction, bearing_friction, pulley_drag, backlash, slip, encoder_delay, swivel_zero : (..., m)
+    cell_gain, cell_bias, friction, bearing_friction, pulley_drag, backlash, slip, encoder_delay, cell_delay,
+    swivel_zero : (..., m)
+    clock_drift, clock_start : (...) [-], [s]
     tracker, accelerometer_gain : (..., 6)
     creep, sensor_mass : (...)
     internal_mass, internal_frequency : (...) [kg], [Hz];  internal_direction : (..., 3) unit, platform frame
@@ -110,6 +112,9 @@ class RobotArrays:
     slip: np.ndarray = field(default_factory=PARAMETERS["slip"].without_effect)
     encoder_delay: np.ndarray = field(default_factory=PARAMETERS["encoder_delay"].without_effect)
     swivel_zero: np.ndarray = field(default_factory=PARAMETERS["swivel_zero"].without_effect)
+    cell_delay: np.ndarray = field(default_factory=PARAMETERS["cell_delay"].without_effect)
+    clock_drift: np.ndarray = field(default_factory=PARAMETERS["clock_drift"].without_effect)
+    clock_start: np.ndarray = field(default_factory=PARAMETERS["clock_start"].without_effect)
     accelerometer_gain: np.ndarray = field(default_factory=PARAMETERS["accelerometer_gain"].without_effect)
     sensor_mass: np.ndarray = field(default_factory=PARAMETERS["sensor_mass"].without_effect)
     internal_mass: np.ndarray = field(default_factory=PARAMETERS["internal_mass"].without_effect)

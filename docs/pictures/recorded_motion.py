@@ -86,7 +86,7 @@ def _against_speed(axes: Axes, one: Found) -> None:
         some = slice(None, None, _EVERY)
         axes.plot(one.speed[some].ravel(), _MM * centred[some].ravel(), ".", ms=2.5, color=colour, label=words)
     reach = np.array([-1.0, 1.0]) * np.abs(one.speed).max()
-    axes.plot(reach, -one.numbers()["delay_ms"] * reach, color=BLACK, lw=0.9, label="slope: the delay found")
+    axes.plot(reach, one.numbers()["delay_ms"] * reach, color=BLACK, lw=0.9, label="slope: the delay found")
     axes.set(title="Later frames, all cables", xlabel="speed of the cable [m/s]", ylabel="length error [mm]")
     axes.legend(loc="upper left")
 

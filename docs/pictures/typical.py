@@ -115,7 +115,8 @@ def entered(pulleys: bool = True) -> Stand:
     position, rotation = POSE.position[None], POSE.rotation[None]
     turns = exit_turns(robot, position, rotation)
     known = Circumstances(
-        payload=np.zeros(1), hours=np.ones(1), rate=np.full((1, 8, 2), 0.1), acceleration=np.zeros(1),
+        payload=np.zeros(1), hours=np.ones(1), clock=np.full(1, 60.0), rate=np.full((1, 8, 2), 0.1),
+        pull=np.full((1, 8, 2), 20.0), inertial=np.zeros((1, 6)), acceleration=np.zeros(1),
         approach=np.ones((1, 8)), wrap=turns, center=POSE.position, mean_tension=float(held.tensions.mean()),
     )  # fmt: skip
     return Stand(RobotArrays.of(robot), known, Readings(position, rotation, held.tensions[None], held.lengths[None]))
@@ -134,6 +135,8 @@ def theta_of(cause: Cause, arrays: RobotArrays) -> tuple[np.ndarray, str]:
         "missing_pulleys",
         "nonlinear_elasticity",
         "pulley_friction",
+        "sensor_delay",
+        "clock_drift",
     ):
         own = own * (np.arange(len(own)) < {"tracker_frame": 6, "pose_mismatch": 3}.get(cause.name, 1))
     count = {"cable": 8, "mast": carriers(arrays.masts).shape[1], "axis": 3, "state": 1}.get(cause.carrier, 1)
@@ -173,7 +176,7 @@ def effect(simulation: Stand, real: Stand, size: str, *, linear: bool = True, pe
     """Real less simulated."""
     told, expected = real.misread(_readings(real)), _readings(simulation)
     model = rest(simulation.arrays, told, simulation.known)
-    wrench = unbalanced(model)[0]
+    wrench = unbalanced(model, simulation.known)[0]
     there, here = _point(real), _point(simulation)
     same = all(getattr(real, n) is getattr(simulation, n) for n in ("arrays", "known", "commanded"))
     cable = np.zeros((8, 3)) if same else locked.cable_hertz(there) / locked.cable_hertz(here) - 1.0

@@ -30,6 +30,8 @@ from tests.blind.campaign_files import write_case
 from tests.blind.case_drawing import ROBOTS, CaseKind, can_be_separated, drawn_case
 from tests.blind.detectability import write_table
 from tests.blind.mesh_error import all_mesh_errors
+from tests.blind.moving_scoring import moving_figures, moving_page, moving_rows
+from tests.blind.moving_sets import MovingKind, moving_case, moving_kinds
 from tests.blind.report_page import write_page
 from tests.blind.running import default_command, diagnose_all
 from tests.blind.scoring import case_rows, figures, scored_cases
@@ -38,16 +40,19 @@ from tests.blind.spoilt_sets import SpoiltKind, spoilt_cases, spoilt_kinds
 from tests.blind.suite import FINAL_RATES, FULL, composed, record_final_use, set_seed
 
 _Group = tuple[list[tuple[str, SpoiltKind]], int, Path, Path]  # named kinds of one reality, seed, where to
+_Moving = tuple[MovingKind, str, tuple[int, ...], Path, Path]
 Job = tuple[CaseKind, str, tuple[int, ...], Path, Path]  # what, name, seed, where to, where the truth goes
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "blind_tests.md"
 MESH = Path(__file__).with_name("mesh_error.json")
 FOLLOW_UPS = "followups"  # ambiguous cases measured again
 RATES = "rates"  # more nulls, just detectable effects and pairs beside a final set, which has few of each
 WHOLE = {"dev": 200, "final": 200, "ci": 12, "unseen": 24, "laws": 8, "rare": 150, "rates": 800}
-WHOLE |= {"outside-dev": 24, "outside-held": 24, "conventions": 40}
+WHOLE |= {"outside-dev": 24, "outside-held": 24, "conventions": 40, "conventions-small": 40, "no-conventions": 200}
 SPOILT = {"messy": 270, "peaks": 180, "sizes": 224, "messy-dev": 81, "peaks-dev": 63, "sizes-dev": 64}
 SPOILT |= {"few": 180, "few-dev": 144}
 SPOILT |= {"unread": 42, "wheels": 90, "unread-dev": 12, "wheels-dev": 12}
+MOVING = {"delays": 120, "delays-dev": 30}
+SETS = WHOLE | SPOILT | MOVING
 
 
 def campaigns_of(out: Path) -> Path:
@@ -63,13 +68,15 @@ def sealed_of(options: argparse.Namespace) -> Path:
 def make(options: argparse.Namespace) -> int:
     """Draw and write all cases of a set that are not there yet, or all again."""
     out, sealed = Path(options.out), sealed_of(options)
-    total = options.count or (WHOLE | SPOILT)[options.set]
+    total = options.count or SETS[options.set]
     run = {"set": options.set, "release": options.release, "count": total}
     if other := _other_set(out, run):
         print(f"tests.blind: --out {out} holds {other}; give another directory", file=sys.stderr)
         return 2
     if options.set in SPOILT:
         jobs: list[Any] = _groups(options.set, options.release, total, out, sealed)
+    elif options.set in MOVING:
+        jobs = _moving(options.set, options.release, total, out, sealed)
     else:
         jobs = jobs_of(options.set, options.release, total, out, sealed, options.again)
     if options.set == "final":
@@ -80,7 +87,8 @@ def make(options: argparse.Namespace) -> int:
     out.mkdir(parents=True, exist_ok=True)
     (out / "run.json").write_text(json.dumps(run) + "\n", "utf-8")
     with ProcessPoolExecutor(options.workers) as pool:
-        made = pool.map(_made_group if options.set in SPOILT else make_case, jobs)
+        maker = _made_group if options.set in SPOILT else _made_moving if options.set in MOVING else make_case
+        made = pool.map(maker, jobs)
         for _ in track(made, "make", len(jobs), disable=not sys.stderr.isatty()):
             pass
     return 0
@@ -103,6 +111,18 @@ def _groups(name: str, release: str, total: int, out: Path, sealed: Path) -> lis
         groups.setdefault(kind.group, []).append((f"c{number:03d}", kind))
     written = {path.parent.name for path in campaigns_of(out).glob("*/manifest.json")}
     return [(kinds, base, out, sealed) for kinds in groups.values() if not {case for case, _ in kinds} <= written]
+
+
+def _moving(name: str, release: str, total: int, out: Path, sealed: Path) -> list[_Moving]:
+    """What is still to be made of a set of motions."""
+    base = set_seed(name, release)
+    jobs = [(kind, f"c{n:03d}", (base, n), out, sealed) for n, kind in enumerate(moving_kinds(total, base), start=1)]
+    return [job for job in jobs if not (campaigns_of(out) / job[1] / "manifest.json").exists()]
+
+
+def _made_moving(job: _Moving) -> None:
+    kind, name, seed, out, sealed = job
+    write_case(moving_case(kind, seed), name, seed, campaigns_of(out), sealed)
 
 
 def _made_group(job: _Group) -> None:
@@ -156,6 +176,8 @@ def score(options: argparse.Namespace) -> int:
     if about["set"] in SPOILT:
         found = spoilt_rows(cases, case_rows(cases))
         return _scored({"run": about, "figures": spoilt_figures(cases), "rows": found}, out)
+    if about["set"] in MOVING:
+        return _scored({"run": about, "figures": moving_figures(cases), "rows": moving_rows(cases)}, out)
     rows = {"rows": case_rows(cases), "rates": case_rows(rates)}
     return _scored({"run": about, "figures": figures(cases, served, rates)} | rows, out)
 
@@ -174,6 +196,8 @@ def report(options: argparse.Namespace) -> int:
     page = Path(options.page) if options.page else own
     if scores["run"]["set"] in SPOILT:
         page.write_text(spoilt_page(scores), "utf-8")
+    elif scores["run"]["set"] in MOVING:
+        page.write_text(moving_page(scores), "utf-8")
     else:
         write_page(scores, page, mesh)
     print(f"Written: {page}")
@@ -198,7 +222,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Command line of the harness."""
     parser = argparse.ArgumentParser(prog="python -m tests.blind", description=__doc__.splitlines()[0])
     parser.add_argument("step", choices=("make", "run", "score", "report", "sizes", "mesh"))
-    parser.add_argument("--set", choices=tuple(WHOLE | SPOILT), default="dev")
+    parser.add_argument("--set", choices=tuple(SETS), default="dev")
     parser.add_argument("--count", type=int, default=0, help="cases (default: the whole set)")
     parser.add_argument("--out", default="", help="directory of campaigns and answers (default: results/blind-SET)")
     parser.add_argument("--sealed", default="", help="directory of the truth (default: OUT-sealed)")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -79,16 +80,16 @@ def campaign_text(case: Case) -> str:
     if case.check is not None:
         lines += ["", "[checked]", *(f"{cause} = {sigma:g}" for cause, sigma in case.check.left.items())]
     for kind, table in case.tables.items():
-        lines += ["", "[[measurement]]", *measurement_lines(kind, table)]
+        lines += ["", "[[measurement]]", *measurement_lines(kind, table, case.sigma)]
     return "\n".join(lines) + "\n"
 
 
-def measurement_lines(kind: str, table: pd.DataFrame) -> list[str]:
+def measurement_lines(kind: str, table: pd.DataFrame, sigma: Mapping[str, float] = SIGMA) -> list[str]:
     """Kind, file and sigmas of one file."""
     names = [*POSE_SIGMA]
     names += [key for key in ("tension_N",) if key in table]
     names += [key for key in ("length_m",) if key in table or "length_1_m" in table]
-    pairs = [f"{key} = {SIGMA[key]}" for key in names]
+    pairs = [f"{key} = {sigma[key]:.6g}" for key in names]
     relative = {"cable_frequency": CABLE_HZ, "robot_frequency": ROBOT_HZ}.get(kind)
     if relative is not None:
         pairs.append(f"frequency_hz = {relative * table['frequency_hz'].median():.4g}")

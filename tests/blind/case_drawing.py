@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -27,7 +27,7 @@ from tests.blind.entered_robot import EnteredRobot, entered_robot
 from tests.blind.measuring_plan import Plan, PlanSize, drawn_plan
 from tests.blind.note_errors import spoiled
 from tests.blind.observation import Observation, SlackStateError, observed
-from tests.blind.sensors import Noise, Tables, filed, timed
+from tests.blind.sensors import SIGMA, Noise, Tables, filed, timed
 from tests.blind.true_robot import bare_inertia
 
 ROBOTS = ("thesis-3-1", "cogiro", "thesis-5", "thesis-5-pulleys")
@@ -66,7 +66,7 @@ class CaseKind:
 class Case:
     """A drawn case: what is handed out and what is sealed (truth).
 
-    weighed : the platform's mass [kg];  check : what else was measured beside the robot
+    weighed : the platform's mass [kg];  check : what else was measured beside the robot;  sigma : of the sensors
     """
 
     robot: EnteredRobot
@@ -74,6 +74,7 @@ class Case:
     truth: dict[str, Any]
     weighed: float | None = None
     check: BesideCheck | None = None
+    sigma: Mapping[str, float] = field(default_factory=lambda: SIGMA)
 
 
 class RejectedDrawError(Exception):

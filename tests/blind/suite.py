@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -24,10 +25,13 @@ from tests.blind.catalogue import (
     RARE,
     UNSEEN,
 )
+from tests.blind.measuring_plan import PlanSize
 
 FULL = {"null": 40, "single": 80, "pair": 24, "ambiguous": 20, "outside": 20, "handling": 16}
 CI = {"null": 3, "single": 3, "pair": 1, "ambiguous": 2, "outside": 2, "handling": 1}
 MULTIPLES = (0.5, 1.0, 2.0, 4.0)
+SMALL = PlanSize(static_states=8, locks=1, loads_per_lock=3)
+SMALL_SETS = ("conventions-small", "no-conventions")  # without frequencies, of few states
 CLEAR = 4.0  # multiple of effects whose size is not the question
 FINAL_RATES = {"null": 60, "just": 150, "pair": 56}  # beside a final set, which has few of each
 NULLS = 0.6  # share of nulls in a set of rates; the rest is just detectable
@@ -38,7 +42,8 @@ SET_SEEDS |= {"messy-dev": 31_301, "peaks-dev": 31_302, "sizes-dev": 31_303}
 SET_SEEDS |= {"few": 31_204, "few-dev": 31_304}
 SET_SEEDS |= {"unread": 31_206, "wheels": 31_207, "unread-dev": 31_306, "wheels-dev": 31_307}
 SET_SEEDS |= {"outside-dev": 31_401, "outside-held": 31_402}
-SET_SEEDS |= {"conventions": 31_205}
+SET_SEEDS |= {"conventions": 31_205, "conventions-small": 31_206, "no-conventions": 31_207}
+SET_SEEDS |= {"delays": 31_208, "delays-dev": 31_308}
 USES = Path(__file__).with_name("final_uses.json")
 
 
@@ -74,6 +79,8 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
         "outside-dev": {"outside_dev": total},
         "outside-held": {"outside_held": total},
         "conventions": {"convention": total},
+        "conventions-small": {"convention": total},
+        "no-conventions": counts(total, {"null": 2, "single": 2}),
         "rates": {"null": nulls, "just": total - nulls},
         "final-rates": counts(total, FINAL_RATES),
     }
@@ -95,6 +102,8 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
         "outside_held": partial(_static_outside, [*OUTSIDE_HELD]),
     }
     kinds = [kind for key, maker in makers.items() if key in numbers for kind in maker(numbers[key], rng)]
+    if name in SMALL_SETS:
+        kinds = [replace(kind, statics=True, size=SMALL, noise="white") for kind in kinds]
     return [kinds[index] for index in rng.permutation(len(kinds))]
 
 

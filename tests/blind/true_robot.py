@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -46,6 +46,7 @@ class Command:
     approach : (m,) +1 if the winch last wound in, else -1
     position, rotation : where the platform should come to rest, (3,) [m], (3, 3)
     day      : share of the campaign that is over, 0 at the first state and 1 at the last
+    motion : (3, 3) acceleration of the platform's origin [m/s^2], angular velocity and acceleration [rad/s, rad/s^2]
     """
 
     lengths: np.ndarray
@@ -54,6 +55,7 @@ class Command:
     position: np.ndarray
     rotation: np.ndarray
     day: float = 0.0
+    motion: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))
 
 
 def true_lengths(deviations: Deviations, command: Command) -> np.ndarray:
@@ -173,6 +175,18 @@ def placed_force(
     return PointForce(force) if np.any(force) else None
 
 
+def inertia_force(platform: PlatformData, command: Command) -> PointForce | None:
+    """D'Alembert's force and moment on a moving platform; nothing else may push it then."""
+    if not np.any(command.motion):
+        return None
+    moved, spin, turned = command.motion
+    center = command.rotation @ platform.center_of_mass
+    inertia = command.rotation @ platform.inertia @ command.rotation.T
+    there = moved + np.cross(turned, center) + np.cross(spin, np.cross(spin, center))
+    moment = inertia @ turned + np.cross(spin, inertia @ spin)
+    return PointForce(-platform.mass * there, platform.center_of_mass, -moment)
+
+
 def balancer_stiffness(robot: EnteredRobot, deviations: Deviations, position: np.ndarray) -> np.ndarray:
     """Stiffness (3, 3) [N/m] of a line of constant force: it only turns."""
     line = robot.home + HOOK - position
@@ -230,7 +244,7 @@ def at_rest(robot: EnteredRobot, deviations: Deviations, command: Command, eleme
     yielded, tensions, masts = np.zeros_like(robot.frame_anchors), np.zeros(robot.cables), Settling()
     for _ in range(ROUNDS):
         data = true_robot(robot, deviations, command, rotation, yielded, tensions)
-        force = placed_force(robot, deviations, position, command.day)
+        force = placed_force(robot, deviations, position, command.day) or inertia_force(data.platform, command)
         equilibrium = solve_robot(data, position, rotation, elements, external_force=force)
         shift = mast_yield(robot, deviations, equilibrium)
         moved = np.abs(equilibrium.position - position).max() + np.abs(equilibrium.rotation - rotation).max()

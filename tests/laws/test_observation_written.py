@@ -84,9 +84,9 @@ OF_READINGS = (
     "slip",
     "accelerometer_gain",
 )
-ALONE = [
-    name for name in EXTENSIONS if name not in (*AUXILIARY, "sensor_mass", "drag_width", "encoder_delay", "swivel_zero")
-]
+CLOCKS = ("encoder_delay", "cell_delay", "clock_drift")
+ELSEWHERE = ("sensor_mass", "drag_width", "swivel_zero", *CLOCKS)
+ALONE = [name for name in EXTENSIONS if name not in (*AUXILIARY, *ELSEWHERE)]
 """Wind on cables is refused; delays need states in motion, see `test_sensor_delay.py`; for swivels
 see `test_swivel_angles.py`."""
 

@@ -139,6 +139,14 @@ def recorded_motion() -> Figure:
     return Figure(f"{min(shares):.2f} to {max(shares):.2f}", max(shares) <= 1.0 / 3.0)
 
 
+def delays() -> Figure:
+    """Share of cases in which the delay was named alone, and in which both were named beside another effect."""
+    rows = {row[0]: row for row in table("blind_delays.md", "figure", "reached")}
+    alone, both = rows["delay or drift alone, named"], rows["both named, with a second effect"]
+    shown = "; ".join(f"{row[1]} of {row[3]} cases" for row in (alone, both))
+    return Figure(shown, number(alone[1]) >= 0.95 and number(both[1]) >= 0.85)
+
+
 def pythons() -> Figure:
     """Versions of Python on which tests were run."""
     rows = table("install.md", "Python", "packages")

@@ -192,6 +192,17 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.recorded_motion,
         ),
         Row(
+            case="sensors that read late along a motion, 4 times what can be detected, alone and with another effect",
+            reference="hidden delays and drifts of clocks, finite elements with the platform's inertia",
+            metric="named alone; both named",
+            acceptance="95 %; 85 %",
+            command="python -m tests.blind make|run|score --set delays",
+            test="tests/laws/test_delays_found.py::test_tensions_that_are_late_are_named_with_their_delay",
+            twin="tests/laws/test_delays_found.py::test_nothing_is_named_where_nothing_is_late",
+            source="blind_delays.md",
+            figure=figures.delays,
+        ),
+        Row(
             case="ambient records of 20 robots, ten minutes, 128 modes, 24 of them in pairs",
             reference="modes of the finite elements that move the platform",
             metric="largest error in sigmas; sigmas of 0.2 % or less; modes missed and invented",

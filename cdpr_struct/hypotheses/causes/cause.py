@@ -83,7 +83,7 @@ class Seen:
     cable_modes : how many different modes of a cable;  states : names
     highest : frequency measured of the robot [Hz], 0 without;  internal : whether the robot has an internal mass
     swinging : whether it has a mass that swings
-    moving : whether some states are frames of a motion
+    moving, pulling : whether some states are frames of a motion in which lengths, and in which tensions were read
     wheels, bare : whether some cables have pulleys in the robot file, and whether some have none
     groups : endings and words of what carries parameters of its own, by carrier ("cable", "mast", "axis", "state")
     """
@@ -104,6 +104,7 @@ class Seen:
     wheels: bool = False
     bare: bool = True
     moving: bool = False
+    pulling: bool = False
 
 
 def always(seen: Seen) -> str:
@@ -121,6 +122,7 @@ class Cause:
     shapes    : (label, which basic parameters, probability) of the patterns of a cause that has its own
     fitted    : how many patterns are fitted, the likeliest first: more where slopes at zero do not tell them apart
     laws      : (words, which of its parameters, probability) where a carrier may follow one of several laws
+    law_needs : by words of a law, why these data cannot tell it from others, or ""
     one_of    : words of the first parameters of each carrier, if these are ways to occur of which it has one; the last
                 ones bend that way, and are in no pattern to begin with (see `choices.py`)
     along     : words, if the parameter after the ways goes along in half of the patterns
@@ -142,6 +144,7 @@ class Cause:
     shapes: tuple[tuple[str, slice | list[int], float], ...] = ()
     fitted: int = 1
     laws: tuple[tuple[str, list[int], float], ...] = ()
+    law_needs: Mapping[str, Callable[[Seen], str]] = field(default_factory=dict)
     one_of: tuple[str, ...] = ()
     along: str = ""
     seen_in: tuple[str, ...] = ()
@@ -183,8 +186,9 @@ class Cause:
             return [p for k in range(len(self.one_of)) for p in self.in_one_way(seen, [k] * (len(basic) // axes))]
         if len(basic) < 2 * axes:
             return [Pattern("", every, self.parameters, 1.0)]
-        laws = self.laws or (("", list(range(axes)), 1.0),)
-        return [found for words, own, share in laws for found in self._of_law(seen, words, own, share)]
+        laws = [law for law in self.laws if not self.law_needs.get(law[0], always)(seen)]
+        laws, whole = laws or [("", list(range(axes)), 1.0)], sum(law[2] for law in laws) or 1.0
+        return [found for words, own, share in laws for found in self._of_law(seen, words, own, share / whole)]
 
     def in_one_way(self, seen: Seen, ways: Sequence[int]) -> list[Pattern]:
         """Each carrier in one of its ways, all of one size or each of its own, with what may go along and without."""

@@ -6,10 +6,19 @@ from dataclasses import replace
 from importlib.metadata import entry_points
 
 from cdpr_struct.errors import InputError, known_names
-from cdpr_struct.hypotheses.causes import accelerometers, cables, geometry, platform, pulleys, sensors, stiffness
+from cdpr_struct.hypotheses.causes import (
+    accelerometers,
+    cables,
+    clocks,
+    geometry,
+    platform,
+    pulleys,
+    sensors,
+    stiffness,
+)
 from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen
 
-FAMILIES = (stiffness, geometry, pulleys, platform, cables, sensors, accelerometers)
+FAMILIES = (stiffness, geometry, pulleys, platform, cables, sensors, clocks, accelerometers)
 LIBRARY: dict[str, Cause] = {cause.name: cause for family in FAMILIES for cause in family.CAUSES}
 
 ENTRY_POINTS = "cdpr_struct.causes"

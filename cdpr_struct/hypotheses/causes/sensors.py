@@ -36,14 +36,6 @@ def _cells(seen: Seen) -> str:
     return "" if seen.tensions else "needs tensions"
 
 
-def _delay(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
-    return plus(arrays, encoder_delay=theta)
-
-
-def _moving(seen: Seen) -> str:
-    return "" if seen.moving else "needs lengths with time_s along a motion"
-
-
 def _approach(seen: Seen) -> str:
     return "" if seen.approach else "needs a column approach (+1 or -1)"
 
@@ -128,20 +120,5 @@ CAUSES = (
         sentence="a winch slips by {rms} m per hour",
         sign="positive: pays out",
         separated_by="the motor encoder's log",
-    ),
-    Cause(
-        "sensor_delay",
-        "delay of the encoders against the tracker",
-        (Parameter("delay", "s", 0.04),),
-        _delay,
-        carrier="cable",
-        seen_in=("CO",),
-        needs=_moving,
-        in_motion=True,
-        sentence="the cable lengths are {size} s {sense} than the poses that are filed with them",
-        senses=("older", "newer"),
-        sign="negative: the poses are older than the lengths",
-        separated_by="the same motion at half the speed; a common trigger",
-        extension="encoder_delay",
     ),
 )

@@ -257,9 +257,21 @@ DESCRIPTIONS = {
         "Length error of one cable that grows evenly with time",
     ),
     "sensor_delay": Description(
-        "length paid out = encoder length + delay times its rate, from a spline through the frames of a motion",
-        "above 0: lengths are older than the poses that are filed with them; below 0: the poses are",
-        "Length errors in proportion to the speed of each cable, with the other sign on the way back; none at rest",
+        "at the time of the pose, length and tension are the readings less delay times their rates. Rates of lengths "
+        "come from a spline through the frames of a motion, those of tensions from a smoothing spline. Where lengths "
+        "and tensions were read, poses may be late against both (delay), against lengths alone (delay_of_lengths) or "
+        "against tensions alone (delay_of_tensions)",
+        "above 0: the poses are older than what is filed with them. The extended robot holds how much older lengths "
+        "(encoder_delay) and tensions (cell_delay) are than poses, of the other sign",
+        "Length errors in proportion to the speed of each cable, with the other sign on the way back; none at rest. "
+        "Tensions that are late do not balance weight and inertia, in proportion to their rates",
+    ),
+    "clock_drift": Description(
+        "the delay of the poses grows by drift times the time since the first reading. Beside a delay at the start "
+        "both are found, sensor_delay and clock_drift",
+        "above 0: the clock of the poses is fast, so that they grow older than what is filed with them",
+        "As of a delay that is nothing at the start and grows evenly: the same motion shows larger errors each time",
+        "Mills, *Computer Network Time Synchronization*, 2nd edition, 2011: clocks differ by an offset and a rate",
     ),
     "accelerometer_gain": Description(
         "the FRF is multiplied by the gain",

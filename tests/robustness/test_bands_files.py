@@ -1,0 +1,88 @@
+"""Bad bands, readings and requirements: one sentence each that names file, field, value and what would be right."""
+
+import pytest
+
+from cdpr_struct.cli.main import run
+
+LIMIT = '[[requirement]]\nname = "a"\nquantity = "frequency"\nat_least = 1.0\n'
+
+
+def complaint(capsys) -> str:
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err.count("\n") == 1
+    return said.err
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["modes", "cogiro", "--band", "0"], ["band: got 0", "above 0 and below 100"]),
+        (["modes", "cogiro", "--band", "100"], ["band: got 100"]),
+        (["modes", "cogiro", "--samples", "100"], ["samples: got 100", "belongs to --band"]),
+        (["inverse", "cogiro", "--band", "90", "--samples", "3"], ["samples: got 3", "20 to 100000"]),
+        (["inverse", "cogiro", "--band", "90", "--model", "ideal"], ["model: got 'ideal'", "sagging or spring"]),
+        (["sensitivity", "cogiro", "--raise", "first", "--to", "3"], ["raise: got 'first'", "like mode:1"]),
+        (["sensitivity", "cogiro", "--to", "3"], ["--raise is missing"]),
+        (["sensitivity", "cogiro", "--raise", "mode:1"], ["--to is missing", "frequency in Hz"]),
+        (["sensitivity", "cogiro", "--mode", "9"], ["mode: got 9", "1 to 6"]),
+    ],
+)
+def test_options(words, said, capsys):
+    assert run(words) == 2
+    text = complaint(capsys)
+    assert all(part in text for part in said), text
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ("mode,hertz\n1,2\n", ["hertz"]),
+        ("mode,frequency_hz\n0,2.7\n", ["line 2, mode: got '0'", "1 to 500"]),
+        ("mode,frequency_hz\n1,-2.7\n", ["line 2, frequency_hz: got '-2.7'", "above zero"]),
+        ("frequency_hz\n2,7\n", ["line 2"]),
+        ("cable,tension_N\n,330\n", ["line 2, cable is missing", "1 to 8"]),
+        ("cable,tension_N\n9,330\n", ["line 2, cable: got '9'"]),
+        ("cable,tension_N,sigma\n1,330,0\n", ["line 2, sigma: got '0'", "above 0"]),
+        ("cable,tension_N,frequency_hz,sigma\n1,330,2.7,1\n", ["a row of its own"]),
+        ("cable,tension_N\n1,\n", ["no readings"]),
+        ("cable\n1\n", ["header", "frequency_hz"]),
+    ],
+)
+def test_readings(table, said, tmp_path, capsys):
+    (tmp_path / "measured.csv").write_text(table)
+    assert run(["compare", "cogiro", str(tmp_path / "measured.csv")]) == 2
+    text = complaint(capsys)
+    assert all(part in text for part in [*said, "measured.csv"]), text
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ("", ["requirement", "missing"]),
+        (LIMIT + "at_most = 2.0\n", ["at_least or at_most"]),
+        (LIMIT.replace("at_least = 1.0\n", ""), ["at_least or at_most"]),
+        (LIMIT.replace('"frequency"', '"stiffness"'), ["requirement[1].quantity: got 'stiffness'", "position_error"]),
+        (LIMIT + "probability = 0.4\n", ["requirement[1].probability: got 0.4", "0.5"]),
+        (LIMIT.replace("frequency", "tension") + "cable = 9\n", ["requirement[1].cable: got 9", "1 to 8"]),
+        ('grid = "0:1:2,0,1"\nposes = [[0, 0, 1]]\n' + LIMIT, ["grid", "not both"]),
+        ("poses = [[0.0, 0.0]]\n" + LIMIT, ["poses"]),
+        (LIMIT + "atleast = 1\n", ["requirement[1].atleast", "at_least is perhaps meant"]),
+    ],
+)
+def test_requirements(table, said, tmp_path, capsys):
+    (tmp_path / "wanted.toml").write_text(table)
+    assert run(["accept", "cogiro", str(tmp_path / "wanted.toml"), "--quiet"]) == 2
+    text = complaint(capsys)
+    assert all(part in text for part in said), text
+
+
+def test_a_pose_that_is_not_held_fails(tmp_path, capsys):
+    (tmp_path / "wanted.toml").write_text("poses = [[0.0, 0.0, 1.2], [30.0, 0.0, 1.2]]\n" + LIMIT)
+    assert run(["accept", "cogiro", str(tmp_path / "wanted.toml"), "--quiet", "--json"]) == 1
+    assert '"verdict": "fail"' in capsys.readouterr().out
+
+
+def test_a_platform_that_is_not_held_has_no_band(capsys):
+    assert run(["inverse", "cogiro", "--pose", "0,0,8", "--band", "90"]) == 1
+    assert capsys.readouterr().out == ""
