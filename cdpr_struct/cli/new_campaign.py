@@ -23,7 +23,8 @@ def run(
     kinds: Annotated[
         str,
         typer.Option(
-            "--kinds", metavar="KIND,..", help="Of tensions, lengths, cable_frequency, robot_frequency, loaded."
+            "--kinds", metavar="KIND,..",
+            help="Of tensions, lengths, swivels, cable_frequency, robot_frequency, loaded.",
         ),
     ] = "tensions,lengths",
     poses: Annotated[

@@ -15,7 +15,7 @@ from cdpr_struct.residuals.linearised import Local, Point
 from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.statics.forward_kinematics import forward
 
-_OF_ROWS = {"static_state": ("EQ", "CO"), "cable_frequency": ("CF",), "robot_frequency": ("RF",)}
+_OF_ROWS = {"static_state": ("EQ", "CO", "SW"), "cable_frequency": ("CF",), "robot_frequency": ("RF",)}
 
 
 def errors_of_kinds(story: Explained) -> list[ErrorOfKind]:

@@ -13,8 +13,8 @@ from cdpr_struct.residuals.recorded import Recorded
 
 _NONE = (-1, -1, -1, 0.0)
 _CONCERNED = 0.1  # share of the rows that are concerned at least: those that change most
-KINDS = ("EQ", "CO", "CF", "RF", "FA")
-"""Wrench balance, cable lengths, cable frequencies, robot frequencies, modal constants."""
+KINDS = ("EQ", "CO", "CF", "RF", "FA", "SW")
+"""Wrench balance, cable lengths, cable frequencies, robot frequencies, modal constants, swivel angles."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -140,10 +140,13 @@ def _of_block(data: Recorded, shelf: Shelf, k: int, modes: np.ndarray) -> Iterat
         yield from [(0 if tensions else -1, state, -1, 0.0)] * 6
         for i in range(m):
             yield (1 if state >= 0 and data.read[state, 6 + m + i] else -1), state, i, 0.0
+    if measured is not None:
+        for row in shelf.cables[k].tolist():
+            place = int(measured.states[measured.rows.state[row]]), int(measured.rows.cable[row])
+            yield (2, *place, float(np.exp(measured.log_hertz[row]))) if row >= 0 else _NONE
+    for row in shelf.swivels[k].tolist():
+        yield (5, int(data.swivels.state[row]), int(data.swivels.cable[row]), 0.0) if row >= 0 else _NONE
     if measured is None:
         return
-    for row in shelf.cables[k].tolist():
-        place = int(measured.states[measured.rows.state[row]]), int(measured.rows.cable[row])
-        yield (2, *place, float(np.exp(measured.log_hertz[row]))) if row >= 0 else _NONE
     for f in shelf.vibrating[k].tolist():
         yield from ((3, int(measured.states[f]), -1, hertz) if f >= 0 else _NONE for hertz in modes[f])

@@ -13,7 +13,7 @@ from cdpr_struct.inference.scale_mixture import KAPPA, OUTLIER, PSEUDO_COUNTS
 from cdpr_struct.residuals.layout import Layout
 from cdpr_struct.residuals.recorded import Recorded
 
-_KINDS = ("tension", "length")
+_KINDS = ("tension", "length", "swivel")
 
 
 def piled_up(data: Recorded, where: Layout, found: Judged) -> Pile | None:

@@ -9,23 +9,24 @@ from scipy.special import chdtr, fdtrc
 from cdpr_struct.hypotheses.detectable import FALSE_ALARMS
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.scale_mixture import TAU_DEGREES
+from cdpr_struct.measurement.cable_columns import SWIVEL
 from cdpr_struct.measurement.campaign import AMBIENT, SIGNALS, Campaign, Sheet
 from cdpr_struct.robot.tolerances import tolerance_unit
 
-SENSORS = ("position", "rotation", "tension", "length", "cable_frequency", "frf")
+SENSORS = ("position", "rotation", "tension", "length", "cable_frequency", "frf", "swivel")
 """Names of the kinds of sensors, in the order of their numbers."""
 _UNIT = {
     "tension_N": "N", "position_m": "m", "rotation_deg": "deg", "length_m": "m", "frequency_hz": "Hz",
-    "acceleration": "m/s^2",
+    "acceleration": "m/s^2", "swivel_deg": "deg",
 }  # fmt: skip
 _POSE = ("position_m", "rotation_deg")
 _NEEDED = {
-    "static_state": ("tension_N", "length_m", *_POSE), "loaded_pose": ("length_m", *_POSE),
+    "static_state": ("tension_N", "length_m", "swivel_deg", *_POSE), "loaded_pose": ("length_m", "swivel_deg", *_POSE),
     "cable_frequency": ("frequency_hz", *_POSE), "robot_frequency": ("frequency_hz", *_POSE),
     "frf": ("frequency_hz",), "free_decay": ("frequency_hz",), "platform_motion": ("frequency_hz", *_POSE),
     AMBIENT: ("frequency_hz",),
 }  # fmt: skip
-_RANGE = {"position_m": (1e-6, 0.05), "rotation_deg": (1e-5, 5.0), "length_m": (1e-6, 0.05)}
+_RANGE = {"position_m": (1e-6, 0.05), "rotation_deg": (1e-5, 5.0), "length_m": (1e-6, 0.05), "swivel_deg": (1e-4, 20.0)}
 _SHARE = {"tension_N": (1e-5, 0.3), "frequency_hz": (1e-6, 0.2)}  # of the median reading
 _LOOSE = {  # tolerances beyond these are no drawing's
     "anchor_m": 0.1, "length_m": 0.1, "center_of_mass_m": 0.3, "pulley_radius_m": 0.02,
@@ -101,7 +102,9 @@ def sigmas_used(campaign: Campaign) -> list[Used]:
 
 
 def _read(sheet: Sheet, name: str) -> bool:
-    """Whether a file of static states holds the quantity at all; other kinds hold theirs."""
+    """Whether a file of static states holds the quantity at all; other kinds hold theirs, perhaps but swivel angles."""
+    if name == "swivel_deg":
+        return any(SWIVEL.long == own or SWIVEL.number(own) for own in sheet.columns)
     return sheet.kind != "static_state" or name in _POSE or name in sheet.columns
 
 

@@ -53,3 +53,8 @@ def _readings(data: Recorded, shelf: Shelf, mean: np.ndarray) -> Iterator[tuple[
                 at, rows = p * own + m + j, data.vibrations.rows
                 state = int(data.vibrations.states[rows.state[row]])
                 yield int(shelf.index[k, at]), "cable_frequency", state, int(rows.cable[row]), mean[k, at : at + 1]
+        for j, row in enumerate(shelf.swivels[k].tolist()):
+            if row >= 0:
+                at = p * own + m + shelf.cables.shape[1] + j
+                state, i = int(data.swivels.state[row]), int(data.swivels.cable[row])
+                yield int(shelf.index[k, at]), "swivel", state, i, mean[k, at : at + 1]

@@ -100,8 +100,7 @@ def _internal(local: Local, where: Layout) -> list[Offered]:
     internal = local.data.sent.internal
     if not internal.any():
         return []
-    frequencies = len(local.r.cables)
-    found = tuple(Outside(own, np.zeros((frequencies, own.shape[-1]))) for own in internal_force.columns(internal))
+    found = tuple(local.acting_on(own) for own in internal_force.columns(internal))
     states = found[1].count // internal.shape[-1]
     columns = stacked(where, local.r.of_outside(Outside.joined(found)))
     return [Offered(internal_force.CAUSE, internal_force.patterns(internal.shape[-1], states), columns, found)]

@@ -19,6 +19,7 @@ from cdpr_struct.observation.rest import static_residuals
 from cdpr_struct.residuals.assembled import FLOOR
 from cdpr_struct.residuals.linearised import Local, Point
 from cdpr_struct.residuals.recorded import Recorded
+from cdpr_struct.residuals.swivels import swivels
 from cdpr_struct.residuals.vibrations import Vibrating
 
 _MOST = 4  # corrections that are judged
@@ -33,6 +34,7 @@ def promising(data: Recorded, found: Sequence[Correction], felt: np.ndarray) -> 
     prices = np.array([-one.log_prior - one.log_stretch(felt) for one in found])
     costs = _costs(data, covariance, [one.campaign for one in found]) + prices
     costs += np.array([_of_frequencies(local, one.campaign) for one in found])
+    costs += np.array([_of_swivels(local, covariance, one.campaign) for one in found])
     order = np.argsort(costs, kind="stable")
     return [found[i] for i in order[:_MOST] if costs[i] < now]
 
@@ -91,6 +93,35 @@ def _apart(vibrating: Vibrating, campaign: Campaign) -> float:
     sigma = np.concatenate([rows.sigma / rows.hertz, peaks.sigma / peaks.hertz])[: sum(map(len, far))]
     square = (np.concatenate(far) / sigma) ** 2
     return float(0.5 * (TAU_DEGREES + 1.0) * np.log1p(square / TAU_DEGREES).sum())
+
+
+def _of_swivels(local: Local, covariance: np.ndarray, campaign: Campaign) -> float:
+    """Change of minus ln of the density of swivel angles, each Student's about what all else says of it."""
+    data = local.data
+    if campaign.states.swivel is data.campaign.states.swivel:
+        return 0.0
+    there = local.nearby.swivels(data.arrays, data.readings, data.swivels.reference)
+    shift, variance = _swivels_expected(local, covariance)
+    costs = []
+    for own in (swivels(campaign, data.arrays, data.known, data.readings), data.swivels):
+        square = (own.missed(there) - shift) ** 2 / (own.sigma**2 + variance)
+        costs.append(0.5 * (TAU_DEGREES + 1.0) * float(np.log1p(square / TAU_DEGREES).sum()))
+    return costs[0] - costs[1]
+
+
+def _swivels_expected(local: Local, covariance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(w,) by how much swivel angles should be missed, and the variance of that, given the residuals of their states.
+
+    covariance (S, 6 + m, 6 + m) of these
+    """
+    data, at = local.data, local.data.swivels.state
+    size = np.where(data.read, 1.0, data.unread / data.sigma)[at]
+    own = np.hstack([local.by_noise.swivels * size, local.own_columns.swivels[:, : -data.cables]])  # zeros are gone
+    static = [local.by_noise.static[at] * size[:, None], local.own_columns.static[at][..., : -data.cables]]
+    cross = np.einsum("wrd,wd->wr", np.concatenate(static, axis=-1), own)
+    gain = np.linalg.solve(covariance[at], cross[..., None])[..., 0]
+    variance = (own**2).sum(axis=1) - (gain * cross).sum(axis=1)
+    return (gain * local.r.static[at]).sum(axis=1), np.maximum(variance, 0.0)
 
 
 def _readings(data: Recorded, campaign: Campaign) -> Readings:

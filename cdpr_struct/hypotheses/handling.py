@@ -20,7 +20,7 @@ PAIRS_OF_STATES = 2000  # static ones: all of 63
 
 def corrections(campaign: Campaign) -> list[Correction]:
     """Every hypothesis about the handling of the data, with the number of its kind filled in."""
-    families = [list(f(campaign)) for f in (_units, _signs, _swaps, _exchanged_poses, conventions)]
+    families = [list(f(campaign)) for f in (_units, _signs, _senses, _swaps, _exchanged_poses, conventions)]
     return [replace(c, alternatives=len(family)) for family in families for c in family]
 
 
@@ -113,9 +113,21 @@ def _signs(campaign: Campaign) -> Iterator[Correction]:
                 yield Correction("sign_error", f"the sign of {name}{where} is wrong", new, parameters={"column": name})
 
 
+def _senses(campaign: Campaign) -> Iterator[Correction]:
+    """Encoders on swivels that count the other way round: all of them, or one that is mounted upside down."""
+    swivel = campaign.states.swivel
+    read = np.flatnonzero(np.isfinite(swivel).sum(axis=0) > 1).tolist()
+    for which in ([read] if len(read) > 1 else []) + [[i] for i in read]:
+        sense = np.ones(swivel.shape[1])
+        sense[which] = -1.0
+        of = f"the swivel angle of cable {which[0] + 1}" if len(which) == 1 else "the swivel angles"
+        new = with_states(campaign, swivel=swivel * sense)
+        yield Correction("sign_error", f"the sense of {of} is wrong", new, parameters={"column": "swivel"})
+
+
 def _swaps(campaign: Campaign) -> Iterator[Correction]:
     states = campaign.states
-    for what in ("tension", "length"):
+    for what in ("tension", "length", "swivel"):
         values = getattr(states, what)
         if not np.isfinite(values).any():
             continue

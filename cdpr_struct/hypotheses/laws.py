@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Pattern
 from cdpr_struct.hypotheses.periods import likeliest_periods
-from cdpr_struct.residuals.linearised import Local, Outside
+from cdpr_struct.residuals.linearised import Local, Outside, RowStates
 from cdpr_struct.robot.changed_arrays import plus
 
 UNKNOWN = "unknown"
@@ -122,18 +122,16 @@ def _smooth(x: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Channel:
-    """What one unit of each of k errors does, and the state of each frequency of a single cable."""
+    """What one unit of each of k errors does, and the state of each row of the frequencies and swivel angles."""
 
     name: str
     words: str
     effect: Outside
-    states: np.ndarray
+    states: RowStates
 
     def law(self, words: str, share: np.ndarray, stands_for: float = 1.0) -> Law:
         """Numbers z (d,) that make the errors share (S, k, d) @ z of the states."""
-        static = self.effect.static @ share
-        cables = (self.effect.cables[:, None] @ share[self.states])[:, 0]
-        return Law(self.name, f"{self.words} {words}", Outside(static, cables), stands_for)
+        return Law(self.name, f"{self.words} {words}", self.effect.shared(share, self.states), stands_for)
 
     def each(self, features: np.ndarray) -> np.ndarray:
         """(S, k, k f): each error in proportion to each feature (S, f)."""
@@ -154,13 +152,13 @@ class _Channel:
 
 def _of_force_and_place(local: Local, known: _Known) -> Iterator[Law]:
     moved = local.of_three(lambda arrays, z: plus(arrays, force=z), 0.1).times(np.full(3, _FORCE))
-    force = _Channel("force", "a force on the platform that changes with", moved, local.states_of_cables)
+    force = _Channel("force", "a force on the platform that changes with", moved, local.states_of_rows)
     for words, features in known.of_states.items():
         yield force.law(words, force.each(features))
     states = len(known.pull)
     yield force.law("every state", force.each(np.sqrt(states) * np.eye(states)))
     placed = local.of_three(lambda arrays, z: plus(arrays, center_of_mass=z), 1e-4).times(np.full(3, _PLACE))
-    place = _Channel("place", "a centre of mass that moves with", placed, local.states_of_cables)
+    place = _Channel("place", "a centre of mass that moves with", placed, local.states_of_rows)
     for words in ("the position", "the payload", "the tilt", "the size of the tilt", "time"):
         yield place.law(words, place.each(known.of_states[words]))
 
@@ -168,7 +166,7 @@ def _of_force_and_place(local: Local, known: _Known) -> Iterator[Law]:
 def _of_tensions(local: Local, known: _Known) -> Iterator[Law]:
     m, pull = local.data.cables, known.pull
     effect = local.of_reading(slice(6, 6 + m)).times(np.full(m, _TENSION * known.tension))
-    cells = _Channel("tension", _CELLS, effect, local.states_of_cables)
+    cells = _Channel("tension", _CELLS, effect, local.states_of_rows)
     whole = pull + 1.0
     powers = [pull[..., None] ** p for p in (2, 3)]
     yield from cells.both("that bends with the tension", np.concatenate(powers, axis=-1))
@@ -199,12 +197,12 @@ def _signed(channel: _Channel, approach: np.ndarray) -> Iterator[Law]:
 def _of_lengths(local: Local, known: _Known) -> Iterator[Law]:
     m, value = local.data.cables, known.lengths
     effect = local.of_reading(slice(6 + m, None)).times(np.full(m, _LENGTH))
-    lengths = _Channel("length", _LENGTHS, effect, local.states_of_cables)
+    lengths = _Channel("length", _LENGTHS, effect, local.states_of_rows)
     centred = (value - value.mean()) / max(float(value.std()), 1e-3)
     yield from lengths.both("that bends with the length", np.stack([centred**2, centred**3], axis=-1))
     yield from _of_readings(lengths, known)
     if len(np.unique(value[:, 0])) >= _LEAST_LENGTHS:
-        waving = _Channel("length_periodic", "a periodic error of the cable lengths", effect, local.states_of_cables)
+        waving = _Channel("length_periodic", "a periodic error of the cable lengths", effect, local.states_of_rows)
         periods, tried = likeliest_periods(value, local.noisy_static()[:, 6:])
         for period in periods:
             angle = 2.0 * np.pi * value / period
@@ -217,8 +215,6 @@ def _of_poses(local: Local, known: _Known) -> Iterator[Law]:
     sigma = local.data.sigma[:, :6].mean(axis=0) * _POSE
     for words, which in (("position", slice(0, 3)), ("orientation", slice(3, 6))):
         effect = local.of_reading(which).times(sigma[which])
-        tracker = _Channel(
-            "pose", f"an error of the tracker's {words} that changes with", effect, local.states_of_cables
-        )
+        tracker = _Channel("pose", f"an error of the tracker's {words} that changes with", effect, local.states_of_rows)
         for feature, values in known.of_states.items():
             yield tracker.law(feature, tracker.each(values))

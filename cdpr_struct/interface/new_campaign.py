@@ -77,8 +77,8 @@ def new_campaign(
     Parameters
     ----------
     robot : built-in name, or path of a robot file
-    kinds : of tensions, lengths, cable_frequency, robot_frequency, loaded; text with commas, or a list; kinds of
-        files, such as loaded_pose, stand for all readings in them
+    kinds : of tensions, lengths, swivels, cable_frequency, robot_frequency, loaded; text with commas, or a list; kinds
+        of files, such as loaded_pose, stand for all readings in them but swivels
     poses : list of poses, text with ; between them, or path of a CSV file; default: the home pose
     payload : of the loaded poses [kg];  directory : where the files will be, for the robot's path
 
@@ -95,14 +95,17 @@ def new_campaign(
     chosen = [one_of(name, "kinds", READINGS) for name in dict.fromkeys(own for name in names for own in _own(name))]
     real(payload, "payload", "give a mass in kg above zero", 0.0)
     cases, places = _poses(poses, machine)
+    if "swivels" in chosen and not any(machine.pulleys):
+        expected = f"a robot with pulleys: no cable of {machine.name} has one in its robot file"
+        raise InputError("kinds", "", "swivels", expected)
     plan = planned(machine, cases, places)
     files = campaign_files(plan, _named(robot, Path(directory)), chosen, float(payload))
     return NewCampaign(files, tuple(cases), implausible(machine))
 
 
 def _own(name: str) -> list[str]:
-    """The kinds of readings that a name means: itself, or all that a file of that kind holds."""
-    return [own for own, kind in KINDS.items() if kind == name and name not in READINGS] or [name]
+    """The kinds of readings that a name means: itself, or all that a file of that kind usually holds."""
+    return [own for own, kind in KINDS.items() if kind == name and name not in READINGS and own != "swivels"] or [name]
 
 
 def _named(robot: str | os.PathLike[str], directory: Path) -> str:

@@ -39,15 +39,19 @@ class CableQuantity:
 
 TENSION = CableQuantity("tension", "tensions", "tension_N", "tension_", "_N", "N, at the platform")
 LENGTH = CableQuantity("length", "lengths", "length_m", "length_", "_m", "m, unstrained, paid out")
+SWIVEL = CableQuantity("swivel angle", "swivel angles", "swivel_deg", "swivel_", "_deg", "deg, of the pulley")
 FREQUENCY = CableQuantity("frequency", "frequencies", "frequency_hz", "frequency_", "_hz", "Hz")
 APPROACH = CableQuantity("direction", "directions", "approach", "approach_", "", "+1 or -1")
 QUANTITIES: dict[str, tuple[CableQuantity, ...]] = {
-    "static_state": (TENSION, LENGTH, APPROACH),
-    "loaded_pose": (LENGTH,),
+    "static_state": (TENSION, LENGTH, SWIVEL, APPROACH),
+    "loaded_pose": (LENGTH, SWIVEL),
     "cable_frequency": (FREQUENCY, TENSION),
     "free_decay": (LENGTH,),
     "platform_motion": (LENGTH,),
 }
 """Quantities that a file of each kind may have in one column a cable."""
-EITHER: dict[str, tuple[CableQuantity, ...]] = {"static_state": (TENSION, LENGTH), "cable_frequency": (FREQUENCY,)}
+EITHER: dict[str, tuple[CableQuantity, ...]] = {
+    "static_state": (TENSION, LENGTH, SWIVEL),
+    "cable_frequency": (FREQUENCY,),
+}
 """Kinds in which a row may be a cable or a pose, and the quantities of which a row that is a pose has one."""

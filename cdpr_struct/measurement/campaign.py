@@ -37,6 +37,7 @@ class Sigmas:
     length_m: float = 0.0005
     frequency_hz: float | None = None
     acceleration: float | None = None
+    swivel_deg: float = 0.1
 
     def frequency(self, hertz: np.ndarray) -> np.ndarray:
         """Sigma of natural frequencies [Hz]."""
@@ -73,6 +74,7 @@ class States:
     loaded  : (S,) bool, the state is a row of a `loaded_pose` file
     static  : (S,) bool, the state is in a `static_state` file
     temperature : (S,) [K];  approach : (S, m) sign of the last motion;  time : (S,) [s]
+    swivel, swivel_sigma : (S, m) of each cable's pulley about its swivel axis [rad]; nan unless given
     """
 
     names: tuple[str, ...]
@@ -91,6 +93,13 @@ class States:
     temperature: np.ndarray
     approach: np.ndarray
     time: np.ndarray
+    swivel: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+    swivel_sigma: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+
+    def __post_init__(self) -> None:
+        for name in ("swivel", "swivel_sigma"):
+            if getattr(self, name).shape != self.tension.shape:
+                object.__setattr__(self, name, np.full_like(self.tension, np.nan))
 
     @property
     def has_tension(self) -> np.ndarray:

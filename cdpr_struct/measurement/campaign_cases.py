@@ -7,6 +7,7 @@ import numpy as np
 
 from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.assumed_angles import angle_note
+from cdpr_struct.measurement.cable_columns import SWIVEL
 from cdpr_struct.measurement.campaign import (
     AMBIENT,
     NOT_SAID,
@@ -19,6 +20,7 @@ from cdpr_struct.measurement.campaign import (
 )
 from cdpr_struct.measurement.campaign_rows import POSE, POSITION, Rows, length_columns
 from cdpr_struct.measurement.peak_labels import peak_label
+from cdpr_struct.measurement.swivel_readings import take_swivel
 
 _SAME = 1e-9  # m, deg: two notes of the same number
 _ONE_STATE = "one case is one state: copy the digits, leave the cells empty, or give this case another name"
@@ -41,6 +43,8 @@ class _State:
     approach: np.ndarray
     temperature: float
     time: float
+    swivel: np.ndarray
+    swivel_sigma: np.ndarray
     loaded: bool = False
     static: bool = False
     length_file: str = ""
@@ -107,10 +111,11 @@ class Gathering:
         return found
 
     def _new(self, name: str, file: str, pose: np.ndarray, payload: float, sigmas: Sigmas) -> _State:
-        blank = np.full((5, self.m), np.nan)
+        blank = np.full((7, self.m), np.nan)
         self.known[name] = _State(
             name, file, pose, payload, sigmas.position_m, float(np.radians(sigmas.rotation_deg)),
             blank[0], blank[1], blank[2], blank[3], blank[4], np.nan, np.nan,
+            blank[5], blank[6],
         )  # fmt: skip
         return self.known[name]
 
@@ -147,7 +152,7 @@ class Gathering:
 
     def _static(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         own = rows.get("sigma")
-        has_tension = "tension_N" in rows.numbers
+        has_tension, has_length = "tension_N" in rows.numbers, "length_m" in rows.numbers
         seen = set()
         for i, state in enumerate(states):
             cable = int(rows.numbers["cable"][i]) - 1
@@ -156,12 +161,17 @@ class Gathering:
             seen.add((state.name, cable))
             state.static = True
             given = own[i] if np.isfinite(own[i]) else None
-            state.tension[cable] = rows.get("tension_N")[i]
-            state.tension_sigma[cable] = given or sigmas.tension_N
-            state.length[cable] = rows.get("length_m")[i]
-            state.length_sigma[cable] = sigmas.length_m if has_tension else given or sigmas.length_m
-            state.length_file = state.tension_file = rows.file
-            state.approach[cable] = rows.get("approach")[i]
+            if has_tension or not state.tension_file:
+                state.tension[cable] = rows.get("tension_N")[i]
+                state.tension_sigma[cable] = given or sigmas.tension_N
+                state.tension_file = rows.file if has_tension else ""
+            if has_length or not state.length_file:
+                state.length[cable] = rows.get("length_m")[i]
+                state.length_sigma[cable] = sigmas.length_m if has_tension else given or sigmas.length_m
+                state.length_file = rows.file if has_length else ""
+            if "approach" in rows.numbers:
+                state.approach[cable] = rows.numbers["approach"][i]
+            take_swivel(state, rows, i, cable, rows.get("swivel_deg")[i], sigmas.swivel_deg)
 
     def _loaded(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         own = rows.get("sigma")
@@ -174,6 +184,8 @@ class Gathering:
             state.length = np.where(np.isfinite(length), length, state.length)
             state.length_sigma = np.full(self.m, sigmas.length_m)
             state.sigma_position = own[i] if np.isfinite(own[i]) else sigmas.position_m
+            for cable, name in enumerate(SWIVEL.columns(self.m)):
+                take_swivel(state, rows, i, cable, rows.get(name)[i], sigmas.swivel_deg)
 
     def _cable_frequency(self, rows: Rows, states: list[_State], sigmas: Sigmas) -> None:
         order = {name: i for i, name in enumerate(self.known)}
@@ -221,6 +233,8 @@ class Gathering:
             temperature=np.array([s.temperature for s in found]),
             approach=np.array([s.approach for s in found]).reshape((-1, self.m)),
             time=np.array([s.time for s in found]),
+            swivel=np.array([s.swivel for s in found]).reshape((-1, self.m)),
+            swivel_sigma=np.array([s.swivel_sigma for s in found]).reshape((-1, self.m)),
         )
 
     def cable_frequencies(self) -> CableFrequencies:

@@ -21,6 +21,7 @@ from cdpr_struct.measurement.missing_readings import check_placed, missing_notes
 from cdpr_struct.measurement.misspelt_cases import misspelt_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
+from cdpr_struct.measurement.swivel_readings import check_swivels
 from cdpr_struct.measurement.unit_scale import check_scale
 from cdpr_struct.robot.file_complaints import input_error
 from cdpr_struct.robot.robot import Robot
@@ -61,6 +62,7 @@ class SigmaTable(_Table):
     length_m: Positive | None = None
     frequency_hz: Positive | None = None
     acceleration: Positive | None = None
+    swivel_deg: Positive | None = None
 
 
 class MeasurementTable(_Table):
@@ -124,6 +126,7 @@ def load_campaign(
     for number, entry in enumerate(table.measurement, start=1):
         choices += given_choice(entry.kind == AMBIENT, entry.model_dump(), str(source), f"measurement[{number}]")
         rows, sigmas = _rows(entry, source, number, len(robot.cables), planned, relative), _sigmas(entry)
+        check_swivels(rows, robot)
         gathering.add(rows, sigmas)
         cases[entry.file] = rows.words.get("case", [])
         sheets.append(_sheet(entry, rows, sigmas))

@@ -30,7 +30,7 @@ _NEEDED: dict[str, tuple[str, ...]] = {
     "platform_motion": ("x_m", "y_m", "z_m", "time_s"),
 }
 _ALSO: dict[str, tuple[str, ...]] = {
-    "static_state": ("tension_N", "length_m"),
+    "static_state": ("tension_N", "length_m", "swivel_deg"),
     "cable_frequency": ("tension_N", "plane"),
     "robot_frequency": ("body", "mode"),
 }
@@ -43,7 +43,7 @@ COMMENTS = ("comment", "note", "remark")  # columns for people, not read
 PREDICTED = "predicted_"  # begins the names of others
 UNFILLED = "?"  # in a cell of a template
 HIGHEST = 1e3  # of any frequency [Hz]
-_BLANK_ALLOWED = ("sigma", "temperature_K", "approach", "tension_N", "length_m", "time_s")
+_BLANK_ALLOWED = ("sigma", "temperature_K", "approach", "tension_N", "length_m", "swivel_deg", "time_s")
 _READINGS_MAY_LACK = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency")  # of a pose or a cable
 
 
@@ -172,8 +172,12 @@ def _check_columns(kind: str, source: str, columns: list[str], cables: int) -> N
             raise InputError(source, "header", f"no name for column {number}", expected)
         if name not in known:
             raise InputError(source, name, "a column", _unknown(kind, name, known, cables))
-    if kind == "static_state" and not is_wide(kind, columns) and not {"tension_N", "length_m"} & set(columns):
-        raise InputError(source, "column tension_N", NOTHING, "give tension_N or length_m or both")
+    if (
+        kind == "static_state"
+        and not is_wide(kind, columns)
+        and not {"tension_N", "length_m", "swivel_deg"} & set(columns)
+    ):
+        raise InputError(source, "column tension_N", NOTHING, "give tension_N or length_m or both, or swivel_deg")
 
 
 def _needed(kind: str, columns: Sequence[str], cables: int) -> tuple[str, ...]:

@@ -13,18 +13,19 @@ from cdpr_struct.dynamics.cable_dynamics import expand_catenaries_at, polynomial
 from cdpr_struct.dynamics.certified_modes import certified_frequencies
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.errors import CdprError, UnholdablePoseError
-from cdpr_struct.measurement.cable_columns import FREQUENCY, LENGTH, TENSION, CableQuantity
+from cdpr_struct.measurement.cable_columns import FREQUENCY, LENGTH, SWIVEL, TENSION, CableQuantity
 from cdpr_struct.measurement.campaign_rows import POSE, PREDICTED, UNFILLED
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_writing import printable
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
+from cdpr_struct.statics.swivel_angle import swivel_angle, swivel_reference
 
-READINGS = ("tensions", "lengths", "cable_frequency", "robot_frequency", "loaded")
+READINGS = ("tensions", "lengths", "swivels", "cable_frequency", "robot_frequency", "loaded")
 KINDS = {
-    "tensions": "static_state", "lengths": "static_state", "cable_frequency": "cable_frequency",
-    "robot_frequency": "robot_frequency", "loaded": "loaded_pose",
+    "tensions": "static_state", "lengths": "static_state", "swivels": "static_state",
+    "cable_frequency": "cable_frequency", "robot_frequency": "robot_frequency", "loaded": "loaded_pose",
 }  # fmt: skip
 """The kind of file that each of them is read from."""
 _FREEDOMS = 6
@@ -55,7 +56,7 @@ _COMMENTS = (
     "# Give repeated readings a case of their own.",
     f"# Columns {PREDICTED}... are the simulation's, to compare with; they are not read.",
 )
-_STATIC = {"tensions": TENSION, "lengths": LENGTH}
+_STATIC = {"tensions": TENSION, "lengths": LENGTH, "swivels": SWIVEL}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -125,7 +126,7 @@ def campaign_files(plan: PlannedPoses, robot: str, readings: Sequence[str], payl
         tables["robot_frequency"] = _robot_frequencies(plan)
     if "loaded" in readings:
         tables["loaded_pose"] = _loaded(plan, payload, "lengths" in readings)
-    files = {"campaign.toml": _campaign(robot, list(tables))}
+    files = {"campaign.toml": _campaign(robot, list(tables), "swivels" in readings)}
     return files | {_FILES[kind]: _csv(kind, columns) for kind, columns in tables.items()}
 
 
@@ -141,8 +142,18 @@ def _static(plan: PlannedPoses, quantities: Sequence[CableQuantity]) -> Columns:
     values = {TENSION: cables.tension_at_platform, LENGTH: plan.point.arrays.reading(cables.paid_out)}
     columns = _poses(plan)
     for quantity in quantities:
-        columns |= _open(quantity, values[quantity])
+        columns |= _swivels(plan) if quantity is SWIVEL else _open(quantity, values[quantity])
     return columns
+
+
+def _swivels(plan: PlannedPoses) -> dict[str, list[str]]:
+    """Columns of the swivel angles; cells of a cable without a pulley are empty."""
+    axis, wheels = plan.point.arrays.pulley_axis, plan.point.entered.pulleys
+    angle = swivel_angle(plan.point.cables.force_at_frame, axis, swivel_reference(axis))
+    columns = _open(SWIVEL, np.degrees(angle))
+    bare = [SWIVEL.column(i) for i, wheel in enumerate(wheels, start=1) if wheel is None]
+    nothing = [""] * len(plan.names)
+    return columns | {f"{before}{name}": nothing for name in bare for before in ("", PREDICTED)}
 
 
 def _cable_frequencies(plan: PlannedPoses) -> Columns:
@@ -228,7 +239,7 @@ def _csv(kind: str, columns: Columns) -> str:
     return "\n".join([f"# {_HINTS[kind]}.", *more, *_COMMENTS, *rows]) + "\n"
 
 
-def _campaign(robot: str, kinds: Sequence[str]) -> str:
+def _campaign(robot: str, kinds: Sequence[str], swivels: bool) -> str:
     lines = [
         "# A campaign to begin with, written by `cdpr-struct new-campaign`. All keys: docs/files.md",
         "# Fill the data files named below, then: cdpr-struct diagnose campaign.toml",
@@ -244,7 +255,8 @@ def _campaign(robot: str, kinds: Sequence[str]) -> str:
     ]
     for kind in kinds:
         lines += ["", f"[[measurement]]  # {_HINTS[kind]}", f'kind = "{kind}"', f'file = "{_FILES[kind]}"']
-        lines.append(f"sigma = {{ {_SIGMAS[kind]} }}  # of your sensors: replace")
+        more = ", swivel_deg = 0.1" if swivels and kind == "static_state" else ""
+        lines.append(f"sigma = {{ {_SIGMAS[kind]}{more} }}  # of your sensors: replace")
     return "\n".join(lines) + "\n"
 
 

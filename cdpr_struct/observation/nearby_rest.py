@@ -19,6 +19,7 @@ from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, load_wrench
 from cdpr_struct.statics.masts import MastShapes
 from cdpr_struct.statics.pulley import pulley_exit
+from cdpr_struct.statics.swivel_angle import swivel_angle, within_turn
 from cdpr_struct.statics.tensioned_cables import tensioned
 
 _ANCHOR, _SHARE, _COMPLIANCE = 1e-5, 1e-5, 1e-10  # steps: m, of the value, m/N
@@ -71,6 +72,13 @@ class NearbyRest:
         rows = [force.sum(axis=-2) + load[..., :3], (moment + load[..., 3:]) / self.radius, gap]
         lead = np.broadcast_shapes(*(part.shape[:-1] for part in rows))
         return np.concatenate([np.broadcast_to(part, (*lead, part.shape[-1])) for part in rows], axis=-1)
+
+    def swivels(self, arrays: RobotArrays, readings: Readings, reference: np.ndarray) -> np.ndarray:
+        """(..., S, m) what encoders on the swivel axes say [rad], within a turn; zero directions `reference` (m, 3)."""
+        there = at_states(arrays, self.known)
+        arms = PlatformArms.at(there, *true_pose(there, readings))
+        found = self._cables(there, arms, true_tension(there, readings, self.known))
+        return within_turn(swivel_angle(found[..., 3:6], there.pulley_axis, reference) + there.swivel_zero)
 
     def _cables(self, there: RobotArrays, arms: PlatformArms, tension: np.ndarray) -> np.ndarray:
         """(..., S, m, 7) outputs."""

@@ -35,7 +35,7 @@ class Numbers:
         ends = np.cumsum([len(own) for own in sigma.values()]).tolist()
         place = {name: slice(end - len(own), end) for (name, own), end in zip(sigma.items(), ends, strict=True)}
         patterns = {c.name: tuple(c.patterns(seen)) for c in causes}
-        return cls(tolerance_count(cables), {c.name: c for c in causes}, sigma, place, patterns)
+        return cls(tolerance_count(cables, seen.wheels), {c.name: c for c in causes}, sigma, place, patterns)
 
     @property
     def count(self) -> int:

@@ -30,6 +30,8 @@ from cdpr_struct.planning.places import (
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.forward_kinematics import forward
+from cdpr_struct.statics.inverse_kinematics import InverseSolution
+from cdpr_struct.statics.swivel_angle import swivel_angle, swivel_reference
 
 MOST = 4  # states of a series
 CABLE_MODES = 4  # in-plane modes of every cable
@@ -95,7 +97,9 @@ def proposed(campaign: Campaign) -> Proposed:
     kept = [place for place, there in zip(places, good, strict=True) if there]
     approach = np.concatenate([np.broadcast_to(w.approach, (len(w.places), how.tensions.shape[1])) for w in wishes])
     encoders = {i for what, own in found if what.kind == "encoders" for i in own}
-    states = _static(campaign, kept, how.tensions[good], how.lengths[good], approach[good], encoders)
+    states = _static(
+        campaign, kept, how.tensions[good], how.lengths[good], _swivels(campaign, how)[good], approach[good], encoders
+    )
     new = campaign.with_states_only(states)
     if good[0]:
         new = _with_frequencies(new, found, how.cables.at(0))
@@ -127,8 +131,8 @@ def _wishes(campaign: Campaign) -> list[_Wish]:
 
 
 def _static(
-    campaign: Campaign, places: Sequence[Place], tension: np.ndarray, length: np.ndarray, approach: np.ndarray,
-    encoders: set[int],
+    campaign: Campaign, places: Sequence[Place], tension: np.ndarray, length: np.ndarray, swivel: np.ndarray,
+    approach: np.ndarray, encoders: set[int],
 ) -> States:  # fmt: skip
     """Static states; sigmas are the medians of the campaign's own, else those of good sensors."""
     old, usual, (count, m) = campaign.states, Sigmas(), tension.shape
@@ -145,8 +149,15 @@ def _static(
         length_sigma=np.full((count, m), _middle(old.length_sigma, usual.length_m)),
         lock=np.where(read, np.arange(count), -1), loaded=np.zeros(count, dtype=bool),
         static=np.ones(count, dtype=bool), temperature=np.full(count, np.nan), approach=approach,
-        time=np.full(count, np.nan),
+        time=np.full(count, np.nan), swivel=np.where(np.isfinite(old.swivel).any(axis=0), swivel, np.nan),
+        swivel_sigma=np.full((count, m), np.radians(_middle(np.degrees(old.swivel_sigma), usual.swivel_deg))),
     )  # fmt: skip
+
+
+def _swivels(campaign: Campaign, how: InverseSolution) -> np.ndarray:
+    """(S, m) swivel angles of the pulleys where cables are held [rad]."""
+    axis = RobotArrays.of(campaign.robot).pulley_axis
+    return swivel_angle(how.cables.force_at_frame, axis, swivel_reference(axis))
 
 
 def _middle(values: np.ndarray, default: float) -> float:

@@ -17,11 +17,9 @@ _ALIKE = 0.2  # of a band's width by which its ends may differ from those of dra
 
 
 def tolerances_told(stated: Mapping[str, float]) -> dict[str, Any]:
-    """All tolerances, those of the robot file marked."""
-    used = Tolerances(**stated)
-    return {
-        field.name: {"value": getattr(used, field.name), "stated": field.name in stated} for field in fields(Tolerances)
-    }
+    """All tolerances but zeros of swivel encoders, which move no robot; those of the robot file marked."""
+    used, names = Tolerances(**stated), [field.name for field in fields(Tolerances) if field.name != "swivel_deg"]
+    return {name: {"value": getattr(used, name), "stated": name in stated} for name in names}
 
 
 def frequencies_told(

@@ -12,6 +12,7 @@ from cdpr_struct.residuals.modal_sizes import MODEL, measured_sizes
 
 FLOOR = (0.05, 2e-5, 3e-4, 5e-3)
 """N, m, of ln f, of ln A: what the model misses of the FEM's balance, lengths, frequencies and modal constants."""
+_FLOOR_OF_SWIVELS = 1e-5  # rad, far below what encoders resolve
 
 
 def linear_model(local: Local, where: Layout) -> LinearModel:
@@ -19,7 +20,9 @@ def linear_model(local: Local, where: Layout) -> LinearModel:
     by_noise, columns = local.by_noise, local.own_columns
     shift = shifts(local, by_noise, columns)
     r = local.r
-    residual = Rows(r.static + shift.static, r.cables + shift.cables, r.robot, r.sizes + shift.sizes)
+    residual = Rows(
+        r.static + shift.static, r.cables + shift.cables, r.robot, r.sizes + shift.sizes, r.swivels + shift.swivels
+    )
     stacks = []
     for shelf in where.shelves:
         own, x = of_shelf(where, shelf, residual), of_shelf(where, shelf, columns)
@@ -54,12 +57,13 @@ def shifts(local: Local, by_noise: Rows, columns: Rows) -> Rows:
     """A u0 + X z0: what noise and numbers of the point add to the residuals there."""
     noise, z = local.point.noise, local.told()
     static = np.einsum("srj,sj->sr", by_noise.static, noise) + columns.static @ z
+    turned = np.einsum("wj,wj->w", by_noise.swivels, noise[local.data.swivels.state]) + columns.swivels @ z
     if local.vibrating is None:
-        return Rows(static, local.r.cables, local.r.robot, local.r.sizes)
+        return Rows(static, local.r.cables, local.r.robot, local.r.sizes, turned)
     own = noise[local.vibrating.measured.states]
     cables = np.einsum("rj,rj->r", by_noise.cables, own[local.vibrating.measured.rows.state]) + columns.cables @ z
     robot = np.einsum("fmj,fj->fm", by_noise.robot, own) + columns.robot @ z
-    return Rows(static, cables, robot, columns.sizes @ z)
+    return Rows(static, cables, robot, columns.sizes @ z, turned)
 
 
 def of_shelf(where: Layout, shelf: Shelf, rows: Rows) -> np.ndarray:
@@ -67,7 +71,8 @@ def of_shelf(where: Layout, shelf: Shelf, rows: Rows) -> np.ndarray:
     extra = rows.static.shape[2:]
     k = len(shelf.states)
     parts = []
-    for index, values in ((shelf.states, rows.static), (shelf.cables, rows.cables), (shelf.vibrating, rows.robot)):
+    of = ((shelf.states, rows.static), (shelf.cables, rows.cables), (shelf.swivels, rows.swivels))
+    for index, values in (*of, (shelf.vibrating, rows.robot)):
         if index.shape[1]:
             own = np.where((index >= 0).reshape((*index.shape, *(1,) * (values.ndim - 1))), values[index], 0.0)
             parts.append(own.reshape((k, -1, *extra)))
@@ -81,11 +86,12 @@ def stacked(where: Layout, rows: Rows) -> list[np.ndarray]:
 
 
 def _noise(local: Local, where: Layout, shelf: Shelf, by_noise: Rows) -> np.ndarray:
-    """(K, n, q) what readings do: those of a state to its rows, lengths to all, each cable frequency to its own."""
+    """(K, n, q) what readings do: those of a state to its rows, lengths to all, cable frequencies and swivel angles to
+    their own."""
     own, m = 6 + where.m, where.m
     slopes = of_shelf(where, shelf, by_noise)
     k, n, _ = slopes.shape
-    (_, p), (_, c) = shelf.states.shape, shelf.cables.shape
+    (_, p), (_, c), (_, w) = shelf.states.shape, shelf.cables.shape, shelf.swivels.shape
     found = np.zeros((k, n, shelf.index.shape[1]))
     found[..., p * own : p * own + m] = slopes[..., own:]
     place = _places(local, shelf, n, own)
@@ -95,6 +101,10 @@ def _noise(local: Local, where: Layout, shelf: Shelf, by_noise: Rows) -> np.ndar
         sigma = np.where(shelf.cables >= 0, local.vibrating.measured.sigma[shelf.cables], 0.0)
         for j in range(c):
             found[:, p * own + j, p * own + m + j] = sigma[:, j]
+    if w:
+        turn = np.where(shelf.swivels >= 0, local.data.swivels.sigma[shelf.swivels], 0.0)
+        for j in range(w):
+            found[:, p * own + c + j, p * own + m + c + j] = turn[:, j]
     found[np.broadcast_to((shelf.index < 0)[:, None, :], found.shape)] = 0.0
     return found
 
@@ -107,7 +117,7 @@ def _meant(local: Local, where: Layout, shelf: Shelf) -> np.ndarray:
         slope = local.data.sent.slope[shelf.states[:, j]] * MISSED
         rows = slice(j * own + 6, (j + 1) * own)
         found[:, rows, 6 * j : 6 * (j + 1)] = np.where((shelf.states[:, j] >= 0)[:, None, None], slope, 0.0)
-    rest = len(shelf.cables[0]) + shelf.vibrating.shape[1] * local.r.robot.shape[1]
+    rest = len(shelf.cables[0]) + len(shelf.swivels[0]) + shelf.vibrating.shape[1] * local.r.robot.shape[1]
     return np.concatenate([found, np.zeros((k, rest, 6 * p))], axis=1)
 
 
@@ -116,32 +126,41 @@ def _places(local: Local, shelf: Shelf, rows: int, own: int) -> np.ndarray:
     k, p = shelf.states.shape
     place = np.zeros((k, rows), dtype=int)
     place[:, : p * own] = np.repeat(np.arange(p), own)
-    if local.vibrating is None or p == 1:
+    if p == 1 or rows == p * own:
         return place
-    measured, c = local.vibrating.measured, shelf.cables.shape[1]
-    of_cables = measured.states[measured.rows.state[shelf.cables]] if c else np.zeros((k, 0), dtype=int)
-    of_robot = np.repeat(measured.states[shelf.vibrating], local.r.robot.shape[1], axis=1)
-    state = np.concatenate([of_cables, of_robot], axis=1)
+    of = local.states_of_rows
+    parts = [_looked_up(of.cables, shelf.cables), _looked_up(of.swivels, shelf.swivels)]
+    if local.vibrating is not None:
+        moving = local.vibrating.measured.states[shelf.vibrating]
+        parts.append(np.repeat(moving, local.r.robot.shape[1], axis=1))
+    state = np.concatenate(parts, axis=1)
     place[:, p * own :] = (shelf.states[:, None, :] == state[:, :, None]).argmax(axis=-1)
     return place
+
+
+def _looked_up(values: np.ndarray, index: np.ndarray) -> np.ndarray:
+    """Values (r,) at an index (K, c), -1 where it is."""
+    return np.where(index >= 0, values[index], -1) if index.size else np.full(index.shape, -1)
 
 
 def _floor(local: Local, where: Layout, shelf: Shelf, shape: tuple[int, ...]) -> np.ndarray:
     """(K, n). While the platform moves its balance is as open as its inertia, which is not in the model."""
     floor = np.ones(shape)
-    own, (_, p), (_, c) = 6 + where.m, shelf.states.shape, shelf.cables.shape
+    own, (_, p), (_, c), (_, w) = 6 + where.m, shelf.states.shape, shelf.cables.shape, shelf.swivels.shape
     state = np.repeat(FLOOR[:2], (6, where.m))
     floor[:, : p * own] = np.where(np.repeat(shelf.states >= 0, own, axis=1), np.tile(state, p), 1.0)
     inertia = float(local.data.arrays.mass.max()) * local.data.known.acceleration[shelf.states]
     balance = floor[:, : p * own].reshape((len(floor), p, own))[..., :6]
     balance += np.where(shelf.states >= 0, inertia, 0.0)[..., None]
     floor[:, p * own : p * own + c] = np.where(shelf.cables >= 0, FLOOR[2], 1.0)
+    last = p * own + c
+    floor[:, last : last + w] = np.where(shelf.swivels >= 0, _FLOOR_OF_SWIVELS, 1.0)
     return floor
 
 
 def soft_rows(where: Layout, shelf: Shelf, local: Local) -> np.ndarray:
     """(s,) rows of the robot's modes in the blocks of a shelf."""
-    start = shelf.states.shape[1] * (6 + where.m) + shelf.cables.shape[1]
+    start = shelf.states.shape[1] * (6 + where.m) + shelf.cables.shape[1] + shelf.swivels.shape[1]
     return start + np.arange(shelf.vibrating.shape[1] * local.r.robot.shape[1])
 
 

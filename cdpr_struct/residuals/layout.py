@@ -1,7 +1,8 @@
 """Where the rows and readings of a campaign stand in blocks: states that share a reading are one block.
 
-Rows of a block are those of its states, then cable frequencies measured there, then the robot's modes. Its readings
-are pose and tensions of each state, lengths that all share, and the cable frequencies. Blocks of one size are stacked.
+Rows of a block are those of its states, then cable frequencies and swivel angles measured there, then the robot's
+modes. Its readings are pose and tensions of each state, lengths that all share, the cable frequencies and the swivel
+angles. Blocks of one size are stacked.
 """
 
 from collections.abc import Iterator
@@ -10,12 +11,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.inference.scale_mixture import NoiseGroups
-from cdpr_struct.residuals.recorded import CABLE_FREQUENCY, LENGTH, MODAL_SIZE, POSITION, ROTATION, TENSION, Recorded
+from cdpr_struct.residuals.recorded import (
+    CABLE_FREQUENCY,
+    LENGTH,
+    MODAL_SIZE,
+    POSITION,
+    ROTATION,
+    SWIVEL,
+    TENSION,
+    Recorded,
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Shelf:
-    """Blocks of one size: their states (K, p), -1 for none, cable rows (K, c) likewise, and vibrating states (K, v).
+    """Blocks of one size: their states (K, p), -1 for none, cable rows (K, c) and swivel rows (K, w) likewise, and
+    vibrating states (K, v).
 
     vibrating : numbers among the F states where vibration was measured
     index (K, q) : group of each reading, -1 for none
@@ -23,6 +34,7 @@ class Shelf:
 
     states: np.ndarray
     cables: np.ndarray
+    swivels: np.ndarray
     vibrating: np.ndarray
     index: np.ndarray
 
@@ -90,14 +102,18 @@ def _shelf(data: Recorded, blocks: list[np.ndarray], groups: _Groups) -> Shelf:
         moving = local if measured.peaks is not None else none
     states = _filled(blocks)
     rows = _filled(cables)
-    index = np.full((len(blocks), states.shape[1] * (6 + m) + m + rows.shape[1]), -1)
+    turns = [np.flatnonzero(np.isin(data.swivels.state, members)) for members in blocks]
+    turned = _filled(turns)
+    index = np.full((len(blocks), states.shape[1] * (6 + m) + m + rows.shape[1] + turned.shape[1]), -1)
     for k, members in enumerate(blocks):
         own = list(_indices(members, groups, m))
         index[k, : len(members) * (6 + m)] = own[:-m]
         lengths = states.shape[1] * (6 + m)
         index[k, lengths : lengths + m] = own[-m:]
         index[k, lengths + m : lengths + m + len(cables[k])] = [groups.new(CABLE_FREQUENCY) for _ in cables[k]]
-    return Shelf(states, rows, _filled(moving), index)
+        last = lengths + m + rows.shape[1]
+        index[k, last : last + len(turns[k])] = [groups.new(SWIVEL) for _ in turns[k]]
+    return Shelf(states, rows, turned, _filled(moving), index)
 
 
 def _indices(members: np.ndarray, groups: _Groups, m: int) -> Iterator[int]:

@@ -19,17 +19,20 @@ from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.residuals.vibrations import Vibrating
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.tolerances import tolerance_count, tolerated
+from cdpr_struct.statics.swivel_angle import within_turn
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Outside:
-    """Columns -dR/dz of what is no change of the robot: static (S, 6 + m, d), of single cables' ln f (r, d).
+    """Columns -dR/dz of what is no change of the robot: static (S, 6 + m, d), of single cables' ln f (r, d), of
+    swivel angles (w, d).
 
     Peaks of the robot are left out: a reading changes them little, and other points have other modes.
     """
 
     static: np.ndarray
     cables: np.ndarray
+    swivels: np.ndarray
 
     @classmethod
     def joined(cls, parts: Sequence["Outside"]) -> "Outside":
@@ -43,7 +46,20 @@ class Outside:
 
     def times(self, sigma: np.ndarray) -> "Outside":
         """Columns times factors (d,)."""
-        return Outside(self.static * sigma, self.cables * sigma)
+        return Outside(self.static * sigma, self.cables * sigma, self.swivels * sigma)
+
+    def shared(self, share: np.ndarray, of: "RowStates") -> "Outside":
+        """Columns of numbers z (d,) that make numbers share (S, k, d) @ z of each state in place of its k columns."""
+        cables = (self.cables[:, None] @ share[of.cables])[:, 0]
+        return Outside(self.static @ share, cables, (self.swivels[:, None] @ share[of.swivels])[:, 0])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RowStates:
+    """State of each frequency of a single cable (r,), and of each swivel angle (w,)."""
+
+    cables: np.ndarray
+    swivels: np.ndarray
 
 
 Change = Callable[[RobotArrays, np.ndarray], RobotArrays]
@@ -79,7 +95,7 @@ def _nothing(arrays: RobotArrays, theta: np.ndarray) -> RobotArrays:
 
 def tolerance_term(data: Recorded) -> Term:
     """Tolerances as the first term of every hypothesis."""
-    count, tolerances = tolerance_count(data.cables), data.campaign.tolerances
+    count, tolerances = tolerance_count(data.cables, data.arrays.has_pulleys), data.campaign.tolerances
     return Term(lambda arrays, u: tolerated(arrays, tolerances, u), np.eye(count), np.ones(count))
 
 
@@ -132,13 +148,14 @@ class Rows:
     """Residuals, or their columns with one more axis (d).
 
     static (S, 6 + m, ...) [N, m];  cables (r, ...) : ln f of single cables;  robot (F, M, ...) : predictions of the
-    robot's ln f, against which peaks are held;  sizes (a, ...) : ln of modal constants
+    robot's ln f, against which peaks are held;  sizes (a, ...) : ln of modal constants;  swivels (w, ...) : [rad]
     """
 
     static: np.ndarray
     cables: np.ndarray
     robot: np.ndarray
     sizes: np.ndarray
+    swivels: np.ndarray
 
     @classmethod
     def joined(cls, parts: Sequence["Rows"]) -> "Rows":
@@ -147,16 +164,17 @@ class Rows:
 
     def times(self, z: np.ndarray) -> "Rows":
         """Columns times numbers z (d,), or (d, e)."""
-        return Rows(self.static @ z, self.cables @ z, self.robot @ z, self.sizes @ z)
+        return Rows(*(getattr(self, f.name) @ z for f in fields(self)))
 
     def only_static(self, columns: np.ndarray) -> "Rows":
         """Columns (S, 6 + m, d) of what acts on static rows alone, in the form of these residuals."""
         d = columns.shape[-1]
-        return Rows(columns, *(np.zeros((*part.shape, d)) for part in (self.cables, self.robot, self.sizes)))
+        others = (self.cables, self.robot, self.sizes, self.swivels)
+        return Rows(columns, *(np.zeros((*part.shape, d)) for part in others))
 
     def of_outside(self, columns: Outside) -> "Rows":
         """Columns of what is no change of the robot, in the form of these residuals."""
-        return replace(self.only_static(columns.static), cables=columns.cables)
+        return replace(self.only_static(columns.static), cables=columns.cables, swivels=columns.swivels)
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +205,10 @@ class Local:
             found = Vibrating.about(data.campaign, data.known, measured, arrays, readings)
             cables, robot = measured.log_hertz - found.cables.log_hertz, np.zeros_like(found.log_hertz)
             sizes = measured.sizes.log - found.log_sizes(arrays)[0]
-        return cls(data, point, arrays, nearby, found, Rows(nearby.residuals(arrays, readings), cables, robot, sizes))
+        static, turned = nearby.residuals(arrays, readings), np.zeros(0)
+        if len(data.swivels):
+            turned = data.swivels.missed(nearby.swivels(arrays, readings, data.swivels.reference))
+        return cls(data, point, arrays, nearby, found, Rows(static, cables, robot, sizes, turned))
 
     @cached_property
     def by_noise(self) -> Rows:
@@ -205,24 +226,31 @@ class Local:
     def of_three(self, change: Change, step: float) -> Outside:
         """-dR by each of three numbers of a change, a unit."""
         found = self.columns(Term(change, np.eye(3), np.full(3, step)))
-        return Outside(found.static / step, found.cables / step)
+        return Outside(found.static, found.cables, found.swivels).times(np.full(3, 1.0 / step))
 
     def of_reading(self, which: slice) -> Outside:
         """-dR by some readings (d of 6 + 2 m) of each row's own state, a unit; zero of those that nobody read."""
         unit = np.where(self.data.read, 1.0 / self.data.sigma, 0.0)[:, which]
         static = self.by_noise.static[..., which] * unit[:, None]
-        return Outside(static, self.by_noise.cables[..., which] * unit[self.states_of_cables])
+        cables = self.by_noise.cables[..., which] * unit[self.states_of_rows.cables]
+        return Outside(static, cables, self.by_noise.swivels[..., which] * unit[self.data.swivels.state])
+
+    def acting_on(self, static: np.ndarray) -> Outside:
+        """Columns (S, 6 + m, d) of what acts on static rows alone."""
+        d = static.shape[-1]
+        return Outside(static, np.zeros((len(self.r.cables), d)), np.zeros((len(self.r.swivels), d)))
 
     def noisy_static(self) -> np.ndarray:
         """(S, 6 + m) static residuals with the noise of the point put back, its robot as it is."""
         return self.r.static + np.einsum("srj,sj->sr", self.by_noise.static, self.point.noise)
 
     @property
-    def states_of_cables(self) -> np.ndarray:
-        """(r,) state of each frequency of a single cable."""
-        if self.vibrating is None:
-            return np.zeros(0, dtype=int)
-        return np.asarray(self.vibrating.measured.states[self.vibrating.measured.rows.state])
+    def states_of_rows(self) -> RowStates:
+        """Which state each frequency of a single cable and each swivel angle belongs to."""
+        measured, cables = self.data.vibrations, np.zeros(0, dtype=int)
+        if measured is not None:
+            cables = np.asarray(measured.states[measured.rows.state])
+        return RowStates(cables, self.data.swivels.state)
 
     @cached_property
     def own_columns(self) -> Rows:
@@ -248,9 +276,20 @@ class Local:
         """-dR by `count` steps of size `_STEP`, which robots or readings (count, ...) have taken."""
         found = np.broadcast_to(self.nearby.residuals(arrays, readings), (count, *self.r.static.shape))
         static = np.moveaxis(self.r.static - found, 0, -1) / _STEP
+        turned = self._turned(arrays, readings, count)
         if self.vibrating is None:
-            return self.r.only_static(static)
+            return replace(self.r.only_static(static), swivels=turned)
         cables, robot = self.vibrating.changes(arrays, readings, count)
         measured = self.vibrating.measured.sizes.log
         sizes = np.broadcast_to(self.vibrating.log_sizes(arrays) - measured, (count, len(measured))) + self.r.sizes
-        return Rows(static, *(np.moveaxis(part, 0, -1) / _STEP for part in (cables, robot, sizes)))
+        cables, robot, sizes = (np.moveaxis(part, 0, -1) / _STEP for part in (cables, robot, sizes))
+        return Rows(static, cables, robot, sizes, turned)
+
+    def _turned(self, arrays: RobotArrays, readings: Readings, count: int) -> np.ndarray:
+        """(w, count) -dR/dz of swivel angles by steps as in `_slope` [rad]."""
+        own = self.data.swivels
+        if not len(own):
+            return np.zeros((0, count))
+        missed = own.missed(self.nearby.swivels(arrays, readings, own.reference))
+        change = within_turn(self.r.swivels - np.broadcast_to(missed, (count, len(own))))
+        return np.asarray(np.moveaxis(change, 0, -1) / _STEP)

@@ -12,12 +12,13 @@ from cdpr_struct.observation.readings import Readings
 from cdpr_struct.residuals.commanded_lengths import SIGMA, Commanded, commanded
 from cdpr_struct.residuals.filled import encoder_zeros, filled
 from cdpr_struct.residuals.resting_poses import Spread, at_lengths, fitted_poses
+from cdpr_struct.residuals.swivels import Swivels, swivels
 from cdpr_struct.residuals.vibrations import Vibrations, vibrations
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.energy_descent import arm_scale
 
-POSITION, ROTATION, TENSION, LENGTH, CABLE_FREQUENCY, MODAL_SIZE = range(6)
+POSITION, ROTATION, TENSION, LENGTH, CABLE_FREQUENCY, MODAL_SIZE, SWIVEL = range(7)
 """Kinds of sensors: what shares a size of its noise."""
 _UNREAD_LENGTH = 1.0  # m, one sigma of a length that nobody read: nothing is known of it
 _UNREAD_POSE = (1.0, 0.5)  # m, rad, of a pose that nobody read
@@ -33,6 +34,7 @@ class Recorded:
     read (S, 6 + 2 m) : bool, whether the reading exists;  unread (S, 6 + 2 m) : one sigma of it if not
     blocks : states that share a reading of lengths, in order of the campaign
     vibrations : frequencies, None without any;  sent : commands that stand in for encoders
+    swivels : angles of pulleys about their swivel axes
     """
 
     campaign: Campaign
@@ -46,6 +48,7 @@ class Recorded:
     blocks: tuple[np.ndarray, ...]
     vibrations: Vibrations | None
     sent: Commanded
+    swivels: Swivels
 
     @property
     def cables(self) -> int:
@@ -96,8 +99,10 @@ def recorded(campaign: Campaign) -> Recorded:
         raise InputError(campaign.source, "readings", "no state where one could contradict another", expected)
     radius = arm_scale(arrays)
     readings = fitted_poses(arrays, known, readings, Spread(sigma, read, unread), radius)
+    turned = swivels(campaign, arrays, known, readings)
+    blocks = _blocks(states.lock)
     return Recorded(
-        campaign, arrays, readings, known, radius, sigma, read, unread, _blocks(states.lock), vibrations(campaign), sent
+        campaign, arrays, readings, known, radius, sigma, read, unread, blocks, vibrations(campaign), sent, turned
     )
 
 
@@ -109,7 +114,12 @@ def _redundant(campaign: Campaign, read: np.ndarray) -> bool:
     m = (read.shape[1] - 6) // 2
     if campaign.cable_frequencies.hertz.size or campaign.robot_frequencies.hertz.size or campaign.series:
         return True
-    count = [read[own, : 6 + m].sum() + read[own[0], 6 + m :].sum() for own in _blocks(campaign.states.lock)]
+    turned = np.isfinite(campaign.states.swivel)
+    turned &= (turned.sum(axis=0) > 1) | ("swivel_deg" in campaign.stated)  # the first tells its zero
+    count = [
+        read[own, : 6 + m].sum() + read[own[0], 6 + m :].sum() + turned[own].sum()
+        for own in _blocks(campaign.states.lock)
+    ]
     return max(count) > m
 
 

@@ -59,6 +59,7 @@ class Extensions:
     creep: float
     slip: np.ndarray
     encoder_delay: np.ndarray
+    swivel_zero: np.ndarray
     cell_delay: np.ndarray
     clock_drift: float
     clock_start: float

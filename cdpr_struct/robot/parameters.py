@@ -160,6 +160,7 @@ EXTENSIONS: dict[str, Parameter] = {
     "tracker": _extra((6,), 0.0, "m, rad", "true pose = tracker's pose, turned and shifted by this"),
     "creep": _extra((), 0.0, "1", "share of the elastic strain per decade of time after 1 min"),
     "slip": _extra(_EACH, 0.0, "m/h", "of the winch"),
+    "swivel_zero": _extra(_EACH, 0.0, "rad", "reading of a pulley's swivel encoder = its swivel angle + swivel_zero"),
     "encoder_delay": _extra(_EACH, 0.0, "s", "by which lengths are older than the poses that are filed with them"),
     "cell_delay": _extra(_EACH, 0.0, "s", "by which tensions are older than the poses that are filed with them"),
     "clock_drift": _extra((), 0.0, "1", "by how much faster the clock of poses runs than that of lengths and tensions"),
@@ -180,7 +181,7 @@ EXTENSIONS: dict[str, Parameter] = {
 PARAMETERS: dict[str, Parameter] = {**_RULES, **EXTENSIONS}
 SENSORS = (
     "cell_gain", "cell_bias", "friction", "bearing_friction", "pulley_drag", "backlash", "tracker", "creep", "slip",
-    "encoder_delay", "cell_delay", "clock_drift", "accelerometer_gain", "sensor_mass",
+    "encoder_delay", "cell_delay", "clock_drift", "accelerometer_gain", "sensor_mass", "swivel_zero",
 )  # fmt: skip
 """Act only where readings are compared: they describe sensors, or need the time of a reading."""
 AUXILIARY = {

@@ -46,7 +46,8 @@ class RobotArrays:
     tilt            : (..., 2) [rad];  temperature_change : (...) [K]
     drag_area       : (...) [m^2], drag_width : (..., m) [m] in wind (..., 3) [m/s] of air_density (...) [kg/m^3]
     nonlinearity, stiffening_exponent : (...) k and n with reference_tension (...) [N];  incremental_ratio : (...)
-    cell_gain, cell_bias, friction, bearing_friction, pulley_drag, backlash, slip, encoder_delay, cell_delay : (..., m)
+    cell_gain, cell_bias, friction, bearing_friction, pulley_drag, backlash, slip, encoder_delay, cell_delay,
+    swivel_zero : (..., m)
     clock_drift, clock_start : (...) [-], [s]
     tracker, accelerometer_gain : (..., 6)
     creep, sensor_mass : (...)
@@ -110,6 +111,7 @@ class RobotArrays:
     creep: np.ndarray = field(default_factory=PARAMETERS["creep"].without_effect)
     slip: np.ndarray = field(default_factory=PARAMETERS["slip"].without_effect)
     encoder_delay: np.ndarray = field(default_factory=PARAMETERS["encoder_delay"].without_effect)
+    swivel_zero: np.ndarray = field(default_factory=PARAMETERS["swivel_zero"].without_effect)
     cell_delay: np.ndarray = field(default_factory=PARAMETERS["cell_delay"].without_effect)
     clock_drift: np.ndarray = field(default_factory=PARAMETERS["clock_drift"].without_effect)
     clock_start: np.ndarray = field(default_factory=PARAMETERS["clock_start"].without_effect)

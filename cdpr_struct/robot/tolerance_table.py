@@ -27,6 +27,7 @@ class TolerancesTable(BaseModel):
     load_cell_bias_N: _Size = None
     damping: _Size = None
     pulley_radius_m: _Size = None
+    swivel_deg: _Size = None
 
     def stated(self) -> dict[str, float]:
         """Those that the file gives."""

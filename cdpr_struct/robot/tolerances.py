@@ -12,6 +12,8 @@ from cdpr_struct.robot.parameters import CABLES
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _HALF = np.sqrt(0.5)  # of a relative tolerance's sigma is common to all cables, which come from one reel
+UNKNOWN_SWIVEL = 100.0
+"""deg, one sigma of a swivel encoder's zero of which nothing is known: as wide as a full turn spreads."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +27,7 @@ class Tolerances:
     load_cell_gain       : relative;  load_cell_bias_N [N]
     damping              : relative
     pulley_radius_m      : each pulley [m]
+    swivel_deg           : zero of each encoder on a swivel axis [deg]; unknown unless given
     """
 
     anchor_m: float = 0.001
@@ -38,11 +41,12 @@ class Tolerances:
     load_cell_bias_N: float = 0.5
     damping: float = 0.3
     pulley_radius_m: float = 0.0002
+    swivel_deg: float = UNKNOWN_SWIVEL
 
 
 def tolerance_unit(name: str) -> str:
     """Unit of a tolerance, which ends its name; "" of those that are shares of the value entered."""
-    return next((ending for ending in ("m", "kg", "N") if name.endswith(f"_{ending}")), "")
+    return next((ending for ending in ("m", "kg", "N", "deg") if name.endswith(f"_{ending}")), "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,9 +152,12 @@ def _change_of(one: Varied, entered: RobotArrays, arrays: RobotArrays) -> np.nda
     return np.asarray(change.reshape((len(change), -1)))
 
 
-def tolerance_count(cables: int) -> int:
-    """How many independent standard normal numbers describe how far a robot with so many cables is off."""
-    return change_count(cables) + sum(one.reel for one in VARIED)
+def tolerance_count(cables: int, wheels: bool = False) -> int:
+    """How many independent standard normal numbers describe how far a robot with so many cables is off.
+
+    wheels : with the zeros of encoders on the swivel axes of its pulleys, which change no robot, behind all others
+    """
+    return change_count(cables) + sum(one.reel for one in VARIED) + (cables if wheels else 0)
 
 
 def tolerance_factor(tolerances: Tolerances, cables: int) -> np.ndarray:
@@ -197,4 +204,6 @@ class Spread:
 
 def tolerated(arrays: RobotArrays, tolerances: Tolerances, u: np.ndarray) -> RobotArrays:
     """The robot whose independent numbers are u (..., t) sigmas off; (...) are batch axes of its fields."""
-    return changed(arrays, u @ tolerance_factor(tolerances, arrays.cable_count).T)
+    own, zeros = np.split(u, [tolerance_count(arrays.cable_count)], axis=-1)
+    found = changed(arrays, own @ tolerance_factor(tolerances, arrays.cable_count).T)
+    return plus(found, swivel_zero=np.radians(tolerances.swivel_deg) * zeros) if zeros.size else found

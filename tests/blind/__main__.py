@@ -50,6 +50,7 @@ WHOLE = {"dev": 200, "final": 200, "ci": 12, "unseen": 24, "laws": 8, "rare": 15
 WHOLE |= {"outside-dev": 24, "outside-held": 24, "conventions": 40, "conventions-small": 40, "no-conventions": 200}
 SPOILT = {"messy": 270, "peaks": 180, "sizes": 224, "messy-dev": 81, "peaks-dev": 63, "sizes-dev": 64}
 SPOILT |= {"few": 180, "few-dev": 144}
+SPOILT |= {"unread": 42, "wheels": 90, "unread-dev": 12, "wheels-dev": 12}
 MOVING = {"delays": 120, "delays-dev": 30}
 SETS = WHOLE | SPOILT | MOVING
 

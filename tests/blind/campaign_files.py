@@ -13,7 +13,7 @@ import pandas as pd
 from tests.blind.case_drawing import Case
 from tests.blind.controller import lower_bound
 from tests.blind.deviations import TOLERANCES
-from tests.blind.entered_robot import INCLINED_SUFFIX
+from tests.blind.entered_robot import plain_name
 from tests.blind.sensors import CABLE_HZ, ROBOT_HZ, SIGMA
 
 MODEL = "exact"
@@ -68,8 +68,8 @@ def robot_text(case: Case) -> str | None:
 
 def campaign_text(case: Case) -> str:
     """The campaign file (TOML)."""
-    pulleys = case.robot.pulley_radius is not None
-    file = case.robot.name.removesuffix(INCLINED_SUFFIX) if robot_text(case) is None else "robot.toml"
+    pulleys = "pulley" in case.robot.text
+    file = plain_name(case.robot.name) if robot_text(case) is None else "robot.toml"
     lines = [f'robot = "{file}"', f'model = "{MODEL}"', 'tension_distribution = "minimum_norm"']
     lines += [f"lower_bound_N = {lower_bound(case.robot)}", ""]
     tolerances = {key: value for key, value in TOLERANCES.items() if pulleys or key != "pulley_radius_m"}

@@ -13,7 +13,7 @@ from scipy.optimize import nnls
 from cdpr_struct.fem_reference import PulleyData, solve_robot
 from cdpr_struct.fem_reference.pulley import wrapped
 from tests.blind.deviations import Deviations
-from tests.blind.entered_robot import UP, EnteredRobot
+from tests.blind.entered_robot import EnteredRobot
 from tests.blind.true_robot import Command, at_rest, true_robot
 
 SUSPENDED_BOUND = 70.0  # N
@@ -35,11 +35,16 @@ def exit_points(robot: EnteredRobot, anchors: np.ndarray) -> np.ndarray:
     """Points (m, 3) [m] where straight, weightless cables to platform anchors (m, 3) leave the frame or its pulleys."""
     if robot.pulley_radius is None:
         return robot.frame_anchors
-    pulley, exits = PulleyData(robot.pulley_radius, UP), robot.frame_anchors
+    wheels = [None if np.isnan(axis).any() else PulleyData(robot.pulley_radius, axis) for axis in robot.axes]
+    exits = robot.frame_anchors
     for _ in range(EXIT_ROUNDS):
-        pairs = zip(robot.frame_anchors, anchors - exits, strict=True)
-        exits = np.array([wrapped(pulley, entry, along, 0.0, np.zeros(3), 1.0).exit_point for entry, along in pairs])
+        ends = zip(wheels, robot.frame_anchors, anchors - exits, strict=True)
+        exits = np.array([entry if wheel is None else _exit(wheel, entry, along) for wheel, entry, along in ends])
     return exits
+
+
+def _exit(wheel: PulleyData, entry: np.ndarray, along: np.ndarray) -> np.ndarray:
+    return np.asarray(wrapped(wheel, entry, along, 0.0, np.zeros(3), 1.0).exit_point)
 
 
 def structure_matrix(robot: EnteredRobot, position: np.ndarray, rotation: np.ndarray) -> np.ndarray:

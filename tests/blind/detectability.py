@@ -24,12 +24,13 @@ from scipy.stats import chi2, ncx2
 
 from tests.blind.catalogue import BEYOND, EQUIVALENT, LIBRARY
 from tests.blind.deviations import NUMBERS_PER_CABLE, NUMBERS_PER_ROBOT, Deviations, field_sizes, tolerance_columns
-from tests.blind.entered_robot import EnteredRobot, entered_robot
+from tests.blind.entered_robot import PULLEY_SUFFIX, EnteredRobot, entered_robot, wheelless
 from tests.blind.measuring_plan import Plan, drawn_plan
 from tests.blind.observation import Observation, observed
 from tests.blind.sensors import (
     CABLE_HZ,
     INCLINATION_READ,
+    NOTHING_READ,
     PICKED,
     POSE_READ,
     ROBOT_HZ,
@@ -64,6 +65,8 @@ STEPS |= {"drum_scale": 5e-6, "cable_warming": 0.3, "construction_stretch": 5e-6
 STEPS |= {"hook_offset": 1e-3, "gusts": 0.3, "floor_magnet": 0.3, "cubic_hose": 0.3}
 FEW = ("two-cables", "three-cables", "four-cables", "five-cables", "thesis-3-1-inclined", "four-cables-inclined")
 """Robots with few cables, or whose position nobody reads: of sets without frequencies."""
+UNREAD = ("thesis-3-1-unread", "cogiro-unread")
+"""Robots of whose pose nobody reads anything, of sets without frequencies."""
 STEP = 5e-5  # all others: m, rad, ratios
 
 
@@ -96,7 +99,9 @@ class Sensitivity:
     @property
     def _of_pose(self) -> slice:
         """Which numbers of a pose are read."""
-        return POSE_READ if self.robot.tracked else INCLINATION_READ
+        if self.robot.tracked:
+            return POSE_READ
+        return INCLINATION_READ if self.robot.inclined else NOTHING_READ
 
     @property
     def _numbers(self) -> int:
@@ -181,6 +186,8 @@ def measured_table(name: str, plan_seed: int, statics: bool = False) -> tuple[li
 
 @cache
 def _table(robot: str, statics: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of a robot; one whose pulleys the others lack is as sensitive as they are."""
+    robot = robot if robot.endswith(PULLEY_SUFFIX) else wheelless(robot)
     with np.load(STATIC_TABLE if statics else TABLE) as kept:
         labels, gram, internal = (kept[f"{robot}/{part}"] for part in ("labels", "gram", "internal"))
     return labels, gram.astype(float), internal
@@ -219,7 +226,12 @@ def reference_size(
 
 
 def typical_size(robot: str, effect: str) -> float | None:
-    """Smallest detectable size of the usual pattern: all alike, or a random direction for vectors."""
+    """Smallest detectable size of the usual pattern: all alike, or a random direction for vectors.
+
+    None of robots that are in sets without frequencies only.
+    """
+    if robot in (*FEW, *UNREAD):
+        return None
     labels, gram, internal = _table(robot)
     own = labels == effect
     own_gram = internal if effect == "internal_force" else gram[np.ix_(own, own)]
@@ -256,7 +268,7 @@ def write_table(names: list[str], workers: int = 1, statics: bool = False) -> No
     """Measure the robots named, averaged over plans, and store them beside the others."""
     table: dict[str, np.ndarray] = {}
     file, seeds = (STATIC_TABLE, STATIC_PLAN_SEEDS) if statics else (TABLE, PLAN_SEEDS)
-    seeds = seeds[:1] if all(name in FEW for name in names) else seeds
+    seeds = seeds[:1] if all(name in (*FEW, *UNREAD) for name in names) else seeds
     if file.exists():
         with np.load(file) as kept:
             table = dict(kept.items())

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from cdpr_struct.fem_reference import FemError
 from tests.blind.controller import commanded_lengths, hanging, intended_tensions, null_directions
 from tests.blind.deviations import Deviations
-from tests.blind.entered_robot import INCLINED_SUFFIX, EnteredRobot
+from tests.blind.entered_robot import EnteredRobot, plain_name, wheelless
 from tests.blind.true_robot import Command
 
 
@@ -37,7 +37,6 @@ WORKSPACES = {
     "cogiro": Workspace((-3.0, -2.0, 0.8), (3.0, 2.0, 2.2), 10.0, (0.0, 25.0, 50.0), 1000.0),
     "thesis-5": Workspace((-3.0, -2.0, 1.5), (3.0, 2.0, 3.5), 2.5, (0.0, 10.0, 20.0), 2000.0),
 }
-WORKSPACES["thesis-5-pulleys"] = WORKSPACES["thesis-5"]
 HANGING = (0.0, 5.0, 10.0)  # kg
 WORKSPACES |= {
     "two-cables": Workspace((-1.2, 0.45, 1.6), (1.2, 0.45, 2.9), 0.0, HANGING, 800.0),
@@ -110,7 +109,7 @@ def _dated(plan: Plan) -> Plan:
 
 def workspace(robot: EnteredRobot) -> Workspace:
     """Where a robot is sent, whatever reads its pose."""
-    return WORKSPACES[robot.name.removesuffix(INCLINED_SUFFIX)]
+    return WORKSPACES[wheelless(plain_name(robot.name))]
 
 
 def _command(

@@ -20,7 +20,7 @@ CABLE_HZ = 0.003  # relative
 ROBOT_HZ = 0.004  # relative
 PICKED = 0.8  # share of the visible peaks that somebody picks
 POSE = ["x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"]
-POSE_READ, INCLINATION_READ = slice(0, 6), slice(3, 5)  # numbers of a pose that a tracker, an inclinometer reads
+POSE_READ, INCLINATION_READ, NOTHING_READ = slice(0, 6), slice(3, 5), slice(0, 0)  # by tracker, inclinometer, nobody
 COLOUR = 0.7  # correlation of one reading with the next in coloured noise
 OUTLIER = 7.0  # sigma
 PICTURE = 3.0  # m, from the middle of the tracker's picture, where its lens error is given
@@ -208,7 +208,7 @@ def timed(tables: Tables, plan: Plan) -> Tables:
     }
 
 
-def inclined(tables: Tables) -> Tables:
-    """The same files of a robot whose position nobody reads: rx and ry are an inclinometer's."""
-    gone = [name for name in POSE if name not in POSE[INCLINATION_READ]]
+def unplaced(tables: Tables, read: slice) -> Tables:
+    """The same files of a robot of whose pose only some numbers are read: rx and ry by an inclinometer, or nothing."""
+    gone = [name for name in POSE if name not in POSE[read]]
     return {kind: table.drop(columns=gone) for kind, table in tables.items()}

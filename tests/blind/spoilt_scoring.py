@@ -12,13 +12,21 @@ from tests.blind.intervals import share
 from tests.blind.scoring import Scored
 
 WHOLE = "whole set"
+BARE, PULLEYS = "bare", "missing_pulleys"  # way of the set `wheels` that hides them, and their name
 
 
 def spoilt_right(case: Scored) -> bool:
     """A null is adequate; what was hidden is named, or in a class of at most four names."""
     if case.kind == "null":
         return case.answer.status == "adequate"
+    if case.truth["way"] == BARE:
+        return any(PULLEYS in names and len(names) <= LARGEST_AMBIGUOUS_CLASS for names in case.answer.groups)
     return right_class(case.answer, case.hidden, LARGEST_AMBIGUOUS_CLASS)
+
+
+def _no_mistake(case: Scored) -> tuple[str, ...]:
+    """Names that are no mistake. A controller that knows pulleys which the simulation lacks commands other forces."""
+    return (*case.hidden, "internal_force") if case.truth["way"] == BARE else case.hidden
 
 
 def condition(case: Scored) -> str:
@@ -47,23 +55,26 @@ def _figures(cases: list[Scored]) -> dict[str, Any]:
         "right": share([spoilt_right(case) for case in cases]),
         "nulls_right": share([spoilt_right(case) for case in nulls]),
         "singles_right": share([spoilt_right(case) for case in singles]),
-        "wrong_confident_name": share([wrong_confident_name(case.answer, case.hidden) for case in cases]),
-        "wrong_confident_class": share([wrong_confident_class(case.answer, case.hidden) for case in cases]),
+        "wrong_confident_name": share([wrong_confident_name(case.answer, _no_mistake(case)) for case in cases]),
+        "wrong_confident_class": share([wrong_confident_class(case.answer, _no_mistake(case)) for case in cases]),
+        "pulleys_said": share([any(PULLEYS in names for names in case.answer.groups) for case in cases]),
         "statuses": dict(sorted(Counter(case.answer.status for case in cases).items())),
         "seconds_median": float(np.median([case.answer.seconds for case in cases])) if cases else None,
         "seconds_largest": float(max(case.answer.seconds for case in cases)) if cases else None,
     }
 
 
-COUNTED = ("right", "nulls_right", "singles_right", "wrong_confident_name", "wrong_confident_class")
+COUNTED = ("right", "nulls_right", "singles_right", "wrong_confident_name", "wrong_confident_class", "pulleys_said")
 
 
 def spoilt_page(scores: dict[str, Any]) -> str:
     """The figures as a table (Markdown), and every case that is not right."""
     run, figures = scores["run"], scores["figures"]
     lines = [f"# Spoilt campaigns, set `{run['set']}`", "", f"Budget `{run['budget']}`, {run['date']}.", ""]
-    lines += ["| condition | right | nulls | singles | wrong name, P > .9 | wrong class, P > .9 | failed | median s |"]
-    lines += ["|---" * 8 + "|"]
+    lines += [
+        "| condition | right | nulls | singles | wrong name, P > .9 | wrong class, P > .9 | pulleys said | failed | s |"
+    ]
+    lines += ["|---" * 9 + "|"]
     for name, row in figures.items():
         counts = " | ".join(f"{row[key]['successes']} of {row[key]['cases']}" for key in COUNTED)
         lines.append(f"| {name} | {counts} | {row['statuses'].get('failed', 0)} | {row['seconds_median']:.1f} |")
@@ -72,10 +83,9 @@ def spoilt_page(scores: dict[str, Any]) -> str:
         if not row["right"]:
             said = "; ".join(" or ".join(names) for names in row["said"])
             chance = "" if row["probability"] is None else f"{row['probability']:.2f}"
+            size = "" if row["multiple"] is None else f"{row['multiple']:.3g}"
             cells = (row["case"], row["robot"], row["condition"], " + ".join(row["hidden"]) or "nothing")
-            lines.append(
-                "| " + " | ".join((*cells, f"{row['multiple']:.3g}", f"{row['status']} {said}", chance)) + " |"
-            )
+            lines.append("| " + " | ".join((*cells, size, f"{row['status']} {said}", chance)) + " |")
     return "\n".join(lines) + "\n"
 
 

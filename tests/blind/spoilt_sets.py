@@ -4,6 +4,8 @@ messy : static campaigns, clean and spoilt in six ways
 peaks : campaigns with frequencies, clean, spoilt in six ways, and in all of them at once
 sizes : the same cause at 2, 4, 8 and 16 times what can be detected, with and without frequencies
 few   : static campaigns, clean, of robots with two to five cables, and of others whose position nobody reads
+unread : static campaigns, clean, of robots with eight cables of whose pose nobody reads anything
+wheels : static campaigns, clean, of robots without pulleys, with half of them, and with all but in their file
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ from cdpr_struct.fem_reference import FemError
 from tests.blind.case_drawing import (
     ATTEMPTS,
     ROBOTS,
+    SUSPENDED,
     Case,
     CaseKind,
     Reality,
@@ -26,10 +29,11 @@ from tests.blind.case_drawing import (
     truth_record,
 )
 from tests.blind.catalogue import EQUIVALENT, LIBRARY
-from tests.blind.detectability import FEW
+from tests.blind.detectability import FEW, UNREAD
+from tests.blind.entered_robot import BARE_PART, HALF_SUFFIX
 from tests.blind.measuring_plan import PlanSize
 from tests.blind.observation import SlackStateError
-from tests.blind.sensors import Noise, filed, inclined, picked
+from tests.blind.sensors import INCLINATION_READ, NOTHING_READ, Noise, filed, picked, unplaced
 from tests.blind.spoiled_peaks import PeakSpoiler, spoil_peak_tables
 from tests.blind.spoiled_readings import spoil_readings
 
@@ -42,6 +46,8 @@ NULLS = 3  # every third reality holds no effect
 FREQUENCY_STATES = 6  # of `peaks`: two of them are exchanged
 IN_SERIES = ("joint_compliance", "dead_length")
 UNSEEN_IN_STATICS = ("platform_inertia",)
+WHEELS = ("points", "half", "bare")
+BARE_RADII = (20, 61)  # mm
 MOTIONLESS = "static"
 VIBRATING = "with frequencies"
 PATTERNS_TRIED = 10  # of an effect for each robot, to see whether it can be that large
@@ -67,7 +73,7 @@ def spoilt_kinds(name: str, total: int, base: int) -> list[SpoiltKind]:
     """Kinds of all cases in the order in which they are numbered, which tells nothing about them."""
     rng = np.random.default_rng([base, 0])
     kind = name.removesuffix(DEVELOPMENT)
-    makers = {"messy": _messy, "peaks": _peaks, "sizes": _sizes, "few": _few}
+    makers = {"messy": _messy, "peaks": _peaks, "sizes": _sizes, "few": _few, "unread": _unread, "wheels": _wheels}
     kinds = list(makers[kind](total, rng))
     return [kinds[index] for index in rng.permutation(len(kinds))]
 
@@ -107,14 +113,38 @@ def _sizes(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
                 yield SpoiltKind(group, kind, MOTIONLESS if statics else VIBRATING, SIZES[-1])
 
 
-def _few(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
+def _few(total: int, rng: np.random.Generator, robots: Sequence[str] = FEW) -> Iterator[SpoiltKind]:
     """As many cases of each robot, a third of them nulls; of causes that can plausibly be that large there."""
-    each, group = total // len(FEW), 0
-    for robot in FEW:
+    each, group = total // len(robots), 0
+    for robot in robots:
         names = [name for name in _names(True) if _reaches(name, CLEAR, True, (robot,))]
         for kind in _realities(each, names, rng):
             yield SpoiltKind(group, replace(kind, statics=True, robot=robot), robot)
             group += 1
+
+
+def _unread(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
+    return _few(total, rng, UNREAD)
+
+
+def _wheels(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
+    """A third each of robots with points, with half of the pulleys, and with pulleys that nobody entered.
+
+    Of the first two a third are nulls. The last hide nothing else; axes and radii are drawn.
+    """
+    each, group = total // len(WHEELS), 0
+    for way in WHEELS[:2]:
+        robots = [robot + (HALF_SUFFIX if way == "half" else "") for robot in SUSPENDED]
+        names = [name for name in _names(True) if all(_reaches(name, CLEAR, True, (robot,)) for robot in robots)]
+        for number, kind in enumerate(_realities(each, names, rng)):
+            robot = robots[number // NULLS % 2]
+            yield SpoiltKind(group, replace(kind, statics=True, robot=robot), way)
+            group += 1
+    for number in range(each):
+        millimetres = int(rng.integers(*BARE_RADII))
+        robot = f"{SUSPENDED[number % 2]}{BARE_PART}{('up', 'outwards')[number // 2 % 2]}-{millimetres}"
+        yield SpoiltKind(group, CaseKind("null", statics=True, robot=robot), "bare")
+        group += 1
 
 
 def _reaches(name: str, multiple: float, statics: bool, robots: Sequence[str] = ROBOTS) -> bool:
@@ -168,14 +198,20 @@ def read_case(kind: SpoiltKind, real: Reality, seed: tuple[int, ...]) -> Case:
     noise = Noise(sensor, "student" if "student" in ways else "white")
     if kind.reality.statics:
         tables = filed(real.plan, real.seen, real.deviations, noise)
-        said = "" if kind.way == real.robot.name else spoil_readings(kind.way, tables, spoiler)
-        tables = tables if real.robot.tracked else inclined(tables)
+        said = "" if kind.way in (real.robot.name, *WHEELS) else spoil_readings(kind.way, tables, spoiler)
+        if not real.robot.tracked:
+            tables = unplaced(tables, INCLINATION_READ if real.robot.inclined else NOTHING_READ)
     else:
         peaks = PeakSpoiler(ways)
         picker = picked if kind.way == VIBRATING else peaks.picker()
         tables = filed(real.plan, real.seen, real.deviations, noise, picker=picker)
         said = f"{peaks.said} {spoil_peak_tables(ways, tables, spoiler)}"
-    truth = truth_record(kind.reality, real.robot, real.effects, real.deviations)
+    effects = real.effects
+    if kind.way == "bare":
+        radius, shape = real.robot.pulley_radius, real.robot.name.partition(BARE_PART)[2]
+        effects = [{"cause": "missing_pulleys", "multiple": None, "size": radius, "unit": "m", "shape": shape}]
+    truth = truth_record(kind.reality, real.robot, effects, real.deviations)
+    truth |= {"kind": "single"} if kind.way == "bare" else {}
     asked = max((multiple for _, multiple in kind.reality.effects), default=0.0)
     truth |= {"way": kind.way, "group": kind.group, "spoilt": said, "asked": asked}
     return Case(real.robot, tables, truth | {"by_size": kind.way in (MOTIONLESS, VIBRATING)})

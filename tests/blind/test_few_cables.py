@@ -1,17 +1,23 @@
-"""The set of robots with few cables: what is drawn, where they hang, and what is handed out."""
+"""Sets of robots with few cables, without poses, with pulleys in no file: what is drawn, and what is handed out."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from cdpr_struct.measurement.campaign_file import load_campaign
+from tests.blind.answers import names_in_truth
 from tests.blind.campaign_files import write_case
+from tests.blind.case_drawing import Case
 from tests.blind.catalogue import LIBRARY
 from tests.blind.controller import hanging
-from tests.blind.detectability import FEW, reference_size
-from tests.blind.entered_robot import entered_robot
+from tests.blind.detectability import FEW, UNREAD, reference_size, typical_size
+from tests.blind.deviations import Deviations
+from tests.blind.entered_robot import EnteredRobot, entered_robot
 from tests.blind.measuring_plan import PlanSize
-from tests.blind.spoilt_sets import spoilt_cases, spoilt_kinds
+from tests.blind.spoilt_sets import WHEELS, SpoiltKind, spoilt_cases, spoilt_kinds
+from tests.blind.true_robot import Command, true_robot
 
 SMALL = PlanSize(static_states=2, locks=1, loads_per_lock=2)
 
@@ -39,6 +45,46 @@ def test_a_campaign_holds_what_the_robot_s_sensors_read(tmp_path, robot):
         assert {"rx_deg", "ry_deg"} <= set(table)
 
 
+def handed_out(kind: SpoiltKind, folder: Path) -> tuple[Path, Case]:
+    """Directory of the only campaign of a small plan, and its case."""
+    kind = replace(kind, reality=replace(kind.reality, size=SMALL))
+    ((name, case, seed),) = spoilt_cases([("c001", kind)], 1)
+    return write_case(case, name, seed, folder / "campaigns", folder / "sealed").parent, case
+
+
+@pytest.mark.parametrize("robot", UNREAD)
+def test_a_campaign_without_any_pose_holds_none(tmp_path, robot):
+    kinds = [kind for kind in spoilt_kinds("unread", 6 * len(UNREAD), 1) if kind.way == robot]
+    assert [sum(kind.reality.kind == which for kind in kinds) for which in ("null", "single")] == [2, 4]
+    folder, case = handed_out(next(kind for kind in kinds if kind.reality.kind == "null"), tmp_path)
+    assert f'robot = "{robot.removesuffix("-unread")}"' in (folder / "campaign.toml").read_text()
+    for table in case.tables.values():
+        assert not {"x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"} & set(table)
+    campaign = load_campaign(folder / "campaign.toml").states
+    assert not np.isfinite(campaign.position).any()
+    assert not np.isfinite(campaign.angles).any()
+
+
+def test_pulleys_are_in_the_robot_its_file_or_both_as_the_way_says(tmp_path):
+    kinds = spoilt_kinds("wheels", 3 * 6, 1)
+    for way, real, filed in zip(WHEELS, (0, 4, 8), (0, 4, 0), strict=True):
+        own = [kind for kind in kinds if kind.way == way]
+        assert [kind.reality.kind for kind in own].count("null") == (6 if way == "bare" else 2)
+        kind = next(kind for kind in own if kind.reality.kind == "null")
+        folder, case = handed_out(kind, tmp_path / way)
+        robot = case.robot
+        truth = true_robot(robot, Deviations.none(8), command_of(robot), np.eye(3), np.zeros((8, 3)))
+        wheels = truth.pulleys or (None,) * 8
+        assert sum(wheel is not None for wheel in wheels) == real
+        assert sum(wheel is not None for wheel in load_campaign(folder / "campaign.toml").robot.pulleys) == filed
+        assert names_in_truth(case.truth) == (("missing_pulleys",) if way == "bare" else ())
+
+
+def command_of(robot: EnteredRobot) -> Command:
+    lengths = np.linalg.norm(robot.frame_anchors - robot.home, axis=1)
+    return Command(lengths, 0.0, np.ones(8), robot.home, np.eye(3))
+
+
 def test_a_robot_hangs_where_its_forces_meet_the_weight():
     """Two cables: their planes and the centre of mass lie in one vertical plane, but for the cables' own weight."""
     robot = entered_robot("two-cables")
@@ -52,7 +98,7 @@ def test_a_robot_hangs_where_its_forces_meet_the_weight():
     assert np.abs(force[:2]).max() < 0.01 * carried
 
 
-@pytest.mark.parametrize("robot", FEW)
+@pytest.mark.parametrize("robot", [*FEW, *UNREAD])
 def test_a_mass_shows_as_far_as_the_cells_allow(robot):
     """Gains of .5 % of single cells and .1 kg: with m cells 4.1 sigmas of a mass are some per cent of it."""
     entered = entered_robot(robot)
@@ -60,4 +106,5 @@ def test_a_mass_shows_as_far_as_the_cells_allow(robot):
     assert size is not None
     assert 4.1 * 0.1 < size < 0.05 * entered.mass
     assert reference_size(robot, "internal_force", np.ones(2), 1, True) is None
+    assert typical_size(robot, "platform_mass") is None  # it stands in no set with frequencies
     assert LIBRARY["platform_mass"].largest > 4.0 * size

@@ -18,7 +18,7 @@ from cdpr_struct.fem_reference import (
 )
 from tests.blind.bending_masts import mast_deflections
 from tests.blind.deviations import EXPANSION, Deviations
-from tests.blind.entered_robot import UP, EnteredRobot
+from tests.blind.entered_robot import EnteredRobot
 from tests.blind.settling import Settling
 
 ROUNDS = 30  # of forces and exits that depend on where the platform rests
@@ -211,9 +211,12 @@ def true_robot(
     warmth = 1.0 + EXPANSION * deviations["temperature"]
     anchors = (robot.frame_anchors + _offsets(deviations, "frame")) * warmth + yielded
     anchors = anchors + moved_exits(robot, deviations, command.day)
-    pulleys: tuple[PulleyData, ...] = ()
+    pulleys: tuple[PulleyData | None, ...] = ()
     if robot.pulley_radius is not None:
-        pulleys = tuple(PulleyData(float(robot.pulley_radius + d), UP) for d in deviations["pulley_radius"])
+        radii = (robot.pulley_radius + deviations["pulley_radius"]).tolist()
+        pulleys = tuple(
+            None if np.isnan(axis).any() else PulleyData(r, axis) for r, axis in zip(radii, robot.axes, strict=True)
+        )
     platform = true_platform(robot, deviations, command.payload, rotation)
     return RobotData(
         anchors,

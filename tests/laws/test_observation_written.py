@@ -85,8 +85,10 @@ OF_READINGS = (
     "accelerometer_gain",
 )
 CLOCKS = ("encoder_delay", "cell_delay", "clock_drift")
-ALONE = [name for name in EXTENSIONS if name not in (*AUXILIARY, "sensor_mass", "drag_width", *CLOCKS)]
-"""Wind on cables is refused; delays need states in motion, see `test_sensor_delay.py`."""
+ELSEWHERE = ("sensor_mass", "drag_width", "swivel_zero", *CLOCKS)
+ALONE = [name for name in EXTENSIONS if name not in (*AUXILIARY, *ELSEWHERE)]
+"""Wind on cables is refused; delays need states in motion, see `test_sensor_delay.py`; for swivels
+see `test_swivel_angles.py`."""
 
 
 def seen(campaign) -> Local:

@@ -24,7 +24,7 @@ IDLE = {
     "force_min", "force_max", "damping_ratio", "length_offset", "length_scale", "hose_center", "force", "nonlinearity",
     "stiffening_exponent", "reference_tension", "cell_gain", "cell_bias", "friction", "bearing_friction",
     "pulley_drag", "backlash", "tracker", "creep", "slip",
-    "accelerometer_gain", "sensor_mass",
+    "accelerometer_gain", "sensor_mass", "swivel_zero",
 }  # fmt: skip
 """Parameters that act on readings or on the state, not on the vibration about it; and what a winch holds, a switch."""
 STEPS = {

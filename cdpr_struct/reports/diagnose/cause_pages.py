@@ -99,7 +99,9 @@ _FILED = (
 )
 BESIDE = {
     "unit_error": ("A column is in another unit", _FILED, "every column with a unit", "asking who recorded the data"),
-    "sign_error": ("A coordinate of the pose has the wrong sign", _FILED, "poses", "asking who recorded the data"),
+    "sign_error": (
+        "A coordinate of the pose has the wrong sign, or an encoder on a swivel counts the other way round", _FILED,
+        "poses, swivel angles", "asking who recorded the data"),
     "rotation_convention": (
         "The poses are written in another convention: order of rotations, quaternion, transpose, axes of the frame",
         _FILED, "poses of several orientations", "entering one pose with a single large angle",

@@ -30,6 +30,7 @@ def changed_columns(before: Campaign, after: Campaign, kind: str) -> set[str]:
     names = {
         "tension": ["tension_N"], "length": ["length_m", *(f"length_{i}_m" for i in cables)],
         "position": ["x_m", "y_m", "z_m"], "angles": ["rx_deg", "ry_deg", "rz_deg"], "payload": ["payload_kg"],
+        "swivel": ["swivel_deg", *(f"swivel_{i}_deg" for i in cables)],
     }  # fmt: skip
     found: set[str] = set()
     for field, columns in names.items():

@@ -25,10 +25,11 @@ from cdpr_struct.reports.diagnose.words import doubt, place, recommendation
 from cdpr_struct.reports.plan.measurements import recommendation_text
 from cdpr_struct.reports.trust import Check, Trust
 
+RADIAN = 57.29577951308232  # deg
 KINDS = {
     "EQ": ("static_state (wrench balance)", 1.0, "N"), "CO": ("static_state (cable lengths)", 1e3, "mm"),
     "CF": ("cable_frequency", 100.0, "%"), "RF": ("robot_frequency", 100.0, "%"),
-    "FA": ("frf (modal constants)", 100.0, "%"),
+    "FA": ("frf (modal constants)", 100.0, "%"), "SW": ("static_state (swivel angles)", RADIAN, "deg"),
 }  # fmt: skip
 """Of each kind of rows: name, factor from what is computed with, unit that is shown."""
 

@@ -11,9 +11,11 @@ from cdpr_struct.reports.html import HtmlTable
 
 PHYSICAL = {
     "EQ": ("wrench balance", "N"), "CO": ("cable lengths", "mm"), "CF": ("cable frequencies", "Hz"),
-    "RF": ("robot frequencies", "Hz"),
+    "RF": ("robot frequencies", "Hz"), "SW": ("swivel angles", "deg"),
 }  # fmt: skip
 """Kinds of rows that have a physical unit: name and unit. Moments of the balance are over the platform's radius."""
+
+_FACTOR = {"CO": 1e3, "SW": np.degrees(1.0)}
 
 
 def state_errors(found: Diagnosis) -> list[dict[str, Any]]:
@@ -34,7 +36,7 @@ def _rms(rows: LeftOut, kind: str, state: int, values: np.ndarray) -> float | No
     own = (rows.kind == kind) & (rows.state == state)
     if not own.any():
         return None
-    factor = rows.hertz[own] if PHYSICAL[kind][1] == "Hz" else 1e3 if kind == "CO" else 1.0
+    factor = rows.hertz[own] if PHYSICAL[kind][1] == "Hz" else _FACTOR.get(kind, 1.0)
     sure = rows.sigma[own] ** -2 if kind == "RF" else None  # a mode counts as far as a peak is its own
     return float(np.sqrt(np.average((factor * values[own]) ** 2, weights=sure)))
 

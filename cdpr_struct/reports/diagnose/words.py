@@ -15,7 +15,7 @@ _FEW = 3  # numbers that a sentence lists
 PLACES = {
     "EQ": "the wrench balance (forces and moments on the platform)", "CO": "the cable lengths",
     "CF": "the cable frequencies", "RF": "the robot frequencies",
-    "FA": "the modal constants of the FRFs", DAMPING: "the damping ratios",
+    "FA": "the modal constants of the FRFs", "SW": "the swivel angles of the pulleys", DAMPING: "the damping ratios",
     NULL_SPACE: "the internal forces (null space of the structure matrix)",
 }  # fmt: skip
 

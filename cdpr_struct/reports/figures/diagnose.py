@@ -22,7 +22,7 @@ _TENS = tuple(10.0**n for n in range(1, 16))
 _TICKS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, *_TENS[1:])
 ROW_NAMES = {
     "EQ": "wrench balance", "CO": "lengths", "CF": "cable frequencies", "RF": "robot frequencies",
-    "FA": "modal constants",
+    "FA": "modal constants", "SW": "swivel angles",
 }  # fmt: skip
 """Of each kind of residuals."""
 
