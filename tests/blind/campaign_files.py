@@ -89,7 +89,7 @@ def measurement_lines(kind: str, table: pd.DataFrame, sigma: Mapping[str, float]
     names = [*POSE_SIGMA]
     names += [key for key in ("tension_N",) if key in table]
     names += [key for key in ("length_m",) if key in table or "length_1_m" in table]
-    pairs = [f"{key} = {sigma[key]:.6g}" for key in names]
+    pairs = [f"{key} = {float(f'{sigma[key]:.6g}')}" for key in names]
     relative = {"cable_frequency": CABLE_HZ, "robot_frequency": ROBOT_HZ}.get(kind)
     if relative is not None:
         pairs.append(f"frequency_hz = {relative * table['frequency_hz'].median():.4g}")

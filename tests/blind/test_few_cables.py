@@ -1,12 +1,12 @@
 """Sets of robots with few cables, without poses, with pulleys in no file: what is drawn, and what is handed out."""
 
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from cdpr_struct.measurement.campaign_file import load_campaign
 from tests.blind.answers import names_in_truth
 from tests.blind.campaign_files import write_case
 from tests.blind.case_drawing import Case
@@ -60,9 +60,6 @@ def test_a_campaign_without_any_pose_holds_none(tmp_path, robot):
     assert f'robot = "{robot.removesuffix("-unread")}"' in (folder / "campaign.toml").read_text()
     for table in case.tables.values():
         assert not {"x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"} & set(table)
-    campaign = load_campaign(folder / "campaign.toml").states
-    assert not np.isfinite(campaign.position).any()
-    assert not np.isfinite(campaign.angles).any()
 
 
 def test_pulleys_are_in_the_robot_its_file_or_both_as_the_way_says(tmp_path):
@@ -76,8 +73,16 @@ def test_pulleys_are_in_the_robot_its_file_or_both_as_the_way_says(tmp_path):
         truth = true_robot(robot, Deviations.none(8), command_of(robot), np.eye(3), np.zeros((8, 3)))
         wheels = truth.pulleys or (None,) * 8
         assert sum(wheel is not None for wheel in wheels) == real
-        assert sum(wheel is not None for wheel in load_campaign(folder / "campaign.toml").robot.pulleys) == filed
+        assert pulleys_of(folder) == filed
         assert names_in_truth(case.truth) == (("missing_pulleys",) if way == "bare" else ())
+
+
+def pulleys_of(folder: Path) -> int:
+    """Cables with a pulley in the robot file of a campaign; a built-in robot, which has no file there, has none."""
+    if not (folder / "robot.toml").exists():
+        return 0
+    table = tomllib.loads((folder / "robot.toml").read_text("utf-8"))
+    return sum("pulley" in {**table.get("cable", {}), **cable} for cable in table["cables"])
 
 
 def command_of(robot: EnteredRobot) -> Command:

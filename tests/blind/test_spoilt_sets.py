@@ -223,7 +223,7 @@ def test_the_table_counts_each_way_by_itself():
     assert found["drift"]["wrong_confident_name"]["successes"] == 1
     assert found["clean"]["nulls_right"]["successes"] == found["whole set"]["right"]["successes"] == 1
     page = spoilt_page({"run": {"set": "messy", "budget": "small", "date": "-"}, "figures": found, "rows": []})
-    assert "| drift | 0 of 1 | 0 of 0 | 0 of 1 | 1 of 1 | 0 of 1 | 0 | 1.0 |" in page
+    assert "| drift | 0 of 1 | 0 of 0 | 0 of 1 | 1 of 1 | 0 of 1 | 0 of 1 | 0 | 1.0 |" in page
 
 
 def test_noise_of_the_sensors_stays_as_certified(messy):

@@ -89,6 +89,7 @@ def test_peaks_are_left_out_where_the_robot_cannot_stand(campaign, monkeypatch):
     left, _ = diagnosing._explained(replace(campaign, robot_frequencies=peaks), "small", str)
     assert [len(one.robot_frequencies.hertz) for one in asked] == [1, 0]
     assert "frequencies are not used" in left.notes[-1]
-    bare = with_states(replace(campaign, robot_frequencies=peaks), tension=np.nan, length=np.nan)
+    nothing = np.full_like(campaign.states.tension, np.nan)
+    bare = with_states(replace(campaign, robot_frequencies=peaks), tension=nothing, length=nothing)
     with pytest.raises(UnstableEquilibriumError):
         diagnosing._explained(bare, "small", str)
