@@ -46,7 +46,7 @@ def _movers(cables: int) -> Iterator[Mover]:
 
 
 def rates_of(rates: np.ndarray, mover: Mover) -> np.ndarray:
-    """(...) rates of what changes by rates (p, ...), when a mover changes."""
+    """Rates (...) by a mover, of predicted numbers with rates (p, ...) by single numbers."""
     return np.asarray(rates[list(mover.index)].sum(axis=0))
 
 

@@ -23,13 +23,12 @@ from cdpr_struct.diagnosis.diagnosis import (
     SetAside,
 )
 from cdpr_struct.diagnosis.errors_of_kinds import errors_of_kinds, located
-from cdpr_struct.diagnosis.extended import extended_arrays, extended_robot
+from cdpr_struct.diagnosis.extended import extended_robot
 from cdpr_struct.diagnosis.generic_fit import generic_ratio
 from cdpr_struct.diagnosis.internal_forces import InternalForces, internal_forces
 from cdpr_struct.diagnosis.left_out import LeftOut, left_out, rows_of
 from cdpr_struct.diagnosis.peaks_apart import PeaksApart, peaks_apart
 from cdpr_struct.diagnosis.piled_up import piled_up
-from cdpr_struct.diagnosis.posterior_spread import posterior_spread
 from cdpr_struct.diagnosis.recommended import Recommendation, recommended
 from cdpr_struct.diagnosis.recording import Recording, pieces_of, recording
 from cdpr_struct.diagnosis.remainder import remainder
@@ -271,9 +270,8 @@ def _extended(story: Explained, decision: Decision, sizes: Sequence[WholeSize], 
     """The robot with what the decision names, and how sure its numbers are."""
     if not decision.classes:
         return None
-    own, data = [] if story.correction is None else [story.correction.cause], story.search.data
-    robot = extended_robot(data, sizes, [*own, *(size.part.cause.name for size in sizes)])
-    return replace(robot, posterior=posterior_spread(data, chosen, extended_arrays(data, sizes)))
+    own = [] if story.correction is None else [story.correction.cause]
+    return extended_robot(story.search.data, sizes, [*own, *(size.part.cause.name for size in sizes)], chosen)
 
 
 def _p_adequate(noise: Sequence[NoiseOfKind]) -> float:

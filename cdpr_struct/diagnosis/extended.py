@@ -5,7 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from cdpr_struct.diagnosis.posterior_spread import posterior_spread
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
+from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.observation.circumstances import first_time
 from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.robot.robot import Robot
@@ -13,15 +15,16 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_from_arrays import robot_from_arrays
 
 
-def extended_robot(data: Recorded, sizes: Sequence[WholeSize], causes: Sequence[str]) -> Robot:
+def extended_robot(data: Recorded, sizes: Sequence[WholeSize], causes: Sequence[str], found: Judged) -> Robot:
     """The campaign's robot with causes put in, no tolerances; what belongs to single states or sits in the data
     alone is no part of a robot.
 
-    causes : names for the file, those of corrected data among them
+    causes : names for the file, those of corrected data among them;  found : the fit, which says how sure it is
     """
     arrays, entered = extended_arrays(data, sizes), data.campaign.robot
     named = tuple(dict.fromkeys([*entered.extensions.causes, *causes]))
-    return robot_from_arrays(entered, arrays, named)
+    robot = robot_from_arrays(entered, arrays, named)
+    return replace(robot, posterior=posterior_spread(data, found, arrays))
 
 
 def extended_arrays(data: Recorded, sizes: Sequence[WholeSize]) -> RobotArrays:

@@ -9,13 +9,13 @@ import numpy as np
 
 from cdpr_struct.bands.chances import DrawnRest, chance
 from cdpr_struct.bands.frequency_bands import chance_above, frequency_bands
-from cdpr_struct.bands.mode_rates import ModeRates, mode_rates
+from cdpr_struct.bands.mode_rates import ModeRates
 from cdpr_struct.crosscheck.robot_modes import OutsideValidityError
 from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.errors import CdprError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_robot
-from cdpr_struct.interface.bands import AskedBand, Banded, vibrating_like
+from cdpr_struct.interface.bands import AskedBand, Banded
 from cdpr_struct.interface.enough_modes import enough_modes
 from cdpr_struct.interface.given import Numbers, Progress, RobotLike
 from cdpr_struct.interface.modes import ASSEMBLIES
@@ -24,8 +24,8 @@ from cdpr_struct.interface.requirements import Requirements, RequirementTable, r
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.vibration_model import read_model, require_valid
 from cdpr_struct.reports import accept_told as told
-from cdpr_struct.reports.bands_told import tolerances_told
 from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.reports.tolerances_told import of_a_robot
 from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.robot import Robot
 
@@ -125,7 +125,7 @@ def accept(
         "poses": [one.pose for one in found],
         "requirements": rows,
         "not_held": [{"pose": one.pose, "why": one.why} for one in found if one.why],
-        "tolerances": tolerances_told(machine.tolerances),
+        "tolerances": of_a_robot(machine.tolerances),
         "warnings": [],
     }
     holds = all(row["verdict"] != "fail" for row in rows)
@@ -175,7 +175,7 @@ def _modes(banded: Banded, asked: Requirements, model: CableModel) -> _Modes | N
     hertz, energy = enough_modes(banded, model, count, lambda _, share: int((share >= _HALF).sum()) >= platform)
     of_platform = np.flatnonzero(energy >= _HALF)
     hertz = hertz[: max(count, int(of_platform[:platform].max(initial=0)) + 1)]
-    rates = mode_rates(banded.point, hertz, banded.response, banded.spread, banded.assembly, vibrating_like(model))
+    rates = banded.rates(hertz, model)
     bands = frequency_bands(rates, banded.spread, _LEVEL)
     return _Modes(rates, bands.low, bands.high, of_platform)
 

@@ -8,14 +8,15 @@ import numpy as np
 from cdpr_struct.bands.drawn_robots import DrawnRobots, drawn_robots
 from cdpr_struct.bands.frequency_bands import FrequencyBands, frequency_bands
 from cdpr_struct.bands.locked_response import LockedResponse, locked_response
-from cdpr_struct.bands.mode_rates import mode_rates
-from cdpr_struct.bands.rest_bands import RestBands, rest_bands
+from cdpr_struct.bands.mode_rates import ModeRates, mode_rates
+from cdpr_struct.bands.rest_bands import rest_bands
 from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.interface.arguments import one_of, real, whole
-from cdpr_struct.reports.bands_told import frequencies_told, rest_told, slack_check, tolerances_told
+from cdpr_struct.reports.bands_told import frequencies_told, rest_told, slack_check
+from cdpr_struct.reports.tolerances_told import of_a_robot
 from cdpr_struct.reports.trust import Check
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.tolerances import Spread, Tolerances
@@ -88,16 +89,19 @@ class Banded:
         """Key `bands` of a result about a state of rest, and what is to be doubted."""
         found = rest_bands(self.point, self.response, self.spread, self.asked.level)
         drawn = self._drawn(None)
-        return self._head() | rest_told(found, drawn, self.asked.level), self._checks(found, drawn)
+        return self._head() | rest_told(found, drawn, self.asked.level), self._checks(drawn)
 
     def frequencies(self, hertz: np.ndarray, model: str) -> tuple[dict[str, Any], list[Check]]:
         """The same of a result about frequencies (k,) [Hz], as a model of the cables has them."""
         vibrating = hertz > 0.0
         found = _of_modes(self, hertz[vibrating], model)
         drawn = self._drawn(hertz[vibrating] if vibrating.any() else None, model)
-        rest = rest_bands(self.point, self.response, self.spread, self.asked.level)
         told = frequencies_told(found, hertz, drawn, self.asked.level)
-        return self._head() | told, self._checks(rest, drawn)
+        return self._head() | told, self._checks(drawn)
+
+    def rates(self, hertz: np.ndarray, model: str) -> ModeRates:
+        """Rates of frequencies (k,) [Hz] above zero, as a model of the cables has them, and of some beyond."""
+        return mode_rates(self.point, hertz, self.response, self.spread, self.assembly, vibrating_like(model))
 
     def _drawn(self, hertz: np.ndarray | None, model: str = "exact") -> DrawnRobots | None:
         if not self.asked.samples:
@@ -109,11 +113,11 @@ class Banded:
         return {
             "level": 100.0 * self.asked.level,
             "held": "locked lengths",
-            "tolerances": tolerances_told(self.point.entered.tolerances),
+            "tolerances": of_a_robot(self.point.entered.tolerances),
         }
 
-    def _checks(self, rest: RestBands, drawn: DrawnRobots | None) -> list[Check]:
-        return slack_check(self.point.cables.tension_at_platform, rest.tension_sigma, drawn)
+    def _checks(self, drawn: DrawnRobots | None) -> list[Check]:
+        return slack_check(self.point.cables.tension_at_platform, self.spread.sigma(self.response.tension), drawn)
 
 
 def vibrating_like(model: str) -> CableModel:
@@ -124,6 +128,4 @@ def vibrating_like(model: str) -> CableModel:
 def _of_modes(banded: Banded, hertz: np.ndarray, model: str) -> FrequencyBands:
     if not len(hertz):
         return FrequencyBands(hertz, hertz, hertz, [])
-    way = vibrating_like(model)
-    rates = mode_rates(banded.point, hertz, banded.response, banded.spread, banded.assembly, way)
-    return frequency_bands(rates, banded.spread, banded.asked.level)
+    return frequency_bands(banded.rates(hertz, model), banded.spread, banded.asked.level)

@@ -10,13 +10,12 @@ import numpy as np
 
 from cdpr_struct.bands.compared import assigned, compared, seen_on_platform
 from cdpr_struct.bands.frequency_bands import frequency_bands
-from cdpr_struct.bands.mode_rates import mode_rates
 from cdpr_struct.bands.rest_bands import pose_by_motion, rest_bands
 from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_robot
-from cdpr_struct.interface.bands import AskedBand, Banded, read_band, vibrating_like
+from cdpr_struct.interface.bands import AskedBand, Banded, read_band
 from cdpr_struct.interface.enough_modes import enough_modes
 from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
@@ -24,11 +23,11 @@ from cdpr_struct.interface.modes import ASSEMBLIES
 from cdpr_struct.interface.operating_point import pose_in_degrees, rest
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.vibration_model import dropped_by, read_model, require_valid
-from cdpr_struct.measurement.compared_readings import POSE_COLUMNS, Reading, read_readings
+from cdpr_struct.measurement.campaign_rows import POSE
+from cdpr_struct.measurement.compared_readings import Reading, read_readings
 from cdpr_struct.reports import compare_told as told
-from cdpr_struct.reports.bands_told import tolerances_told
 from cdpr_struct.reports.extension_notes import with_extensions
-from cdpr_struct.robot.pose import angles_from_rotation
+from cdpr_struct.reports.tolerances_told import of_a_robot
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
@@ -133,7 +132,7 @@ def compare(
         "assembly": way,
         "level": 100.0 * asked.level,
         **told.compare_json(readings, numbers, predicted, found),
-        "tolerances": tolerances_told(machine.tolerances),
+        "tolerances": of_a_robot(machine.tolerances),
         **state.told(*dropped_by(name, machine)),
     }
     holds = found.p_value >= told.DOUBTFUL
@@ -156,15 +155,15 @@ def _predicted(
     point = banded.point
     still = rest_bands(point, banded.response, banded.spread, banded.asked.level)
     scale = np.where(np.arange(6) < 3, 1.0, np.degrees(1.0))
-    pose = np.concatenate([point.position, angles_from_rotation(point.rotation)]) * scale
+    pose = pose_in_degrees(point)
     motion = banded.response.pose @ pose_by_motion(point.rotation).T * scale
     for i, one in enumerate(readings):
         if one.column == "tension_N":
             k = one.number - 1
             values[i], ends[i] = point.cables.tension_at_platform[k], still.tension[k]
             rates[:, i] = banded.response.tension[:, k]
-        elif one.column in POSE_COLUMNS:
-            k = POSE_COLUMNS.index(one.column)
+        elif one.column in POSE:
+            k = POSE.index(one.column)
             values[i], ends[i], rates[:, i] = pose[k], still.pose[k] * scale[k], motion[:, k]
     return numbers, values, ends, rates
 
@@ -178,7 +177,7 @@ def _frequencies(
     hertz, energy = enough_modes(banded, model, int(labels.max()), lambda found, _: bool(found[-1] > highest))
     if int(labels.max()) > len(hertz):
         raise InputError(file, "mode", int(labels.max()), f"the model {model} has {len(hertz)} modes here")
-    found = mode_rates(banded.point, hertz, banded.response, banded.spread, banded.assembly, vibrating_like(model))
+    found = banded.rates(hertz, model)
     bands = frequency_bands(found, banded.spread, banded.asked.level)
     free = np.setdiff1d(seen_on_platform(energy), labels - 1)
     unknown = labels == 0

@@ -27,9 +27,10 @@ from cdpr_struct.interface.operating_point import AtRest, pose_in_degrees, rest
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.vibration_model import read_model, require_valid
 from cdpr_struct.reports import sensitivity_told as told
-from cdpr_struct.reports.bands_told import tolerances_told
 from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.reports.tolerances_told import of_a_robot
 from cdpr_struct.robot.pose import Pose, angles_from_rotation
+from cdpr_struct.robot.robot import FREEDOMS
 from cdpr_struct.robot.tolerances import Spread
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ class SensitivityResult(Result):
 
     def sentences(self) -> Sequence[str]:
         """What moves the chosen mode most."""
-        return sensitivity_sentences(self.answer)
+        return told.sensitivity_sentences(self.answer)
 
     def columns(self) -> Mapping[str, Any]:
         """Columns of frequencies.csv."""
@@ -75,19 +76,6 @@ class SensitivityResult(Result):
         from cdpr_struct.reports.sensitivity_page import sensitivity_files
 
         return sensitivity_files(self.answer)
-
-
-def sensitivity_sentences(result: Mapping[str, Any]) -> list[str]:
-    """What moves the chosen mode most, in words."""
-    words, change = told.tornado(result, 1)[0]
-    shares = max(
-        (row for row in result["shares"] if row["of"] == f"mode {result['mode']}"), key=lambda row: len(row["of"])
-    )
-    name, share = max(shares["shares"].items(), key=lambda item: item[1])
-    return [
-        f"Mode {result['mode']} has a sigma of {shares['sigma']}; {100.0 * share:.0f} % of its variance comes of the "
-        f"{name.replace('_', ' ')}. Of single numbers one sigma of {words} moves it most, by {change:+.2g} %."
-    ]
 
 
 @answered
@@ -173,18 +161,18 @@ def _moved(point: OperatingPoint, hertz: np.ndarray, model: str, assembly: Assem
     moving = [one for one in movers(cables) if _present(point, one)]
     every = np.concatenate([own, pose, response.tension], axis=1)
     numbers = range(1, cables + 1)
-    names = [*(f"mode {i + 1}" for i in range(count)), *told.POSE, *(f"tension {i}" for i in numbers)]
+    names = [*(f"mode {i + 1}" for i in range(count)), *FREEDOMS, *(f"tension {i}" for i in numbers)]
     units = ["mm"] * 3 + ["deg"] * 3
     sigma = spread.sigma(every)
     sigmas = [f"{100.0 * s:.2g} %" for s in sigma[:count]]
     sigmas += [f"{s:.2g} {u}" for s, u in zip(sigma[count:], [*units, *["N"] * cables], strict=True)]
     return {
         "frequencies": list(told.frequency_rows(moving, own)),
-        "poses": list(told.rate_rows(moving, pose, "component", told.POSE, units)),
+        "poses": list(told.rate_rows(moving, pose, "component", FREEDOMS, units)),
         "tensions": list(told.rate_rows(moving, response.tension, "tension_of_cable", numbers, ["N"] * cables)),
         "largest": _largest(moving, own[:, mode - 1], spread),
         "shares": told.share_rows(variance_shares(every, spread, cables), names, sigmas),
-        "tolerances": tolerances_told(point.entered.tolerances),
+        "tolerances": of_a_robot(point.entered.tolerances),
     }
 
 

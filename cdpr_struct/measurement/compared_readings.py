@@ -9,12 +9,12 @@ import numpy as np
 
 from cdpr_struct.errors import NOTHING, InputError
 from cdpr_struct.measurement.campaign import Sigmas
+from cdpr_struct.measurement.campaign_rows import POSE
 from cdpr_struct.measurement.column_names import renaming
 from cdpr_struct.measurement.data_table import DataTable, read_table
 
-POSE_COLUMNS = ("x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg")
-COLUMNS = ("mode", "frequency_hz", "cable", "tension_N", *POSE_COLUMNS, "sigma")
-_READ = ("frequency_hz", "tension_N", *POSE_COLUMNS)
+COLUMNS = ("mode", "frequency_hz", "cable", "tension_N", *POSE, "sigma")
+_READ = ("frequency_hz", "tension_N", *POSE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +85,7 @@ def _number(file: str, row: Mapping[str, str], line: int, name: str) -> float:
 
 def _numbered(file: str, row: Mapping[str, str], line: int, name: str, cables: int) -> int:
     """The mode or cable that a reading belongs to; 0 of a frequency without one, and of a pose."""
-    if name in POSE_COLUMNS:
+    if name in POSE:
         return 0
     column, most = ("mode", 500) if name == "frequency_hz" else ("cable", cables)
     text = row.get(column, "")

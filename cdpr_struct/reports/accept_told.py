@@ -6,6 +6,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from cdpr_struct.measurement.campaign_rows import POSE
 from cdpr_struct.reports.bands_told import band_note
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
@@ -110,7 +111,7 @@ def accept_columns(result: Mapping[str, Any]) -> dict[str, Any]:
     rows = [
         {
             "requirement": row["name"],
-            **dict(zip(("x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"), pose, strict=True)),
+            **dict(zip(POSE, pose, strict=True)),
             "value": at["value"],
             "band_low": at["band"][0],
             "band_high": at["band"][1],

@@ -11,6 +11,7 @@ from cdpr_struct.crosscheck.validity_limits import (
     LAMBDA_SQUARED_LIMIT,
     SAG_RATIO_LIMIT,
 )
+from cdpr_struct.measurement.campaign_rows import POSE
 from cdpr_struct.reports.text import paragraphs, place, plain_table
 from cdpr_struct.reports.trust import Check
 from cdpr_struct.robot.pose import angles_from_rotation
@@ -56,12 +57,11 @@ def audit_columns(audit: PoseAudit, time: np.ndarray | None = None) -> dict[str,
     """Columns of audit.csv, one row a pose and cable."""
     m = audit.tension.shape[1]
     poses = np.repeat(poses_in_degrees(audit), m, axis=0)
-    names = ("x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg")
     when = {} if time is None else {"time_s": np.repeat(time, m)}
     broken = np.stack([audit.broken[name].ravel() for name in PARAMETERS], axis=1)
     return {
         **when,
-        **dict(zip(names, poses.T, strict=True)),
+        **dict(zip(POSE, poses.T, strict=True)),
         "cable": np.tile(np.arange(1, m + 1), len(audit.held)),
         "held": np.repeat(audit.held.astype(int), m),
         "tension_N": audit.tension.ravel(),

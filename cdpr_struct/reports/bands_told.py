@@ -1,7 +1,6 @@
 """What results say of bands: keys of result.json, lines for a terminal, columns of tables, checks."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -9,17 +8,13 @@ import numpy as np
 from cdpr_struct.bands.drawn_robots import DrawnRobots
 from cdpr_struct.bands.frequency_bands import FrequencyBands
 from cdpr_struct.bands.rest_bands import RestBands
+from cdpr_struct.reports.tolerances_told import defaults_used
 from cdpr_struct.reports.trust import Check
-from cdpr_struct.robot.tolerances import Tolerances, tolerance_unit
+from cdpr_struct.robot.robot import FREEDOMS
 
 _TAUT = 3.0  # sigmas of its tension that a cable should have before it goes slack
+_NOT_OF_RESTS = ("load_cell_gain", "load_cell_bias_N", "damping")  # tolerances that move no robot at rest
 _ALIKE = 0.2  # of a band's width by which its ends may differ from those of drawn robots
-
-
-def tolerances_told(stated: Mapping[str, float]) -> dict[str, Any]:
-    """All tolerances but zeros of swivel encoders, which move no robot; those of the robot file marked."""
-    used, names = Tolerances(**stated), [field.name for field in fields(Tolerances) if field.name != "swivel_deg"]
-    return {name: {"value": getattr(used, name), "stated": name in stated} for name in names}
 
 
 def frequencies_told(
@@ -52,7 +47,7 @@ def rest_told(found: RestBands, drawn: DrawnRobots | None, level: float) -> dict
     if drawn is None:
         return told
     pose, tension = drawn.quantiles("pose", level), drawn.quantiles("tension", level)
-    differ = [f"pose {name}" for name in _named(_differing(found.pose, pose), ("x", "y", "z", "rx", "ry", "rz"))]
+    differ = [f"pose {name}" for name in _named(_differing(found.pose, pose), FREEDOMS)]
     differ += [f"tension {number}" for number in _differing(found.tension, tension)]
     return told | {"samples": _samples(drawn) | {"pose": _in_degrees(pose), "tensions_N": tension, "differ": differ}}
 
@@ -103,15 +98,13 @@ def _lost_check(drawn: DrawnRobots) -> Check:
 
 def band_note(bands: Mapping[str, Any]) -> str:
     """One paragraph about what the bands mean."""
-    default = [name for name, row in bands["tolerances"].items() if not row["stated"] and name not in _NOT_OF_RESTS]
     stated = [name for name, row in bands["tolerances"].items() if row["stated"]]
     text = (
         f"Bands: {bands['level']:g} % of robots whose numbers are off by their tolerances lie inside, each number by "
         f"itself, winches locked where the robot as entered has them."
     )
-    sizes = ", ".join(f"{name} {_size(bands, name)}" for name in default)
     text += f" Tolerances of the robot file: {', '.join(stated)}." if stated else ""
-    text += f" Tolerances not given, defaults used: {sizes}." if default else ""
+    text += f" {defaults}" if (defaults := defaults_used(bands["tolerances"], _NOT_OF_RESTS)) else ""
     differ = bands.get("samples", {}).get("differ")
     if differ:
         text += (
@@ -139,7 +132,7 @@ def _numbers_of(differ: Sequence[Any], key: str) -> tuple[int, ...]:
     """Places, from 1, at which the values of a key differ."""
     if key == "frequencies_hz":
         return tuple(differ)
-    kind, names = ("tension", None) if key == "tensions_N" else ("pose", ("x", "y", "z", "rx", "ry", "rz"))
+    kind, names = ("tension", None) if key == "tensions_N" else ("pose", FREEDOMS)
     found = [name.split()[1] for name in differ if name.startswith(kind)]
     return tuple(int(name) if names is None else names.index(name) + 1 for name in found)
 
@@ -148,10 +141,3 @@ def band_columns(bands: Mapping[str, Any], key: str, name: str, unit: str) -> di
     """Two columns with the ends of the band of each value of a key."""
     ends = np.asarray(bands[key], dtype=float)
     return {f"{name}_low_{unit}": ends[:, 0], f"{name}_high_{unit}": ends[:, 1]}
-
-
-_NOT_OF_RESTS = ("load_cell_gain", "load_cell_bias_N", "damping")
-
-
-def _size(bands: Mapping[str, Any], name: str) -> str:
-    return f"{bands['tolerances'][name]['value']:g} {tolerance_unit(name)}".strip()

@@ -7,8 +7,7 @@ from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import tornado
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
-from cdpr_struct.reports.sensitivity_told import effects, raise_rows, row_columns, shares_table
-from cdpr_struct.reports.sensitivity_told import tornado as largest
+from cdpr_struct.reports.sensitivity_told import effects, raise_rows, row_columns, sensitivity_sentences, shares_table
 
 _HOW = (
     "Rates are first derivatives at rest with the winches locked: a change moves platform and tensions, and all of "
@@ -21,16 +20,16 @@ _HOW = (
 def sensitivity_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name."""
     drawn = Drawing("tornado", tornado.SIZE, lambda figure: tornado.draw_tornado(figure, result))
-    first, second = largest(result, 1)[0], result["shares"][result["mode"] - 1]
+    own = result["shares"][result["mode"] - 1]
     page = Page(
         robot=result["robot"],
         title=f"{result['robot']}: what moves its frequencies",
         subtitle=f"cable model {result['model']}, assembly {result['assembly']}; winches locked",
-        verdict=[f"One sigma of {first[0]} moves mode {result['mode']} most, by {first[1]:+.2g} %."],
+        verdict=sensitivity_sentences(result),
         holds=True,
         facts=[
             (f"{result['frequencies_hz'][result['mode'] - 1]:.4g} Hz", f"mode {result['mode']}"),
-            (str(second["sigma"]), "its sigma within the tolerances"),
+            (str(own["sigma"]), "its sigma within the tolerances"),
         ],
         plates=[Plate("tornado", "What moves the predictions", drawn, tornado.CAPTION)],
         tables=_tables(result),

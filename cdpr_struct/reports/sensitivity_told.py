@@ -18,7 +18,6 @@ NAMES = {
 }
 """Names of parameters in results where they differ from those of the arrays."""
 _AXES = "xyz"
-POSE = ("x", "y", "z", "rx", "ry", "rz")
 _ALIKE = {  # of all cables changed alike, and of the platform: step and words
     "axial_stiffness": (0.01, "axial stiffness of all cables +1 %"),
     "linear_density": (0.01, "linear density of all cables +1 %"),
@@ -89,30 +88,22 @@ def effects(result: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
     modes = range(1, len(result["frequencies_hz"]) + 1)
     names = ["change [%] of mode", *(f"{i}: {f:.3f} Hz" for i, f in zip(modes, result["frequencies_hz"], strict=True))]
     rows = []
-    for name, (step, words) in _ALIKE.items():
-        if values := [_largest(result, mode, name, None) for mode in modes if _has(result, mode, name, None)]:
-            rows.append([words, *(f"{100.0 * step * v:+.3g}" for v in values)])
-    for name, (step, words) in _EACH.items():
-        values = [_largest(result, mode, name, "each") for mode in modes]
-        rows.append([words, *(f"{100.0 * step * v:+.3g}" for v in values)])
+    for each, table in ((False, _ALIKE), (True, _EACH)):
+        for name, (step, words) in table.items():
+            found = [_rates(result, mode, name, each) for mode in modes]
+            if all(found):
+                rows.append([words, *(f"{100.0 * step * max(rates, key=abs):+.3g}" for rates in found)])
     return names, rows
 
 
-def _matching(result: Mapping[str, Any], mode: int, name: str, which: str | None) -> list[float]:
-    found = []
-    for row in result["frequencies"]:
-        each = row["cable"] is not None or row["axis"] is not None
-        if row["mode"] == mode and row["parameter"] == name and each == (which == "each"):
-            found.append(row.get("d_ln_f_d_ln_p", row.get("d_ln_f_d_p", 0.0)))
-    return found
-
-
-def _has(result: Mapping[str, Any], mode: int, name: str, which: str | None) -> bool:
-    return bool(_matching(result, mode, name, which))
-
-
-def _largest(result: Mapping[str, Any], mode: int, name: str, which: str | None) -> float:
-    return max(_matching(result, mode, name, which), key=abs)
+def _rates(result: Mapping[str, Any], mode: int, name: str, each: bool) -> list[float]:
+    """Rates of a mode by a parameter: of each single number, or of all cables alike and of the platform."""
+    return [
+        row.get("d_ln_f_d_ln_p", row.get("d_ln_f_d_p", 0.0))
+        for row in result["frequencies"]
+        if (row["mode"], row["parameter"]) == (mode, name)
+        and each == (row["cable"] is not None or row["axis"] is not None)
+    ]
 
 
 def shares_table(result: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
@@ -130,6 +121,17 @@ def shares_table(result: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]
 def tornado(result: Mapping[str, Any], count: int) -> list[tuple[str, float]]:
     """Words and per cent of the frequency of the chosen mode per sigma, of the single numbers that move it most."""
     return [(words_of(row), row["change_percent"]) for row in result["largest"][:count]]
+
+
+def sensitivity_sentences(result: Mapping[str, Any]) -> list[str]:
+    """What moves the chosen mode most, in words."""
+    words, change = tornado(result, 1)[0]
+    own = result["shares"][result["mode"] - 1]
+    name, share = max(own["shares"].items(), key=lambda item: item[1])
+    return [
+        f"Mode {result['mode']} has a sigma of {own['sigma']}; {100.0 * share:.0f} % of its variance comes of the "
+        f"{name.replace('_', ' ')}. Of single numbers one sigma of {words} moves it most, by {change:+.2g} %."
+    ]
 
 
 def sensitivity_text(result: Mapping[str, Any]) -> str:

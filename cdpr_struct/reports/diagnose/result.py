@@ -23,6 +23,7 @@ from cdpr_struct.reports.diagnose.sentences import finite, sentence
 from cdpr_struct.reports.diagnose.state_errors import state_errors
 from cdpr_struct.reports.diagnose.words import doubt, place, recommendation
 from cdpr_struct.reports.plan.measurements import recommendation_text
+from cdpr_struct.reports.tolerances_told import tolerances_told
 from cdpr_struct.reports.trust import Check, Trust
 
 RADIAN = 57.29577951308232  # deg
@@ -77,10 +78,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "why_not_testable": hidden,
         "minimum_detectable": found.minimum_detectable,
         "detectable_by_pattern": found.detectable_by_pattern,
-        "tolerances": {
-            name: {"value": getattr(found.campaign.tolerances, name), "stated": name in found.campaign.stated}
-            for name in found.campaign.tolerances.__slots__
-        },
+        "tolerances": tolerances_told(found.campaign.tolerances, found.campaign.stated),
         "loss": asdict(found.campaign.loss),
         "sigmas": [asdict(used) for used in found.sigmas],
         "trust": Trust((_sigmas(found), *_settled(found))),

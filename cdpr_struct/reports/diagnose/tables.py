@@ -7,6 +7,7 @@ from typing import Any
 
 from cdpr_struct.reports.html import HtmlTable
 from cdpr_struct.reports.text import with_sigma
+from cdpr_struct.reports.tolerances_told import defaults_used
 from cdpr_struct.robot.tolerances import tolerance_unit
 
 Row = Mapping[str, Any]
@@ -248,15 +249,7 @@ def _sizes_of(found: Sequence[Row], kind: str) -> str:
 
 def assumed(result: Row) -> str:
     """One line for a terminal about sigmas and tolerances that nobody gave."""
-    given = [
-        f"{n} {v['value']:g} {tolerance_unit(n)}".rstrip()
-        for n, v in result["tolerances"].items() if not v["stated"]
-    ]  # fmt: skip
-    lines = [
-        default_sigmas(result["sigmas"]),
-        f"Tolerances not given, defaults used: {', '.join(given)}." if given else "",
-    ]
-    return " ".join(filter(None, lines))
+    return " ".join(filter(None, [default_sigmas(result["sigmas"]), defaults_used(result["tolerances"])]))
 
 
 def tolerances(result: Row) -> HtmlTable:
