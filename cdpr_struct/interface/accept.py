@@ -15,7 +15,7 @@ from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.errors import CdprError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_robot
-from cdpr_struct.interface.bands import AskedBand, Banded
+from cdpr_struct.interface.bands import AskedBand, Banded, known_from
 from cdpr_struct.interface.enough_modes import enough_modes
 from cdpr_struct.interface.given import Numbers, Progress, RobotLike
 from cdpr_struct.interface.modes import ASSEMBLIES
@@ -125,6 +125,7 @@ def accept(
         "poses": [one.pose for one in found],
         "requirements": rows,
         "not_held": [{"pose": one.pose, "why": one.why} for one in found if one.why],
+        "known_from": known_from(machine),
         "tolerances": of_a_robot(machine.tolerances),
         "warnings": [],
     }

@@ -54,6 +54,11 @@ def spread_of(robot: Robot) -> Spread:
     return robot.posterior or Spread.within(Tolerances(**robot.tolerances), len(robot.cables))
 
 
+def known_from(robot: Robot) -> str:
+    """What says which robots are probable: "diagnosis" or "tolerances"."""
+    return "tolerances" if robot.posterior is None else "diagnosis"
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Banded:
     """A robot at rest whose numbers may be off: what its predictions do then.
@@ -113,6 +118,7 @@ class Banded:
         return {
             "level": 100.0 * self.asked.level,
             "held": "locked lengths",
+            "known_from": known_from(self.point.entered),
             "tolerances": of_a_robot(self.point.entered.tolerances),
         }
 

@@ -15,7 +15,7 @@ from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_robot
-from cdpr_struct.interface.bands import AskedBand, Banded, read_band
+from cdpr_struct.interface.bands import AskedBand, Banded, known_from, read_band
 from cdpr_struct.interface.enough_modes import enough_modes
 from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
@@ -132,6 +132,7 @@ def compare(
         "assembly": way,
         "level": 100.0 * asked.level,
         **told.compare_json(readings, numbers, predicted, found),
+        "known_from": known_from(machine),
         "tolerances": of_a_robot(machine.tolerances),
         **state.told(*dropped_by(name, machine)),
     }

@@ -19,7 +19,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import NOTHING, CdprError, InputError
 from cdpr_struct.interface.answering import answered
 from cdpr_struct.interface.arguments import one_of, read_robot, real, whole
-from cdpr_struct.interface.bands import spread_of, vibrating_like
+from cdpr_struct.interface.bands import known_from, spread_of, vibrating_like
 from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, RobotLike
 from cdpr_struct.interface.modes import ASSEMBLIES
@@ -172,6 +172,7 @@ def _moved(point: OperatingPoint, hertz: np.ndarray, model: str, assembly: Assem
         "tensions": list(told.rate_rows(moving, response.tension, "tension_of_cable", numbers, ["N"] * cables)),
         "largest": _largest(moving, own[:, mode - 1], spread),
         "shares": told.share_rows(variance_shares(every, spread, cables), names, sigmas),
+        "known_from": known_from(point.entered),
         "tolerances": of_a_robot(point.entered.tolerances),
     }
 

@@ -98,13 +98,13 @@ def _lost_check(drawn: DrawnRobots) -> Check:
 
 def band_note(bands: Mapping[str, Any]) -> str:
     """One paragraph about what the bands mean."""
-    stated = [name for name, row in bands["tolerances"].items() if row["stated"]]
+    diagnosed = bands["known_from"] == "diagnosis"
+    robots = "that a diagnosis left probable" if diagnosed else "whose numbers are off by their tolerances"
     text = (
-        f"Bands: {bands['level']:g} % of robots whose numbers are off by their tolerances lie inside, each number by "
-        f"itself, winches locked where the robot as entered has them."
+        f"Bands: {bands['level']:g} % of robots {robots} lie inside, each number by itself, winches locked where the "
+        "robot as entered has them."
     )
-    text += f" Tolerances of the robot file: {', '.join(stated)}." if stated else ""
-    text += f" {defaults}" if (defaults := defaults_used(bands["tolerances"], _NOT_OF_RESTS)) else ""
+    text += "" if diagnosed else _tolerances_used(bands["tolerances"])
     differ = bands.get("samples", {}).get("differ")
     if differ:
         text += (
@@ -112,6 +112,13 @@ def band_note(bands: Mapping[str, Any]) -> str:
             f"{', '.join(map(str, differ))}; the bands marked * are theirs."
         )
     return text
+
+
+def _tolerances_used(told: Mapping[str, Any]) -> str:
+    stated = [name for name, row in told.items() if row["stated"]]
+    own = f" Tolerances of the robot file: {', '.join(stated)}." if stated else ""
+    defaults = defaults_used(told, _NOT_OF_RESTS)
+    return own + (f" {defaults}" if defaults else "")
 
 
 def band_words(bands: Mapping[str, Any], key: str, digits: int) -> list[str]:

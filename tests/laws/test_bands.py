@@ -212,3 +212,16 @@ def test_a_frequency_out_of_reach_is_said_so():
     change = Design(robot, robot.home, 0, "static", "consistent").alone("platform_mass", 1e3)
     assert change.factors is None
     assert set(KNOBS) >= {"platform_mass"}
+
+
+def test_a_diagnosed_robot_has_the_bands_of_its_posterior_and_says_so():
+    entered = cs.load_robot("cogiro")
+    within = Spread.within(Tolerances(), 8)
+    known = replace(entered, posterior=Spread(0.25 * within.root, within.mean))
+    before, after = (cs.inverse(robot, band=90) for robot in (entered, known))
+    widths = [np.ptp(one.answer["bands"]["pose"], axis=1) for one in (before, after)]
+    assert np.allclose(widths[1], 0.25 * widths[0])
+    assert [one.answer["bands"]["known_from"] for one in (before, after)] == ["tolerances", "diagnosis"]
+    assert "defaults used" in before.text()
+    assert "that a diagnosis left probable" in after.text()
+    assert "defaults used" not in after.text()
