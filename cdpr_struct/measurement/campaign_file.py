@@ -18,6 +18,7 @@ from cdpr_struct.measurement.campaign_sources import is_there
 from cdpr_struct.measurement.campaign_template import KINDS
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.measurement.missing_readings import check_placed, missing_notes
+from cdpr_struct.measurement.identified import lost_notes
 from cdpr_struct.measurement.misspelt_cases import misspelt_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals
@@ -161,6 +162,7 @@ def load_campaign(
             *(note for sheet in sheets if (note := angle_note(sheet.file, sheet.columns))),
             *misspelt_notes(cases),
             *missing_notes(gathering.states()),
+            *lost_notes([item.record for item in identified]),
             *ambient_notes(ambient),
         ),
         ambient=ambient,
