@@ -280,8 +280,7 @@ class Search:
     def _exchange(self) -> None:
         """Each cause of the likeliest pair against its rivals beside the other, which alone may have been unlikely.
 
-        A cause that is small beside the other is found beside what explains the large one best alone; rivals of that,
-        and other patterns of the same cause, may be likelier once the small one is known.
+        What explains a large effect best alone has a share in the small one; once that is known, a rival may be likelier.
         """
         best = self._ranked()[0]
         if len(best.hypothesis.parts) != 2:

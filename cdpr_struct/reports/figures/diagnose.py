@@ -66,7 +66,7 @@ def _down_weighted(found: Diagnosis, rows: LeftOut) -> np.ndarray:
         own = np.isin(rows.kind, _ROWS_OF[one.kind]) & (rows.state == names.index(one.case))
         if one.kind in _OF_CABLE:
             own &= rows.cable == one.cable
-        if one.kind == "robot_frequency" and own.any():
+        if one.hertz and own.any():
             apart = np.where(own, np.abs(rows.hertz - one.hertz), np.inf)
             own = apart == apart.min()
         marked |= own
