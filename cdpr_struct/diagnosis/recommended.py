@@ -28,7 +28,8 @@ class Recommendation:
         "find" what no cause explains
     measurement : what to do, a noun phrase; "" where a reading is to be repeated
     causes : that it is about;  kind, case, cable : of the reading to repeat, cable from 0, -1 for none
-    hertz : of that reading, 0 for none;  nats : log evidence that it is expected to bring, None where this was not computed
+    hertz : of that reading, 0 for none
+    nats : log evidence that it is expected to bring, None where this was not computed
     """
 
     purpose: str

@@ -6,17 +6,18 @@ from typing import Any
 import numpy as np
 from scipy.special import chdtr, chdtrc, fdtrc
 
+from cdpr_struct.association.peak_noise import SCALES
 from cdpr_struct.hypotheses.detectable import FALSE_ALARMS
 from cdpr_struct.hypotheses.judge import Judged
-from cdpr_struct.inference.scale_mixture import TAU_DEGREES
+from cdpr_struct.inference.scale_mixture import OUTLIER, TAU_DEGREES
 from cdpr_struct.measurement.cable_columns import SWIVEL
 from cdpr_struct.measurement.campaign import AMBIENT, SIGNALS, Campaign, Sheet
 from cdpr_struct.robot.tolerances import tolerance_unit
 
 SENSORS = ("position", "rotation", "tension", "length", "cable_frequency", "frf", "swivel")
 """Names of the kinds of sensors, in the order of their numbers."""
-PEAKS, ROBOT = "robot_frequency", 0  # a kind of readings that no block holds, and its place among kinds of lists
-TOO_SMALL = 1.5  # factor on a stated sigma from which it is said to be too small
+_PEAKS, _ROBOT = "robot_frequency", 0  # a kind of readings that no block holds, and its place among kinds of lists
+_TOO_SMALL = 1.5  # factor on a stated sigma from which it is said to be too small
 _UNIT = {
     "tension_N": "N", "position_m": "m", "rotation_deg": "deg", "length_m": "m", "frequency_hz": "Hz",
     "acceleration": "m/s^2", "swivel_deg": "deg",
@@ -103,13 +104,14 @@ def noise_of_kinds(found: Judged) -> list[NoiseOfKind]:
     return rows
 
 
-def noise_of_peaks(found: Judged, outliers: int) -> list[NoiseOfKind]:
+def noise_of_peaks(found: Judged) -> list[NoiseOfKind]:
     """The same of the robot's peaks, those that belong to a mode; nothing without any."""
     last = None if found.lists is None else found.lists.association.assignment
     count = 0 if last is None else round(float(last.number.sum()))
-    if found.lists is None or not count:
+    if found.lists is None or last is None or not count:
         return []
-    return [NoiseOfKind.of(PEAKS, float(found.lists.association.noise.tau[ROBOT]), count, outliers)]
+    odd = round(float(last.number[:, SCALES >= OUTLIER].sum()))
+    return [NoiseOfKind.of(_PEAKS, float(found.lists.association.noise.tau[_ROBOT]), count, odd)]
 
 
 def sigmas_used(campaign: Campaign) -> list[Used]:
@@ -152,7 +154,7 @@ def doubts(campaign: Campaign, noise: list[NoiseOfKind]) -> list[Doubt]:
     for one in noise:
         if one.p_small < FALSE_ALARMS:
             rows.append(Doubt("errors", one.kind, "", f"{one.factor:.2g}", "", False, one.p_small))
-        if one.p_stated < FALSE_ALARMS and one.factor >= TOO_SMALL:
+        if one.p_stated < FALSE_ALARMS and one.factor >= _TOO_SMALL:
             rows.append(Doubt("errors", one.kind, "", f"{one.factor:.2g}", "", True, one.p_stated))
     return rows
 

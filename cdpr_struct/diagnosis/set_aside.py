@@ -4,19 +4,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cdpr_struct.association.peak_noise import SCALES
 from cdpr_struct.diagnosis.diagnosis import SetAside
-from cdpr_struct.diagnosis.sensor_sigmas import PEAKS
 from cdpr_struct.hypotheses.judge import Judged
-from cdpr_struct.inference.scale_mixture import KAPPA, OUTLIER
+from cdpr_struct.inference.scale_mixture import KAPPA
 from cdpr_struct.residuals.layout import Layout, Shelf
 from cdpr_struct.residuals.recorded import Recorded
 
-_SURE = 0.5  # probability that a peak is a mode's, and that it is an outlier
-
 
 def set_aside(data: Recorded, where: Layout, found: Judged) -> list[SetAside]:
-    """The readings set aside, worst first."""
+    """The readings set aside, worst first; peaks of the robot that are no mode's are those of `unassigned`."""
     noise = found.fit.noise
     odd = noise.outlying & np.isnan(where.groups.fixed_variance)
     rows = []
@@ -25,7 +21,7 @@ def set_aside(data: Recorded, where: Layout, found: Judged) -> list[SetAside]:
         if odd[group]:
             factor = float(noise.responsibility[group] @ KAPPA)
             rows.append(_row(kind, data.campaign.states.names[state], cable, value, factor, _hertz(data, where, group)))
-    return sorted([*rows, *_peaks(data, found)], key=lambda row: -row.gain)
+    return sorted(rows, key=lambda row: -row.gain)
 
 
 def _row(kind: str, case: str, cable: int, value: np.ndarray, factor: float, hertz: float) -> SetAside:
@@ -34,9 +30,7 @@ def _row(kind: str, case: str, cable: int, value: np.ndarray, factor: float, her
     return SetAside(kind, case, cable, float(np.linalg.norm(value)), gain, hertz)
 
 
-def _modal_sizes(
-    data: Recorded, where: Layout, found: Judged
-) -> Iterator[tuple[int, str, int, int, np.ndarray]]:
+def _modal_sizes(data: Recorded, where: Layout, found: Judged) -> Iterator[tuple[int, str, int, int, np.ndarray]]:
     """The same as `readings_by_group` of modal constants, whose blocks come last."""
     if data.vibrations is None or not len(where.of_sizes):
         return
@@ -54,27 +48,6 @@ def _hertz(data: Recorded, where: Layout, group: int) -> float:
     if data.vibrations is None or not own.size:
         return 0.0
     return float(np.exp(data.vibrations.sizes.log_hertz[own[0]]))
-
-
-def _peaks(data: Recorded, found: Judged) -> Iterator[SetAside]:
-    """Peaks of the robot that are a mode's for certain, but far off it."""
-    if found.lists is None or data.vibrations is None:
-        return
-    association = found.lists.association
-    peaks, noise, last = association.peaks, association.noise, association.assignment
-    if last is None:
-        return
-    there = association.modes.ln_frequency + found.lists.of_modes(found.fit.soft_mean) - found.lists.shift
-    for k, j in zip(*np.nonzero(peaks.present), strict=True):
-        pair, kind = last.matching.pair[k, j], int(peaks.kind[k])
-        if pair.max(initial=0.0) > _SURE:
-            value = (peaks.ln_frequency[k, j] - there[peaks.state[k], pair.argmax()]) / peaks.sd[k, j]
-            share = noise.weight[kind] / SCALES * np.exp(-0.5 * (value / (SCALES * noise.tau[kind])) ** 2)
-            share /= max(float(share.sum()), 1e-300)
-            if share[SCALES >= OUTLIER].sum() > _SURE:
-                name = data.campaign.states.names[int(data.vibrations.states[peaks.state[k]])]
-                hertz = float(np.exp(peaks.ln_frequency[k, j]))
-                yield _row(PEAKS, name, -1, np.array([value]), float(share @ SCALES), hertz)
 
 
 def readings_by_group(data: Recorded, where: Layout, found: Judged) -> Iterator[tuple[int, str, int, int, np.ndarray]]:

@@ -280,7 +280,7 @@ class Search:
     def _exchange(self) -> None:
         """Each cause of the likeliest pair against its rivals beside the other, which alone may have been unlikely.
 
-        What explains a large effect best alone has a share in the small one; once that is known, a rival may be likelier.
+        What explains a large effect best alone has a share in the small one; with that known, a rival may be likelier.
         """
         best = self._ranked()[0]
         if len(best.hypothesis.parts) != 2:

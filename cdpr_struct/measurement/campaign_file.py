@@ -16,9 +16,9 @@ from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.campaign_sources import is_there
 from cdpr_struct.measurement.campaign_template import KINDS
+from cdpr_struct.measurement.identified import lost_notes
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.measurement.missing_readings import check_placed, missing_notes
-from cdpr_struct.measurement.identified import lost_notes
 from cdpr_struct.measurement.misspelt_cases import misspelt_notes
 from cdpr_struct.measurement.robot_scale import check_robot_scale
 from cdpr_struct.measurement.signal_cases import join_signals

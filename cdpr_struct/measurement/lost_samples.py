@@ -85,7 +85,8 @@ def _places(file: str, case: str, time: np.ndarray, gaps: bool) -> np.ndarray:
 def _check_lost(file: str, case: str, lost: np.ndarray, what: str) -> None:
     if lost.mean() > MOST_LOST:
         told = f"{int(lost.sum())} of {len(lost)} {what} missing"
-        raise InputError(file, f"case {case}", told, f"at most {MOST_LOST:.0%} missing, or the stretch without gaps alone")
+        expected = f"at most {MOST_LOST:.0%} missing, or the stretch without gaps alone"
+        raise InputError(file, f"case {case}", told, expected)
 
 
 def _filled(even: np.ndarray, time: np.ndarray, known: np.ndarray, values: np.ndarray) -> np.ndarray:

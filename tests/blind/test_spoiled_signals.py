@@ -46,7 +46,7 @@ def test_every_way_changes_the_signal_in_its_way(real, signal):
 
 
 def test_peaks_of_a_response_are_modes_of_the_referee(real):
-    kind, reality = real
+    _, reality = real
     one = table(real, FRF, "clean").query("case == 's01' and respond == 'z' and excite == 'fz'")
     size = np.hypot(one["real"], one["imag"]).to_numpy()
     peak = float(one["frequency_hz"].iloc[size.argmax()])

@@ -93,8 +93,8 @@ def doubt(one: Doubt) -> str:
     size = "large" if one.large else "small"
     if one.about == "errors" and one.large:
         return (
-            f"The {quantity(one.name)} readings scatter by {one.words} times their stated sigma (p = {one.probability:.0e} "
-            "if it was right), outliers apart. The larger sigma was used; check the stated one."
+            f"The {quantity(one.name)} readings scatter by {one.words} times their stated sigma, outliers apart "
+            f"(p = {one.probability:.0e} if it was right). The larger sigma was used; check the stated one."
         )
     if one.about == "errors":
         return (

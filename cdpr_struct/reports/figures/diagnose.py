@@ -28,7 +28,7 @@ ROW_NAMES = {
 """Of each kind of residuals."""
 _ROWS_OF = {
     "position": ["EQ", "CO"], "rotation": ["EQ", "CO"], "tension": ["EQ"], "length": ["CO"],
-    "cable_frequency": ["CF"], "robot_frequency": ["RF"], "frf": ["FA"], "swivel": ["SW"],
+    "cable_frequency": ["CF"], "frf": ["FA"], "swivel": ["SW"],
 }  # fmt: skip
 """Residuals that a reading of each kind enters."""
 _OF_CABLE = ("length", "cable_frequency", "swivel")
@@ -50,7 +50,7 @@ def draw_residuals(figure: Figure, found: Diagnosis) -> None:
     doubted = np.flatnonzero(_down_weighted(found, rows)[order])
     if doubted.size:
         last = values[-1] if len(values[-1]) == len(before) else before
-        axes.plot(doubted, last[doubted], "o", color=GREY, fillstyle="none", markersize=9, label="down-weighted reading")
+        axes.plot(doubted, last[doubted], "o", color=GREY, fillstyle="none", label="down-weighted reading")
     _name_kinds(axes, rows.kind[order])
     _name_states(axes, rows.kind[order], [found.campaign.states.names[i] for i in rows.state[order]])
     _plain_sigmas(axes, values)
