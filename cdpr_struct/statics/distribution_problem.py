@@ -203,6 +203,18 @@ class DistributionProblem:
         share: np.ndarray = (scaled[..., :3] * up + scaled[..., 3:] * np.cross(lever, up)).sum(axis=-1)
         return share
 
+    def curvature(self, tangent: Tangent, dual: np.ndarray) -> np.ndarray:
+        """(k, m) second derivative of the Lagrangian with multipliers (k, 6) by each chord tension."""
+        return tangent.own + tangent.pull_bend - self.vertical_share(dual) * tangent.bend
+
+    def own_terms(self, tension: np.ndarray, dual: np.ndarray) -> np.ndarray:
+        """(k, m) what each cable adds to the Lagrangian with multipliers (k, 6)."""
+        states = self.hold(tension).states
+        value = self.cost.terms(states.tension_at_platform, self.holding.low, self.holding.high, self.size)[0]
+        force = states.force_on_platform
+        wrench = np.concatenate([force, np.cross(self.holding.arms.arms, force)], axis=-1)
+        return np.asarray(value - np.einsum("kmn,kn->km", wrench, dual / self.holding.unit))
+
     def _inside(self, tension: np.ndarray) -> np.ndarray:
         """Chord tensions moved into their bounds, and off them where the cost asks for it."""
         if not self.cost.interior:
@@ -218,9 +230,8 @@ class DistributionProblem:
 
     def _program(self, tension: np.ndarray, tangent: Tangent, dual: np.ndarray) -> QuadraticPrograms:
         """The quadratic programs around chord tensions (k, m), for their change."""
-        along_up = self.vertical_share(dual)
         own = np.maximum(tangent.own, 1e-9 * np.abs(tangent.own).max(axis=1, keepdims=True))
-        curvature = np.maximum(own + tangent.pull_bend - along_up * tangent.bend, _CONVEX * own)
+        curvature = np.maximum(self.curvature(tangent, dual) + (own - tangent.own), _CONVEX * own)
         low, high = self.room(tension)
         return QuadraticPrograms(curvature, tangent.slope, tangent.matrix, -tangent.wrench, low, high)
 

@@ -14,6 +14,7 @@ from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.distribution_feasibility import LeastUnbalance, explain, least_unbalance
 from cdpr_struct.statics.distribution_problem import DistributionProblem, Optimum
+from cdpr_struct.statics.distribution_restarts import best_of_minima, searched_elsewhere
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.tension_bound import chord_tension_at, chord_tension_at_length, constant
 from cdpr_struct.statics.tension_cost import EuclideanNorm, TensionCost
@@ -176,14 +177,14 @@ def solve_distribution(
     crossed = problem.ceiling <= problem.floor
     if crossed.any():
         raise _crossed_bounds(problem, crossed, where)
-    optimum = problem.solve()
+    optimum = best_of_minima(problem, problem.solve())
     failed = np.flatnonzero(~optimum.found)
     status = np.where(optimum.found, DistributionStatus.OPTIMAL, DistributionStatus.NOT_FOUND)
     if failed.size:
         ends = least_unbalance(problem.take(failed))
         again = failed[ends.feasible]
         if again.size:
-            optimum = optimum.replaced(again, problem.take(again).search(ends.chord_tension[ends.feasible]))
+            optimum = optimum.replaced(again, searched_elsewhere(problem.take(again), ends.chord_tension[ends.feasible]))
             status[again[optimum.found[again]]] = DistributionStatus.OPTIMAL
         status[failed[ends.proven]] = DistributionStatus.INFEASIBLE
         optimum.chord_tension[failed[~ends.feasible]] = ends.chord_tension[~ends.feasible]
