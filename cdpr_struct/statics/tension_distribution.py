@@ -16,7 +16,7 @@ from cdpr_struct.statics.distribution_feasibility import LeastUnbalance, explain
 from cdpr_struct.statics.distribution_problem import DistributionProblem, Optimum
 from cdpr_struct.statics.distribution_restarts import best_of_minima, searched_elsewhere
 from cdpr_struct.statics.holding_tensions import HoldingProblem
-from cdpr_struct.statics.tension_bound import chord_tension_at, chord_tension_at_length, constant
+from cdpr_struct.statics.tension_bound import chord_tension_at, chord_tension_at_length, constant, floor_at
 from cdpr_struct.statics.tension_cost import EuclideanNorm, TensionCost
 
 _AT_BOUND = 1e-7  # relative distance that counts as lying on a bound
@@ -105,7 +105,7 @@ def distribute(
     holding = holding_problem(robot, place, rotation, load, model)
     low = holding.arrays.force_min if lower_bound is None else np.asarray(lower_bound, dtype=float)
     high = holding.arrays.force_max if upper_bound is None else upper_bound
-    floor = chord_tension_at(holding, constant(low))
+    floor = floor_at(holding, constant(low))
     problem = bounded_problem(holding, floor, high, longest, EuclideanNorm() if cost is None else cost)
     return solve_distribution(problem, lambda i: f"pose {i + 1}:", allow_unheld)
 
@@ -184,7 +184,8 @@ def solve_distribution(
         ends = least_unbalance(problem.take(failed))
         again = failed[ends.feasible]
         if again.size:
-            optimum = optimum.replaced(again, searched_elsewhere(problem.take(again), ends.chord_tension[ends.feasible]))
+            near = ends.chord_tension[ends.feasible]
+            optimum = optimum.replaced(again, searched_elsewhere(problem.take(again), near))
             status[again[optimum.found[again]]] = DistributionStatus.OPTIMAL
         status[failed[ends.proven]] = DistributionStatus.INFEASIBLE
         optimum.chord_tension[failed[~ends.feasible]] = ends.chord_tension[~ends.feasible]
