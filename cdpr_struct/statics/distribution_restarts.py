@@ -9,7 +9,7 @@ cables are looked at, and where the other minimum is deeper the search begins th
 
 import numpy as np
 
-from cdpr_struct.statics.distribution_problem import DistributionProblem, Optimum
+from cdpr_struct.statics.distribution_problem import PATIENT, USUAL, DistributionProblem, Optimum
 
 _LOOKED_AT = 24  # chord tensions from floor to ceiling
 _DEEPER = 1e-9  # of the cost
@@ -32,14 +32,25 @@ def best_of_minima(problem: DistributionProblem, optimum: Optimum) -> Optimum:
     return optimum
 
 
-def searched_elsewhere(problem: DistributionProblem, near: np.ndarray) -> Optimum:
-    """Searched from chord tensions (k, m) [N] that balance, and where that fails from the least norm as `inverse` has
-    it."""
-    optimum = problem.search(near)
-    lost = np.flatnonzero(~optimum.found)
-    if lost.size:
-        part = problem.take(lost)
-        optimum = optimum.replaced(lost, part.search(part.holding.solve()[0]))
+def searched_elsewhere(problem: DistributionProblem, optimum: Optimum, items: np.ndarray, near: np.ndarray) -> Optimum:
+    """The optimum with some poses, `items` (n,), searched again: from chord tensions `near` (n, m) [N] that balance, from
+    the least norm as `inverse` has it, then with patience, and from the poses beside them that are found."""
+    optimum = optimum.replaced(items, problem.take(items).search(near))
+    for effort in (USUAL, PATIENT):
+        lost = items[~optimum.found[items]]
+        if lost.size:
+            part = problem.take(lost)
+            optimum = optimum.replaced(lost, part.search(part.holding.solve()[0], None, effort))
+    lost = items[~optimum.found[items]]
+    while lost.size:
+        last = len(optimum.found) - 1
+        beside = np.where(optimum.found[np.maximum(lost - 1, 0)], np.maximum(lost - 1, 0), np.minimum(lost + 1, last))
+        begun = optimum.found[beside]
+        found = problem.take(lost[begun]).search(optimum.chord_tension[beside[begun]], None, PATIENT)
+        optimum = optimum.replaced(lost[begun][found.found], found.take(found.found))
+        if not found.found.any():
+            break
+        lost = lost[~optimum.found[lost]]
     return optimum
 
 

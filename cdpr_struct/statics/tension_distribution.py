@@ -184,8 +184,7 @@ def solve_distribution(
         ends = least_unbalance(problem.take(failed))
         again = failed[ends.feasible]
         if again.size:
-            near = ends.chord_tension[ends.feasible]
-            optimum = optimum.replaced(again, searched_elsewhere(problem.take(again), near))
+            optimum = searched_elsewhere(problem, optimum, again, ends.chord_tension[ends.feasible])
             status[again[optimum.found[again]]] = DistributionStatus.OPTIMAL
         status[failed[ends.proven]] = DistributionStatus.INFEASIBLE
         optimum.chord_tension[failed[~ends.feasible]] = ends.chord_tension[~ends.feasible]
