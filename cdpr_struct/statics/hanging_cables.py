@@ -13,7 +13,7 @@ from cdpr_struct.statics.lost_cables import counted_lost
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit, turned_back, within_wheel
 from cdpr_struct.statics.tension_winches import held_at_frame, with_winches
 
-_EXIT_ITERATIONS = 30
+_EXIT_ITERATIONS = 60  # slack cables whose pulleys turn them far back come slowly at first
 _EXIT_REPEATED = 80  # times at most, at large wheels and short or slack cables
 _EXIT_TOLERANCE = 1e-14  # of the tension and EA, or of the unit direction
 _EXIT_MET = 1e-10  # of the same: above it the exit from the pulley was not found
