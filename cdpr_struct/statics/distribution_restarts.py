@@ -33,8 +33,8 @@ def best_of_minima(problem: DistributionProblem, optimum: Optimum) -> Optimum:
 
 
 def searched_elsewhere(problem: DistributionProblem, optimum: Optimum, items: np.ndarray, near: np.ndarray) -> Optimum:
-    """The optimum with some poses, `items` (n,), searched again: from chord tensions `near` (n, m) [N] that balance, from
-    the least norm as `inverse` has it, then with patience, and from the poses beside them that are found."""
+    """The optimum with some poses, `items` (n,), searched again: from chord tensions `near` (n, m) [N] that balance,
+    from the least norm as `inverse` has it, then with patience, and from the poses beside them that are found."""
     optimum = optimum.replaced(items, problem.take(items).search(near))
     for effort in (USUAL, PATIENT):
         lost = items[~optimum.found[items]]
