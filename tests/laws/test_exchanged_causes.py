@@ -5,7 +5,9 @@ from types import SimpleNamespace
 import pytest
 
 from cdpr_struct.diagnosis.diagnosing import diagnosed
+from cdpr_struct.diagnosis.recording import moving_parts
 from cdpr_struct.hypotheses import search
+from cdpr_struct.hypotheses.causes.library import LIBRARY
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.search import Search
 from cdpr_struct.measurement.campaign_file import load_campaign
@@ -42,6 +44,16 @@ def test_each_cause_of_the_best_pair_is_a_base_for_the_rivals_of_the_other(parts
     )  # fmt: skip
     Search._exchange(held)
     assert bases == tried
+
+
+@pytest.mark.parametrize(
+    ("names", "first"), [(("sensor_delay", "clock_drift"), 0), (("clock_drift", "sensor_delay"), 1)]
+)
+def test_what_is_asked_of_a_delay_beside_a_drift_does_not_depend_on_which_was_found_first(names, first):
+    """The exchange may find the same pair the other way round; a drift's errors are no function of speed."""
+    parts = tuple(SimpleNamespace(cause=LIBRARY[name]) for name in names)
+    assert moving_parts(Hypothesis(parts), list(LIBRARY))[0] == first
+    assert moving_parts(Hypothesis(), list(LIBRARY)) == []
 
 
 @pytest.mark.slow
