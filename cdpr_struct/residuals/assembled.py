@@ -144,7 +144,10 @@ def _looked_up(values: np.ndarray, index: np.ndarray) -> np.ndarray:
 
 
 def _floor(local: Local, where: Layout, shelf: Shelf, shape: tuple[int, ...]) -> np.ndarray:
-    """(K, n). While the platform moves its balance is as open as its inertia, which is not in the model."""
+    """(K, n). While the platform moves its balance is as open as its inertia, which is not in the model.
+
+    Rows of what a guide holds are empty.
+    """
     floor = np.ones(shape)
     own, (_, p), (_, c), (_, w) = 6 + where.m, shelf.states.shape, shelf.cables.shape, shelf.swivels.shape
     state = np.repeat(FLOOR[:2], (6, where.m))
@@ -152,6 +155,7 @@ def _floor(local: Local, where: Layout, shelf: Shelf, shape: tuple[int, ...]) ->
     inertia = float(local.data.arrays.mass.max()) * local.data.known.acceleration[shelf.states]
     balance = floor[:, : p * own].reshape((len(floor), p, own))[..., :6]
     balance += np.where(shelf.states >= 0, inertia, 0.0)[..., None]
+    balance[..., local.data.held] = 1.0
     floor[:, p * own : p * own + c] = np.where(shelf.cables >= 0, FLOOR[2], 1.0)
     last = p * own + c
     floor[:, last : last + w] = np.where(shelf.swivels >= 0, _FLOOR_OF_SWIVELS, 1.0)
