@@ -11,7 +11,8 @@ Writes the CSV files of this example (to its own folder, or DIR). The measured m
 - Every anchor, length, stiffness and mass is off by a draw from the tolerances of the robot file.
 
 The motors were measured without the sled. Friction of the sled on the sheet is left out. `holes.csv` are twelve holes,
-`weighted.csv` six of the same commands with 5 kg more on the sled.
+`weighted.csv` six of the same commands with 5 kg more on the sled. `motors.csv` are the heights of the motors while the
+sled hangs in the middle, read with a level. `later.csv` is no part of a campaign: six more holes, to see who predicts them.
 """
 
 import sys
@@ -32,9 +33,10 @@ E_I = 10e9 * 0.089 * 0.038**3 / 12.0  # N m^2, of the beam
 SPAN, OVERHANG = 2.1, 0.45  # m
 ANCHOR, ZERO, MASS, CENTER = 0.0015, 0.001, 0.1, 0.005  # tolerances: m, m, kg, m
 STIFFNESS, DENSITY = 0.1, 0.03  # relative
-TAPE, ENCODER = 0.001, 0.0001  # m, sigmas
+TAPE, ENCODER, LEVEL = 0.001, 0.0001, 0.0005  # m, sigmas
 HOLES = [(x, 1.11 + z) for z in (0.45, 0.0, -0.45) for x in (-1.05, -0.35, 0.35, 1.05)]
 WEIGHTED, WEIGHT = (0, 2, 3, 5, 8, 11), 5.0  # holes drilled again, kg on the sled
+LATER = [(-0.7, 1.335), (0.0, 1.335), (0.7, 1.335), (-0.7, 0.885), (0.0, 0.885), (0.7, 0.885)]
 SEED, ELEMENTS = 1, 40
 
 
@@ -80,20 +82,26 @@ def drilled(real: Robot, lengths: np.ndarray, payload: float, near: tuple[float,
 
 
 def tables(noise: np.random.Generator) -> dict[str, pd.DataFrame]:
-    """All readings, by file name; and how far the holes are off, as `off_mm`."""
+    """All readings, by file name."""
     entered = load_robot(HERE / "robot.toml")
     real, zero = real_robot(entered, noise), noise.normal(0.0, ZERO, 2)
-    rows: dict[str, list[list[object]]] = {"holes.csv": [], "weighted.csv": []}
-    jobs = [("holes.csv", k, 0.0) for k in range(len(HOLES))] + [("weighted.csv", k, WEIGHT) for k in WEIGHTED]
-    for name, k, payload in jobs:
-        lengths = commanded(entered, HOLES[k])
-        rest = drilled(real, lengths + zero, payload, HOLES[k])
+    rows: dict[str, list[list[object]]] = {"holes.csv": [], "weighted.csv": [], "later.csv": []}
+    jobs = [("holes.csv", k, hole, 0.0) for k, hole in enumerate(HOLES)]
+    jobs += [("weighted.csv", k, HOLES[k], WEIGHT) for k in WEIGHTED]
+    jobs += [("later.csv", len(HOLES) + k, hole, 0.0) for k, hole in enumerate(LATER)]
+    for name, k, hole, payload in jobs:
+        lengths = commanded(entered, hole)
+        rest = drilled(real, lengths + zero, payload, hole)
         x, _, z = rest.position + noise.normal(0.0, TAPE, 3)
         said = lengths + noise.normal(0.0, ENCODER, 2)
         case = f"hole {k + 1}" + (f", {payload:g} kg more" if payload else "")
         rows[name].append([case, x, 0.0, z, None, *said, payload])
     columns = ["case", "x_m", "y_m", "z_m", "ry_deg", "length_1_m", "length_2_m", "payload_kg"]
-    return {name: pd.DataFrame(own, columns=columns) for name, own in rows.items()}
+    found = {name: pd.DataFrame(own, columns=columns) for name, own in rows.items()}
+    middle = (0.0, 1.11)
+    rest = drilled(real, commanded(entered, middle) + zero, 0.0, middle)
+    heights = np.array([cable.nodes[0, 2] for cable in rest.cables]) + noise.normal(0.0, LEVEL, 2)
+    return {**found, "motors.csv": pd.DataFrame({"motor": ["left", "right"], "z_m": heights})}
 
 
 if __name__ == "__main__":
