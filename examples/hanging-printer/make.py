@@ -11,8 +11,10 @@ Writes the CSV files of this example (to its own folder, or DIR). The measured p
 
 At home, where the nozzle touches the bed, the builder tightened the six lower lines to 40 N or a little more each and set the
 counters to zero. After that each motor winds what straight lines of the entered robot ask for; lines of one motor are wound alike.
-`points.csv` are fourteen points, `hung.csv` four of them with a weight of 1 kg on the effector, motors held. `later.csv` is
-no part of a campaign: six more points, to see who predicts them.
+`points.csv` are fourteen points, `hung.csv` four of them with a weight of 1 kg on the effector, motors held. `pulls.csv` are the
+tensions of all lines at the fourteen points, by a gauge that is hung into a line. `beam.csv` is what a ruler beside the beam
+says while weights hang from its middle, without the printer. `later.csv` is no part of a campaign: six more points, to see
+who predicts them.
 """
 
 import sys
@@ -34,7 +36,9 @@ E_I, SPAN = 10e9 * 0.045 * 0.095**3 / 12.0, 3.5  # N m^2, m, of the beam along x
 LOWER, UPPER = range(6), (6, 7, 8)  # lines from below, from the ceiling
 PULL = 40.0  # N, of each lower line at home
 ANCHOR, MASS, CENTER, STIFFNESS, DENSITY = 0.002, 0.05, 0.005, 0.15, 0.15  # tolerances: m, kg, m, relative
-RULER, COUNTER, LEVEL = 0.0005, 0.0002, 0.2  # m, m, degrees: sigmas
+RULER, COUNTER, LEVEL, GAUGE = 0.0005, 0.0002, 0.2, 1.0  # m, m, degrees, N: sigmas
+BEAM_LOADS, GRAVITY = (5.0, 10.0, 15.0), 9.81  # kg, m/s^2
+DEAD_BAND = 3.0  # N, below which the gauge says nothing
 POINTS = [
     *((x, y, 0.02) for x, y in ((0.5, 0.0), (-0.5, 0.0), (0.0, 0.5), (0.0, -0.5))),
     *((x, y, 0.4) for x, y in ((0.0, 0.0), (0.4, 0.3), (-0.4, 0.3), (0.4, -0.3), (-0.4, -0.3))),
@@ -105,6 +109,7 @@ def tables(noise: np.random.Generator) -> dict[str, pd.DataFrame]:
     jobs += [("hung.csv", f"point {k + 1} hung", np.array(POINTS[k]), WEIGHT) for k in HUNG]
     jobs += [("later.csv", f"later {k + 1}", np.array(p), 0.0) for k, p in enumerate(LATER)]
     rows: dict[str, list[list[object]]] = {}
+    pulls, gauge = [], np.random.default_rng([SEED, 1])
     for name, case, place, payload in jobs:
         wound = straight(entered, place) - straight(entered, np.zeros(3))
         rest = at_rest(real, home + wound, payload, place)
@@ -113,11 +118,19 @@ def tables(noise: np.random.Generator) -> dict[str, pd.DataFrame]:
         if name == "home.csv":
             turned = Rotation.from_matrix(rest.rotation).as_euler("ZYX", degrees=True)[::-1]
             angles = list(turned + noise.normal(0.0, LEVEL, 3))
+        if name == "points.csv":
+            held = np.linalg.norm([cable.end_force for cable in rest.cables], axis=1)
+            said = held + gauge.normal(0.0, GAUGE, len(held))
+            pulls.append([case, *seen, None, None, None, *np.where(said > DEAD_BAND, said, np.nan)])
         read = wound + noise.normal(0.0, COUNTER, 4)[motor]
         rows.setdefault(name, []).append([case, *seen, *angles, payload, *read])
-    columns = ["case", "x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg", "payload_kg"]
-    columns += [f"length_{i}_m" for i in range(1, len(entered.cables) + 1)]
-    return {name: pd.DataFrame(own, columns=columns) for name, own in rows.items()}
+    pose, lines = ["case", "x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"], range(1, len(entered.cables) + 1)
+    columns = [*pose, "payload_kg", *(f"length_{i}_m" for i in lines)]
+    found = {name: pd.DataFrame(own, columns=columns) for name, own in rows.items()}
+    pushed = SPAN**3 / (48.0 * E_I) * GRAVITY * np.array(BEAM_LOADS)  # a point load in the middle
+    sunk = pushed + gauge.normal(0.0, RULER, len(BEAM_LOADS))
+    found["beam.csv"] = pd.DataFrame({"load_kg": BEAM_LOADS, "sunk_mm": 1e3 * sunk})
+    return {**found, "pulls.csv": pd.DataFrame(pulls, columns=[*pose, *(f"tension_{i}_N" for i in lines)])}
 
 
 if __name__ == "__main__":
