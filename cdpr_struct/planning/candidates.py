@@ -30,7 +30,7 @@ def checks(data: Recorded, numbers: Numbers, known: Callable[[str], bool] = lamb
 
 
 def at_the_robot(data: Recorded, numbers: Numbers) -> Iterator[Informed]:
-    """Measurements at the robot, without frequencies where it has none: unstable there, or slack on a cause's pulleys."""
+    """Measurements at the robot; frequencies only where it has any: neither unstable nor slack on a cause's pulleys."""
     found = proposed(placed(data))
     if not found.measurements:
         return

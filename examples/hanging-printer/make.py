@@ -9,12 +9,12 @@ Writes the CSV files of this example (to its own folder, or DIR). The measured p
   walls. It bends down and up, and does not give way sideways.
 - Every anchor, stiffness and mass is off by a draw from the tolerances of the robot file.
 
-At home, where the nozzle touches the bed, the builder tightened the six lower lines to 40 N or a little more each and set the
-counters to zero. After that each motor winds what straight lines of the entered robot ask for; lines of one motor are wound alike.
-`points.csv` are fourteen points, `hung.csv` four of them with a weight of 1 kg on the effector, motors held. `pulls.csv` are the
-tensions of all lines at the fourteen points, by a gauge that is hung into a line. `beam.csv` is what a ruler beside the beam
-says while weights hang from its middle, without the printer. `later.csv` is no part of a campaign: six more points, to see
-who predicts them.
+At home, where the nozzle touches the bed, the builder tightened the six lower lines to 40 N or a little more each and
+set the counters to zero. After that each motor winds what straight lines of the entered robot ask for; lines of one
+motor are wound alike. `points.csv` are fourteen points, `hung.csv` four of them with a weight of 1 kg on the effector,
+motors held. `pulls.csv` are the tensions of all lines at the fourteen points, by a gauge that is hung into a line.
+`beam.csv` is what a ruler beside the beam says while weights hang from its middle, without the printer. `later.csv` is
+no part of a campaign: six more points, to see who predicts them.
 """
 
 import sys
@@ -114,14 +114,14 @@ def tables(noise: np.random.Generator) -> dict[str, pd.DataFrame]:
         wound = straight(entered, place) - straight(entered, np.zeros(3))
         rest = at_rest(real, home + wound, payload, place)
         seen = rest.position + noise.normal(0.0, RULER, 3)
-        angles: list[object] = [None, None, None]
+        angles: list[object] = [np.nan] * 3
         if name == "home.csv":
             turned = Rotation.from_matrix(rest.rotation).as_euler("ZYX", degrees=True)[::-1]
             angles = list(turned + noise.normal(0.0, LEVEL, 3))
         if name == "points.csv":
             held = np.linalg.norm([cable.end_force for cable in rest.cables], axis=1)
             said = held + gauge.normal(0.0, GAUGE, len(held))
-            pulls.append([case, *seen, None, None, None, *np.where(said > DEAD_BAND, said, np.nan)])
+            pulls.append([case, *seen, *[np.nan] * 3, *np.where(said > DEAD_BAND, said, np.nan)])
         read = wound + noise.normal(0.0, COUNTER, 4)[motor]
         rows.setdefault(name, []).append([case, *seen, *angles, payload, *read])
     pose, lines = ["case", "x_m", "y_m", "z_m", "rx_deg", "ry_deg", "rz_deg"], range(1, len(entered.cables) + 1)

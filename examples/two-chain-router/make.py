@@ -12,7 +12,8 @@ Writes the CSV files of this example (to its own folder, or DIR). The measured m
 
 The motors were measured without the sled. Friction of the sled on the sheet is left out. `holes.csv` are twelve holes,
 `weighted.csv` six of the same commands with 5 kg more on the sled. `motors.csv` are the heights of the motors while the
-sled hangs in the middle, read with a level. `later.csv` is no part of a campaign: six more holes, to see who predicts them.
+sled hangs in the middle, read with a level. `later.csv` is no part of a campaign: six more holes, to see who predicts
+them.
 """
 
 import sys
@@ -95,7 +96,7 @@ def tables(noise: np.random.Generator) -> dict[str, pd.DataFrame]:
         x, _, z = rest.position + noise.normal(0.0, TAPE, 3)
         said = lengths + noise.normal(0.0, ENCODER, 2)
         case = f"hole {k + 1}" + (f", {payload:g} kg more" if payload else "")
-        rows[name].append([case, x, 0.0, z, None, *said, payload])
+        rows[name].append([case, x, 0.0, z, np.nan, *said, payload])
     columns = ["case", "x_m", "y_m", "z_m", "ry_deg", "length_1_m", "length_2_m", "payload_kg"]
     found = {name: pd.DataFrame(own, columns=columns) for name, own in rows.items()}
     middle = (0.0, 1.11)
