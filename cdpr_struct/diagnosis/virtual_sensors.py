@@ -14,16 +14,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.diagnosis.whole_sizes import over_scales
-from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.hypotheses.judge import Judged, judged
+from cdpr_struct.observation.motion import inertial
 from cdpr_struct.observation.readings import Readings, true_tension
 from cdpr_struct.observation.rest import at_states
 from cdpr_struct.residuals.assembled import floor_of_states
+from cdpr_struct.residuals.layout import layout
 from cdpr_struct.residuals.linearised import Local, Point, Term
 from cdpr_struct.residuals.recorded import LENGTH, POSITION, ROTATION, SWIVEL, TENSION, Recorded
 from cdpr_struct.robot.pose import angles_from_rotation
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _ROUNDS = 4  # of linearisation about the likeliest readings; near the data the steps shrink by ten and more each
+_ANY = 30.0  # times what tensions are expected to be: a pretension of any size
 _STILL = 0.02  # sigmas: a state that moves less has been found
 _STEP = 1e-3  # sigmas, of tensions that cells mean: they are linear in all but friction
 
@@ -56,17 +59,35 @@ class VirtualSensors:
         return np.asarray((self.reading - self.value) / np.hypot(self.sigma, self.noise))
 
 
-def virtual_sensors(found: Judged, data: Recorded, zeros: np.ndarray) -> VirtualSensors:
+def opened(data: Recorded) -> Recorded:
+    """With nothing known beforehand of tensions that nobody read.
+
+    A fit of causes takes them for about as large as an estimate, in every state anew: for tensions themselves, that
+    would tell the common pretension of all states, which nobody measured.
+    """
+    unread = data.unread.copy()
+    unread[:, 6 : 6 + data.cables] *= _ANY
+    return replace(data, unread=unread)
+
+
+def refitted(found: Judged, data: Recorded) -> Judged:
+    """The hypothesis of a fit once more, for readings that `opened` gave."""
+    where = layout(data)
+    return judged(data, where, found.hypothesis, replace(found.point, noise=np.zeros_like(data.sigma)))
+
+
+def virtual_sensors(found: Judged, data: Recorded, fitted: np.ndarray, zeros: np.ndarray) -> VirtualSensors:
     """Predictions for all states of readings, which need not be those that were fitted.
 
+    fitted : (S,) bool, states that the fit has seen: what they said of the robot's numbers is not counted twice
     zeros : (m,) [m] where relative encoders begin: their readings stand in `data` less these
     """
-    data = replace(data, vibrations=None)
+    data = _accelerated(replace(data, vibrations=None))
     terms, z, covariance = _robot_numbers(found)
     prior = np.where(data.read, _factors(found, data.cables) ** 2, (data.unread / data.sigma) ** 2)
     noise = np.zeros_like(data.sigma)
     for _ in range(_ROUNDS):
-        state = _States.about(data, Point(terms, z, noise), covariance, prior)
+        state = _States.about(data, Point(terms, z, noise), covariance, prior).unseen(fitted)
         moved, noise = noise, state.likeliest()
         if np.abs(noise - moved)[data.read].max(initial=0.0) < _STILL:
             break
@@ -74,6 +95,14 @@ def virtual_sensors(found: Judged, data: Recorded, zeros: np.ndarray) -> Virtual
     for own in _sensors(data.cables):
         value[:, own], sigma[:, own] = state.without(own, (data.unread / data.sigma)[:, own] ** 2)
     return _told(data, found, value, sigma, zeros)
+
+
+def _accelerated(data: Recorded) -> Recorded:
+    """With the platform's inertia in the balance wherever poses tell it: a fit has it only where tensions were read."""
+    if data.campaign.frames is not None:
+        return data
+    moved, unknown = inertial(data.campaign.states, where_pulled=False)
+    return replace(data, known=replace(data.known, inertial=moved, acceleration=unknown))
 
 
 def _told(data: Recorded, found: Judged, value: np.ndarray, sigma: np.ndarray, zeros: np.ndarray) -> VirtualSensors:
@@ -88,7 +117,7 @@ def _told(data: Recorded, found: Judged, value: np.ndarray, sigma: np.ndarray, z
 
 
 def _robot_numbers(found: Judged) -> tuple[tuple[Term, ...], tuple[np.ndarray, ...], np.ndarray]:
-    """Terms that are changes of the robot, their numbers and covariance; drift and what is of single states is left out."""
+    """Terms that are changes of the robot, their numbers and covariance; drift and what is of single states left out."""
     mean, covariance = over_scales(found)
     parts, values = found.hypothesis.parts, found.split(mean)
     used = [True, *[False] * (len(values) - 1 - len(parts))]
@@ -118,7 +147,7 @@ def _sensors(cables: int) -> Iterator[slice]:
 class _States:
     """S states about a point: y = A u + X dz + floor.
 
-    y (S, n), A (S, n, q), X (S, n, t), floor (S, n);  prior (S, q) of u, covariance (t, t) of dz
+    y (S, n), A (S, n, q), X (S, n, t), floor (S, n);  prior (S, q) of u, covariance (t, t) or (S, t, t) of dz
     base (S, q) : what is predicted at the point;  slope (S, q) : of it by u;  by_z (S, q, t) : by dz
     """
 
@@ -140,9 +169,26 @@ class _States:
         base, slope, by_z = _outputs(data, point)
         return cls(y, A, X, floor_of_states(data), prior, covariance, base, slope, by_z)
 
+    def unseen(self, fitted: np.ndarray) -> "_States":
+        """Numbers of the robot as all states but each fitted one tell them.
+
+        A state that bends so much that it would leave less than nothing (a slack cable) stays counted.
+        """
+        if not fitted.any():
+            return self
+        known = self._solved(self.prior, np.concatenate([self.X, self.y[..., None]], axis=2), of_robot=False)
+        told, whole = self.X.swapaxes(1, 2) @ known, np.linalg.inv(self.covariance)
+        less = fitted & (np.linalg.eigvalsh(whole - told[..., :-1])[:, 0] > 0.0)
+        told = np.where(less[:, None, None], told, 0.0)
+        covariance = np.linalg.inv(whole - told[..., :-1])
+        shift = -np.einsum("stu,su->st", covariance, told[..., -1])
+        y, base = self.y - np.einsum("snt,st->sn", self.X, shift), self.base + np.einsum("sqt,st->sq", self.by_z, shift)
+        return replace(self, y=y, base=base, covariance=covariance)
+
     def likeliest(self) -> np.ndarray:
         """(S, q) errors of all readings."""
-        return np.asarray(self.prior * np.einsum("snq,sn->sq", self.A, self._solved(self.prior, self.y[..., None])[..., 0]))
+        solved = self._solved(self.prior, self.y[..., None])[..., 0]
+        return np.asarray(self.prior * np.einsum("snq,sn->sq", self.A, solved))
 
     def without(self, own: slice, variance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Values and sigmas (S, k) of some outputs, their own readings as uncertain as if nobody had read them."""
@@ -156,9 +202,10 @@ class _States:
         value = self.base[:, own] + np.einsum("snk,sn->sk", shared, known[..., -1])
         return value, np.sqrt(np.maximum(left, 0.0))
 
-    def _solved(self, prior: np.ndarray, right: np.ndarray) -> np.ndarray:
-        """(S, n, k) inverse covariance of y times right-hand sides."""
-        whole = (self.A * prior[:, None]) @ self.A.swapaxes(1, 2) + self.X @ self.covariance @ self.X.swapaxes(1, 2)
+    def _solved(self, prior: np.ndarray, right: np.ndarray, of_robot: bool = True) -> np.ndarray:
+        """(S, n, k) inverse covariance of y times right-hand sides; without what is open of the robot, if not wanted."""
+        whole = (self.A * prior[:, None]) @ self.A.swapaxes(1, 2)
+        whole += self.X @ self.covariance @ self.X.swapaxes(1, 2) if of_robot else 0.0
         np.einsum("snn->sn", whole)[...] += self.floor**2
         return np.asarray(np.linalg.solve(whole, right))
 
@@ -173,7 +220,7 @@ def _outputs(data: Recorded, point: Point) -> tuple[np.ndarray, np.ndarray, np.n
     tension = _meant(data, point.robot(data), at)
     pulled = _meant(data, point.robot(data), replace(at, tension=at.tension + _STEP * data.sigma[:, 6 : 6 + m]))
     slope = -data.sigma
-    slope[:, 6 : 6 + m] = -(pulled - tension) / _STEP
+    slope[:, 6 : 6 + m] = np.where(pulled > tension, -(pulled - tension) / _STEP, slope[:, 6 : 6 + m])  # else slack
     unmoved = tension - slope[:, 6 : 6 + m] * point.noise[:, 6 : 6 + m]
     base = np.concatenate([readings.position, np.zeros((len(tension), 3)), unmoved, readings.length], axis=1)
     by_z = np.zeros((*base.shape, sum(map(len, point.z))))
