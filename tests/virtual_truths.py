@@ -1,4 +1,4 @@
-"""Campaigns without load cells whose true tensions are known: finite-element robots off by draws from their tolerances."""
+"""Campaigns whose true tensions are known and not read: finite-element robots off by draws from their tolerances."""
 
 import importlib.util
 from collections.abc import Sequence
@@ -50,7 +50,7 @@ def drawn(entered: Robot, campaign: Campaign, noise: np.random.Generator) -> tup
 def filmed(seed: int, frames: int) -> tuple[Campaign, np.ndarray]:
     """A suspended robot that is filmed along a curve, and its true tensions (S, 4) [N]; the lengths are read.
 
-    At every frame the finite elements carry the inertia of the platform on its curve, its centre of mass that of the path.
+    At every frame the finite elements carry the inertia of the platform on its curve.
     """
     noise, entered = np.random.default_rng([seed, 5]), moving.robot()
     pattern = moving.filmed(seed, frames)  # columns and sigmas; every reading is replaced
@@ -75,9 +75,7 @@ def filmed(seed: int, frames: int) -> tuple[Campaign, np.ndarray]:
 def accelerations(time: np.ndarray) -> np.ndarray:
     """(F, 3) of the path [m/s^2], by differences."""
     step = 1e-3
-    return np.asarray(
-        (moving.path(time + step) - 2.0 * moving.path(time) + moving.path(time - step)) / step**2
-    )
+    return np.asarray((moving.path(time + step) - 2.0 * moving.path(time) + moving.path(time - step)) / step**2)
 
 
 def printed(seed: int, pull: float = 40.0, gauged: Sequence[int] = ()) -> tuple[Campaign, np.ndarray]:

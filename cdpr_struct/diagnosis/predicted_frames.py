@@ -1,4 +1,4 @@
-"""What do sensors that are not there say of every frame of a diagnosed campaign, and of readings that were not fitted?"""
+"""What would sensors say in every frame of a diagnosed campaign, and in readings that were not fitted?"""
 
 from dataclasses import dataclass, replace
 

@@ -16,7 +16,7 @@ import numpy as np
 from cdpr_struct.diagnosis.whole_sizes import over_scales
 from cdpr_struct.hypotheses.judge import Judged, judged
 from cdpr_struct.observation.motion import inertial
-from cdpr_struct.observation.readings import Readings, true_tension
+from cdpr_struct.observation.readings import LEAST_TENSION, Readings, true_tension
 from cdpr_struct.observation.rest import at_states
 from cdpr_struct.residuals.assembled import floor_of_states
 from cdpr_struct.residuals.layout import layout
@@ -27,6 +27,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _ROUNDS = 4  # of linearisation about the likeliest readings; near the data the steps shrink by ten and more each
 _ANY = 30.0  # times what tensions are expected to be: a pretension of any size
+_TAUT = 2.0  # times the tension as which slack cables count
 _STILL = 0.02  # sigmas: a state that moves less has been found
 _STEP = 1e-3  # sigmas, of tensions that cells mean: they are linear in all but friction
 
@@ -40,6 +41,7 @@ class VirtualSensors:
     sigma   : one standard deviation of that; of angles about the world's axes
     reading : what was read, nan where nothing was;  noise : one sigma of the reading's own error, as the fit found it
     names   : (S,) of the states;  time : (S,) [s], nan where it is not known
+    settled : (S,) whether a state stayed where it was linearised last: of others, bands are rough
     """
 
     value: np.ndarray
@@ -48,6 +50,7 @@ class VirtualSensors:
     noise: np.ndarray
     names: tuple[str, ...]
     time: np.ndarray
+    settled: np.ndarray
 
     @property
     def cables(self) -> int:
@@ -85,16 +88,17 @@ def virtual_sensors(found: Judged, data: Recorded, fitted: np.ndarray, zeros: np
     data = _accelerated(replace(data, vibrations=None))
     terms, z, covariance = _robot_numbers(found)
     prior = np.where(data.read, _factors(found, data.cables) ** 2, (data.unread / data.sigma) ** 2)
-    noise = np.zeros_like(data.sigma)
+    noise = _taut(data, np.zeros_like(data.sigma))
     for _ in range(_ROUNDS):
         state = _States.about(data, Point(terms, z, noise), covariance, prior).unseen(fitted)
-        moved, noise = noise, state.likeliest()
-        if np.abs(noise - moved)[data.read].max(initial=0.0) < _STILL:
+        moved, noise = noise, _taut(data, state.likeliest())
+        settled = (np.abs(noise - moved) * data.read).max(axis=1) < _STILL
+        if settled.all():
             break
     value, sigma = np.zeros_like(prior), np.zeros_like(prior)
     for own in _sensors(data.cables):
         value[:, own], sigma[:, own] = state.without(own, (data.unread / data.sigma)[:, own] ** 2)
-    return _told(data, found, value, sigma, zeros)
+    return _told(data, found, (value, sigma), zeros, settled)
 
 
 def _accelerated(data: Recorded) -> Recorded:
@@ -105,19 +109,29 @@ def _accelerated(data: Recorded) -> Recorded:
     return replace(data, known=replace(data.known, inertial=moved, acceleration=unknown))
 
 
-def _told(data: Recorded, found: Judged, value: np.ndarray, sigma: np.ndarray, zeros: np.ndarray) -> VirtualSensors:
+def _taut(data: Recorded, noise: np.ndarray) -> np.ndarray:
+    """Errors of readings with which no cable is slack: about a slack one, nothing has a slope."""
+    tension = slice(6, 6 + data.cables)
+    most = (data.readings.tension - _TAUT * LEAST_TENSION) / data.sigma[:, tension]
+    return np.concatenate([noise[:, :6], np.minimum(noise[:, tension], most), noise[:, tension.stop :]], axis=1)
+
+
+def _told(
+    data: Recorded, found: Judged, predicted: tuple[np.ndarray, np.ndarray], zeros: np.ndarray, settled: np.ndarray
+) -> VirtualSensors:
     """Predictions in the readings' own terms; values of angles are given as turns of the readings [rad]."""
+    value, sigma = predicted
     m, states = data.cables, data.campaign.states
     turned = data.readings.less(np.pad(-value[:, 3:6], ((0, 0), (3, 0))), np.zeros(m), np.zeros(m)).rotation
     value[:, 3:6] = angles_from_rotation(turned)
     value[:, 6 + m :] += zeros
     reading = np.concatenate([states.position, states.angles, states.tension, states.length + zeros], axis=1)
     noise = data.sigma * _factors(found, m)
-    return VirtualSensors(value, sigma, reading, noise, states.names, states.time)
+    return VirtualSensors(value, sigma, reading, noise, states.names, states.time, settled)
 
 
 def _robot_numbers(found: Judged) -> tuple[tuple[Term, ...], tuple[np.ndarray, ...], np.ndarray]:
-    """Terms that are changes of the robot, their numbers and covariance; drift and what is of single states left out."""
+    """Terms that change the robot, their numbers and covariance; without drift and what is of single states."""
     mean, covariance = over_scales(found)
     parts, values = found.hypothesis.parts, found.split(mean)
     used = [True, *[False] * (len(values) - 1 - len(parts))]
@@ -203,7 +217,7 @@ class _States:
         return value, np.sqrt(np.maximum(left, 0.0))
 
     def _solved(self, prior: np.ndarray, right: np.ndarray, of_robot: bool = True) -> np.ndarray:
-        """(S, n, k) inverse covariance of y times right-hand sides; without what is open of the robot, if not wanted."""
+        """(S, n, k) inverse covariance of y times right-hand sides; of_robot : with what is open of the robot."""
         whole = (self.A * prior[:, None]) @ self.A.swapaxes(1, 2)
         whole += self.X @ self.covariance @ self.X.swapaxes(1, 2) if of_robot else 0.0
         np.einsum("snn->sn", whole)[...] += self.floor**2
@@ -211,16 +225,16 @@ class _States:
 
 
 def _outputs(data: Recorded, point: Point) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What is predicted with no error of the readings, (S, q), and its slopes by their errors and by numbers of the robot.
+    """Predictions (S, q) with no error of the readings, and slopes by these errors and by numbers of the robot.
 
-    Of angles stands the turn from the reading, in place of the angles.
+    In place of angles stands the turn from the reading.
     """
     m, readings = data.cables, data.readings
     at = point.readings(data)
     tension = _meant(data, point.robot(data), at)
     pulled = _meant(data, point.robot(data), replace(at, tension=at.tension + _STEP * data.sigma[:, 6 : 6 + m]))
     slope = -data.sigma
-    slope[:, 6 : 6 + m] = np.where(pulled > tension, -(pulled - tension) / _STEP, slope[:, 6 : 6 + m])  # else slack
+    slope[:, 6 : 6 + m] = -(pulled - tension) / _STEP
     unmoved = tension - slope[:, 6 : 6 + m] * point.noise[:, 6 : 6 + m]
     base = np.concatenate([readings.position, np.zeros((len(tension), 3)), unmoved, readings.length], axis=1)
     by_z = np.zeros((*base.shape, sum(map(len, point.z))))

@@ -147,8 +147,8 @@ def _looked_up(values: np.ndarray, index: np.ndarray) -> np.ndarray:
 def floor_of_states(data: Recorded) -> np.ndarray:
     """(S, 6 + m) [N, m], what the model misses of balance and lengths of each state.
 
-    While the platform moves its balance is as open as its inertia, which is not in the model. Rows of what a guide holds
-    are empty: their floor is one.
+    While the platform moves its balance is as open as its inertia, which is not in the model. Rows of what a guide
+    holds are empty: their floor is one.
     """
     floor = np.tile(np.repeat(FLOOR[:2], (6, data.cables)), (data.states, 1))
     floor[:, :6] += (float(data.arrays.mass.max()) * data.known.acceleration)[:, None]

@@ -67,11 +67,16 @@ def _told(found: VirtualSensors) -> dict[str, Any]:
         width = reach * factor * float(np.median(found.sigma[:, at]))
         rows.append(
             {
-                "sensor": sensor, "number": number, "unit": unit, "half_band": width, "readings": int(read.sum()),
+                "sensor": sensor,
+                "number": number,
+                "unit": unit,
+                "half_band": width,
+                "readings": int(read.sum()),
                 "inside_percent": held,
-            }  # fmt: skip
+            }
         )
-    return {"states": len(found.names), "sensors": rows}
+    unsettled = [name for name, done in zip(found.names, found.settled.tolist(), strict=True) if not done]
+    return {"states": len(found.names), "unsettled": unsettled, "sensors": rows}
 
 
 def virtual_tables(result: Mapping[str, Any]) -> list[HtmlTable]:
@@ -86,12 +91,17 @@ def virtual_tables(result: Mapping[str, Any]) -> list[HtmlTable]:
 def _table(title: str, part: Mapping[str, Any], level: float) -> HtmlTable:
     rows = [
         [
-            f"{row['sensor']} {row['number']}", f"±{row['half_band']:.3g}", row["unit"], str(row["readings"]),
+            f"{row['sensor']} {row['number']}",
+            f"±{row['half_band']:.3g}",
+            row["unit"],
+            str(row["readings"]),
             "" if row["inside_percent"] is None else f"{row['inside_percent']:.0f}",
-        ]  # fmt: skip
+        ]
         for row in part["sensors"]
     ]
     note = f"Half of the {level:g} % band, median over the states; a sensor that is there is predicted without its own "
     note += "reading. Inside: share of its readings within band and noise together."
+    if part["unsettled"]:
+        note += f" Rough in {len(part['unsettled'])} states whose readings lead far from where they were linearised."
     header = ["sensor", "band", "unit", "readings", "inside [%]"]
     return HtmlTable(title, header, rows, note)

@@ -10,8 +10,9 @@ from cdpr_struct.reports.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE
 
 SIZE = (9.6, 8.4)
 CAPTION = (
-    "Bands of what is predicted; dots are readings. Where a sensor was read, its reading less the prediction without it is "
-    "shown, about zero: dots outside the band by more than their own noise contradict the robot."
+    "Bands of what is predicted, without the sensor's own reading; dots are readings. Tensions are shown as they are, "
+    "of other sensors that were read the reading less the prediction: dots outside the band by more than their own "
+    "noise contradict the robot."
 )
 _COLOURS = (BLUE, ORANGE, GREEN, VERMILLION, PURPLE, SKY, BLACK)
 _ORDER = ("tension", "position", "rotation", "length")
@@ -29,19 +30,19 @@ def draw_virtual(figure: Figure, found: VirtualSensors) -> None:
 
 
 def _draw(axes: Axes, found: VirtualSensors, sensor: str, across: np.ndarray) -> None:
+    """Values, or readings less predictions about zero where bands would be too thin to be seen."""
     own = [(number, unit, factor, at) for name, number, unit, factor, at in kinds(found.cables) if name == sensor]
-    order, off = np.argsort(across, kind="stable"), bool(np.isfinite(found.reading[:, [one[3] for one in own]]).any())
-    unit, more = _MILLI.get(own[0][1], (own[0][1], 1.0)) if off else (own[0][1], 1.0)
+    read, order = np.isfinite(found.reading[:, [one[3] for one in own]]).any(), np.argsort(across, kind="stable")
+    about_zero = bool(read) and sensor != "tension"
+    unit, more = _MILLI.get(own[0][1], (own[0][1], 1.0)) if about_zero else (own[0][1], 1.0)
     for k, (number, _, factor, at) in enumerate(own):
-        value, sigma = factor * more * found.value[order, at], factor * more * found.sigma[order, at]
-        middle = 0.0 * value if off else value
-        colour, reach = _COLOURS[k % len(_COLOURS)], quantile() * sigma
-        axes.fill_between(across[order], middle - reach, middle + reach, color=colour, alpha=0.18, linewidth=0.0)
-        if off:
-            gap = factor * more * found.reading[order, at] - value
-            axes.plot(across[order], gap, ".", color=colour, markersize=3.0, label=number)
-        else:
-            axes.plot(across[order], value, color=colour, linewidth=1.0, label=number)
-    axes.set_ylabel(f"{sensor}: read less predicted [{unit}]" if off else f"{sensor} [{unit}]", fontsize=8.0)
-    axes.legend(fontsize=7.0, ncols=min(len(own), 9), loc="upper right")
+        value, sigma, said = (factor * more * part[order, at] for part in (found.value, found.sigma, found.reading))
+        zero, colour, reach = value if about_zero else 0.0, _COLOURS[k % len(_COLOURS)], quantile() * sigma
+        low, high = value - zero - reach, value - zero + reach
+        axes.fill_between(across[order], low, high, color=colour, alpha=0.18, linewidth=0.0)
+        if not about_zero:
+            axes.plot(across[order], value, color=colour, linewidth=1.0)
+        axes.plot(across[order], said - zero, ".", color=colour, markersize=3.0, label=number)
+    axes.set_ylabel(f"{sensor} off [{unit}]" if about_zero else f"{sensor} [{unit}]")
+    axes.legend(fontsize=7.0, ncols=min(len(own), 5), loc="upper right")
     quiet(axes)
