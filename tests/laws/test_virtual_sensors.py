@@ -1,5 +1,6 @@
 """Virtual sensors: true tensions of finite-element robots lie in bands, readings are predicted without themselves."""
 
+import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -90,6 +91,26 @@ def test_the_command_writes_table_and_figure(tmp_path):
     told = found.to_json()["virtual_sensors"]
     assert told["states"] == told["later"]["states"] == 15
     assert told["later"]["sensors"][6]["readings"] == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("kept", "rms", "held"), [((1, 3, 5, 7), 1.5, 88), ((), 17.6, 89)], ids=["four", "none"])
+def test_tensions_of_the_shipped_printer_whose_beam_nobody_entered(kept, rms, held, tmp_path):
+    shutil.copytree(PRINTER, tmp_path / "printer")
+    pulls = pd.read_csv(PRINTER / "pulls.csv")
+    true = pulls.filter(regex="tension_").to_numpy()
+    hidden = [i for i in range(1, 10) if i not in kept]
+    pulls[[f"tension_{i}_N" for i in hidden]] = np.nan
+    pulls.to_csv(tmp_path / "printer" / "pulls.csv", index=False)
+    name = "with-tensions.toml" if kept else "campaign.toml"
+    found = cs.diagnose(tmp_path / "printer" / name, virtual_sensors=True).virtual_sensors
+    assert found is not None
+    place = [found.own.names.index(case) for case in pulls.case]
+    column = [5 + i for i in hidden]
+    off = (true - found.own.value[place, 6:15])[:, [i - 1 for i in hidden]]
+    sigma = np.hypot(found.own.sigma[place][:, column], 1.0)
+    assert np.sqrt(np.nanmean(off**2)) == pytest.approx(rms, abs=0.1)
+    assert round(100.0 * float((np.abs(off) < LEVELS[90] * sigma)[np.isfinite(off)].mean())) == held
 
 
 @pytest.mark.slow
