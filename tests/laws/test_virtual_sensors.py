@@ -132,3 +132,12 @@ def test_true_tensions_lie_in_their_bands_as_often_as_the_page_says(made, chosen
         for level, reach in LEVELS.items():
             held[level].append(inside(seen, true, reach)[:, list(chosen)].mean())
     assert {level: round(100.0 * float(np.mean(own))) for level, own in held.items()} == pytest.approx(said, abs=1)
+
+
+@pytest.mark.slow
+def test_bands_half_as_wide_are_seen():
+    held = []
+    for seed in range(6):
+        campaign, true = printed(seed, 40.0, GAUGED)
+        held.append(inside(predicted(campaign), true, 0.5 * LEVELS[90])[:, [1, 3, 5, 6, 7, 8]].mean())
+    assert np.mean(held) + 2.0 * np.std(held) / np.sqrt(len(held)) < 0.9
