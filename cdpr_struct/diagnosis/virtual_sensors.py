@@ -143,7 +143,7 @@ def _robot_numbers(found: Judged) -> tuple[tuple[Term, ...], tuple[np.ndarray, .
 
 def _factors(found: Judged, cables: int) -> np.ndarray:
     """(6 + 2 m,) factor on the stated sigma of each reading's kind; one of kinds that the fit did not see."""
-    seen = (found.model.readings.members > 0.0).any(axis=1)
+    seen = np.asarray((found.model.readings.members > 0.0).any(axis=1))
     tau = np.ones(SWIVEL + 1)
     tau[: len(seen)] = np.where(seen, found.fit.noise.tau, 1.0)
     return np.asarray(np.repeat(tau[[POSITION, ROTATION, TENSION, LENGTH]], (3, 3, cables, cables)))

@@ -372,7 +372,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.band_coverage,
         ),
         Row(
-            case="tensions without cells: 20 robots in motion, 20 of nine stretched lines with three gauges, 20 without",
+            case="tensions without cells: 20 robots in motion, 20 of nine stretched lines with 3 gauges, 20 without",
             reference="FEM of robots off by draws from their tolerances",
             metric="true tensions inside the 90 % bands of `diagnose --virtual-sensors`",
             acceptance="90 % within two standard errors over the robots",
