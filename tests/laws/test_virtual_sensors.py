@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 
 import cdpr_struct as cs
+from cdpr_struct.cli.main import run
 from cdpr_struct.diagnosis.virtual_sensors import opened, virtual_sensors
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import judged
@@ -75,6 +76,12 @@ def test_what_is_known_of_a_pretension_comes_from_the_readings():
     assert np.abs(true - seen.value[:, 6:15])[taut][:, others].max() < 8.0
     assert np.median(seen.sigma[:, 6:15][:, others]) < 2.0
     assert np.median(bare.sigma[:, 6:15]) > 10.0
+
+
+def test_several_campaigns_are_refused(capsys):
+    files = [str(PRINTER / "campaign.toml"), str(PRINTER / "beam.toml")]
+    assert run(["diagnose", *files, "--virtual-sensors"]) == 2
+    assert "--virtual-sensors: got '2 campaigns'; a single campaign to diagnose" in capsys.readouterr().err
 
 
 @pytest.mark.slow
