@@ -24,6 +24,7 @@ from cdpr_struct.fem_reference.errors import (
 )
 from cdpr_struct.fem_reference.extrapolation import Extrapolation, extrapolate
 from cdpr_struct.fem_reference.frequency_response import frequency_response
+from cdpr_struct.fem_reference.masts import carrying_beam
 from cdpr_struct.fem_reference.motion_problem import TimeHistory
 from cdpr_struct.fem_reference.pulley import PulleyData, Wrap
 from cdpr_struct.fem_reference.rigid_platform import PlatformData
@@ -63,6 +64,7 @@ __all__ = [
     "ambient_record",
     "cable_count_below",
     "cable_modes",
+    "carrying_beam",
     "count_below",
     "damping_rates",
     "end_dynamic_stiffness",

@@ -57,6 +57,12 @@ def rigid(cables: tuple[int, ...], exit_mass: np.ndarray) -> Mast:
     return Mast(cables, np.zeros((len(cables), 3, 0)), np.zeros((0, 0)), exit_mass)
 
 
+def carrying_beam(cables: tuple[int, ...], direction: np.ndarray, flexibility: np.ndarray) -> Mast:
+    """A beam whose exits (n) all move along one direction (3,); flexibility (n, n) [m/N] between them. No mass."""
+    motion = np.eye(len(cables))[:, None, :] * np.asarray(direction, dtype=float)[None, :, None]
+    return rigid(cables, np.zeros(len(cables))).with_part(motion, np.asarray(flexibility, dtype=float))
+
+
 def with_bracket(mast: Mast, compliance: float) -> Mast:
     """Its exits on a bracket of the same compliance [m/N] in all directions."""
     return mast.with_part(np.tile(np.eye(3), (len(mast.cables), 1, 1)), compliance * np.eye(3))

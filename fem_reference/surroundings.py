@@ -21,6 +21,8 @@ class SurroundingsData:
     exit_mass        : [kg], of each cable, a point mass at its exit that moves with the mast; () for none. No weight
     tether_stiffness : [N/m] of a spring on the platform's reference point, relaxed at tether_point (3,) [m], world
     platform_gravity : (3,) [m/s^2], world, that acts on the platform; None for that of the cables
+    beams            : further parts of the frame that bend, each with its own motion and flexibility; they carry other
+                       cables than `masts`
     """
 
     masts: tuple[tuple[int, ...], ...] = ()
@@ -31,6 +33,7 @@ class SurroundingsData:
     tether_stiffness: float = 0.0
     tether_point: np.ndarray = field(default_factory=lambda: np.zeros(3))
     platform_gravity: np.ndarray | None = None
+    beams: tuple[Mast, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("mast_compliance", "mast_bending"):
@@ -39,9 +42,9 @@ class SurroundingsData:
         for name in ("mast_compliance", "mast_bending", "exit_mass", "tether_stiffness"):
             if not all(0.0 <= value < np.inf for value in np.ravel(getattr(self, name))):
                 raise ValueError(f"SurroundingsData.{name} must be zero or more, got {getattr(self, name)!r}")
-        carried = [cable for mast in self.masts for cable in mast]
+        carried = [cable for mast in (*self.masts, *(beam.cables for beam in self.beams)) for cable in mast]
         if len(set(carried)) != len(carried):
-            raise ValueError(f"SurroundingsData.masts must name no cable twice, got {self.masts!r}")
+            raise ValueError(f"SurroundingsData.masts and beams must name no cable twice, got {carried!r}")
         object.__setattr__(self, "tether_point", fixed_array("tether_point", self.tether_point, (3,)))
         if self.platform_gravity is not None:
             gravity = fixed_array("platform_gravity", self.platform_gravity, (3,))
@@ -49,11 +52,11 @@ class SurroundingsData:
 
     @property
     def bending(self) -> bool:
-        """Whether any mast gives way."""
-        return bool(np.any(self.mast_compliance)) or bool(np.any(self.mast_bending))
+        """Whether any mast or beam gives way."""
+        return bool(np.any(self.mast_compliance)) or bool(np.any(self.mast_bending)) or bool(self.beams)
 
     def soft_masts(self, frame_anchors: np.ndarray) -> tuple[Mast, ...]:
-        """The masts that give way, of a robot with exits at frame_anchors (m, 3) [m]."""
+        """The masts and beams that give way, of a robot with exits at frame_anchors (m, 3) [m]."""
         heads = np.array(self.exit_mass) if self.exit_mass else np.zeros(len(frame_anchors))
         gives = (np.broadcast_to(v, (len(self.masts),)).tolist() for v in (self.mast_compliance, self.mast_bending))
         found = []
@@ -62,7 +65,7 @@ class SurroundingsData:
             mast = with_bracket(mast, bracket) if bracket > 0.0 else mast
             mast = with_upright(mast, upright, heights) if upright > 0.0 else mast
             found += [mast] if mast.flexibility.size else []
-        return tuple(found)
+        return (*found, *self.beams)
 
     @property
     def still(self) -> bool:

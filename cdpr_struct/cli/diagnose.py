@@ -20,6 +20,7 @@ EXAMPLES = (
 )
 BUDGET_HELP = "small (10 s, half a minute where much is wrong, minutes with signals) or full."
 LATER_HELP = "Campaign of the same robot, not fitted: how far its cable lengths are off, before and after."
+VIRTUAL_HELP = "Predict every tension, pose and length of every state, with a 90 % band, also where nothing was read."
 Bounds = tuple[float | None, float | None]
 
 
@@ -29,6 +30,7 @@ def run(
     lower_bound: LowerBound = None,
     upper_bound: UpperBound = None,
     later: Annotated[str | None, typer.Option("--later", metavar="CAMPAIGN.toml", help=LATER_HELP)] = None,
+    virtual_sensors: Annotated[bool, typer.Option("--virtual-sensors", help=VIRTUAL_HELP)] = False,
     workers: Workers = 1,
     scheduler: Scheduler = None,
     *,
@@ -44,13 +46,16 @@ def run(
         require_file(later)
         if len(campaigns) > 1:
             raise InputError("--later", "", later, "a single campaign to diagnose")
+    if virtual_sensors and len(campaigns) > 1:
+        raise InputError("--virtual-sensors", "", f"{len(campaigns)} campaigns", "a single campaign to diagnose")
     bounds = read_bounds(lower_bound, upper_bound)
     if len(campaigns) > 1:
         return _many(tuple(campaigns), budget, bounds, (workers, scheduler), output)
     with output.steps(5) as progress:
         found = cs.diagnose(
-            campaigns[0], budget=budget, lower_bound=bounds[0], upper_bound=bounds[1], later=later, progress=progress
-        )
+            campaigns[0], budget=budget, lower_bound=bounds[0], upper_bound=bounds[1], later=later,
+            virtual_sensors=virtual_sensors, progress=progress,
+        )  # fmt: skip
     output.give(found)
     return 0
 

@@ -10,6 +10,7 @@ from dataclasses import fields, replace
 import numpy as np
 
 from cdpr_struct.association.detection import SHARE_INVISIBLE
+from cdpr_struct.errors import CdprError
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.hypotheses.correction import Correction
 from cdpr_struct.inference.scale_mixture import TAU_DEGREES
@@ -23,6 +24,7 @@ from cdpr_struct.residuals.swivels import swivels
 from cdpr_struct.residuals.vibrations import Vibrating
 
 _MOST = 4  # corrections that are judged
+_NOT_POSSIBLE = 1e6  # N, m: of readings that mean no robot at all
 _FELT = 3.0  # times what the others tell of a reading: so unsure must it be without its sensor to contradict them
 
 
@@ -62,8 +64,7 @@ def _covariance(data: Recorded, local: Local) -> np.ndarray:
 def _costs(data: Recorded, covariance: np.ndarray, campaigns: Sequence[Campaign]) -> np.ndarray:
     """(B,) minus ln of the density of all states, each Student's; estimates of what nobody read stay."""
     readings = [_readings(data, campaign) for campaign in campaigns]
-    whole = Readings(*(np.stack([getattr(one, f.name) for one in readings]) for f in fields(Readings)))
-    r = np.array(static_residuals(data.arrays, whole, data.known, data.radius))
+    r = _residuals_of(data, readings)
     for i, campaign in enumerate(campaigns):
         if campaign.states.payload is not data.campaign.states.payload:
             known = replace(data.known, payload=campaign.states.payload)
@@ -71,6 +72,22 @@ def _costs(data: Recorded, covariance: np.ndarray, campaigns: Sequence[Campaign]
     root = np.linalg.inv(np.linalg.cholesky(covariance))
     square = ((root @ r[..., None]) ** 2).sum(axis=(-2, -1))
     return np.asarray(0.5 * (TAU_DEGREES + r.shape[-1]) * np.log1p(square / TAU_DEGREES).sum(axis=-1))
+
+
+def _residuals_of(data: Recorded, readings: Sequence[Readings]) -> np.ndarray:
+    """(B, S, 6 + m); infinite of readings that mean no robot at all, as forces that would break its masts."""
+    whole = Readings(*(np.stack([getattr(one, f.name) for one in readings]) for f in fields(Readings)))
+    try:
+        return np.array(static_residuals(data.arrays, whole, data.known, data.radius))
+    except CdprError:
+        return np.array([_residuals_or_none(data, one) for one in readings])
+
+
+def _residuals_or_none(data: Recorded, readings: Readings) -> np.ndarray:
+    try:
+        return static_residuals(data.arrays, readings, data.known, data.radius)
+    except CdprError:
+        return np.full((data.states, 6 + data.cables), _NOT_POSSIBLE)
 
 
 def _of_frequencies(local: Local, campaign: Campaign) -> float:

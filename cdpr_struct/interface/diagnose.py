@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
 from cdpr_struct.diagnosis.later_lengths import later_lengths, require_same_robot
+from cdpr_struct.diagnosis.predicted_frames import PredictedFrames, predicted_frames
+from cdpr_struct.errors import InputError
 from cdpr_struct.hypotheses.search import BUDGETS
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of
@@ -18,10 +20,13 @@ from cdpr_struct.reports.diagnose.recordings import later_json
 from cdpr_struct.reports.diagnose.residual_table import residual_columns
 from cdpr_struct.reports.diagnose.result import result_json
 from cdpr_struct.reports.diagnose.text import diagnosis_sentences, result_text
+from cdpr_struct.reports.diagnose.virtual_table import virtual_columns, virtual_json
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.robot.robot import Robot
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from cdpr_struct.reports.figures.shown import Draw
 
 
@@ -30,9 +35,11 @@ class DiagnoseResult(Result):
     """What a campaign says of the simulation.
 
     diagnosis : decision, candidates, residuals, sizes of the causes, and all else that was found
+    virtual_sensors : predictions of every sensor in every state, None unless asked for
     """
 
     diagnosis: Diagnosis
+    virtual_sensors: PredictedFrames | None = None
 
     @property
     def extended(self) -> Robot | None:
@@ -66,7 +73,20 @@ class DiagnoseResult(Result):
         """Table, figures, extended robot and page."""
         from cdpr_struct.reports.diagnose.page import result_files
 
-        return result_files(self.diagnosis, self.answer)
+        return result_files(self.diagnosis, self.answer, self.virtual_sensors)
+
+    def virtual_frame(self) -> "pd.DataFrame":
+        """Columns of virtual_sensors.csv as a table.
+
+        Raises
+        ------
+        InputError : they were not asked for.
+        """
+        import pandas as pd
+
+        if self.virtual_sensors is None:
+            raise InputError("virtual_sensors", "", False, "diagnose(..., virtual_sensors=True)")
+        return pd.DataFrame(virtual_columns(self.virtual_sensors.own))
 
 
 @answered
@@ -77,6 +97,7 @@ def diagnose(
     lower_bound: float | None = None,
     upper_bound: float | None = None,
     later: CampaignLike | None = None,
+    virtual_sensors: bool = False,
     progress: Progress = silent,
 ) -> DiagnoseResult:
     """Name the cause of differences between a simulation and measured data.
@@ -87,6 +108,7 @@ def diagnose(
     budget : small or full search
     lower_bound, upper_bound : of the cable forces [N], with a path only; default: those of the robot file
     later : campaign of the same robot, not fitted, whose cable lengths are predicted at its measured poses
+    virtual_sensors : predict every tension, pose and length of every state, with a band, also where nothing was read
     progress : called with the name of each step
 
     Raises
@@ -102,4 +124,6 @@ def diagnose(
     progress("simulating the next measurement")
     told = with_dropped(result_json(found, recommendations(found)), measured)
     told["later_lengths"] = None if other is None else later_json(other.source, later_lengths(found, other))
-    return DiagnoseResult(with_extensions(told, measured.robot, "diagnose"), found)
+    predicted = predicted_frames(found, measured, other) if virtual_sensors else None
+    told["virtual_sensors"] = virtual_json(predicted)
+    return DiagnoseResult(with_extensions(told, measured.robot, "diagnose"), found, predicted)

@@ -17,6 +17,7 @@ from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.campaign_sources import is_there
 from cdpr_struct.measurement.campaign_template import KINDS
 from cdpr_struct.measurement.identified import lost_notes
+from cdpr_struct.measurement.known_robots import require_known
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.measurement.missing_readings import check_placed, missing_notes
 from cdpr_struct.measurement.misspelt_cases import misspelt_notes
@@ -118,7 +119,9 @@ def load_campaign(
     """
     source = Path(path)
     table = _table(source)
-    robot = _nominal(_robot(table.robot, source), table.nominal, source)
+    entered = _robot(table.robot, source)
+    require_known(entered, {entry.kind for entry in table.measurement}, source)
+    robot = _nominal(entered, table.nominal, source)
     robot = robot if upper_bound is None else _below(robot, upper_bound, source)
     lowest = table.lower_bound_N if lower_bound is None else lower_bound
     commanding, relative = _commanding(robot, lowest, source), table.encoders == "relative"
@@ -290,9 +293,8 @@ def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:
 
     Raises
     ------
-    InputError : a robot that a diagnosis does not know.
+    InputError : overrides that no platform has.
     """
-    _require_known(robot, source)
     body, cables = robot.platform, robot.cables
     changes: dict[str, Any] = {
         "mass": table.platform_mass,
@@ -312,35 +314,3 @@ def _nominal(robot: Robot, table: NominalTable, source: Path) -> Robot:
         for c in cables
     )
     return replace(robot, platform=body, cables=cables, gravity=table.gravity or robot.gravity)
-
-
-def _require_known(robot: Robot, source: Path) -> None:
-    """Refuse a robot that a diagnosis does not know.
-
-    Raises
-    ------
-    InputError : guides, other gravity than along -z, winches that hold tensions or are shared, masses or wind on cables
-    """
-    level = robot.down.tolist() == [0.0, 0.0, -1.0] and robot.gravity > 0.0
-    if robot.guided or not level:
-        what = (
-            f"platform.guided = {list(robot.guided)}" if robot.guided else f"gravity = {robot.gravity_vector.tolist()}"
-        )
-        expected = "a free platform under gravity along -z: guides and other gravity are not among what is diagnosed"
-        raise InputError(str(source), "robot", f"{robot.name} with {what}", expected)
-    if robot.tension_winches:
-        held = robot.tension_winches[0]
-        expected = "winches that hold lengths: those that hold a tension are not among what is diagnosed"
-        what = f"{robot.name} with cables[{held}].winch_tension = {robot.cables[held - 1].winch_tension:g}"
-        raise InputError(str(source), "robot", what, expected)
-    if robot.shared_winches:
-        what = f"{robot.name} with cables on one winch, {robot.shared_winches[0]}"
-        raise InputError(
-            str(source), "robot", what, "a winch for each cable: shared ones are not among what is diagnosed"
-        )
-    if robot.lumps:
-        what = f"{robot.name} with {len(robot.lumps)} lumps"
-        raise InputError(str(source), "robot", what, "no [[lumps]]: masses on cables are not among what is diagnosed")
-    if robot.extensions.drag_width.any():
-        what = f"{robot.name} with extensions.drag_width = {robot.extensions.drag_width.tolist()}"
-        raise InputError(str(source), "robot", what, "no drag_width: wind on cables is not among what is diagnosed")

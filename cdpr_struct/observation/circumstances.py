@@ -88,10 +88,13 @@ def _since(states: States, start: float) -> np.ndarray:
 
 
 def _mean_tension(campaign: Campaign) -> float:
-    """[N] of the readings, or of equal shares of the weight where none was read."""
+    """[N] of the readings; where none was read, of equal shares of the weight, or of what cables carry at least."""
     tension = campaign.states.tension[np.isfinite(campaign.states.tension)]
+    if tension.size:
+        return float(tension.mean())
+    least = np.array([cable.force_min for cable in campaign.robot.cables])
     weight = campaign.robot.platform.mass * campaign.robot.gravity
-    return float(tension.mean()) if tension.size else weight / len(campaign.robot.cables)
+    return float(np.maximum(least, weight / len(least)).mean())
 
 
 def exit_turns(robot: Robot, position: np.ndarray, rotation: np.ndarray) -> np.ndarray:

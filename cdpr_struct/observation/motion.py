@@ -36,16 +36,20 @@ def accelerations(states: States) -> np.ndarray:
     return np.asarray(np.linalg.norm(_derivatives(states.time, states.position, (2,)), axis=(1, 2)))
 
 
-def inertial(states: States) -> tuple[np.ndarray, np.ndarray]:
+def inertial(states: States, where_pulled: bool = True) -> tuple[np.ndarray, np.ndarray]:
     """Accelerations (S, 6) of the platform where tensions were read, and what is not known of them (S,) [m/s^2].
 
     Of its origin [m/s^2], then angular [rad/s^2], world axes: the second derivative of the turn from the mean
     orientation, so tilts are small. What is not known is the difference between frames with even and with odd numbers;
     at the ends of a run, where a spline has none, and where no tensions were read, it is all of the acceleration.
+
+    where_pulled : whether only of runs whose tensions were read; else of all whose poses were
     """
     found, unknown = np.zeros((len(states.time), 6)), accelerations(states)
     for run in runs(states.time):
-        own = run[np.isfinite(states.tension[run]).all(axis=1) & np.isfinite(states.position[run]).all(axis=1)]
+        own = run[np.isfinite(states.position[run]).all(axis=1)]
+        if where_pulled:
+            own = own[np.isfinite(states.tension[own]).all(axis=1)]
         if len(own) < len(run) or len(own) < FEWEST_SMOOTHED or not np.isfinite(states.angles[own]).all():
             continue
         turn = Rotation.from_euler("xyz", states.angles[own])

@@ -17,6 +17,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, load_wrench
+from cdpr_struct.statics.guides import free_part
 from cdpr_struct.statics.masts import MastShapes
 from cdpr_struct.statics.pulley import pulley_exit
 from cdpr_struct.statics.swivel_angle import swivel_angle, within_turn
@@ -69,7 +70,8 @@ class NearbyRest:
         moment = np.cross(arms.arms, force).sum(axis=-2)
         load = load_wrench(there, arms) + inertia_wrench(there, arms, rotation, self.known)
         gap = paid_out(there, readings, self.known) - length
-        rows = [force.sum(axis=-2) + load[..., :3], (moment + load[..., 3:]) / self.radius, gap]
+        wrench = free_part(np.concatenate([force.sum(axis=-2), moment], axis=-1) + load, there)
+        rows = [wrench[..., :3], wrench[..., 3:] / self.radius, gap]
         lead = np.broadcast_shapes(*(part.shape[:-1] for part in rows))
         return np.concatenate([np.broadcast_to(part, (*lead, part.shape[-1])) for part in rows], axis=-1)
 

@@ -15,6 +15,7 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench
+from cdpr_struct.statics.guides import free_part
 from cdpr_struct.statics.tensioned_cables import tensioned
 
 _FIRST_MINUTE = 60.0  # minutes in an hour: creep counts decades of time after the first minute
@@ -54,9 +55,12 @@ def rest(arrays: RobotArrays, readings: Readings, known: Circumstances) -> Rest:
 
 
 def unbalanced(state: Rest, known: Circumstances) -> np.ndarray:
-    """(..., S, 6) wrench of cables, load and inertia about the platform origin [N, N m]; zero if all were right."""
+    """(..., S, 6) wrench of cables, load and inertia about the platform origin [N, N m]; zero if all were right.
+
+    What a guide holds is zero: it takes whatever there is.
+    """
     load = load_wrench(state.arrays, state.arms) + inertia_wrench(state.arrays, state.arms, state.rotation, known)
-    return cable_wrench(state.cables, state.arms) + load
+    return free_part(cable_wrench(state.cables, state.arms) + load, state.arrays)
 
 
 def inertia_wrench(arrays: RobotArrays, arms: PlatformArms, rotation: np.ndarray, known: Circumstances) -> np.ndarray:

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cdpr_struct.errors import UnstableEquilibriumError
+from cdpr_struct.errors import ConvergenceError, UnstableEquilibriumError
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.planning.checks import CHECKS, check_rows
 from cdpr_struct.planning.information import Numbers
@@ -30,7 +30,7 @@ def checks(data: Recorded, numbers: Numbers, known: Callable[[str], bool] = lamb
 
 
 def at_the_robot(data: Recorded, numbers: Numbers) -> Iterator[Informed]:
-    """Measurements at the robot, without frequencies where the robot as entered has none: it is unstable there."""
+    """Measurements at the robot; frequencies only where it has any: neither unstable nor slack on a cause's pulleys."""
     found = proposed(placed(data))
     if not found.measurements:
         return
@@ -65,7 +65,7 @@ def _rows(data: Recorded, numbers: Numbers, found: Proposed) -> PlannedRows:
         instead[_BEHIND_A_CLAMP] = (_kept_stretch(numbers.term(_BEHIND_A_CLAMP), found.clamped), index[0])
     try:
         return PlannedRows.of(new, numbers, instead)
-    except UnstableEquilibriumError:
+    except (UnstableEquilibriumError, ConvergenceError):  # no modes there, or none with what a cause changes
         return PlannedRows.of(replace(new, vibrations=None), numbers, instead)
 
 

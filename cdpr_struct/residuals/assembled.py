@@ -9,6 +9,7 @@ from cdpr_struct.residuals.commanded_lengths import MISSED
 from cdpr_struct.residuals.layout import Layout, Shelf
 from cdpr_struct.residuals.linearised import Local, Rows
 from cdpr_struct.residuals.modal_sizes import MODEL, measured_sizes
+from cdpr_struct.residuals.recorded import Recorded
 
 FLOOR = (0.05, 2e-5, 3e-4, 5e-3)
 """N, m, of ln f, of ln A: what the model misses of the FEM's balance, lengths, frequencies and modal constants."""
@@ -143,15 +144,24 @@ def _looked_up(values: np.ndarray, index: np.ndarray) -> np.ndarray:
     return np.where(index >= 0, values[index], -1) if index.size else np.full(index.shape, -1)
 
 
+def floor_of_states(data: Recorded) -> np.ndarray:
+    """(S, 6 + m) [N, m], what the model misses of balance and lengths of each state.
+
+    While the platform moves its balance is as open as its inertia, which is not in the model. Rows of what a guide
+    holds are empty: their floor is one.
+    """
+    floor = np.tile(np.repeat(FLOOR[:2], (6, data.cables)), (data.states, 1))
+    floor[:, :6] += (float(data.arrays.mass.max()) * data.known.acceleration)[:, None]
+    floor[:, :6][:, data.held] = 1.0
+    return floor
+
+
 def _floor(local: Local, where: Layout, shelf: Shelf, shape: tuple[int, ...]) -> np.ndarray:
-    """(K, n). While the platform moves its balance is as open as its inertia, which is not in the model."""
+    """(K, n)."""
     floor = np.ones(shape)
-    own, (_, p), (_, c), (_, w) = 6 + where.m, shelf.states.shape, shelf.cables.shape, shelf.swivels.shape
-    state = np.repeat(FLOOR[:2], (6, where.m))
-    floor[:, : p * own] = np.where(np.repeat(shelf.states >= 0, own, axis=1), np.tile(state, p), 1.0)
-    inertia = float(local.data.arrays.mass.max()) * local.data.known.acceleration[shelf.states]
-    balance = floor[:, : p * own].reshape((len(floor), p, own))[..., :6]
-    balance += np.where(shelf.states >= 0, inertia, 0.0)[..., None]
+    own, (k, p), (_, c), (_, w) = 6 + where.m, shelf.states.shape, shelf.cables.shape, shelf.swivels.shape
+    states = np.where(shelf.states[..., None] >= 0, floor_of_states(local.data)[shelf.states], 1.0)
+    floor[:, : p * own] = states.reshape((k, p * own))
     floor[:, p * own : p * own + c] = np.where(shelf.cables >= 0, FLOOR[2], 1.0)
     last = p * own + c
     floor[:, last : last + w] = np.where(shelf.swivels >= 0, _FLOOR_OF_SWIVELS, 1.0)

@@ -20,9 +20,9 @@ from cdpr_struct.cli.main import run
 
 ROOT = Path(__file__).parents[2]
 PAGES = (
-    "tutorial_own_robot", "tutorial_model_right", "tutorial_diagnosis", "tutorial_trajectory", "pulleys", "ropes",
-    "recordings", "recorded_motion", "notebooks", "templates", "formats", "first_day", "trust",
-    "importing_recordings",
+    "tutorial_own_robot", "tutorial_model_right", "tutorial_diagnosis", "tutorial_trajectory",
+    "tutorial_two_chain_router", "tutorial_hanging_printer", "pulleys", "ropes", "recordings", "recorded_motion",
+    "notebooks", "templates", "formats", "first_day", "trust", "importing_recordings", "virtual_sensors",
 )  # fmt: skip
 NEEDED = {"importing_recordings": "rosbags"}  # packages of extras
 ROBOTS = sorted((ROOT / "examples" / "robots").glob("*/README.md"))

@@ -104,6 +104,14 @@ def band_coverage() -> Figure:
     return Figure(f"of {robots}: {counts}; p {min(row[4] for row in rows)} or more", all(inside + uniform))
 
 
+def virtual_sensors() -> Figure:
+    """Shares of true tensions in 90 % bands, each beside the standard error of its mean over robots."""
+    rows = table("virtual_sensors.md", "robot", "read", "one sigma")
+    shares = [tuple(float(part) for part in row[4].split(" ± ")) for row in rows]
+    told = ", ".join(f"{row[4]} %" for row in rows)
+    return Figure(told, all(abs(share - 90.0) <= 2.0 * error for share, error in shares))
+
+
 def one_cable() -> Figure:
     """Smallest error of twenty frequencies of a cable."""
     row = table("benchmarks.md", "code", "20 frequencies within 1e-03")[0]

@@ -372,6 +372,17 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.band_coverage,
         ),
         Row(
+            case="tensions without cells: 20 robots in motion, 20 of nine stretched lines with 3 gauges, 20 without",
+            reference="FEM of robots off by draws from their tolerances",
+            metric="true tensions inside the 90 % bands of `diagnose --virtual-sensors`",
+            acceptance="90 % within two standard errors over the robots",
+            command="python -m pytest -mslow tests/laws/test_virtual_sensors.py",
+            test=f"{_LAWS}/test_virtual_sensors.py::test_true_tensions_lie_in_their_bands_as_often_as_the_page_says",
+            twin=f"{_LAWS}/test_virtual_sensors.py::test_bands_half_as_wide_are_seen",
+            source="virtual_sensors.md",
+            figure=figures.virtual_sensors,
+        ),
+        Row(
             case="fuzzed files of every kind that the program reads",
             reference="loaded, or refused in one sentence",
             metric="inputs that end otherwise",

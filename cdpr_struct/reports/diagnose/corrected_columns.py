@@ -36,7 +36,7 @@ def changed_columns(before: Campaign, after: Campaign, kind: str) -> set[str]:
     for field, columns in names.items():
         old, new = getattr(before.states, field), getattr(after.states, field)
         differ = np.isfinite(old) & np.isfinite(new) & (old != new)
-        if len(columns) == 3:
+        if field in ("position", "angles"):
             found |= {name for name, own in zip(columns, differ.T, strict=True) if own.any()}
         elif differ.any():
             found |= set(columns)

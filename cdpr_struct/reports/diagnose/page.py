@@ -1,9 +1,11 @@
 """The files of a diagnosis: residuals as CSV, figures, extended robot, and the report page."""
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
+from cdpr_struct.diagnosis.predicted_frames import PredictedFrames
 from cdpr_struct.reports.ambient_page import ambient_plates
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.diagnose import tables
@@ -12,7 +14,9 @@ from cdpr_struct.reports.diagnose.residual_table import residual_columns
 from cdpr_struct.reports.diagnose.signals import signal_plates, signal_table
 from cdpr_struct.reports.diagnose.state_errors import state_table, tension_table
 from cdpr_struct.reports.diagnose.text import diagnosis_sentences
+from cdpr_struct.reports.diagnose.virtual_table import virtual_columns, virtual_tables
 from cdpr_struct.reports.figures import diagnose as figures
+from cdpr_struct.reports.figures import virtual_sensors as virtual
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.figures.interactive_residuals import residuals_plot
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
@@ -34,11 +38,14 @@ _RESIDUALS = (
 _VALUES = "Values of all points: residuals.csv."
 
 
-def result_files(found: Diagnosis, result: Mapping[str, Any]) -> dict[str, str | bytes]:
+def result_files(
+    found: Diagnosis, result: Mapping[str, Any], predicted: PredictedFrames | None = None
+) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name."""
-    shown = plates(found, result)
+    shown = [*plates(found, result), *virtual_plates(predicted)]
     files: dict[str, str | bytes] = {
         "residuals.csv": csv_text(residual_columns(found)),
+        **({} if predicted is None else _virtual_files(predicted)),
         **page_files(page(found, result, shown)),
     }
     if found.extended is not None:
@@ -79,6 +86,25 @@ def plates(found: Diagnosis, result: Mapping[str, Any]) -> list[Plate]:
     shown.append(Plate("probabilities", "How probable each answer is", drawn, said))
     signals = signal_plates(found.damped, found.campaign.identified)
     return shown + signals + ambient_plates(found.campaign.ambient)
+
+
+def _virtual_files(predicted: PredictedFrames) -> dict[str, str | bytes]:
+    """Tables of the campaign and of a later one."""
+    named = {"virtual_sensors.csv": predicted.own, "virtual_sensors_later.csv": predicted.later}
+    return {name: csv_text(virtual_columns(own)) for name, own in named.items() if own is not None}
+
+
+def virtual_plates(predicted: PredictedFrames | None) -> list[Plate]:
+    """A figure of the campaign's states, and one of a later campaign's."""
+    if predicted is None:
+        return []
+    shown = [("virtual_sensors", "What sensors would say in every state", predicted.own)]
+    if predicted.later is not None:
+        shown.append(("virtual_sensors_later", "The same of readings that were not fitted", predicted.later))
+    return [
+        Plate(name, title, Drawing(name, virtual.SIZE, partial(virtual.draw_virtual, found=own)), virtual.CAPTION)
+        for name, title, own in shown
+    ]
 
 
 def robot_comments(result: Mapping[str, Any]) -> list[str]:
@@ -151,6 +177,7 @@ def _tables(result: Mapping[str, Any]) -> list[HtmlTable]:
         tables.left_out(result["gain"]),
         *length_tables(result),
         stretch_table(result),
+        *virtual_tables(result),
         tables.next_steps(result["next_measurements"]),
         tables.set_aside(result["set_aside"]),
         tables.noise(result["noise"]),

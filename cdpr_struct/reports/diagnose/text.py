@@ -6,6 +6,7 @@ from typing import Any
 from cdpr_struct.reports.diagnose import tables
 from cdpr_struct.reports.diagnose.recordings import length_tables, stretch_table
 from cdpr_struct.reports.diagnose.state_errors import state_table, tension_table
+from cdpr_struct.reports.diagnose.virtual_table import virtual_tables
 from cdpr_struct.reports.html import HtmlTable
 from cdpr_struct.reports.text import paragraphs, plain_table
 
@@ -21,6 +22,7 @@ def result_text(result: Mapping[str, Any]) -> str:
         tables.left_out(result["gain"]),
         *length_tables(result),
         stretch_table(result),
+        *virtual_tables(result),
         tables.noise(result["noise"], all_of_them=False),
         tables.set_aside(result["set_aside"]),
     )
