@@ -23,11 +23,13 @@ _SEED = 21
 class DrawnRobots:
     """n robots at rest.
 
+    number : (n,) which of the draws, from 0; those without a stable rest are left out
     pose : (n, 6) position and angles about x, y, z [m, rad];  tension : (n, m) at the platform [N]
     hertz : (n, k) [Hz], infinite beyond what was sought; (n, 0) if nothing was
     lost : how many more robots did not come to a stable rest
     """
 
+    number: np.ndarray
     pose: np.ndarray
     tension: np.ndarray
     hertz: np.ndarray
@@ -70,7 +72,7 @@ def drawn_robots(
     around = np.remainder(turned + np.pi, 2.0 * np.pi) - np.pi
     pose = np.concatenate([rests.position, angles + around], axis=-1)
     modes = np.zeros((len(kept), 0)) if hertz is None else _like(point, rests, hertz, assembly, vibrating)
-    return DrawnRobots(pose, rests.cables.tension_at_platform, modes, count - len(kept))
+    return DrawnRobots(kept, pose, rests.cables.tension_at_platform, modes, count - len(kept))
 
 
 def _parts(rests: OperatingPoint) -> Iterator[OperatingPoint]:

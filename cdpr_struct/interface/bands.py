@@ -59,6 +59,16 @@ def known_from(robot: Robot) -> str:
     return "tolerances" if robot.posterior is None else "diagnosis"
 
 
+def band_head(asked: AskedBand, robot: Robot) -> dict[str, Any]:
+    """What every key `bands` says first: level, what is held, and which robots are probable."""
+    return {
+        "level": 100.0 * asked.level,
+        "held": "locked lengths",
+        "known_from": known_from(robot),
+        "tolerances": of_a_robot(robot.tolerances),
+    }
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Banded:
     """A robot at rest whose numbers may be off: what its predictions do then.
@@ -115,12 +125,7 @@ class Banded:
         return drawn_robots(self.point, self.spread, self.asked.samples, hertz, *models)
 
     def _head(self) -> dict[str, Any]:
-        return {
-            "level": 100.0 * self.asked.level,
-            "held": "locked lengths",
-            "known_from": known_from(self.point.entered),
-            "tolerances": of_a_robot(self.point.entered.tolerances),
-        }
+        return band_head(self.asked, self.point.entered)
 
     def _checks(self, drawn: DrawnRobots | None) -> list[Check]:
         return slack_check(self.point.cables.tension_at_platform, self.spread.sigma(self.response.tension), drawn)

@@ -21,6 +21,7 @@ ANSWERS = {
     "inverse": lambda: cs.inverse(NAME),
     "forward": lambda: cs.forward(NAME, cs.inverse(NAME).solution.lengths, equilibria=True),
     "pose_error": lambda: cs.pose_error(NAME, "-1:1:2,-1:1:2,0.5"),
+    "pose_error with bands": lambda: cs.pose_error(NAME, band=90, samples=20),
     "map": lambda: cs.map(NAME, "-1:1:3,-1:1:3,0.5", "tension-max"),
     "map of three axes": lambda: cs.map(NAME, "-1:1:3,-1:1:3,0.3:0.6:2", "sag-max"),
     "map of one axis": lambda: cs.map(NAME, "-1:1:3,0,0.5", "stiffness-min"),

@@ -22,6 +22,11 @@ def complaint(capsys) -> str:
         (["modes", "cogiro", "--samples", "100"], ["samples: got 100", "belongs to --band"]),
         (["inverse", "cogiro", "--band", "90", "--samples", "3"], ["samples: got 3", "20 to 100000"]),
         (["inverse", "cogiro", "--band", "90", "--model", "ideal"], ["model: got 'ideal'", "sagging or spring"]),
+        (
+            ["pose-error", "cogiro", "--grid", "0:1:2,0,1", "--band", "90"],
+            ["grid: got '2 poses'", "one pose for --band"],
+        ),
+        (["pose-error", "cogiro", "--grid", "0,0,1", "--pose", "0,0,1", "--band", "90"], ["pose: got '0,0,1'"]),
         (["sensitivity", "cogiro", "--raise", "first", "--to", "3"], ["raise: got 'first'", "like mode:1"]),
         (["sensitivity", "cogiro", "--to", "3"], ["--raise is missing"]),
         (["sensitivity", "cogiro", "--raise", "mode:1"], ["--to is missing", "frequency in Hz"]),

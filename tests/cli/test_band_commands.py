@@ -1,0 +1,35 @@
+"""`--band` of commands that have other results than a state of rest: keys, columns, pages, and what is refused."""
+
+import json
+
+import numpy as np
+import pytest
+
+from cdpr_struct.cli.main import run
+
+POSE = "--pose=0.2,0.1,1.3"
+
+
+def result_of(words: list[str], out) -> dict:
+    assert run([*words, "--out", str(out), "--quiet"]) == 0
+    return json.loads((out / "result.json").read_text())
+
+
+def test_pose_error_at_one_pose(tmp_path):
+    found = result_of(["pose-error", "cogiro", POSE, "--band", "90", "--samples", "50"], tmp_path)
+    rows = found["bands"]["errors"]
+    assert rows["global_z_mm"]["value"] == pytest.approx(found["mean_mm"]["global"])
+    assert all(low < high for low, high in (row["band"] for row in rows.values()))
+    assert found["bands"]["samples"]["count"] == 50
+    header, row = (tmp_path / "pose_error.csv").read_text().splitlines()
+    told = dict(zip(header.split(","), map(float, row.split(",")), strict=True))
+    assert [told[f"global_z_{end}_mm"] for end in ("low", "high")] == pytest.approx(rows["global_z_mm"]["band"])
+    page = (tmp_path / "report.html").read_text()
+    assert "Pose error within the tolerances" in page
+    assert (tmp_path / "bands.svg").exists()
+
+
+def test_pose_error_with_free_angles_is_about_the_pose_that_hangs(tmp_path):
+    found = result_of(["pose-error", "cogiro", POSE, "--free", "rx,ry", "--band", "90"], tmp_path)
+    assert found["bands"]["errors"]["global_z_mm"]["value"] == pytest.approx(found["mean_mm"]["global"], abs=1e-6)
+    assert np.ptp(found["bands"]["errors"]["global_z_mm"]["band"]) > 0.0
