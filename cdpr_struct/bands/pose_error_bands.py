@@ -87,7 +87,7 @@ class ErringRobot:
 
         The size of an error is no linear function of it where it is small: its band is that of drawn components.
         """
-        rates, own = self._rates(response), self.numbers()
+        rates, own = self.rates(response), self.numbers()
         middle, sigma = own.components + spread.shift(rates), spread.sigma(rates)
         reach = ndtri(0.5 + 0.5 * level) * np.array([-1.0, 1.0])
         sizes = PoseErrorNumbers(own.components + drawn_changes(spread) @ rates).sizes
@@ -106,7 +106,7 @@ class ErringRobot:
         found = self._numbers(place[:, :3], rotation_from_angles(*place[:, 3:].T), there[:, :3])
         return found.all, sagging
 
-    def _rates(self, response: LockedResponse) -> np.ndarray:
+    def rates(self, response: LockedResponse) -> np.ndarray:
         """(p, 12) of the components."""
         sagging, spring = response.pose, locked_response(self.spring, model="spring").pose[:, :3]
         back = self.reference_rotation.T

@@ -12,7 +12,8 @@ from cdpr_struct.reports.tolerances_told import defaults_used
 from cdpr_struct.reports.trust import Check
 from cdpr_struct.robot.robot import FREEDOMS
 
-_TAUT = 3.0  # sigmas of its tension that a cable should have before it goes slack
+TAUT = 3.0
+"""Sigmas of its tension that a cable should have before it goes slack."""
 _NOT_OF_RESTS = ("load_cell_gain", "load_cell_bias_N", "damping")  # tolerances that move no robot at rest
 _ALIKE = 0.2  # of a band's width by which its ends may differ from those of drawn robots
 
@@ -87,7 +88,7 @@ def slack_check(tension: np.ndarray, sigma: np.ndarray, drawn: DrawnRobots | Non
         "; see those of the drawn robots." if drawn is not None else "; --samples 500 draws robots and shows theirs."
     )
     check = Check.of(
-        "least tension in sigmas", float(margin[weakest]), _TAUT, said if margin[weakest] < _TAUT else None,
+        "least tension in sigmas", float(margin[weakest]), TAUT, said if margin[weakest] < TAUT else None,
         at_least=True,
     )  # fmt: skip
     lost = [] if drawn is None else [_lost_check(drawn)]

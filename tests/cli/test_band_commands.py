@@ -33,3 +33,17 @@ def test_pose_error_with_free_angles_is_about_the_pose_that_hangs(tmp_path):
     found = result_of(["pose-error", "cogiro", POSE, "--free", "rx,ry", "--band", "90"], tmp_path)
     assert found["bands"]["errors"]["global_z_mm"]["value"] == pytest.approx(found["mean_mm"]["global"], abs=1e-6)
     assert np.ptp(found["bands"]["errors"]["global_z_mm"]["band"]) > 0.0
+
+
+def test_map_has_pictures_of_sigma_and_of_the_probability(tmp_path):
+    words = ["map", "cogiro", "--grid=-1:1:3,0:1:2,1.2", "--quantity", "tension-min", "--band", "90", "--limit", "320"]
+    found = result_of([*words, "--samples", "40"], tmp_path)["bands"]
+    header, *rows = (tmp_path / "map.csv").read_text().splitlines()
+    assert {"tension_min_low_N", "tension_min_high_N", "tension_min_sigma_N", "probability_below"} <= set(
+        header.split(",")
+    )
+    assert len(rows) == found["poses"] == 6
+    assert found["sigma"]["smallest"]["value"] <= found["sigma"]["mean"] <= found["sigma"]["largest"]["value"]
+    assert found["samples"]["largest_difference_of_probability"] < 0.2
+    assert {"sigma.svg", "probability.svg", "map.svg"} <= {path.name for path in tmp_path.iterdir()}
+    assert "falls below 320 N" in (tmp_path / "report.html").read_text()

@@ -4,6 +4,7 @@ import pytest
 
 from cdpr_struct.cli.main import run
 
+MAP = ["map", "cogiro", "--grid", "0:1:2,0,1.2", "--quantity"]
 LIMIT = '[[requirement]]\nname = "a"\nquantity = "frequency"\nat_least = 1.0\n'
 
 
@@ -27,6 +28,15 @@ def complaint(capsys) -> str:
             ["grid: got '2 poses'", "one pose for --band"],
         ),
         (["pose-error", "cogiro", "--grid", "0,0,1", "--pose", "0,0,1", "--band", "90"], ["pose: got '0,0,1'"]),
+        (
+            [*MAP, "cable-distance", "--band", "90"],
+            ["quantity: got 'cable-distance'", "first-frequency", "tension-min"],
+        ),
+        ([*MAP, "tension-min", "--limit", "3"], ["limit: got 3.0", "belongs to --band"]),
+        ([*MAP, "tension-min", "--band", "90", "--limit", "nan"], ["limit: got nan", "a number in N"]),
+        ([*MAP, "slack-margin", "--band", "90", "--wrenches", "fx=-1:1"], ["wrenches: got 'given'", "leave it out"]),
+        ([*MAP, "pose-error", "--band", "90", "--free", "rx"], ["free: got 'given'", "leave it out"]),
+        ([*MAP, "workspace", "--band", "90"], ["band: got 90.0", "a workspace has none"]),
         (["sensitivity", "cogiro", "--raise", "first", "--to", "3"], ["raise: got 'first'", "like mode:1"]),
         (["sensitivity", "cogiro", "--to", "3"], ["--raise is missing"]),
         (["sensitivity", "cogiro", "--raise", "mode:1"], ["--to is missing", "frequency in Hz"]),
