@@ -47,3 +47,16 @@ def test_map_has_pictures_of_sigma_and_of_the_probability(tmp_path):
     assert found["samples"]["largest_difference_of_probability"] < 0.2
     assert {"sigma.svg", "probability.svg", "map.svg"} <= {path.name for path in tmp_path.iterdir()}
     assert "falls below 320 N" in (tmp_path / "report.html").read_text()
+
+
+def test_cable_has_bands_and_their_picture(tmp_path):
+    words = ["cable", "--force", "100,-100", "--length", "20", "--EA", "251327.4", "--rho", "0.067", "--band", "50"]
+    found = result_of([*words, "--tolerances", "linear_density=0.05,load_cell_gain=0"], tmp_path)
+    bands = found["bands"]
+    assert bands["tolerances"]["linear_density"] == {"value": 0.05, "stated": True}
+    for plane, ends in bands["exact_frequencies_hz"].items():
+        for (low, high), hertz in zip(ends, found["exact_frequencies_hz"][plane], strict=True):
+            assert low < hertz < high
+    assert bands["variance_shares"]["density"]["out_of_plane"][0] > 0.9
+    assert (tmp_path / "bands.svg").exists()
+    assert "within the tolerances" in (tmp_path / "report.html").read_text()

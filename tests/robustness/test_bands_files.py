@@ -5,6 +5,7 @@ import pytest
 from cdpr_struct.cli.main import run
 
 MAP = ["map", "cogiro", "--grid", "0:1:2,0,1.2", "--quantity"]
+CABLE = ["cable", "--force", "100,-100", "--length", "20", "--EA", "2.5e5", "--rho", "0.067"]
 LIMIT = '[[requirement]]\nname = "a"\nquantity = "frequency"\nat_least = 1.0\n'
 
 
@@ -37,6 +38,11 @@ def complaint(capsys) -> str:
         ([*MAP, "slack-margin", "--band", "90", "--wrenches", "fx=-1:1"], ["wrenches: got 'given'", "leave it out"]),
         ([*MAP, "pose-error", "--band", "90", "--free", "rx"], ["free: got 'given'", "leave it out"]),
         ([*MAP, "workspace", "--band", "90"], ["band: got 90.0", "a workspace has none"]),
+        ([*CABLE, "--held", "ends"], ["held: got 'ends'", "belongs to --band"]),
+        ([*CABLE, "--band", "90", "--held", "top"], ["held: got 'top'", "force or ends"]),
+        ([*CABLE, "--band", "90", "--tolerances", "mass=1"], ["tolerances: got 'mass'", "length_m, anchor_m"]),
+        ([*CABLE, "--band", "90", "--tolerances", "length_m=x"], ["tolerances: got 'length_m=x'", "NAME=VALUE"]),
+        ([*CABLE, "--band", "90", "--tolerances", "length_m=-1"], ["tolerances: got -1.0", "zero or more"]),
         (["sensitivity", "cogiro", "--raise", "first", "--to", "3"], ["raise: got 'first'", "like mode:1"]),
         (["sensitivity", "cogiro", "--to", "3"], ["--raise is missing"]),
         (["sensitivity", "cogiro", "--raise", "mode:1"], ["--to is missing", "frequency in Hz"]),
