@@ -34,8 +34,10 @@ class AskedBand:
     samples: int = 0
 
 
-def read_band(band: float | None, samples: int | None = None) -> AskedBand | None:
+def read_band(band: float | None, samples: int | None = None, name: str = "band") -> AskedBand | None:
     """What was asked; None if no band was.
+
+    name : of the argument that says the level
 
     Raises
     ------
@@ -43,9 +45,9 @@ def read_band(band: float | None, samples: int | None = None) -> AskedBand | Non
     """
     if band is None:
         if samples is not None:
-            raise InputError("samples", "", samples, "it belongs to `band`; give that, too, or leave it out")
+            raise InputError("samples", "", samples, f"it belongs to `{name}`; give that, too, or leave it out")
         return None
-    level = 0.01 * real(band, "band", f"give {_LEVELS}", 0.0, 100.0)
+    level = 0.01 * real(band, name, f"give {_LEVELS}", 0.0, 100.0)
     return AskedBand(level, 0 if samples is None else whole(samples, "samples", FEWEST_SAMPLES, MOST_SAMPLES))
 
 

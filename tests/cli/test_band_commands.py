@@ -60,3 +60,31 @@ def test_cable_has_bands_and_their_picture(tmp_path):
     assert bands["variance_shares"]["density"]["out_of_plane"][0] > 0.9
     assert (tmp_path / "bands.svg").exists()
     assert "within the tolerances" in (tmp_path / "report.html").read_text()
+
+
+FRF = ["frf", "cogiro", "--excite", "fz", "--respond", "z,rx", "--band", "2:4:0.05"]
+
+
+def test_frf_takes_the_level_beside_its_frequencies(tmp_path):
+    """--band with colons is frequencies, as ever; a level is --percent, or a second --band without colons."""
+    found = result_of([*FRF, "--percent", "90", "--samples", "20"], tmp_path / "percent")
+    again = result_of([*FRF, "--band", "90", "--samples", "20"], tmp_path / "band")
+    assert found["bands"] == again["bands"]
+    assert found["band_hz"] == again["band_hz"] == "2:4:0.05"
+    assert found["bands"]["samples"] == {"count": 20, "not_stable": 0}
+    (low, high) = found["bands"]["curves"][0]["largest"]
+    assert low < found["bands"]["curves"][0]["as_entered"] < high
+    rows = (tmp_path / "band" / "frf_band.csv").read_text().splitlines()
+    assert rows[0] == "frequency_hz,respond,as_entered,low,median,high"
+    assert len(rows) == 1 + 2 * found["bands"]["lines"]
+    assert "Within the tolerances" in (tmp_path / "band" / "report.html").read_text()
+    assert "bands" not in result_of(FRF, tmp_path / "bare")
+
+
+def test_transient_has_displacements_with_their_band(tmp_path):
+    words = ["transient", "cogiro", "--initial-velocity", "0.2,0,0", "--duration", "1", "--highest", "8"]
+    found = result_of([*words, "--band", "90", "--samples", "20"], tmp_path)
+    assert [curve["name"] for curve in found["bands"]["curves"]] == ["x", "y", "z", "rx", "ry", "rz"]
+    assert len(found["bands"]["curves"][0]["largest_at_s"]) == 2
+    assert (tmp_path / "transient_band.csv").read_text().startswith("time_s,port,as_entered,low,median,high")
+    assert (tmp_path / "bands.svg").exists()

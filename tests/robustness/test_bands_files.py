@@ -6,6 +6,7 @@ from cdpr_struct.cli.main import run
 
 MAP = ["map", "cogiro", "--grid", "0:1:2,0,1.2", "--quantity"]
 CABLE = ["cable", "--force", "100,-100", "--length", "20", "--EA", "2.5e5", "--rho", "0.067"]
+FRF = ["frf", "cogiro", "--excite", "fz", "--respond", "z", "--band"]
 LIMIT = '[[requirement]]\nname = "a"\nquantity = "frequency"\nat_least = 1.0\n'
 
 
@@ -43,6 +44,11 @@ def complaint(capsys) -> str:
         ([*CABLE, "--band", "90", "--tolerances", "mass=1"], ["tolerances: got 'mass'", "length_m, anchor_m"]),
         ([*CABLE, "--band", "90", "--tolerances", "length_m=x"], ["tolerances: got 'length_m=x'", "NAME=VALUE"]),
         ([*CABLE, "--band", "90", "--tolerances", "length_m=-1"], ["tolerances: got -1.0", "zero or more"]),
+        ([*FRF, "90"], ["band: got '90'", "F0:F1:DF"]),
+        ([*FRF, "1:2:0.1", "--band", "3:4:0.1"], ["band: got '1:2:0.1 and 3:4:0.1'", "a level like 90 at most once"]),
+        ([*FRF, "1:2:0.1", "--band", "90", "--percent", "50"], ["--band", "at most once"]),
+        ([*FRF, "1:2:0.1", "--percent", "100"], ["percent: got 100.0", "below 100"]),
+        ([*FRF, "1:2:0.1", "--samples", "50"], ["samples: got 50", "belongs to --percent"]),
         (["sensitivity", "cogiro", "--raise", "first", "--to", "3"], ["raise: got 'first'", "like mode:1"]),
         (["sensitivity", "cogiro", "--to", "3"], ["--raise is missing"]),
         (["sensitivity", "cogiro", "--raise", "mode:1"], ["--to is missing", "frequency in Hz"]),
