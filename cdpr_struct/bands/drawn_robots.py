@@ -69,13 +69,16 @@ def drawn_robots(
 
 
 def drawn_rests(
-    point: OperatingPoint, spread: Spread, count: int, model: str = "sagging"
+    point: OperatingPoint, spread: Spread, count: int, model: str = "sagging", wrench: np.ndarray | None = None
 ) -> tuple[OperatingPoint, np.ndarray]:
-    """The same robots as operating points (n), and which of the draws, from 0, they are (n,)."""
+    """The same robots as operating points (n), and which of the draws, from 0, they are (n,).
+
+    wrench : (6,) on the platform beside its weight [N, N m]
+    """
     arrays, cables = point.arrays, point.cables
     drawn = spread.drawn(np.random.default_rng(_SEED).standard_normal((count, spread.root.shape[1])))
     robots, lengths = changed(arrays, drawn), arrays.reading(cables.paid_out)
-    found = forward(robots, lengths, point.position, point.rotation, model)
+    found = forward(robots, lengths, point.position, point.rotation, model, wrench)
     kept = np.flatnonzero(found.stable)
     robots = robots.flattened((count,)).take(kept)
     return OperatingPoint(robots, found.position[kept], found.rotation[kept], found.cables.at(kept)), kept

@@ -50,19 +50,20 @@ class LockedStations:
     step: np.ndarray
 
     @classmethod
-    def about(cls, point: OperatingPoint, model: str = "sagging") -> "LockedStations":
+    def about(cls, point: OperatingPoint, model: str = "sagging", wrench: np.ndarray | None = None) -> "LockedStations":
         """Of one robot at rest, no batch axes; a neutral freedom stays where it is.
 
-        model : of the cables, sagging or spring
+        model : of the cables, sagging or spring;  wrench : (6,) on the platform beside its weight [N, N m]
         """
         step = step_sizes(point)
+        wrench = np.zeros(6) if wrench is None else wrench
         ways = np.array(_STATIONS)[:, None, None] * np.diag(step)
-        balance = _balance(point, ways.reshape((-1, len(step))), model)
+        balance = _balance(point, ways.reshape((-1, len(step))), model, wrench)
         place = np.repeat(point.position[None], len(balance.length), axis=0)
         turn = np.repeat(point.rotation[None], len(balance.length), axis=0)
-        rest = _balance(point, np.zeros((1, len(step))), model).evaluate(place[:1], turn[:1])
-        wrench = _slope(balance.evaluate(place, turn).wrench, step)
-        motion = (ways @ wrench @ np.linalg.pinv(rest.tangent[0], _NEUTRAL).T).reshape((-1, 6))
+        rest = _balance(point, np.zeros((1, len(step))), model, wrench).evaluate(place[:1], turn[:1])
+        left = _slope(balance.evaluate(place, turn).wrench, step)
+        motion = (ways @ left @ np.linalg.pinv(rest.tangent[0], _NEUTRAL).T).reshape((-1, 6))
         there, turned = balance.moved(place, turn, motion)
         return cls(OperatingPoint(balance.arrays, there, turned, balance.states(there, turned)), step)
 
@@ -115,10 +116,10 @@ def step_sizes(point: OperatingPoint) -> np.ndarray:
     return result
 
 
-def _balance(point: OperatingPoint, change: np.ndarray, model: str) -> LockedBalance:
+def _balance(point: OperatingPoint, change: np.ndarray, model: str, wrench: np.ndarray) -> LockedBalance:
     """Robots with changes (n, p), their winches as the robot at rest has them."""
     arrays, lead = point.arrays, (len(change),)
     robots = changed(arrays, change)
     length = robots.paid_out(arrays.reading(point.cables.paid_out))
     length = np.broadcast_to(length, (*lead, arrays.cable_count))
-    return LockedBalance(robots.flattened(lead), length, np.zeros((*lead, 6)), cable_model(model))
+    return LockedBalance(robots.flattened(lead), length, np.broadcast_to(wrench, (*lead, 6)), cable_model(model))

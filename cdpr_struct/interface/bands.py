@@ -23,6 +23,8 @@ from cdpr_struct.robot.tolerances import Spread, Tolerances
 
 MOST_SAMPLES = 100_000
 FEWEST_SAMPLES = 20
+BANDED_MODELS = ("sagging", "spring")
+"""Cables at rest whose robots have bands."""
 _LEVELS = "a level above 0 and below 100 in per cent, like 90"
 
 
@@ -97,7 +99,7 @@ class Banded:
         CdprError : the platform is not held there.
         InputError : ideal cables.
         """
-        one_of(model, "model", ("sagging", "spring"))
+        one_of(model, "model", BANDED_MODELS)
         if not stable:
             raise CdprError("there is no band: the platform is not held there, and a small change moves it far")
         return cls(point, asked, locked_response(point, assembly, model), spread_of(point.entered), model, assembly)

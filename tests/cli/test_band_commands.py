@@ -88,3 +88,15 @@ def test_transient_has_displacements_with_their_band(tmp_path):
     assert len(found["bands"]["curves"][0]["largest_at_s"]) == 2
     assert (tmp_path / "transient_band.csv").read_text().startswith("time_s,port,as_entered,low,median,high")
     assert (tmp_path / "bands.svg").exists()
+
+
+def test_distribute_says_how_sure_the_bounds_are(tmp_path):
+    words = ["distribute", "thesis-5", "--trajectory", "helix", "--instants", "11", "--band", "90", "--samples", "40"]
+    bands = result_of(words, tmp_path)["bands"]
+    assert bands["probability_all_taut"] > 0.99
+    assert bands["raise_lower_bound"]["by_N"] > 0.0
+    assert [cable["cable"] for cable in bands["cables"]] == list(range(1, 9))
+    rows = (tmp_path / "force_bands.csv").read_text().splitlines()
+    assert len(rows) == 1 + 11 * 8
+    assert rows[0].startswith("time_s,cable,tension_N,sigma_N,low_N,high_N,lower_bound_N")
+    assert "How sure are the forces?" in (tmp_path / "report.html").read_text()

@@ -7,6 +7,7 @@ from cdpr_struct.cli.main import run
 MAP = ["map", "cogiro", "--grid", "0:1:2,0,1.2", "--quantity"]
 CABLE = ["cable", "--force", "100,-100", "--length", "20", "--EA", "2.5e5", "--rho", "0.067"]
 FRF = ["frf", "cogiro", "--excite", "fz", "--respond", "z", "--band"]
+ALONG = ["distribute", "thesis-5", "--trajectory", "helix", "--instants", "11"]
 LIMIT = '[[requirement]]\nname = "a"\nquantity = "frequency"\nat_least = 1.0\n'
 
 
@@ -49,6 +50,8 @@ def complaint(capsys) -> str:
         ([*FRF, "1:2:0.1", "--band", "90", "--percent", "50"], ["--band", "at most once"]),
         ([*FRF, "1:2:0.1", "--percent", "100"], ["percent: got 100.0", "below 100"]),
         ([*FRF, "1:2:0.1", "--samples", "50"], ["samples: got 50", "belongs to --percent"]),
+        ([*ALONG, "--band", "90", "--model", "ideal"], ["model: got 'ideal'", "sagging or spring"]),
+        ([*ALONG, "--samples", "90"], ["samples: got 90", "belongs to --band"]),
         (["sensitivity", "cogiro", "--raise", "first", "--to", "3"], ["raise: got 'first'", "like mode:1"]),
         (["sensitivity", "cogiro", "--to", "3"], ["--raise is missing"]),
         (["sensitivity", "cogiro", "--raise", "mode:1"], ["--to is missing", "frequency in Hz"]),

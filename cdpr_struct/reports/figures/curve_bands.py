@@ -55,6 +55,6 @@ def caption(level: float, count: int, what: str) -> str:
     """What is to be seen; level [%]."""
     return (
         f"Shaded: {level:g} % of {count} robots drawn within the tolerances lie inside, at each {what} by itself. "
-        "Grey: their median. Where a resonance moves by more than its width the median lies below the peak of any robot, "
-        "and the band reaches from flank to peak. Damping is not drawn."
+        "Grey: their median. Where a resonance moves by more than its width the median lies below the peak of any "
+        "robot, and the band reaches from flank to peak. Damping is not drawn."
     )
