@@ -11,7 +11,7 @@ from cdpr_struct.dynamics.fundamental_frequency import chord_tension_at_frequenc
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.cable_models import CableModel
 from cdpr_struct.statics.holding_tensions import HoldingProblem
-from cdpr_struct.statics.tension_bound import chord_tension_at, constant, printed_bound
+from cdpr_struct.statics.tension_bound import chord_tension_at, constant, floor_at, printed_bound
 from cdpr_struct.statics.tension_cost import EuclideanNorm, TensionCost
 from cdpr_struct.statics.tension_distribution import (
     TensionDistribution,
@@ -130,19 +130,19 @@ def _at_least(wanted: Floor, force_min: np.ndarray, holding: HoldingProblem) -> 
     raised = force_min > wanted[1]
     if not raised.any():
         return wanted, raised
-    least = chord_tension_at(holding, constant(force_min))
+    least = floor_at(holding, constant(force_min))
     return (np.where(raised, least[0], wanted[0]), np.where(raised, least[1], wanted[1])), raised
 
 
 def _pose_dependent(robot: Robot, holding: HoldingProblem, b: float) -> tuple[Floor, np.ndarray]:
-    floor = chord_tension_at(holding, printed_bound(holding, b))
+    floor = floor_at(holding, printed_bound(holding, b))
     return floor, floor[1]
 
 
 def _fixed(robot: Robot, holding: HoldingProblem, b: float) -> tuple[Floor, np.ndarray]:
     """The largest of all pose-dependent bounds, for every cable and instant."""
     demand = chord_tension_at(holding, printed_bound(holding, b))[1]
-    return chord_tension_at(holding, constant(demand.max())), demand
+    return floor_at(holding, constant(demand.max())), demand
 
 
 def _frequency(robot: Robot, holding: HoldingProblem, b: float) -> tuple[Floor, np.ndarray]:

@@ -21,17 +21,28 @@ from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.minimum_norm import QuadraticPrograms
 from cdpr_struct.statics.tension_cost import TensionCost
 
-MAX_ITERATIONS = 60
 SETTLED = 1e-11  # last step over the largest chord tension
 BALANCED = 1e-9  # unbalanced wrench over load and tensions that counts as none
-_STALLED = 4  # rounds in a row that neither reduce an unbalanced wrench nor slacken a cable to the limit end the search
 _FALL = 0.7  # of a chord tension: most that a step takes from it
 _GAIN = 1e4  # a relative gain of 1e-15 counts as a relative step of 1e-11
 _STRIDE = 8  # every eighth pose of a batch is solved first
-_HALVINGS = 8
 _INSIDE = 0.9  # of the distance to a bound that a step may use where the cost keeps off the bounds
 _MARGIN = 1e-3  # of the bounds' distance, for the start of such a cost
 _CONVEX = 0.1  # least curvature of the Lagrangian over the cost's own
+
+
+@dataclass(frozen=True, slots=True)
+class Effort:
+    """How long a search goes on: rounds, of which so many in a row that neither reduce an unbalanced wrench nor slacken
+    a cable to the limit end it, and how often a step may be halved."""
+
+    rounds: int = 60
+    stalled: int = 4
+    halvings: int = 8
+
+
+USUAL = Effort()
+PATIENT = Effort(300, 50, 16)  # where cables as heavy as what they pull bend the balance
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -134,7 +145,7 @@ class DistributionProblem:
         second = self.take(rest).search(guess[rest], first.multiplier[near[rest]])
         return optimum.replaced(some, first).replaced(rest, second)
 
-    def search(self, start: np.ndarray, dual: np.ndarray | None = None) -> Optimum:
+    def search(self, start: np.ndarray, dual: np.ndarray | None = None, effort: Effort = USUAL) -> Optimum:
         """Search from chord tensions (k, m) and multipliers (k, 6)."""
         tension = self._inside(start)
         count = len(tension)
@@ -143,7 +154,7 @@ class DistributionProblem:
             dual = unbounded_dual(self._program(tension, tangent, np.zeros((count, 6))))
         least, stalled = np.full(count, np.inf), np.zeros(count, dtype=int)
         end = Optimum(tension, dual, np.full(count, np.inf), np.full(count, np.inf), np.zeros(count, dtype=int))
-        for round_ in range(1, MAX_ITERATIONS + 1):
+        for round_ in range(1, effort.rounds + 1):
             part = self.take(items)
             program = part._program(end.chord_tension[items], tangent, end.multiplier[items])
             step, multiplier = solve_guessed(program, end.multiplier[items])
@@ -153,7 +164,9 @@ class DistributionProblem:
             going = (last > SETTLED) | (off > (1e-3 * BALANCED if round_ < 8 else BALANCED))
             if going.any():
                 part, tangent = part.take(going), tangent.take(going)
-                moved[going], tangent = part._advance(before[going], step[going], tangent, multiplier[going])
+                moved[going], tangent = part._advance(
+                    before[going], step[going], tangent, multiplier[going], effort.halvings
+                )
                 off[going] = tangent.unbalanced
             iterations = np.full(len(items), round_)
             end = end.replaced(items, Optimum(moved, multiplier, last, off, iterations))
@@ -161,7 +174,7 @@ class DistributionProblem:
             idle = (off > 0.9 * least[items]) & (off > BALANCED) & ~falling
             stalled[items] = np.where(idle, stalled[items] + 1, 0)
             least[items] = np.minimum(off, least[items])
-            rest = stalled[items[going]] < _STALLED
+            rest = stalled[items[going]] < effort.stalled
             items, tangent = items[going][rest], tangent.take(rest)
             if not items.size:
                 break
@@ -203,6 +216,18 @@ class DistributionProblem:
         share: np.ndarray = (scaled[..., :3] * up + scaled[..., 3:] * np.cross(lever, up)).sum(axis=-1)
         return share
 
+    def curvature(self, tangent: Tangent, dual: np.ndarray) -> np.ndarray:
+        """(k, m) second derivative of the Lagrangian with multipliers (k, 6) by each chord tension."""
+        return tangent.own + tangent.pull_bend - self.vertical_share(dual) * tangent.bend
+
+    def own_terms(self, tension: np.ndarray, dual: np.ndarray) -> np.ndarray:
+        """(k, m) what each cable adds to the Lagrangian with multipliers (k, 6)."""
+        states = self.hold(tension).states
+        value = self.cost.terms(states.tension_at_platform, self.holding.low, self.holding.high, self.size)[0]
+        force = states.force_on_platform
+        wrench = np.concatenate([force, np.cross(self.holding.arms.arms, force)], axis=-1)
+        return np.asarray(value - np.einsum("kmn,kn->km", wrench, dual / self.holding.unit))
+
     def _inside(self, tension: np.ndarray) -> np.ndarray:
         """Chord tensions moved into their bounds, and off them where the cost asks for it."""
         if not self.cost.interior:
@@ -218,14 +243,13 @@ class DistributionProblem:
 
     def _program(self, tension: np.ndarray, tangent: Tangent, dual: np.ndarray) -> QuadraticPrograms:
         """The quadratic programs around chord tensions (k, m), for their change."""
-        along_up = self.vertical_share(dual)
         own = np.maximum(tangent.own, 1e-9 * np.abs(tangent.own).max(axis=1, keepdims=True))
-        curvature = np.maximum(own + tangent.pull_bend - along_up * tangent.bend, _CONVEX * own)
+        curvature = np.maximum(self.curvature(tangent, dual) + (own - tangent.own), _CONVEX * own)
         low, high = self.room(tension)
         return QuadraticPrograms(curvature, tangent.slope, tangent.matrix, -tangent.wrench, low, high)
 
     def _advance(
-        self, tension: np.ndarray, step: np.ndarray, tangent: Tangent, dual: np.ndarray
+        self, tension: np.ndarray, step: np.ndarray, tangent: Tangent, dual: np.ndarray, halvings: int
     ) -> tuple[np.ndarray, Tangent]:
         """Chord tensions and tangent after the step, shortened where it neither balances nor improves."""
         price = 2.0 * np.abs(dual).max(axis=1)
@@ -233,7 +257,7 @@ class DistributionProblem:
         moved = tension + step
         after = self.tangent(moved)
         factor, items = 1.0, np.arange(len(tension))
-        for _ in range(_HALVINGS):
+        for _ in range(halvings):
             merit = after.value[items] + price[items] * np.abs(after.wrench[items]).sum(axis=1)
             worse = merit > before[items] + 1e-9 * np.abs(before[items]) + 1e-12 * self.size[items, 0] ** 2
             items = items[worse]

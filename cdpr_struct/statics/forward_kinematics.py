@@ -127,7 +127,7 @@ def forward(
     balance = LockedBalance(
         arrays.flattened(shape), _flat(length, shape, 1), _flat(wrench, shape, 1), cable_model(model)
     )
-    begun, entered, sizes = turns.copy(), balance.arrays, (arm_scale(arrays), longest_step(float(length.mean())))
+    begun, entered, sizes = turns.copy(), balance.arrays, (arm_scale(arrays), longest_step(_reach(balance, place)))
     *first, last = balance.model.approach()
     stiffens = balance.arrays.stiffens
     for station in (*first, last):
@@ -159,6 +159,12 @@ def _stiffening(
 
     settled = settled_stiffness(balance.arrays, tension(), again)
     return balance, descent, settled
+
+
+def _reach(balance: LockedBalance, place: np.ndarray) -> float:
+    """Mean length of the cables, or half their mean distance at the start (k, 3) if that is larger [m]."""
+    apart = np.linalg.norm(balance.arrays.frame_anchors - place[:, None], axis=-1)
+    return max(float(balance.length.mean()), 0.5 * float(apart.mean()))
 
 
 def starting_position(arrays: RobotArrays, length: np.ndarray) -> np.ndarray:

@@ -20,6 +20,7 @@ from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wrench, platform_radius
 from cdpr_struct.statics.guides import free_part
+from cdpr_struct.statics.hanging_balance import balanced_together
 from cdpr_struct.statics.hanging_search import BALANCED, WITHIN, HangingProblem, Hung, newton, turning_axes
 from cdpr_struct.statics.held_stability import held_stability
 from cdpr_struct.statics.holding_tensions import allowed_unbalance
@@ -133,7 +134,7 @@ def hang_freely(problem: HangingProblem, angles: np.ndarray) -> FreeOrientation:
         apart = np.linalg.norm(problem.position[lost, None] - problem.position[None, reached], axis=-1)
         near = ends.take(reached[apart.argmin(axis=1)])
         _begun_again(problem, ends, lost, np.where(problem.free, near.angles, angles[lost]), near.tension)
-    return _checked(problem, ends)
+    return _checked(problem, balanced_together(problem, ends))
 
 
 def _begun_again(

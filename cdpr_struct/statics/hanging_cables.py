@@ -11,9 +11,10 @@ from cdpr_struct.statics.catenary_length import CatenaryLength, length_at_chord_
 from cdpr_struct.statics.fixed_point import FixedPoint
 from cdpr_struct.statics.lost_cables import counted_lost
 from cdpr_struct.statics.pulley import pulley_exit, straight_exit, turned_back, within_wheel
+from cdpr_struct.statics.standstill import Standstill
 from cdpr_struct.statics.tension_winches import held_at_frame, with_winches
 
-_EXIT_ITERATIONS = 30
+_EXIT_ITERATIONS = 60  # slack cables whose pulleys turn them far back come slowly at first
 _EXIT_REPEATED = 80  # times at most, at large wheels and short or slack cables
 _EXIT_TOLERANCE = 1e-14  # of the tension and EA, or of the unit direction
 _EXIT_MET = 1e-10  # of the same: above it the exit from the pulley was not found
@@ -91,13 +92,14 @@ def _catenary_over_pulley(
     strained = arrays.pulley_radius * exit_.wrap_angle + np.linalg.norm(offset - exit_.point, axis=-1)
     taut = arrays.axial_stiffness * np.maximum(strained / length - 1.0, 0.0)  # what is on the wheel stretches, too
     states, near = _leaving(arrays, offset, length, direction, taut, near)
-    vector = states.force_at_frame
+    vector, standstill = states.force_at_frame, Standstill()
     for _ in range(_EXIT_ITERATIONS):
         tension = np.linalg.norm(vector, axis=-1)
         states, near = _leaving(arrays, offset, length, vector / tension[..., None], tension, near)
         error = states.force_at_frame - vector
         off, size = np.abs(error).max(axis=-1), tension + arrays.axial_stiffness
-        if (off <= _EXIT_TOLERANCE * size).all():
+        open_ = ~(off <= _EXIT_TOLERANCE * size)
+        if not open_.any() or standstill.reached(off, open_):
             break
         vector = vector + np.linalg.solve(exit_jacobian(arrays, states), error[..., None])[..., 0]
     back = turned_back(vector / tension[..., None], arrays.pulley_axis, arrays.pulley_radius)

@@ -50,17 +50,32 @@ class HangingProblem:
 
     def turned(self, ends: "Hung", step: np.ndarray) -> "Hung":
         """Moments once the free angles have changed by steps (k, 3) [rad], or about the world axes if all are free."""
+        return self.hung(*self.reoriented(ends, step), ends.tension)
+
+    def reoriented(self, ends: "Hung", step: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Angles (k, 3) and rotations (k, 3, 3) after such steps."""
         if not self.free.all():
-            return self.at(ends.angles + step, ends.tension)
+            angles = ends.angles + step
+            return angles, rotation_from_angles(*np.moveaxis(angles, -1, 0))
         rotation = rotation_from_vector(step) @ ends.rotation
-        return self.hung(angles_from_rotation(rotation), rotation, ends.tension)
+        return angles_from_rotation(rotation), rotation
 
     def hung(self, angles: np.ndarray, rotation: np.ndarray, tension: np.ndarray | None) -> "Hung":
         """Moments at angles (k, 3) [rad] and their rotations (k, 3, 3)."""
-        axes = np.broadcast_to(np.eye(3), rotation.shape) if self.free.all() else turning_axes(angles)
+        return self.measured(angles, rotation, self.holding(angles, rotation).solve(tension)[0])
+
+    def holding(self, angles: np.ndarray, rotation: np.ndarray) -> HoldingProblem:
+        """The search for tensions that balance all but the moments about the free angles."""
         problem = HoldingProblem.at(self.arrays, self.model, (self.position, rotation), self.wrench, self.bounds)
-        problem = replace(problem, kept=_kept(axes, self.free))
-        tension = problem.solve(tension)[0]
+        return replace(problem, kept=_kept(self._axes(angles), self.free))
+
+    def _axes(self, angles: np.ndarray) -> np.ndarray:
+        """(k, 3, 3) rows: the axes about which steps of the free angles turn the platform."""
+        return np.broadcast_to(np.eye(3), (*angles.shape, 3)) if self.free.all() else turning_axes(angles)
+
+    def measured(self, angles: np.ndarray, rotation: np.ndarray, tension: np.ndarray) -> "Hung":
+        """Moments that chord tensions (k, m) [N] leave."""
+        problem, axes = self.holding(angles, rotation), self._axes(angles)
         states = self.model.hold(problem.arrays, problem.arms.points, tension).states
         left = cable_wrench(states, problem.arms) + problem.load
         pulls = np.linalg.norm(problem.load[:, :3], axis=1) + states.tension_at_platform.sum(axis=1)

@@ -11,7 +11,9 @@ from cdpr_struct.statics.equilibrium import PlatformArms, cable_wrench, load_wre
 from cdpr_struct.statics.minimum_norm import QuadraticPrograms, solve_programs
 
 MAX_ITERATIONS = 60
-_STALLED = 8  # iterations without the unbalanced wrench shrinking by a tenth end the search
+_STALLED = 8  # iterations without the unbalanced wrench shrinking by a tenth end the search,
+_STALLED_NEAR = 20  # and so many where less than
+_NEAR = 1e-5  # of the load is unbalanced
 _TAUT = 0.8  # w chord / (2 tau) of a start well on the taut side of the tension minimum
 _REACH = 1e4  # largest tension over load that a search starts from
 _RISING = 0.05  # least growth of the platform tension with the chord tension at which its bounds are linearised
@@ -82,7 +84,8 @@ class HoldingProblem:
             settled[items] = small
             tension[items] += step
             iterations[items] += 1
-            items = items[~small & (since[items] < _STALLED)]
+            patience = np.where(unbalanced <= _NEAR * self._size(items), _STALLED_NEAR, _STALLED)
+            items = items[~small & (since[items] < patience)]
             if not items.size:
                 break
         balanced = least <= 1e-6 * self._size(np.arange(count))

@@ -6,6 +6,7 @@ rises with tau and the unstrained length falls, so "at least this tension", "at 
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,10 +15,14 @@ from cdpr_struct.generated.tension_bound import lower_bound_printed
 from cdpr_struct.statics.cable_models import HeldCables
 from cdpr_struct.statics.cable_state import CableStates, span_and_rise
 from cdpr_struct.statics.holding_tensions import HoldingProblem
+from cdpr_struct.statics.lost_cables import lost as without_state
+from cdpr_struct.statics.unholdable_poses import behind_wheels, half_turn_error
 
 MAX_ITERATIONS = 60
 _MISSED = 1e-6  # relative step above which the tension was not found
 _NOTHING = 1e-9  # of the first guess: less than this is no tension, to which weightless cables fall
+_NEWTON = 20  # steps, after which the interval is halved
+_EDGE = 1e-3  # relative, to which the least chord tension that has a state is found
 _MET = 1e-9  # relative step after which the next one would be below rounding
 _BISECTIONS = 12
 _TURNING = 0.02  # least growth of the tension with the chord tension that still counts as the taut side
@@ -45,36 +50,102 @@ def constant(force: np.ndarray | float) -> Wanted:
 def chord_tension_at(problem: HoldingProblem, wanted: Wanted) -> tuple[np.ndarray, np.ndarray]:
     """Chord tension at which each cable pulls as wanted, on its taut side.
 
-    Newton from the taut side, where the tension is a rising convex function of the chord tension.
+    Newton from the taut side, where the tension is a rising convex function of the chord tension, or nearly so over
+    pulleys. Where it leaves what lies between a chord tension that pulls too little and one that pulls too much, this
+    interval is halved. A cable that would leave its pulley straight back has no state below some chord tension, and
+    one that ends behind its wheel, when pulled straight, none above some: that one counts then.
 
     Returns
     -------
     chord_tension, tension : (k, m) [N], and the tension at the platform there. Where the cable's own weight makes it
-    pull harder than wanted at any length, they are those of (nearly) its least tension.
+    pull harder than wanted at any length, they are those of (nearly) its least tension; where it ends behind its wheel
+    and cannot pull as wanted, those of (nearly) its largest.
     """
+    behind = behind_wheels(problem.arrays, problem.arms.points)
     least = problem.model.least_chord_tension(problem.arrays, problem.arms.points)
     tau = np.maximum(6.0 * least, 1.0)
     tau = np.maximum(tau, _shallow_guess(problem, wanted(_held(problem, tau).states)))
     lost, nothing = np.zeros(tau.shape, dtype=bool), _NOTHING * tau
-    for _ in range(MAX_ITERATIONS):
+    between = _Interval(least, np.full(tau.shape, np.inf), lost, lost)
+    for round_ in range(MAX_ITERATIONS):
         held = _held(problem, tau)
         pull, growth = _pull_and_growth(held)
-        short = wanted(held.states) - pull
-        lost |= (growth < _TURNING) & (short < 0.0)
+        bare = without_state(held.states)
+        short = np.where(bare, np.where(behind, -np.inf, np.inf), wanted(held.states) - pull)
+        lost = lost | ((growth < _TURNING) & (short < 0.0) & ~bare)
+        between = between.narrowed(tau, np.where(lost, 0.0, short), bare)
         step = np.clip(short / np.maximum(growth, _TURNING), -0.6 * tau, 2.0 * tau + np.abs(pull))
         step = np.where(lost, 0.0, np.maximum(step, least - tau))
+        step = between.kept(tau, step, round_ >= _NEWTON)
         tau, pull = tau + step, pull + growth * step
         if (np.abs(step) <= _MET * tau).all():
             break
     else:
-        missed = float((np.abs(step) / np.maximum(tau, nothing)).max())
-        if missed > _MISSED:
-            hint = "The bound on the cable forces may be out of reach of some cable; try another one."
-            raise ConvergenceError("chord tension at the bound of the cable forces", missed, MAX_ITERATIONS, hint)
-    if lost.any():
-        tau = np.where(lost, _turning_point(problem, tau), tau)
+        _require_met(float((np.abs(step) / np.maximum(tau, nothing)).max()))
+    if lost.any() or between.at_edge.any():
+        tau = np.where(lost, _turning_point(problem, tau), np.where(between.at_edge, between.edge, tau))
         pull = _held(problem, tau).states.tension_at_platform
     return tau, pull
+
+
+def floor_at(problem: HoldingProblem, wanted: Wanted) -> tuple[np.ndarray, np.ndarray]:
+    """`chord_tension_at` of a lower bound.
+
+    Raises
+    ------
+    UnholdablePoseError : a cable behind its wheel cannot pull as hard.
+    """
+    tau, pull = chord_tension_at(problem, wanted)
+    behind = behind_wheels(problem.arrays, problem.arms.points)
+    if behind.any():
+        asked = wanted(_held(problem, tau).states)
+        short = behind & (pull < asked * (1.0 - _MISSED))
+        if short.any():
+            raise half_turn_error(problem.arrays, short)
+    return tau, pull
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Interval:
+    """Chord tensions (k, m) [N] that pull too little and too much, and whether the cable has no state there."""
+
+    low: np.ndarray
+    high: np.ndarray
+    bare_low: np.ndarray
+    bare_high: np.ndarray
+
+    @property
+    def at_edge(self) -> np.ndarray:
+        """(k, m) bool: between the two, which are nearly alike, the cable begins or ends to have a state."""
+        return np.asarray((self.bare_low | self.bare_high) & (self.high <= (1.0 + _EDGE) * self.low))
+
+    @property
+    def edge(self) -> np.ndarray:
+        """(k, m) the one of the two at which it has one."""
+        return np.where(self.bare_low, self.high, self.low)
+
+    def narrowed(self, tau: np.ndarray, short: np.ndarray, bare: np.ndarray) -> "_Interval":
+        """With what is `short` [N] at `tau` taken into account."""
+        more, less = short > 0.0, short < 0.0
+        return _Interval(
+            np.where(more, tau, self.low),
+            np.where(less, tau, self.high),
+            np.where(more, bare, self.bare_low),
+            np.where(less, bare, self.bare_high),
+        )
+
+    def kept(self, tau: np.ndarray, step: np.ndarray, halving: bool) -> np.ndarray:
+        """The step (k, m), or if it leads out of the interval, or they are halved, the one to its middle."""
+        out = (tau + step < self.low) | (tau + step > self.high) | halving
+        out &= np.isfinite(self.high) & (np.abs(step) > _MET * tau)
+        middle = np.sqrt(self.low * np.where(out, self.high, 1.0))
+        return np.where(self.at_edge, 0.0, np.where(out, middle - tau, step))
+
+
+def _require_met(missed: float) -> None:
+    if missed > _MISSED:
+        hint = "The bound on the cable forces may be out of reach of some cable; try another one."
+        raise ConvergenceError("chord tension at the bound of the cable forces", missed, MAX_ITERATIONS, hint)
 
 
 def _shallow_guess(problem: HoldingProblem, tension: np.ndarray) -> np.ndarray:

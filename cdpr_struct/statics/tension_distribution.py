@@ -14,8 +14,9 @@ from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.distribution_feasibility import LeastUnbalance, explain, least_unbalance
 from cdpr_struct.statics.distribution_problem import DistributionProblem, Optimum
+from cdpr_struct.statics.distribution_restarts import best_of_minima, searched_elsewhere
 from cdpr_struct.statics.holding_tensions import HoldingProblem
-from cdpr_struct.statics.tension_bound import chord_tension_at, chord_tension_at_length, constant
+from cdpr_struct.statics.tension_bound import chord_tension_at, chord_tension_at_length, constant, floor_at
 from cdpr_struct.statics.tension_cost import EuclideanNorm, TensionCost
 
 _AT_BOUND = 1e-7  # relative distance that counts as lying on a bound
@@ -104,7 +105,7 @@ def distribute(
     holding = holding_problem(robot, place, rotation, load, model)
     low = holding.arrays.force_min if lower_bound is None else np.asarray(lower_bound, dtype=float)
     high = holding.arrays.force_max if upper_bound is None else upper_bound
-    floor = chord_tension_at(holding, constant(low))
+    floor = floor_at(holding, constant(low))
     problem = bounded_problem(holding, floor, high, longest, EuclideanNorm() if cost is None else cost)
     return solve_distribution(problem, lambda i: f"pose {i + 1}:", allow_unheld)
 
@@ -176,14 +177,14 @@ def solve_distribution(
     crossed = problem.ceiling <= problem.floor
     if crossed.any():
         raise _crossed_bounds(problem, crossed, where)
-    optimum = problem.solve()
+    optimum = best_of_minima(problem, problem.solve())
     failed = np.flatnonzero(~optimum.found)
     status = np.where(optimum.found, DistributionStatus.OPTIMAL, DistributionStatus.NOT_FOUND)
     if failed.size:
         ends = least_unbalance(problem.take(failed))
         again = failed[ends.feasible]
         if again.size:
-            optimum = optimum.replaced(again, problem.take(again).search(ends.chord_tension[ends.feasible]))
+            optimum = searched_elsewhere(problem, optimum, again, ends.chord_tension[ends.feasible])
             status[again[optimum.found[again]]] = DistributionStatus.OPTIMAL
         status[failed[ends.proven]] = DistributionStatus.INFEASIBLE
         optimum.chord_tension[failed[~ends.feasible]] = ends.chord_tension[~ends.feasible]

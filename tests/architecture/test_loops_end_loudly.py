@@ -39,6 +39,8 @@ DEFENDED = {
     "cdpr_struct/statics/catenary.py:_solve_span": LEFT + "solve_end_forces marks cables by their residual",
     "cdpr_struct/statics/distribution_problem.py:_advance": HALVED,
     "cdpr_struct/statics/distribution_problem.py:search": LEFT + "step and imbalance, which make the status",
+    "cdpr_struct/statics/distribution_restarts.py:best_of_minima": "every round ends at an optimum, the better of two",
+    "cdpr_struct/statics/hanging_balance.py:balanced_together": LEFT + "imbalance, from which `found` is made",
     "cdpr_struct/statics/hanging_search.py:newton": LEFT + "imbalance, from which `found` is made",
     "cdpr_struct/statics/free_orientation.py:hang_freely": LEFT + "imbalance, from which `found` is made",
     "cdpr_struct/statics/guessed_programs.py:solve_guessed": LEFT + "items go to the safeguarded solver",
@@ -80,7 +82,7 @@ def is_bounded(node: ast.For) -> bool:
     parts = [part for argument in call.args for part in ast.walk(argument)]
     constants = [part.id if isinstance(part, ast.Name) else part.attr for part in parts if name_of(part)]
     numbers = [part.value for part in parts if isinstance(part, ast.Constant) and type(part.value) is int]
-    limits = any(word.strip("_").isupper() or word in ("limit", "attempts", "halvings") for word in constants)
+    limits = any(word.strip("_").isupper() or word in ("limit", "attempts", "halvings", "rounds") for word in constants)
     return limits or any(number > FEW for number in numbers)
 
 

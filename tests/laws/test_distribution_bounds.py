@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
+from benchmarks.random_robots.drawing import drawn
 from cdpr_struct.dynamics.catenary_expansion import expand_catenaries
 from cdpr_struct.dynamics.fundamental_frequency import fundamental_frequency
 from cdpr_struct.dynamics.trajectory_distribution import THESIS_B, distribute_along
@@ -12,7 +13,8 @@ from cdpr_struct.errors import UnholdablePoseError
 from cdpr_struct.generated.tension_bound import lower_bound_frequency, lower_bound_printed
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.cable_state import CableStates, cable_stiffness
-from cdpr_struct.statics.tension_bound import chord_tension_at, constant
+from cdpr_struct.statics.lost_cables import lost
+from cdpr_struct.statics.tension_bound import chord_tension_at, constant, floor_at
 from cdpr_struct.statics.tension_distribution import holding_problem
 from cdpr_struct.statics.trajectory import helix
 
@@ -146,3 +148,35 @@ def test_one_cable_whose_upper_bound_lies_below_its_lower_one_is_told(found):
     highest = np.where(np.arange(8) == 2, 0.9 * demand, ROBOT.force_max)
     with pytest.raises(UnholdablePoseError, match=rf"cable 3 must carry at least {demand:.4g} N, {0.1 * demand:.4g} N"):
         distribute_along(ROBOT, helix(61), "fixed", upper_bound=highest)
+
+
+def at_pose_of(seed):
+    """The holding problem of a random robot at its pose."""
+    case = drawn(seed)
+    return holding_problem(case.robot, case.pose.position[None], case.pose.rotation[None], np.zeros(6))
+
+
+@pytest.mark.parametrize(("seed", "wanted"), [(4830, 17.74), pytest.param(5072, 2.5625, marks=pytest.mark.slow)])
+def test_cables_that_leave_their_pulleys_straight_back_end_at_the_least_they_can(seed, wanted):
+    """Wraps of up to 180 degrees, beyond which a cable has no state: Newton went to and fro there."""
+    holding = at_pose_of(seed)
+    tau, pull = chord_tension_at(holding, constant(wanted))
+    held = holding.model.hold(holding.arrays, holding.arms.points, tau).states
+    assert not lost(held).any()
+    np.testing.assert_allclose(pull, held.tension_at_platform, rtol=1e-8)
+    edge = pull > wanted * (1.0 + 1e-6)
+    assert edge.any()
+    slacker = holding.model.hold(holding.arrays, holding.arms.points, np.where(edge, 0.99 * tau, tau)).states
+    assert (lost(slacker) | (slacker.tension_at_platform < pull))[edge].all()
+
+
+@pytest.mark.slow
+def test_a_cable_behind_its_wheel_pulls_as_hard_as_it_can_and_is_named_where_more_is_asked():
+    holding = at_pose_of(7569)
+    tau, pull = chord_tension_at(holding, constant(114e3))
+    assert pull[0, 9] < 8e3  # all others as asked
+    np.testing.assert_allclose(np.delete(pull[0], 9), 114e3, rtol=1e-6)
+    tauter = holding.model.hold(holding.arrays, holding.arms.points, 1.01 * tau).states
+    assert lost(tauter)[0, 9]
+    with pytest.raises(UnholdablePoseError, match="cable 10 would turn by more than 180° on its pulley"):
+        floor_at(holding, constant(114e3))
