@@ -59,6 +59,7 @@ def test_heavier_robots_vibrate_as_the_heavier_robot():
     assert np.allclose(bands.bands.low, bands.bands.high)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cogiro", "thesis-3-1"])
 def test_other_robots_drawn_from_the_same_tolerances_have_a_band_as_wide(name):
     robot = cs.load_robot(name)

@@ -54,6 +54,7 @@ def test_a_bound_that_is_active_is_broken_by_half_of_the_robots():
     assert bands.all_taut > 0.999
     assert bands.all_below == 1.0
     assert (bands.slack <= bands.below).all()
+    assert (bands.above < 0.01).all()
 
 
 def test_a_bound_raised_as_told_is_kept_as_surely_as_told():
