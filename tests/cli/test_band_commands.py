@@ -90,6 +90,7 @@ def test_transient_has_displacements_with_their_band(tmp_path):
     assert (tmp_path / "bands.svg").exists()
 
 
+@pytest.mark.slow
 def test_distribute_says_how_sure_the_bounds_are(tmp_path):
     words = ["distribute", "thesis-5", "--trajectory", "helix", "--instants", "11", "--band", "90", "--samples", "40"]
     bands = result_of(words, tmp_path)["bands"]

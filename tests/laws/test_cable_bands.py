@@ -36,7 +36,7 @@ def test_a_cable_as_entered_has_the_frequencies_of_the_command():
         assert found[-1] == pytest.approx(np.hypot(100.0, 100.0), rel=1e-9)
 
 
-@pytest.mark.parametrize("name", ["cogiro", "thesis-3-1"])
+@pytest.mark.parametrize("name", [pytest.param("cogiro", marks=pytest.mark.slow), "thesis-3-1"])
 def test_bands_are_those_of_cables_described_one_by_one(name):
     """Cables of two robots whose force, length, EA and density are drawn here."""
     cable = of_a_robot(name)

@@ -24,7 +24,11 @@ def uncertain(name: str, trajectory: str, **options) -> UncertainForces:
 
 @pytest.mark.parametrize(
     ("name", "trajectory", "options"),
-    [("thesis-5", "helix", {"instants": 31}), ("cogiro", LINE, {"instants": 9}), (str(ENTERED), LINE, {"instants": 9})],
+    [
+        pytest.param("thesis-5", "helix", {"instants": 31}, marks=pytest.mark.slow),
+        ("cogiro", LINE, {"instants": 5}),
+        pytest.param(str(ENTERED), LINE, {"instants": 9}, marks=pytest.mark.slow),
+    ],
 )
 def test_bands_are_those_of_robots_in_balance(name, trajectory, options):
     forces = uncertain(name, trajectory, **options)
@@ -59,10 +63,10 @@ def test_a_bound_that_is_active_is_broken_by_half_of_the_robots():
 
 def test_a_bound_raised_as_told_is_kept_as_surely_as_told():
     """Of the fixed bound: raised by the margin, distributed again, and judged against the bound that was wanted."""
-    forces = uncertain("thesis-5", "helix", instants=21, bound="fixed")
+    forces = uncertain("thesis-5", "helix", instants=11, bound="fixed")
     wanted, by = float(forces.found.distribution.lower.max()), forces.bands(0.9).raised(0.95)
     assert by > 0.0
-    again = uncertain("thesis-5", "helix", instants=21, bound="fixed", lower_bound=wanted + by)
+    again = uncertain("thesis-5", "helix", instants=11, bound="fixed", lower_bound=wanted + by)
     lower = again.found.distribution
     judged = replace(again.found, distribution=replace(lower, lower=np.full_like(lower.tensions, wanted)))
     assert UncertainForces(judged, again.spread).bands(0.9).all_above == pytest.approx(0.95, abs=0.03)

@@ -19,8 +19,8 @@ QUANTITIES = (
 
 CASES = [
     *(("cogiro", quantity) for quantity in QUANTITIES),
-    (str(ENTERED), "tension-min"),
-    (str(ENTERED), "stiffness-min"),
+    pytest.param(str(ENTERED), "tension-min", marks=pytest.mark.slow),
+    pytest.param(str(ENTERED), "stiffness-min", marks=pytest.mark.slow),
     ("thesis-3-1", "platform-frequency"),
 ]
 SMOOTH = ("pose-error", "pose-error-sag", "platform-frequency", "first-frequency", "stiffness-vertical")
