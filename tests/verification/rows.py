@@ -352,7 +352,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
         Row(
             case="bands of mapped quantities, pose errors, cable frequencies and tensions along a motion, four robots",
             reference="robots drawn from the tolerances and brought to rest one by one",
-            metric="largest difference of the ends of a 90 % band, as a share of its width; without sag at anchors 1 mm off",
+            metric="largest difference of the ends of a 90 % band over its width; without sag at anchors 1 mm off",
             acceptance="0.12 to 0.2, with the chance of 200 to 800 robots",
             command="python -m pytest tests/laws/test_mapped_bands.py tests/laws/test_force_bands.py",
             test=f"{_LAWS}/test_mapped_bands.py::test_bands_are_those_of_drawn_robots",
