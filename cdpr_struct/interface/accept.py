@@ -153,7 +153,7 @@ class _AtPose:
             banded = Banded.at(state.point, AskedBand(_LEVEL), True, assembly=assembly)
             drawn = DrawnRest.of(state.point, banded.response, banded.spread)
             modes = _modes(banded, asked, model)
-        except OutsideValidityError:
+        except (OutsideValidityError, InputError):
             raise
         except CdprError as error:
             return cls(place, [told.Kept.nowhere(place) for _ in asked.limits], str(error))

@@ -7,6 +7,7 @@ from cdpr_struct.bands.mapped_bands import BANDED, POSE_ERRORS, BandedQuantity
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.arguments import LARGEST, real
 from cdpr_struct.interface.bands import AskedBand, band_head, spread_of
+from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.map_bands_told import map_band_checks, map_bands_told
 from cdpr_struct.reports.trust import Trust
 from cdpr_struct.robot.robot import Robot
@@ -40,6 +41,7 @@ def banded_quantity(
     """
     if asked is None:
         raise InputError("limit", "", limit, "it belongs to `band`; give that, too, or leave it out")
+    require_locked_lengths(robot, "a band is that of locked lengths")
     if name not in BANDED:
         raise InputError("quantity", "", name, f"with `band` one of: {', '.join(BANDED)}")
     if not alone:

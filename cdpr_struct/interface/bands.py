@@ -15,6 +15,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.interface.arguments import one_of, real, whole
+from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.bands_told import frequencies_told, rest_told, slack_check
 from cdpr_struct.reports.tolerances_told import of_a_robot
 from cdpr_struct.reports.trust import Check
@@ -97,9 +98,10 @@ class Banded:
         Raises
         ------
         CdprError : the platform is not held there.
-        InputError : ideal cables.
+        InputError : ideal cables, or a winch that holds a tension.
         """
         one_of(model, "model", BANDED_MODELS)
+        require_locked_lengths(point.entered, "a band is that of locked lengths")
         if not stable:
             raise CdprError("there is no band: the platform is not held there, and a small change moves it far")
         return cls(point, asked, locked_response(point, assembly, model), spread_of(point.entered), model, assembly)

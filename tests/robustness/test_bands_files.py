@@ -39,6 +39,14 @@ def complaint(capsys) -> str:
         ([*MAP, "tension-min", "--band", "90", "--limit", "nan"], ["limit: got nan", "a number in N"]),
         ([*MAP, "slack-margin", "--band", "90", "--wrenches", "fx=-1:1"], ["wrenches: got 'given'", "leave it out"]),
         ([*MAP, "pose-error", "--band", "90", "--free", "rx"], ["free: got 'given'", "leave it out"]),
+        (
+            ["map", "examples/robots/gait-trainer/robot.toml", *MAP[2:], "tension-min", "--band", "90"],
+            ["winch_tension", "a band is that of locked lengths"],
+        ),
+        (
+            ["modes", "examples/robots/gait-trainer/robot.toml", "--band", "90"],
+            ["winch_tension", "a band is that of locked lengths"],
+        ),
         ([*MAP, "workspace", "--band", "90"], ["band: got 90.0", "a workspace has none"]),
         ([*CABLE, "--held", "ends"], ["held: got 'ends'", "belongs to --band"]),
         ([*CABLE, "--band", "90", "--held", "top"], ["held: got 'top'", "force or ends"]),
