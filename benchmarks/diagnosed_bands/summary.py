@@ -17,13 +17,14 @@ def summary(found: Sequence[Told]) -> str:
     extended = [told for told in found if "refused" not in told]
     without = len(found) - len(extended)
     lost = sum("lost" in pose for told in extended for pose in told["poses"])
+    width = "width over that of the best constant band"
     return "\n\n".join(
         [
-            "One frequency, component of the pose and tension of each case, chosen beforehand, in the 50 / 90 / 99 % bands:",
+            "One frequency, component of the pose and tension of a case, chosen beforehand, inside the bands:",
             table(["cases", "count", *QUANTITIES, "allowed (99 %)"], list(_rows(extended, _chosen))),
             "All predictions at three poses [%]:",
             table(
-                ["cases", "count", *QUANTITIES, "width over that of the best constant band"],
+                ["cases", "count", *QUANTITIES, width],
                 list(_rows(extended, _all)),
             ),
             f"{without} cases have no extended robot; {lost} poses came to no answer and count as outside.",

@@ -52,4 +52,5 @@ def summary(found: Sequence[Told]) -> str:
     bad = ", ".join(faults(found)) or "none"
     passed = sum(told["passed_over"] for told in found)
     head = ["cause", "campaigns", "truths in 50 / 90 / 99 % intervals", "allowed (99 %)", "p (uniform)"]
-    return f"{table(head, rows)}\n\nNot uniform at {UNIFORM:g}: {bad}. Passed over as no robot can make them: {passed} campaigns."
+    end = f"Not uniform at {UNIFORM:g}: {bad}. Passed over, as the true robot cannot make them: {passed} campaigns."
+    return f"{table(head, rows)}\n\n{end}"

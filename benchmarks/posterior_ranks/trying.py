@@ -1,4 +1,4 @@
-"""One seed: where the true size of a cause lies in what the data leave of it, that cause and its pattern being known."""
+"""One seed: where the true size of a cause lies in what the data leave of it, its name and pattern being known."""
 
 import tempfile
 from pathlib import Path
