@@ -24,6 +24,7 @@ from tests.blind.catalogue import (
     OUTSIDE_HELD,
     RARE,
     UNSEEN,
+    UNSEEN_IN_STATICS,
 )
 from tests.blind.measuring_plan import PlanSize
 
@@ -31,7 +32,6 @@ FULL = {"null": 40, "single": 80, "pair": 24, "ambiguous": 20, "outside": 20, "h
 CI = {"null": 3, "single": 3, "pair": 1, "ambiguous": 2, "outside": 2, "handling": 1}
 MULTIPLES = (0.5, 1.0, 2.0, 4.0)
 SMALL = PlanSize(static_states=8, locks=1, loads_per_lock=3)
-MOVING_ONLY = ("platform_inertia",)  # effects that nothing at rest shows
 SMALL_SETS = ("conventions-small", "no-conventions")  # without frequencies, of few states
 CLEAR = 4.0  # multiple of effects whose size is not the question
 FINAL_RATES = {"null": 60, "just": 150, "pair": 56}  # beside a final set, which has few of each
@@ -110,7 +110,7 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
 
 def _seen_at_rest(kind: CaseKind) -> CaseKind:
     """The same, or a null where rests do not show the effect."""
-    return CaseKind("null") if any(name in MOVING_ONLY for name, _ in kind.effects) else kind
+    return CaseKind("null") if any(name in UNSEEN_IN_STATICS for name, _ in kind.effects) else kind
 
 
 def _nulls(count: int, rng: np.random.Generator) -> list[CaseKind]:
