@@ -1,7 +1,8 @@
 """All benchmarks, or some, by one command.
 
     python -m benchmarks [QUESTION ..] [--quick] [--write]
-    python -m benchmarks random-robots|band-coverage [--seeds A:B] [--workers N] --out DIR
+    python -m benchmarks random-robots|band-coverage|posterior-ranks [--seeds A:B] [--workers N] --out DIR
+    python -m benchmarks diagnosed-bands --set DIR [--seeds A:B] [--workers N] --out DIR
 
 --quick : few runs and small cases, to see that all run; --write : put the answers and figures into docs/benchmarks.md
 """
@@ -26,8 +27,10 @@ from benchmarks import (
     vibration_floor,
 )
 from benchmarks.band_coverage import running as band_coverage
+from benchmarks.diagnosed_bands import running as diagnosed_bands
 from benchmarks.markdown_page import put
 from benchmarks.peers import versions
+from benchmarks.posterior_ranks import running as posterior_ranks
 from benchmarks.question import Question
 from benchmarks.random_robots import running as random_robots
 
@@ -46,7 +49,7 @@ QUESTIONS: tuple[Question, ...] = tuple(
         growth,
     )
 )
-STUDIES = {study.NAME: study.main for study in (random_robots, band_coverage)}
+STUDIES = {study.NAME: study.main for study in (random_robots, band_coverage, diagnosed_bands, posterior_ranks)}
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 
 

@@ -23,11 +23,13 @@ _SEED = 21
 class DrawnRobots:
     """n robots at rest.
 
+    number : (n,) which of the draws, from 0; those without a stable rest are left out
     pose : (n, 6) position and angles about x, y, z [m, rad];  tension : (n, m) at the platform [N]
     hertz : (n, k) [Hz], infinite beyond what was sought; (n, 0) if nothing was
     lost : how many more robots did not come to a stable rest
     """
 
+    number: np.ndarray
     pose: np.ndarray
     tension: np.ndarray
     hertz: np.ndarray
@@ -57,20 +59,29 @@ def drawn_robots(
     model : of the cables at rest;  vibrating : of the cables in vibration, exact or static; frequencies are in
         proportion to those that it has of the robot as entered
     """
-    arrays, cables = point.arrays, point.cables
-    drawn = spread.drawn(np.random.default_rng(_SEED).standard_normal((count, spread.root.shape[1])))
-    robots, lengths = changed(arrays, drawn), arrays.reading(cables.paid_out)
-    found = forward(robots, lengths, point.position, point.rotation, model)
-    kept = np.flatnonzero(found.stable)
-    rests = OperatingPoint(
-        robots.flattened((count,)).take(kept), found.position[kept], found.rotation[kept], found.cables.at(kept)
-    )
+    rests, kept = drawn_rests(point, spread, count, model)
     angles = angles_from_rotation(point.rotation)
     turned = angles_from_rotation(rests.rotation) - angles
     around = np.remainder(turned + np.pi, 2.0 * np.pi) - np.pi
     pose = np.concatenate([rests.position, angles + around], axis=-1)
     modes = np.zeros((len(kept), 0)) if hertz is None else _like(point, rests, hertz, assembly, vibrating)
-    return DrawnRobots(pose, rests.cables.tension_at_platform, modes, count - len(kept))
+    return DrawnRobots(kept, pose, rests.cables.tension_at_platform, modes, count - len(kept))
+
+
+def drawn_rests(
+    point: OperatingPoint, spread: Spread, count: int, model: str = "sagging", wrench: np.ndarray | None = None
+) -> tuple[OperatingPoint, np.ndarray]:
+    """The same robots as operating points (n), and which of the draws, from 0, they are (n,).
+
+    wrench : (6,) on the platform beside its weight [N, N m]
+    """
+    arrays, cables = point.arrays, point.cables
+    drawn = spread.drawn(np.random.default_rng(_SEED).standard_normal((count, spread.root.shape[1])))
+    robots, lengths = changed(arrays, drawn), arrays.reading(cables.paid_out)
+    found = forward(robots, lengths, point.position, point.rotation, model, wrench)
+    kept = np.flatnonzero(found.stable)
+    robots = robots.flattened((count,)).take(kept)
+    return OperatingPoint(robots, found.position[kept], found.rotation[kept], found.cables.at(kept)), kept
 
 
 def _parts(rests: OperatingPoint) -> Iterator[OperatingPoint]:

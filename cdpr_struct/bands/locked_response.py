@@ -38,6 +38,40 @@ class LockedResponse:
     dependence: np.ndarray
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class LockedStations:
+    """Robots at rest beside one of them, each with one number changed by a small step, its winches as they are.
+
+    rests : (4 p) of p numbers, the stations of a central difference of fourth order outermost
+    step  : (p,) in the units of `VARIED`
+    """
+
+    rests: OperatingPoint
+    step: np.ndarray
+
+    @classmethod
+    def about(cls, point: OperatingPoint, model: str = "sagging", wrench: np.ndarray | None = None) -> "LockedStations":
+        """Of one robot at rest, no batch axes; a neutral freedom stays where it is.
+
+        model : of the cables, sagging or spring;  wrench : (6,) on the platform beside its weight [N, N m]
+        """
+        step = step_sizes(point)
+        wrench = np.zeros(6) if wrench is None else wrench
+        ways = np.array(_STATIONS)[:, None, None] * np.diag(step)
+        balance = _balance(point, ways.reshape((-1, len(step))), model, wrench)
+        place = np.repeat(point.position[None], len(balance.length), axis=0)
+        turn = np.repeat(point.rotation[None], len(balance.length), axis=0)
+        rest = _balance(point, np.zeros((1, len(step))), model, wrench).evaluate(place[:1], turn[:1])
+        left = _slope(balance.evaluate(place, turn).wrench, step)
+        motion = (ways @ left @ np.linalg.pinv(rest.tangent[0], _NEUTRAL).T).reshape((-1, 6))
+        there, turned = balance.moved(place, turn, motion)
+        return cls(OperatingPoint(balance.arrays, there, turned, balance.states(there, turned)), step)
+
+    def slope(self, values: np.ndarray) -> np.ndarray:
+        """(p, n) rates of numbers (4 p, n) of the robots at rest."""
+        return _slope(values, self.step)
+
+
 def locked_response(point: OperatingPoint, assembly: Assembly = "consistent", model: str = "sagging") -> LockedResponse:
     """Response of one robot at rest, no batch axes; a neutral freedom stays where it is.
 
@@ -45,20 +79,12 @@ def locked_response(point: OperatingPoint, assembly: Assembly = "consistent", mo
 
     Cables that stiffen with tension do so as they are at this rest: that EA itself follows the tension is left out.
     """
-    step = step_sizes(point)
-    ways = np.array(_STATIONS)[:, None, None] * np.diag(step)
-    balance = _balance(point, ways.reshape((-1, len(step))), model)
-    place = np.repeat(point.position[None], len(balance.length), axis=0)
-    turn = np.repeat(point.rotation[None], len(balance.length), axis=0)
-    rest = _balance(point, np.zeros((1, len(step))), model).evaluate(place[:1], turn[:1])
-    wrench = _slope(balance.evaluate(place, turn).wrench, step)
-    motion = (ways @ wrench @ np.linalg.pinv(rest.tangent[0], _NEUTRAL).T).reshape((-1, 6))
-    there, turned = balance.moved(place, turn, motion)
-    cables = balance.states(there, turned)
-    depends = Dependence.of(OperatingPoint(balance.arrays, there, turned, cables), assembly).vector
-    about = Rotation.from_matrix(turned @ np.swapaxes(point.rotation, -1, -2)).as_rotvec()
-    pose = np.concatenate([there - point.position, about], axis=-1)
-    return LockedResponse(*(_slope(values, step) for values in (pose, cables.tension_at_platform, depends)))
+    stations = LockedStations.about(point, model)
+    rests = stations.rests
+    depends = Dependence.of(rests, assembly).vector
+    about = Rotation.from_matrix(rests.rotation @ np.swapaxes(point.rotation, -1, -2)).as_rotvec()
+    pose = np.concatenate([rests.position - point.position, about], axis=-1)
+    return LockedResponse(*(stations.slope(values) for values in (pose, rests.cables.tension_at_platform, depends)))
 
 
 def _slope(values: np.ndarray, step: np.ndarray) -> np.ndarray:
@@ -90,10 +116,10 @@ def step_sizes(point: OperatingPoint) -> np.ndarray:
     return result
 
 
-def _balance(point: OperatingPoint, change: np.ndarray, model: str) -> LockedBalance:
+def _balance(point: OperatingPoint, change: np.ndarray, model: str, wrench: np.ndarray) -> LockedBalance:
     """Robots with changes (n, p), their winches as the robot at rest has them."""
     arrays, lead = point.arrays, (len(change),)
     robots = changed(arrays, change)
     length = robots.paid_out(arrays.reading(point.cables.paid_out))
     length = np.broadcast_to(length, (*lead, arrays.cable_count))
-    return LockedBalance(robots.flattened(lead), length, np.zeros((*lead, 6)), cable_model(model))
+    return LockedBalance(robots.flattened(lead), length, np.broadcast_to(wrench, (*lead, 6)), cable_model(model))

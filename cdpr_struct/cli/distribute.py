@@ -10,11 +10,13 @@ import typer
 from cdpr_struct.cli.executors import Scheduler, Where, Workers, check_workers
 from cdpr_struct.cli.many_inputs import ManyInputs, answer_all, require_different, worst_code
 from cdpr_struct.cli.options import (
+    Band,
     Free,
     LowerBound,
     Mass,
     Payload,
     RobotName,
+    Samples,
     Temperature,
     UpperBound,
     Wrench,
@@ -75,6 +77,8 @@ def run(
     wrench: Wrench = None,
     temperature: Temperature = None,
     free: Free = None,
+    band: Band = None,
+    samples: Samples = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
     *,
@@ -88,7 +92,7 @@ def run(
         robot, bound=bound, b=b, cost=cost, weights=weights, power=power, lower_bound=lower_bound,
         upper_bound=upper_bound, longest=longest, model=model, max_speed=max_speed,
         max_acceleration=max_acceleration, instants=instants, compare=compare or (), payload=payload, mass=mass,
-        wrench=wrench, temperature=temperature, free=free,
+        wrench=wrench, temperature=temperature, free=free, band=band, samples=samples,
     )  # fmt: skip
     paths = trajectories_of(trajectory)
     if len(paths) > 1:
@@ -134,7 +138,7 @@ def _many(
     from cdpr_struct.robot.fingerprint import fingerprint
 
     told = (asked.rules, asked.b, asked.longest, cost, asked.model, asked.max_speed, asked.max_acceleration)
-    shared = fingerprint(f"{NAME} {told} {asked.instants} {asked.free}", asked.robot)
+    shared = fingerprint(f"{NAME} {told} {asked.instants} {asked.free} {asked.asked}", asked.robot)
     digests = tuple(fingerprint(path, Path(path).read_bytes() if Path(path).is_file() else b"") for path in paths)
     work = ManyInputs("trajectories", paths, tuple(typed), "--trajectory", digests, shared, answer, (asked,))
     rows = answer_all(work, where, output, report.trajectory_row)

@@ -7,12 +7,14 @@ import typer
 
 from cdpr_struct.cli.executors import Scheduler, Workers, check_workers
 from cdpr_struct.cli.options import (
+    Band,
     Free,
     GridText,
     LowerBound,
     Mass,
     Payload,
     RobotName,
+    Samples,
     Temperature,
     UpperBound,
     Wrench,
@@ -79,6 +81,17 @@ def run(
             help="Cable next to an anchor that is shared or sits on a body, left out of distances [m].",
         ),
     ] = 0.1,
+    band: Band = None,
+    samples: Samples = None,
+    limit: Annotated[
+        float | None,
+        typer.Option(
+            "--limit",
+            parser=number,
+            metavar="VALUE",
+            help="With --band: map the probability of falling below, in the quantity's unit.",
+        ),
+    ] = None,
     *,
     output: Output,
 ) -> int:
@@ -88,7 +101,7 @@ def run(
 
     asked = map_question(
         robot, grid, quantity, payload, mass, wrench, temperature, lower_bound, upper_bound, chunk, free,
-        (require or None, wrenches, refine, anchor_zone),
+        (require or None, wrenches, refine, anchor_zone), (band, samples, limit),
     )  # fmt: skip
     resumed = 0
 

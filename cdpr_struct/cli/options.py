@@ -154,12 +154,21 @@ Band = Annotated[
         help="Band that holds with this probability, like 90: within the tolerances of the robot file.",
     ),
 ]
+Percent = Annotated[
+    float | None,
+    typer.Option(
+        "--percent",
+        parser=number,
+        metavar="PERCENT",
+        help="Band that holds with this probability, like 90: robots drawn within the tolerances of the robot file.",
+    ),
+]
 Samples = Annotated[
     int | None,
     typer.Option(
         "--samples",
         parser=whole_number,
         metavar="N",
-        help="With --band: so many robots drawn within the tolerances check it.",
+        help="With a band: so many robots drawn within the tolerances check it, or make it.",
     ),
 ]

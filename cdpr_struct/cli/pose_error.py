@@ -6,6 +6,7 @@ import typer
 
 from cdpr_struct.cli.executors import Scheduler, Workers, check_workers
 from cdpr_struct.cli.options import (
+    Band,
     Free,
     GridText,
     LowerBound,
@@ -13,6 +14,7 @@ from cdpr_struct.cli.options import (
     Payload,
     PoseText,
     RobotName,
+    Samples,
     Temperature,
     UpperBound,
     Wrench,
@@ -46,6 +48,8 @@ def run(
     ] = None,
     pose: PoseText = None,
     free: Free = None,
+    band: Band = None,
+    samples: Samples = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
     *,
@@ -56,8 +60,9 @@ def run(
     from cdpr_struct.interface.pose_error import pose_error_question
 
     asked = pose_error_question(
-        robot, grid, payload, mass, wrench, temperature, lower_bound, upper_bound, sufficient_load, pose, free
-    )
+        robot, grid, payload, mass, wrench, temperature, lower_bound, upper_bound, sufficient_load, pose, free,
+        band, samples,
+    )  # fmt: skip
     batches = asked.batches
     columns = None if batches is None else run_batches(batches, (workers, scheduler), output)[0]
     output.give(asked.answered(columns))

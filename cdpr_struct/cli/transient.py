@@ -7,6 +7,7 @@ import typer
 import cdpr_struct as cs
 from cdpr_struct.cli.options import (
     AssemblyName,
+    Band,
     Free,
     Lengths,
     LowerBound,
@@ -14,6 +15,7 @@ from cdpr_struct.cli.options import (
     Payload,
     PoseText,
     RobotName,
+    Samples,
     Start,
     Temperature,
     UniversalFile,
@@ -78,11 +80,13 @@ def run(
     assembly: AssemblyName = "consistent",
     force: Force = False,
     uff: UniversalFile = False,
+    band: Band = None,
+    samples: Samples = None,
     *,
     output: Output,
 ) -> int:
     """Vibration in time by modal superposition, with spectrogram and certified modes."""
-    with output.steps(1) as progress:
+    with output.steps(1 if band is None else 2) as progress:
         found = cs.transient(
             robot, pose, lengths=lengths, start=start, free=free, lower_bound=lower_bound, upper_bound=upper_bound,
             payload=payload, mass=mass,
@@ -90,7 +94,7 @@ def run(
             initial_velocity=initial_velocity, trajectory=trajectory, duration=duration,
             highest=highest, watch=watch, window=window, model=model, damping=damping,
             end_friction=end_friction, frame=frame, at=at,
-            assembly=assembly, force=force, progress=progress,
+            assembly=assembly, force=force, band=band, samples=samples, progress=progress,
         )  # fmt: skip
     output.give(found, lambda: {"transient.uff": found.universal_file()} if uff else {})
     return 0

@@ -3,12 +3,12 @@
 import numpy as np
 
 import cdpr_struct.fem_reference as fem
-from cdpr_struct.dynamics.clamped_catenary import clamped_frequencies
+from cdpr_struct.dynamics.clamped_catenary import clamped_frequencies, enough_polynomials
 from cdpr_struct.statics.cable_state import CableStates
+from cdpr_struct.statics.pulled_cables import pulled_cables
 
 MESHES = (40, 80, 160, 320)
 """Numbers of elements from which the FEM is extrapolated."""
-_ORDER, _PER_MODE, _SAG, _HIGHEST = 40, 4, 8, 400  # of polynomials: of a taut cable, more a mode and a unit of w L / T
 
 
 def pulled_cable(
@@ -16,10 +16,7 @@ def pulled_cable(
 ) -> CableStates:
     """One cable (1,) from the origin to `end` (x, z) [m], held there by a force (x, z) [N]; x turned positive."""
     one = np.ones(1)
-    return CableStates(
-        np.array([[abs(end[0]), 0.0, end[1]]]), np.array([[1.0, 0.0, 0.0]]), length * one, 0.0 * one,
-        abs(force[0]) * one, force[1] * one, axial_stiffness * one, weight * one, np.zeros(1, dtype=int), 0.0 * one,
-    )  # fmt: skip
+    return pulled_cables(np.array([force]), np.array([end]), length * one, axial_stiffness * one, weight * one)
 
 
 def catenary_frequencies(cable: CableStates, density: float, count: int, finer: float = 1.0) -> dict[str, list[float]]:
@@ -27,8 +24,7 @@ def catenary_frequencies(cable: CableStates, density: float, count: int, finer: 
 
     finer : times the usual order of polynomials, to see what that changes
     """
-    slack = float((cable.weight * cable.length / cable.tension).max())
-    order = int(finer * min(_HIGHEST, _ORDER + _PER_MODE * count + int(_SAG * slack)))
+    order = int(finer * enough_polynomials(cable, count))
     in_plane, across = clamped_frequencies(cable, np.array([density]), order)
     hertz = {"out_of_plane": across, "in_plane": in_plane}
     return {plane: (omega[0, :count] / (2.0 * np.pi)).tolist() for plane, omega in hertz.items()}

@@ -12,6 +12,13 @@ from cdpr_struct.dynamics.polynomial_basis import on_gauss_nodes
 from cdpr_struct.statics.cable_state import CableStates
 
 _IN_PLANE, _ACROSS = (0, 2), (1,)
+_ORDER, _PER_MODE, _SAG, _HIGHEST = 40, 4, 8, 400  # of polynomials: of a taut cable, more a mode and a unit of w L / T
+
+
+def enough_polynomials(cables: CableStates, count: int) -> int:
+    """Order that suits `count` frequencies of each plane of every one of m cables, whatever their sag."""
+    slack = float((cables.weight * cables.length / cables.tension).max())
+    return min(_HIGHEST, _ORDER + _PER_MODE * count + int(_SAG * slack))
 
 
 def clamped_frequencies(cables: CableStates, linear_density: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:

@@ -81,9 +81,9 @@ def sweep_response(
 ) -> ResponseSweep:
     """Response over the band, its peaks, and the eigenfrequencies below its top; hertz (f,) [Hz] evenly spaced."""
     top = float(hertz[-1])
-    cables = cable_dynamics(point, model, 2.0 * np.pi * top * _margin(excite))
+    cables = cable_dynamics(point, model, 2.0 * np.pi * top * ShakenRobot.margin(excite))
     modes, shapes = _modes_and_shapes(point, cables, top, assembly)
-    force = _Force(point, cables, damping, excite, respond, quantity, assembly)
+    force = ShakenRobot(point, cables, damping, excite, respond, quantity, assembly)
     function = force.function((float(hertz[0]), top), modes.hertz)
     neutral = modes.hertz == 0.0
     if neutral.any() and not hertz[0] > 0.0:
@@ -106,17 +106,9 @@ def sweep_response(
     return ResponseSweep(point, model, drawn, np.isin(drawn.hertz, hertz), peaks, silent, modes, ratios)
 
 
-def _margin(excite: Port) -> float:
-    """Times the top of the band, up to which the cables are resolved.
-
-    Where a cable itself is shaken its modal sum converges as slowly as 1 / number of modes, so more are taken.
-    """
-    return MODES_OF_A_POINT if isinstance(excite, CablePort) else 1.0
-
-
 @dataclass(frozen=True, slots=True, eq=False)
-class _Force:
-    """A robot that is shaken at one port and watched at others."""
+class ShakenRobot:
+    """A robot that is shaken at one port and watched at others; cables : up to `margin` times the top of a band."""
 
     point: OperatingPoint
     cables: CableDynamics
@@ -126,13 +118,21 @@ class _Force:
     quantity: Quantity
     assembly: Assembly
 
+    @staticmethod
+    def margin(excite: Port) -> float:
+        """Times the top of the band, up to which the cables are resolved.
+
+        Where a cable itself is shaken its modal sum converges as slowly as 1 / number of modes, so more are taken.
+        """
+        return MODES_OF_A_POINT if isinstance(excite, CablePort) else 1.0
+
     def function(self, band: tuple[float, float], certified_hertz: np.ndarray) -> ResponseFunction:
         """The responses over a band [Hz]: a sum over modes where these have ratios of their own, else direct."""
         ports = self.excite, self.respond
         if not isinstance(self.damping, ModalDamping):
             law = self.damping
             return direct_response(self.point, self.cables, law, *ports, band, self.quantity, self.assembly)
-        highest = 2.0 * np.pi * band[1] * max(0.5 * _margin(self.excite), 1.0)  # an expansion holds twice as much
+        highest = 2.0 * np.pi * band[1] * max(0.5 * self.margin(self.excite), 1.0)  # an expansion holds twice as much
         return modal_response(
             self.point, self.cables, self.damping, *ports, highest, certified_hertz, self.quantity, self.assembly
         )

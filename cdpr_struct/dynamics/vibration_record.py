@@ -54,29 +54,41 @@ class VibratingRobot:
         """Free vibration for `duration` [s] after the velocity `twist` (6,) was stopped."""
         time = self._instants(duration)
         cables, basis = self._modes()
-        still = np.zeros((len(time), 6))
-        if self.friction is None:
-            return self._record(cables, ports, after_stop(basis, twist, ports, time), still)
-        ends = RubbingEnds.of(self.point, basis, self.friction)
-        return self._record(cables, ports, rubbing_vibration(basis, ends, still, (0, twist), ports, time), still)
+        return self._record(cables, ports, self._stopped(basis, twist, ports, time), np.zeros((len(time), 6)))
 
     def along(self, motion: Trajectory, ports: tuple[Port, ...], duration: float) -> VibrationRecord:
         """Vibration for `duration` [s] from the beginning of the motion; a motion that ends moving is stopped there."""
         time = self._instants(duration)
+        cables, basis = self._modes()
+        return self._record(cables, ports, *self._driven(basis, motion, ports, time))
+
+    def motion(self, cause: np.ndarray | Trajectory, ports: tuple[Port, ...], duration: float) -> Vibration:
+        """The same of a velocity that is stopped or of a motion, without what it takes to read it."""
+        time, basis = self._instants(duration), self._modes()[1]
+        if isinstance(cause, Trajectory):
+            return self._driven(basis, cause, ports, time)[0]
+        return self._stopped(basis, cause, ports, time)
+
+    def _stopped(self, basis: ModalBasis, twist: np.ndarray, ports: tuple[Port, ...], time: np.ndarray) -> Vibration:
+        if self.friction is None:
+            return after_stop(basis, twist, ports, time)
+        ends = RubbingEnds.of(self.point, basis, self.friction)
+        return rubbing_vibration(basis, ends, np.zeros((len(time), 6)), (0, twist), ports, time)
+
+    def _driven(
+        self, basis: ModalBasis, motion: Trajectory, ports: tuple[Port, ...], time: np.ndarray
+    ) -> tuple[Vibration, np.ndarray]:
+        """The vibration, and the acceleration (n, 6) of the nominal motion."""
         own = motion.time - motion.time[0]
         given = np.concatenate([motion.acceleration, motion.angular_acceleration], axis=1)
         nominal = np.stack([np.interp(time, own, column, right=0.0) for column in given.T], axis=1)
         stop = int(np.searchsorted(time, own[-1] - 1e-9 * own[-1]))
         last = np.concatenate([motion.velocity[-1], motion.angular_velocity[-1]])
-        cables, basis = self._modes()
-        ends_in_record = stop < len(time)
-        taken = last if ends_in_record else 0.0 * last
+        taken = last if stop < len(time) else 0.0 * last
         if self.friction is None:
-            vibration = along_path(basis, nominal, taken, stop, ports, time)
-        else:
-            ends = RubbingEnds.of(self.point, basis, self.friction)
-            vibration = rubbing_vibration(basis, ends, nominal, (stop, taken), ports, time)
-        return self._record(cables, ports, vibration, nominal)
+            return along_path(basis, nominal, taken, stop, ports, time), nominal
+        ends = RubbingEnds.of(self.point, basis, self.friction)
+        return rubbing_vibration(basis, ends, nominal, (stop, taken), ports, time), nominal
 
     def _instants(self, duration: float) -> np.ndarray:
         rate = SAMPLES_PER_PERIOD * self.highest_hertz

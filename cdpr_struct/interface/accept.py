@@ -12,7 +12,7 @@ from cdpr_struct.bands.frequency_bands import chance_above, frequency_bands
 from cdpr_struct.bands.mode_rates import ModeRates
 from cdpr_struct.crosscheck.robot_modes import OutsideValidityError
 from cdpr_struct.dynamics.cable_dynamics import CableModel
-from cdpr_struct.errors import CdprError
+from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_robot
 from cdpr_struct.interface.bands import AskedBand, Banded, known_from
@@ -153,7 +153,7 @@ class _AtPose:
             banded = Banded.at(state.point, AskedBand(_LEVEL), True, assembly=assembly)
             drawn = DrawnRest.of(state.point, banded.response, banded.spread)
             modes = _modes(banded, asked, model)
-        except OutsideValidityError:
+        except (OutsideValidityError, InputError):
             raise
         except CdprError as error:
             return cls(place, [told.Kept.nowhere(place) for _ in asked.limits], str(error))

@@ -15,6 +15,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import CdprError, InputError
 from cdpr_struct.interface.arguments import one_of, real, whole
+from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.bands_told import frequencies_told, rest_told, slack_check
 from cdpr_struct.reports.tolerances_told import of_a_robot
 from cdpr_struct.reports.trust import Check
@@ -23,6 +24,8 @@ from cdpr_struct.robot.tolerances import Spread, Tolerances
 
 MOST_SAMPLES = 100_000
 FEWEST_SAMPLES = 20
+BANDED_MODELS = ("sagging", "spring")
+"""Cables at rest whose robots have bands."""
 _LEVELS = "a level above 0 and below 100 in per cent, like 90"
 
 
@@ -34,8 +37,10 @@ class AskedBand:
     samples: int = 0
 
 
-def read_band(band: float | None, samples: int | None = None) -> AskedBand | None:
+def read_band(band: float | None, samples: int | None = None, name: str = "band") -> AskedBand | None:
     """What was asked; None if no band was.
+
+    name : of the argument that says the level
 
     Raises
     ------
@@ -43,9 +48,9 @@ def read_band(band: float | None, samples: int | None = None) -> AskedBand | Non
     """
     if band is None:
         if samples is not None:
-            raise InputError("samples", "", samples, "it belongs to `band`; give that, too, or leave it out")
+            raise InputError("samples", "", samples, f"it belongs to `{name}`; give that, too, or leave it out")
         return None
-    level = 0.01 * real(band, "band", f"give {_LEVELS}", 0.0, 100.0)
+    level = 0.01 * real(band, name, f"give {_LEVELS}", 0.0, 100.0)
     return AskedBand(level, 0 if samples is None else whole(samples, "samples", FEWEST_SAMPLES, MOST_SAMPLES))
 
 
@@ -57,6 +62,16 @@ def spread_of(robot: Robot) -> Spread:
 def known_from(robot: Robot) -> str:
     """What says which robots are probable: "diagnosis" or "tolerances"."""
     return "tolerances" if robot.posterior is None else "diagnosis"
+
+
+def band_head(asked: AskedBand, robot: Robot) -> dict[str, Any]:
+    """What every key `bands` says first: level, what is held, and which robots are probable."""
+    return {
+        "level": 100.0 * asked.level,
+        "held": "locked lengths",
+        "known_from": known_from(robot),
+        "tolerances": of_a_robot(robot.tolerances),
+    }
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,9 +98,10 @@ class Banded:
         Raises
         ------
         CdprError : the platform is not held there.
-        InputError : ideal cables.
+        InputError : ideal cables, or a winch that holds a tension.
         """
-        one_of(model, "model", ("sagging", "spring"))
+        one_of(model, "model", BANDED_MODELS)
+        require_locked_lengths(point.entered, "a band is that of locked lengths")
         if not stable:
             raise CdprError("there is no band: the platform is not held there, and a small change moves it far")
         return cls(point, asked, locked_response(point, assembly, model), spread_of(point.entered), model, assembly)
@@ -115,12 +131,7 @@ class Banded:
         return drawn_robots(self.point, self.spread, self.asked.samples, hertz, *models)
 
     def _head(self) -> dict[str, Any]:
-        return {
-            "level": 100.0 * self.asked.level,
-            "held": "locked lengths",
-            "known_from": known_from(self.point.entered),
-            "tolerances": of_a_robot(self.point.entered.tolerances),
-        }
+        return band_head(self.asked, self.point.entered)
 
     def _checks(self, drawn: DrawnRobots | None) -> list[Check]:
         return slack_check(self.point.cables.tension_at_platform, self.spread.sigma(self.response.tension), drawn)

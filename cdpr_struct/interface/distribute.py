@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from cdpr_struct.bands.force_bands import ForceBands
 from cdpr_struct.dynamics.trajectory_distribution import (
     BOUND_RULES,
     THESIS_B,
@@ -17,6 +18,8 @@ from cdpr_struct.dynamics.trajectory_distribution import (
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_numbers, read_robot, real
+from cdpr_struct.interface.banded_forces import with_force_bands
+from cdpr_struct.interface.bands import BANDED_MODELS, AskedBand, read_band
 from cdpr_struct.interface.free_angles import FreeAngles, read_free, told_on_way
 from cdpr_struct.interface.given import Numbers, Progress, RobotLike, TrajectoryLike
 from cdpr_struct.interface.inverse import MODELS
@@ -26,6 +29,8 @@ from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports.distribution_result import distribution_json, force_columns
 from cdpr_struct.reports.distribution_text import distribution_text, sentences
 from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.reports.force_bands_told import force_bands_text
+from cdpr_struct.reports.text import paragraphs
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.hanging_trajectory import hanging_along
 from cdpr_struct.statics.tension_cost import Centre, EuclideanNorm, Middle, PowerNorm, TensionCost
@@ -41,9 +46,11 @@ class DistributeResult(Result):
     """Cable forces along a trajectory.
 
     found : one distribution a lower bound, that which was asked for first
+    within : bands of the first, None if none were asked for
     """
 
     found: tuple[TrajectoryDistribution, ...]
+    within: ForceBands | None = None
 
     @property
     def title(self) -> str:
@@ -51,8 +58,9 @@ class DistributeResult(Result):
         return f"{self.found[0].robot.name}: cable forces along a trajectory"
 
     def text(self) -> str:
-        """Largest forces, and what every lower bound led to."""
-        return distribution_text(self.found)
+        """Largest forces, and what every lower bound led to; bands if there are any."""
+        more = force_bands_text(self.answer["bands"]) if "bands" in self.answer else []
+        return paragraphs(distribution_text(self.found), *more)
 
     def sentences(self) -> Sequence[str]:
         """What the lower bound that was asked for led to."""
@@ -72,7 +80,7 @@ class DistributeResult(Result):
         """Tables, figures and page."""
         from cdpr_struct.reports.distribution_page import distribution_files
 
-        return distribution_files(self.found)
+        return distribution_files(self.found, self.within, self.answer.get("bands"))
 
 
 @answered
@@ -98,6 +106,8 @@ def distribute(
     wrench: Numbers | None = None,
     temperature: float | None = None,
     free: FreeAngles | None = None,
+    band: float | None = None,
+    samples: int | None = None,
     progress: Progress = silent,
 ) -> DistributeResult:
     """Distribute cable forces of least cost along a trajectory, above a lower bound.
@@ -117,6 +127,8 @@ def distribute(
     wrench : six numbers, a further constant force and moment on the platform, world axes [N, N m]
     temperature : of the cables, above that at which lengths are entered [K]; default: that of the robot file
     free : angles that the platform takes by hanging along the apparent gravity, some of rx, ry, rz
+    band : level of a band about every tension [%], like 90: within the robot's tolerances, lengths as commanded
+    samples : with band, so many robots drawn within the tolerances check it at some instants
     progress : called once a lower bound
 
     Raises
@@ -129,14 +141,17 @@ def distribute(
         robot, bound=bound, b=b, cost=cost, weights=weights, power=power, lower_bound=lower_bound,
         upper_bound=upper_bound, longest=longest, model=model, max_speed=max_speed,
         max_acceleration=max_acceleration, instants=instants, compare=compare, payload=payload, mass=mass,
-        wrench=wrench, temperature=temperature, free=free,
+        wrench=wrench, temperature=temperature, free=free, band=band, samples=samples,
     )  # fmt: skip
     return asked.along(trajectory, progress)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DistributeQuestion:
-    """What is asked of any trajectory; names and units are those of `distribute`, free : (3,) bool or None."""
+    """What is asked of any trajectory; names and units are those of `distribute`, free : (3,) bool or None.
+
+    asked : the band, or None
+    """
 
     robot: Robot
     rules: tuple[BoundRule, ...]
@@ -148,6 +163,7 @@ class DistributeQuestion:
     max_acceleration: float
     instants: int | None
     free: np.ndarray | None = None
+    asked: AskedBand | None = None
 
     def along(self, trajectory: TrajectoryLike, progress: Progress = silent) -> DistributeResult:
         """The result of one trajectory."""
@@ -164,7 +180,8 @@ class DistributeQuestion:
         told: dict[str, Any] = distribution_json(found[0], found[1:]) | {"warnings": assumed}
         if hung is not None and self.free is not None:
             told = told_on_way(told, self.free.tolist(), path.rotation, float(hung.left_out.max()))
-        return DistributeResult(with_extensions(told, self.robot, "distribute", self.model), tuple(found))
+        told, within = with_force_bands(told, found[0], self.asked)
+        return DistributeResult(with_extensions(told, self.robot, "distribute", self.model), tuple(found), within)
 
 
 @answered
@@ -189,6 +206,8 @@ def distribute_question(
     wrench: Numbers | None,
     temperature: float | None,
     free: FreeAngles | None = None,
+    band: float | None = None,
+    samples: int | None = None,
 ) -> DistributeQuestion:
     """What the arguments of `distribute` ask of any trajectory.
 
@@ -201,7 +220,9 @@ def distribute_question(
     for name, value in (("longest", longest), ("max_speed", max_speed), ("max_acceleration", max_acceleration)):
         if value != math.inf:
             real(value, name, "give a number above zero", 0.0, math.inf)
-    chosen = one_of(model, "model", MODELS)
+    chosen, asked = one_of(model, "model", MODELS), read_band(band, samples)
+    if asked is not None:
+        one_of(chosen, "model", BANDED_MODELS)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature)
     require_locked_lengths(machine, "distribute chooses the tensions of all cables itself")
     price = _cost(cost, weights, power, machine)
@@ -213,7 +234,7 @@ def distribute_question(
             raise InputError("free", "", free, "leave it out: a guide holds rotations along the trajectory")
         hung = read_free(free, machine, np.zeros(3))[0]
     return DistributeQuestion(
-        machine, tuple(rules), b, price, longest, chosen, max_speed, max_acceleration, instants, hung
+        machine, tuple(rules), b, price, longest, chosen, max_speed, max_acceleration, instants, hung, asked
     )
 
 

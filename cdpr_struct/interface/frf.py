@@ -11,6 +11,8 @@ from cdpr_struct.dynamics.frequency_sweep import ResponseSweep, sweep_response
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_robot, text_of
+from cdpr_struct.interface.banded_curves import banded_response, told_of_curves
+from cdpr_struct.interface.bands import read_band as read_level
 from cdpr_struct.interface.damping_law import read_damping
 from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, Progress, RobotLike
@@ -19,10 +21,13 @@ from cdpr_struct.interface.operating_point import rest
 from cdpr_struct.interface.ports import read_ports
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.vibration_model import dropped_by, read_model, require_valid
+from cdpr_struct.reports.curve_bands_told import curve_bands_text
 from cdpr_struct.reports.damping_note import damping_note
 from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.reports.figures.curve_bands import ShownCurves
 from cdpr_struct.reports.frf_result import frf_columns, frf_json
 from cdpr_struct.reports.frf_text import frf_summary, frf_text
+from cdpr_struct.reports.text import paragraphs
 from cdpr_struct.reports.trust_of_modes import mode_checks
 
 if TYPE_CHECKING:
@@ -36,9 +41,11 @@ class FrfResult(Result):
     """Frequency responses of a robot at rest.
 
     sweep : point, response (hertz (f,), response (f, n) complex), peaks of each, modes of the band
+    within : magnitudes with their bands, None if none were asked for
     """
 
     sweep: ResponseSweep
+    within: ShownCurves | None = None
 
     @property
     def title(self) -> str:
@@ -46,8 +53,9 @@ class FrfResult(Result):
         return f"{self.sweep.point.entered.name}: frequency response"
 
     def text(self) -> str:
-        """Damping, peaks of every response, and how they compare with the eigenfrequencies."""
-        return frf_text(self.answer)
+        """Damping, peaks of every response, and how they compare with the eigenfrequencies; bands if there are any."""
+        more = curve_bands_text(self.answer["bands"]) if "bands" in self.answer else []
+        return paragraphs(frf_text(self.answer), *more)
 
     def sentences(self) -> Sequence[str]:
         """Peaks and modes of the band, and the damping that acts."""
@@ -67,7 +75,7 @@ class FrfResult(Result):
         """Tables, universal file, figure and page."""
         from cdpr_struct.reports.frf_page import frf_files
 
-        return frf_files(self.sweep, self.answer)
+        return frf_files(self.sweep, self.answer, self.within)
 
     def universal_file(self) -> bytes:
         """The even lines of all responses as a universal file: dataset 58."""
@@ -100,6 +108,8 @@ def frf(
     at: Numbers | None = None,
     assembly: str = "consistent",
     force: bool = False,
+    percent: float | None = None,
+    samples: int | None = None,
     progress: Progress = silent,
 ) -> FrfResult:
     """Compute frequency responses, with the certified eigenfrequencies beside their peaks.
@@ -120,6 +130,8 @@ def frf(
     damping : law with its numbers, like "viscous:0.005" or "modal:0.01,0.012"
     frame : axes, world or platform;  at : point of the platform (3,) [m, platform frame]; default: its origin
     assembly : consistent, or thesis (eq. 3.8 as printed);  force : dsm outside its validity limits, too
+    percent : level of a band about every magnitude, like 90: of robots drawn within the tolerances, winches locked
+    samples : with percent, so many robots; default: 200
     progress : called with the name of each step
 
     Raises
@@ -127,7 +139,7 @@ def frf(
     InputError : an unusable argument.
     CdprError : the robot cannot be at rest there, or dsm is outside its limits.
     """
-    hertz = read_band(band)
+    hertz, asked = read_band(band), read_level(percent, samples, "percent")
     cable_model, way = read_model(model), one_of(assembly, "assembly", ASSEMBLIES)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True, winches=True)
     law, massless = read_damping(damping, machine, cable_model == "static"), cable_model == "static"
@@ -146,10 +158,14 @@ def frf(
         sweep = sweep_response(point, cable_model, law, source[0], targets, hertz, what, way)
     described = {"damping": damping, "frame": frame, "at_m": "0,0,0" if at is None else text_of(at), "assembly": way}
     described |= {"band_hz": band_text(band), "damping_note": damping_note(law, damping, machine, massless)}
+    if asked is not None:
+        progress("robots within the tolerances")
+    within = None if asked is None else banded_response(sweep, law, asked, way)
+    bands, doubts = told_of_curves(within, asked, sweep)
     checks = mode_checks(sweep.modes.hertz, sweep.modes.certified, sweep.modes.complete)
-    trust = state.told(*dropped_by(cable_model, machine), *checks)
-    told = frf_json(sweep, {**described, "command": None}) | trust
-    return FrfResult(with_extensions(told, machine, "frf", cable_model), sweep)
+    trust = state.told(*dropped_by(cable_model, machine), *checks, *doubts)
+    told = frf_json(sweep, {**described, "command": None}) | bands | trust
+    return FrfResult(with_extensions(told, machine, "frf", cable_model), sweep, within)
 
 
 def band_text(band: Numbers) -> str:

@@ -6,11 +6,15 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from cdpr_struct.bands.mapped_bands import POSES_AT_ONCE, BandedQuantity
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
-from cdpr_struct.interface.arguments import SMALLEST, read_grid, read_robot, real, whole
-from cdpr_struct.interface.free_angles import FreeAngles, found_angles, read_free, told_in_map, where_judged
+from cdpr_struct.interface.arguments import read_grid, read_robot, whole
+from cdpr_struct.interface.banded_map import banded_quantity, require_no_band, told_with_bands
+from cdpr_struct.interface.bands import read_band
+from cdpr_struct.interface.free_angles import FreeAngles, found_angles, told_in_map, where_judged
 from cdpr_struct.interface.given import GridLike, Numbers, Progress, RobotLike
+from cdpr_struct.interface.map_options import ONCE, OWN_LENGTHS, More, Three, free_axes, own_compute, workspace_question
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.sweeping import swept
 from cdpr_struct.interface.winches import require_given_free, require_locked_lengths, require_own_winches
@@ -18,37 +22,33 @@ from cdpr_struct.interface.workspace import (
     WORKSPACE,
     WorkspaceQuestion,
     WorkspaceResult,
-    read_requirements,
     require_entered,
     single,
 )
-from cdpr_struct.interface.wrenches import WrenchesLike, read_wrenches
+from cdpr_struct.interface.wrenches import WrenchesLike
 from cdpr_struct.reports import statics_map
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.hanging_poses import hanging
-from cdpr_struct.workspace.margins import NO_WRENCH, ZONE, distances, margins
-from cdpr_struct.workspace.pose_batches import PoseBatches
+from cdpr_struct.workspace.margins import ZONE
+from cdpr_struct.workspace.pose_batches import Evaluate, PoseBatches
 from cdpr_struct.workspace.quantities import evaluate, quantity_of
-from cdpr_struct.workspace.requirements import ManyQuantities
 from cdpr_struct.workspace.sweep import sweep
 from cdpr_struct.workspace.work_list import Columns
 
 if TYPE_CHECKING:
     from cdpr_struct.reports.figures.shown import Draw
 
-_ERRORS = "a pose error is that of lengths which each cable has of its own"
-_ONCE = 1  # halving of the grid where a workspace ends, if nothing else is asked
-Three: TypeAlias = tuple[bool, bool, bool]
-More: TypeAlias = tuple[str | Iterable[str] | None, WrenchesLike | None, int, float]
+Within: TypeAlias = tuple[float | None, int | None, float | None]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class MapResult(Result):
     """A quantity over a grid of poses.
 
-    robot : with its load;  quantity : its name;  grid : of poses;  values : columns of n numbers, z runs fastest
+    robot : with its load;  quantity : its name;  grid : of poses;  values : columns of n numbers, z runs fastest, those
+        of bands among them
     """
 
     robot: Robot
@@ -62,12 +62,12 @@ class MapResult(Result):
         return f"{self.robot.name}: {quantity_of(self.quantity).label}"
 
     def text(self) -> str:
-        """Smallest, largest and mean value, and the poses that do not count."""
-        return statics_map.map_sentence(self.answer)
+        """Smallest, largest and mean value, and the poses that do not count; what bands say."""
+        return statics_map.map_text(self.answer)
 
     def sentences(self) -> Sequence[str]:
-        """As `text`."""
-        return [self.text()]
+        """The same without notes."""
+        return statics_map.map_sentences(self.answer)
 
     def columns(self) -> Mapping[str, Any]:
         """Columns of map.csv."""
@@ -106,8 +106,11 @@ def map(
     free: FreeAngles | None = None,
     require: str | Iterable[str] | None = None,
     wrenches: WrenchesLike | None = None,
-    refine: int = _ONCE,
+    refine: int = ONCE,
     anchor_zone: float = ZONE,
+    band: float | None = None,
+    samples: int | None = None,
+    limit: float | None = None,
 ) -> MapResult | WorkspaceResult:
     """Map a quantity over a grid of poses, or the workspace: where all requirements hold.
 
@@ -129,6 +132,9 @@ def map(
     wrenches : to be held beside the load: a CSV file, "fx=-100:100,mz=-5:5" (all corners), or rows of six numbers
     refine : how often the grid of a workspace is halved where the workspace ends
     anchor_zone : of cable, next to an anchor that is shared or sits on a body, left out of distances [m]
+    band : level of a band about the value at every pose [%], like 90: within the robot's tolerances, winches locked
+    samples : with band, so many robots drawn within the tolerances check it at every pose
+    limit : with band, in the quantity's unit: with which probability does it fall below?
 
     Raises
     ------
@@ -136,7 +142,7 @@ def map(
     """
     asked = map_question(
         robot, grid, quantity, payload, mass, wrench, temperature, lower_bound, upper_bound, chunk, free,
-        (require, wrenches, refine, anchor_zone),
+        (require, wrenches, refine, anchor_zone), (band, samples, limit),
     )  # fmt: skip
     return asked.answered_by(lambda batches: swept(batches, executor, progress))
 
@@ -146,7 +152,7 @@ class MapQuestion:
     """Which quantity is asked for, over which grid.
 
     chunk : poses a batch, None for what suits the quantity;  free : which of rx, ry, rz hang freely, or None
-    compute : the quantity under a set of wrenches or with an anchor zone of its own, or None
+    compute : the quantity under a set of wrenches, with an anchor zone of its own, or with a band, or None
     """
 
     robot: Robot
@@ -154,7 +160,7 @@ class MapQuestion:
     quantity: str
     chunk: int | None
     free: Three | None = None
-    compute: ManyQuantities | None = None
+    compute: Evaluate | None = None
 
     @property
     def batches(self) -> PoseBatches:
@@ -178,6 +184,8 @@ class MapQuestion:
         told = statics_map.map_json(self.robot, self.quantity, self.grid, values) | {"resumed_chunks": 0}
         if self.free is not None:
             told = told_in_map(told, self.robot, self.free, found_angles(values), where_judged(self.quantity))
+        if isinstance(self.compute, BandedQuantity):
+            told = told_with_bands(told, self.robot, self.grid, values, self.compute)
         answer = with_extensions(told, self.robot, *_kin(self.quantity))
         return MapResult(answer, self.robot, self.quantity, self.grid, values)
 
@@ -195,9 +203,12 @@ def map_question(
     upper_bound: float | None,
     chunk: int | None,
     free: FreeAngles | None = None,
-    more: More = (None, None, _ONCE, ZONE),
+    more: More = (None, None, ONCE, ZONE),
+    within: Within = (None, None, None),
 ) -> MapQuestion | WorkspaceQuestion:
-    """What the arguments of `map` ask for; more : require, wrenches, refine and anchor_zone.
+    """What the arguments of `map` ask for.
+
+    more : require, wrenches, refine and anchor_zone;  within : band, samples and limit
 
     Raises
     ------
@@ -215,11 +226,13 @@ def map_question(
     name = "nothing" if quantity is None else quantity
     if name.startswith("pose-error"):
         require_locked_lengths(machine, "a pose error is that of locked lengths")
-        require_own_winches(machine, _ERRORS)
+        require_own_winches(machine, OWN_LENGTHS)
     if more[1] is not None:
         require_own_winches(machine, "further wrenches are held by a winch of each cable")
+    band = read_band(*within[:2])
     if name == WORKSPACE or more[0] is not None:
-        return _workspace_question(machine, poses, name, chunk, free, more)
+        require_no_band(*within)
+        return workspace_question(machine, poses, name, chunk, free, more)
     try:
         what = quantity_of(name)
     except KeyError as error:
@@ -228,56 +241,11 @@ def map_question(
         right = f"at most {most} poses for {name}, which keeps the mode shapes of all poses in memory"
         raise InputError("grid", "", f"{poses.size} poses", right)
     require_entered(machine, (name,))
-    compute = _own(name, what.evaluate, more)
-    return MapQuestion(machine, poses, name, chunk, _three(free, machine, poses), compute)
-
-
-def _three(free: FreeAngles | None, robot: Robot, grid: Grid) -> Three | None:
-    if free is None:
-        return None
-    rx, ry, rz = read_free(free, robot, grid.angles)[0].tolist()
-    return rx, ry, rz
-
-
-def _own(name: str, evaluates: Callable[..., Columns], more: More) -> ManyQuantities | None:
-    """What computes a quantity with a set of wrenches or an anchor zone, where they are given."""
-    _, wrenches, refine, zone = more
-    if refine != _ONCE:
-        raise InputError("refine", "", refine, f"only `quantity` {WORKSPACE} has an end to refine; leave it out")
-    if wrenches is not None and evaluates is not margins:
-        raise InputError("wrenches", "", name, "a quantity that asks for wrenches: slack-margin, force-margin, ...")
-    if zone != ZONE and evaluates is not distances:
-        raise InputError("anchor_zone", "", name, "only for cable-distance, body-distance and workspace")
-    if wrenches is None and zone == ZONE:
-        return None
-    return ManyQuantities((name,), NO_WRENCH if wrenches is None else read_wrenches(wrenches), _zone(zone))
-
-
-def _workspace_question(
-    robot: Robot, grid: Grid, name: str, chunk: int | None, free: FreeAngles | None, more: More
-) -> WorkspaceQuestion:
-    require, wrenches, refine, zone = more
-    if name != WORKSPACE:
-        raise InputError("require", "", name, f"requirements belong to `quantity` {WORKSPACE}")
-    if not grid.free:
-        raise InputError("grid", "", "a single pose", "give a range for x, y or z: a workspace has an extent")
-    asked = None if wrenches is None else read_wrenches(wrenches)
-    required = read_requirements(require, asked)
-    names = tuple(dict.fromkeys(one.quantity for one in required))
-    require_entered(robot, names)
-    errors = any(one.startswith("pose-error") for one in names)
-    if errors:
-        require_locked_lengths(robot, "a pose error is that of locked lengths")
-        require_own_winches(robot, _ERRORS)
-    if free is not None and errors:
-        raise InputError("free", "", free, "pose errors are computed at the orientation of the grid; leave it out")
-    compute = ManyQuantities(names, NO_WRENCH if asked is None else asked, _zone(zone))
-    times = whole(refine, "refine", 0, 6)
-    return WorkspaceQuestion(robot, grid, required, compute, times, chunk, _three(free, robot, grid))
-
-
-def _zone(given: float) -> float:
-    return real(given, "anchor_zone", "give a length in m, zero or more", -SMALLEST)
+    compute: Evaluate | None = own_compute(name, what.evaluate, more)
+    if band is not None or within[2] is not None:
+        compute = banded_quantity(machine, name, band, within[2], compute is None, free is not None)
+        chunk = POSES_AT_ONCE if chunk is None else chunk
+    return MapQuestion(machine, poses, name, chunk, free_axes(free, machine, poses), compute)
 
 
 def require_drawable(grid: Grid) -> None:

@@ -10,6 +10,8 @@ from cdpr_struct.dynamics.vibration_record import VibratingRobot, VibrationRecor
 from cdpr_struct.errors import InputError
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of, read_numbers, read_robot, real, text_of
+from cdpr_struct.interface.banded_curves import banded_vibration, told_of_curves
+from cdpr_struct.interface.bands import read_band
 from cdpr_struct.interface.damping_law import read_damping, read_end_friction
 from cdpr_struct.interface.free_angles import FreeAngles
 from cdpr_struct.interface.given import Numbers, PoseLike, Progress, RobotLike, TrajectoryLike
@@ -20,8 +22,11 @@ from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.trajectory import read_trajectory
 from cdpr_struct.interface.vibration_model import dropped_by, read_model, require_valid
 from cdpr_struct.interface.winches import require_locked_lengths, require_own_winches
+from cdpr_struct.reports.curve_bands_told import curve_bands_text
 from cdpr_struct.reports.damping_note import ENDLESS_VIBRATION, damping_note, friction_note
 from cdpr_struct.reports.extension_notes import with_extensions
+from cdpr_struct.reports.figures.curve_bands import ShownCurves
+from cdpr_struct.reports.text import paragraphs
 from cdpr_struct.reports.transient_result import transient_columns, transient_json
 from cdpr_struct.reports.transient_text import transient_summary, transient_text
 from cdpr_struct.reports.trust_of_modes import mode_checks
@@ -42,10 +47,12 @@ class TransientResult(Result):
 
     record : point, ports, vibration (time (n,), displacement, velocity, acceleration (n, ports)), modes
     window : of the spectrogram [s]; None: what suits the record
+    within : displacements with their bands, None if none were asked for
     """
 
     record: VibrationRecord
     window: float | None = None
+    within: ShownCurves | None = None
 
     @property
     def title(self) -> str:
@@ -53,8 +60,9 @@ class TransientResult(Result):
         return f"{self.record.point.entered.name}: vibration in time"
 
     def text(self) -> str:
-        """Largest motion and dominant frequency of every port."""
-        return transient_text(self.answer)
+        """Largest motion and dominant frequency of every port; bands if there are any."""
+        more = curve_bands_text(self.answer["bands"]) if "bands" in self.answer else []
+        return paragraphs(transient_text(self.answer), *more)
 
     def sentences(self) -> Sequence[str]:
         """Dominant frequency, and the damping that acts."""
@@ -74,7 +82,7 @@ class TransientResult(Result):
         """Tables, figure and page."""
         from cdpr_struct.reports.transient_page import transient_files
 
-        return transient_files(self.record, self.answer, self.window)
+        return transient_files(self.record, self.answer, self.window, self.within)
 
     def universal_file(self) -> bytes:
         """Accelerations of all ports as a universal file: dataset 58, time responses."""
@@ -113,6 +121,8 @@ def transient(
     at: Numbers | None = None,
     assembly: str = "consistent",
     force: bool = False,
+    band: float | None = None,
+    samples: int | None = None,
     progress: Progress = silent,
 ) -> TransientResult:
     """Predict the vibration after an emergency stop, or along a trajectory, by modal superposition.
@@ -137,6 +147,8 @@ def transient(
         angle over which it builds up [rad]; frame, platform or both, with ";" between two of them
     frame : axes, world or platform;  at : point of the platform (3,) [m, platform frame]; default: its origin
     assembly : consistent, or thesis (eq. 3.8 as printed);  force : dsm outside its validity limits, too
+    band : level of a band about every displacement [%], like 90: of robots drawn within the tolerances, winches locked
+    samples : with band, so many robots; default: 100
     progress : called with the name of each step
 
     Raises
@@ -157,7 +169,7 @@ def transient(
     law = read_damping(damping, machine, cable_model == "static")
     rubbing = None if end_friction is None else read_end_friction(end_friction)
     motion, assumed = (None, []) if trajectory is None else read_trajectory(trajectory, None, _FEWEST)
-    seconds = _duration(duration, motion)
+    seconds, asked = _duration(duration, motion), read_band(band, samples)
     _check_samples(highest, seconds, window)
     if motion is not None and pose is None and lengths is None:
         pose = Pose(motion.position[-1], angles_from_rotation(motion.rotation[-1]))
@@ -167,12 +179,17 @@ def transient(
     ports += () if not watch else read_ports(watch, "watch", state.point, frame, at)
     vibrating = VibratingRobot(state.point, cable_model, law, highest, way, rubbing)
     progress("modes and motion")
+    cause = _twist(initial_velocity or "") if motion is None else motion
     with state.advised():
         record = (
-            vibrating.after_stop(_twist(initial_velocity or ""), ports, seconds)
-            if motion is None
-            else vibrating.along(motion, ports, seconds)
+            vibrating.along(cause, ports, seconds)
+            if isinstance(cause, Trajectory)
+            else vibrating.after_stop(cause, ports, seconds)
         )
+    if asked is not None:
+        progress("robots within the tolerances")
+    within = None if asked is None else banded_vibration(vibrating, record, cause, asked)
+    bands, doubts = told_of_curves(within, asked, record)
     described = {
         "damping": damping,
         "end_friction": end_friction,
@@ -183,10 +200,10 @@ def transient(
     note = damping_note(law, damping, machine, cable_model == "static", ENDLESS_VIBRATION)
     if rubbing is not None:
         note = f"{friction_note(rubbing)} {note}"
-    checks = *dropped_by(cable_model, machine), *mode_checks(record.modes.hertz, record.modes.certified)
-    told = transient_json(record, {**described, "damping_note": note, "command": None})
+    checks = *dropped_by(cable_model, machine), *mode_checks(record.modes.hertz, record.modes.certified), *doubts
+    told = transient_json(record, {**described, "damping_note": note, "command": None}) | bands
     told |= state.told(*checks, warnings=assumed)
-    return TransientResult(with_extensions(told, machine, "transient", cable_model), record, window)
+    return TransientResult(with_extensions(told, machine, "transient", cable_model), record, window, within)
 
 
 def _check_samples(highest: float, seconds: float, window: float | None) -> None:

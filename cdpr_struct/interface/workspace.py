@@ -16,7 +16,7 @@ from cdpr_struct.robot.fingerprint import fingerprint
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.workspace.grid import Grid
 from cdpr_struct.workspace.hanging_poses import HangingFreely
-from cdpr_struct.workspace.pose_batches import PoseBatches
+from cdpr_struct.workspace.pose_batches import Evaluate, PoseBatches
 from cdpr_struct.workspace.region import Region
 from cdpr_struct.workspace.requirements import FEASIBLE, ManyQuantities, Requirement, failing
 from cdpr_struct.workspace.work_list import Columns
@@ -138,8 +138,8 @@ def read_requirements(given: str | Iterable[str] | None, wrenches: Wrenches | No
     return tuple(dict.fromkeys(found))
 
 
-def single(compute: ManyQuantities, batches: PoseBatches) -> PoseBatches:
-    """Batches of one quantity with a set of wrenches or a zone of its own."""
+def single(compute: Evaluate, batches: PoseBatches) -> PoseBatches:
+    """Batches of one quantity with a set of wrenches, a zone or a band of its own."""
     return replace(batches, name=f"{batches.name} {compute}", evaluate=compute)
 
 

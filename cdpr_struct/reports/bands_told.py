@@ -12,7 +12,8 @@ from cdpr_struct.reports.tolerances_told import defaults_used
 from cdpr_struct.reports.trust import Check
 from cdpr_struct.robot.robot import FREEDOMS
 
-_TAUT = 3.0  # sigmas of its tension that a cable should have before it goes slack
+TAUT = 3.0
+"""Sigmas of its tension that a cable should have before it goes slack."""
 _NOT_OF_RESTS = ("load_cell_gain", "load_cell_bias_N", "damping")  # tolerances that move no robot at rest
 _ALIKE = 0.2  # of a band's width by which its ends may differ from those of drawn robots
 
@@ -33,7 +34,7 @@ def frequencies_told(
     ends = np.full((len(hertz), 2), np.nan)
     if drawn.hertz.size:
         ends[vibrating] = drawn.quantiles("hertz", level)
-    return told | {"samples": _samples(drawn) | {"frequencies_hz": ends, "differ": _differing(bands, ends)}}
+    return told | {"samples": samples_told(drawn) | {"frequencies_hz": ends, "differ": differing(bands, ends)}}
 
 
 def rest_told(found: RestBands, drawn: DrawnRobots | None, level: float) -> dict[str, Any]:
@@ -47,12 +48,15 @@ def rest_told(found: RestBands, drawn: DrawnRobots | None, level: float) -> dict
     if drawn is None:
         return told
     pose, tension = drawn.quantiles("pose", level), drawn.quantiles("tension", level)
-    differ = [f"pose {name}" for name in _named(_differing(found.pose, pose), FREEDOMS)]
-    differ += [f"tension {number}" for number in _differing(found.tension, tension)]
-    return told | {"samples": _samples(drawn) | {"pose": _in_degrees(pose), "tensions_N": tension, "differ": differ}}
+    differ = [f"pose {name}" for name in _named(differing(found.pose, pose), FREEDOMS)]
+    differ += [f"tension {number}" for number in differing(found.tension, tension)]
+    return told | {
+        "samples": samples_told(drawn) | {"pose": _in_degrees(pose), "tensions_N": tension, "differ": differ}
+    }
 
 
-def _samples(drawn: DrawnRobots) -> dict[str, Any]:
+def samples_told(drawn: DrawnRobots) -> dict[str, Any]:
+    """How many robots were drawn, and how many of them are not held."""
     return {"count": len(drawn.pose) + drawn.lost, "not_stable": drawn.lost}
 
 
@@ -64,7 +68,7 @@ def _named(numbers: Sequence[int], names: Sequence[str]) -> list[str]:
     return [names[number - 1] for number in numbers]
 
 
-def _differing(bands: np.ndarray, ends: np.ndarray) -> list[int]:
+def differing(bands: np.ndarray, ends: np.ndarray) -> list[int]:
     """Numbers, from 1, of bands whose ends differ by more than a share of their width."""
     width = bands[:, 1] - bands[:, 0]
     with np.errstate(invalid="ignore"):
@@ -84,7 +88,7 @@ def slack_check(tension: np.ndarray, sigma: np.ndarray, drawn: DrawnRobots | Non
         "; see those of the drawn robots." if drawn is not None else "; --samples 500 draws robots and shows theirs."
     )
     check = Check.of(
-        "least tension in sigmas", float(margin[weakest]), _TAUT, said if margin[weakest] < _TAUT else None,
+        "least tension in sigmas", float(margin[weakest]), TAUT, said if margin[weakest] < TAUT else None,
         at_least=True,
     )  # fmt: skip
     lost = [] if drawn is None else [_lost_check(drawn)]
@@ -130,9 +134,14 @@ def band_words(bands: Mapping[str, Any], key: str, digits: int) -> list[str]:
         differ = _numbers_of(drawn["differ"], key)
         ends = np.where(np.isin(np.arange(1, len(ends) + 1), differ)[:, None], np.asarray(drawn[key], float), ends)
     return [
-        "-" if not np.isfinite(pair).any() else f"{pair[0]:.{digits}f} .. {pair[1]:.{digits}f}{'*' * (i in differ)}"
+        "-" if not np.isfinite(pair).any() else words_of_band(pair, digits, i in differ)
         for i, pair in enumerate(ends, start=1)
     ]
+
+
+def words_of_band(ends: Sequence[float] | np.ndarray, digits: int, starred: bool = False) -> str:
+    """A band in words; starred: it is that of drawn robots."""
+    return f"{ends[0]:.{digits}f} .. {ends[1]:.{digits}f}{'*' * starred}"
 
 
 def _numbers_of(differ: Sequence[Any], key: str) -> tuple[int, ...]:

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from cdpr_struct.reports.cable_bands_told import cable_bands_plate, cable_bands_table
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.figures import single_cable
 from cdpr_struct.reports.figures.drawing import Drawing
@@ -15,6 +16,8 @@ from cdpr_struct.reports.text import cable_frequencies
 def cable_files(result: Mapping[str, Any]) -> dict[str, str | bytes]:
     """Contents of every file of the report, by name; `result` as `describe_cable` gives it."""
     plates = cable_plates(result)
+    if "bands" in result:
+        plates.append(cable_bands_plate(result))
     trace = single_cable.stiffness_trace(result)
     return {
         "profile.csv": csv_text(profile_columns(result)),
@@ -78,7 +81,11 @@ def cable_page(result: Mapping[str, Any], plates: list[Plate]) -> Page:
             (f"{result['epsilon']:.3g}", _epsilon_meaning(result)),
         ],
         plates=plates,
-        tables=[_matrices(result), _frequencies(result)],
+        tables=[
+            _matrices(result),
+            _frequencies(result),
+            *([cable_bands_table(result["bands"])] if "bands" in result else []),
+        ],
         notes=[("How it was computed", _NOTES)],
     )
 

@@ -1,9 +1,12 @@
 """The files of a force distribution: CSV over time, figures, and the report page."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
+from cdpr_struct.bands.force_bands import ForceBands
 from cdpr_struct.dynamics.trajectory_distribution import TrajectoryDistribution
 from cdpr_struct.reports.csv_table import csv_text
 from cdpr_struct.reports.distribution_notes import distribution_notes
@@ -12,17 +15,30 @@ from cdpr_struct.reports.distribution_text import BOUND_NAMES, frequency_sentenc
 from cdpr_struct.reports.figures import distribution as figures
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.figures.interactive_forces import forces_plot
+from cdpr_struct.reports.force_bands_told import force_bands_csv, force_bands_plate, force_bands_table
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 
 Found = Sequence[TrajectoryDistribution]
 
 
-def distribution_files(found: Found) -> dict[str, str | bytes]:
-    """Contents of every file of the report, by name; the first entry is the bound that was asked for."""
-    plates = distribution_plates(found)
+def distribution_files(
+    found: Found, within: ForceBands | None = None, bands: Mapping[str, Any] | None = None
+) -> dict[str, str | bytes]:
+    """Contents of every file of the report, by name; the first entry is the bound that was asked for.
+
+    within, bands : of the first, and key `bands` of the result, if there are any
+    """
+    plates, tables = distribution_plates(found), {}
+    if within is not None and bands is not None:
+        plates.insert(1, force_bands_plate(found[0], within, bands["level"]))
+        tables["force_bands.csv"] = force_bands_csv(found[0], within)
+    page = distribution_page(found, plates)
+    if bands is not None:
+        page = replace(page, tables=[*page.tables, force_bands_table(bands)])
     return {
+        **tables,
         **{f"forces_{f.rule.replace('-', '_')}.csv": csv_text(force_columns(f)) for f in found},
-        **page_files(distribution_page(found, plates)),
+        **page_files(page),
     }
 
 

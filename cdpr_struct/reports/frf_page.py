@@ -8,7 +8,9 @@ import numpy as np
 from cdpr_struct.dynamics.frequency_sweep import ResponseSweep
 from cdpr_struct.measurement.universal_file import universal_file
 from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.curve_bands_told import curve_bands_csv, curve_bands_plate, curve_bands_table
 from cdpr_struct.reports.figures import frf
+from cdpr_struct.reports.figures.curve_bands import ShownCurves
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.figures.interactive_frf import frf_plot
 from cdpr_struct.reports.frf_result import frf_columns
@@ -16,8 +18,10 @@ from cdpr_struct.reports.frf_text import RATIO, SILENT, WIDTH, frf_summary, peak
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
 
 
-def frf_files(sweep: ResponseSweep, result: Mapping[str, Any]) -> dict[str, str | bytes]:
-    """Contents of every file of the report, by name; `result` as `frf_json` gives it."""
+def frf_files(
+    sweep: ResponseSweep, result: Mapping[str, Any], within: ShownCurves | None = None
+) -> dict[str, str | bytes]:
+    """Contents of every file of the report, by name; `result` as `frf_json` gives it, `within` if there are bands."""
     plate = Plate(
         "frf",
         "Frequency response",
@@ -25,11 +29,13 @@ def frf_files(sweep: ResponseSweep, result: Mapping[str, Any]) -> dict[str, str 
         frf.frf_caption(sweep),
         frf_plot(sweep),
     )
+    plates = [plate] if within is None else [plate, curve_bands_plate(within, result["bands"]["level"])]
     return {
+        **({} if within is None else {"frf_band.csv": curve_bands_csv(within, "respond")}),
         "frf.csv": csv_text(frf_columns(sweep)),
         "frf.uff": response_file(sweep, result),
         "modes.csv": csv_text({"frequency_hz": sweep.modes.hertz, "kind": sweep.modes.kinds}),
-        **page_files(_page(sweep, result, plate)),
+        **page_files(_page(sweep, result, plates)),
     }
 
 
@@ -39,7 +45,7 @@ def response_file(sweep: ResponseSweep, result: Mapping[str, Any]) -> bytes:
     return universal_file(sweep.evenly, sweep.point.entered.name, axes)
 
 
-def _page(sweep: ResponseSweep, result: Mapping[str, Any], plate: Plate) -> Page:
+def _page(sweep: ResponseSweep, result: Mapping[str, Any], plates: list[Plate]) -> Page:
     robot, (x, y, z) = sweep.point.entered, sweep.point.position
     return Page(
         robot=robot.name,
@@ -55,8 +61,11 @@ def _page(sweep: ResponseSweep, result: Mapping[str, Any], plate: Plate) -> Page
             (f"{len(result['natural_frequencies_hz'])}", "eigenfrequencies in the band"),
             *((_highest(r), f"highest peak of {r['respond']}") for r in result["responses"]),
         ],
-        plates=[plate],
-        tables=[_table(result, response) for response in result["responses"]],
+        plates=plates,
+        tables=[
+            *(_table(result, response) for response in result["responses"]),
+            *([curve_bands_table(result["bands"])] if "bands" in result else []),
+        ],
         notes=[("How it was computed", _NOTES)],
     )
 

@@ -6,8 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from cdpr_struct.reports.bands_told import band_note
 from cdpr_struct.reports.csv_table import LongTable
 from cdpr_struct.reports.html import Page, Plate, page_files
+from cdpr_struct.reports.map_bands_told import BandLayer, band_layers, map_band_sentences
+from cdpr_struct.reports.text import paragraphs
 from cdpr_struct.reports.trust_over_poses import deep_sag, slack_poses, trust_over_poses
 from cdpr_struct.reports.unheld_poses import what_helps
 from cdpr_struct.robot.robot import Robot
@@ -105,18 +108,38 @@ def map_files(
     from cdpr_struct.reports.figures import workspace_map
 
     plates = [_map_plate(robot, name, grid, columns)] if workspace_map.drawable(grid) else []
+    if "bands" in result and plates:
+        plates += [_band_plate(robot, grid, one) for one in band_layers(name, columns, result["bands"])]
     page = Page(
         robot=robot.name,
         title=f"{robot.name}: {quantity_of(name).label}" + (" over the workspace" if grid.size > 1 else " at a pose"),
         subtitle=f"{len(robot.cables)} cables, platform {robot.platform.mass:g} kg" + _comma(grid.fixed_text()),
-        verdict=[map_sentence(result)],
+        verdict=map_sentences(result),
         holds=result["held"] == result["poses"] and not result["unstable"],
         facts=_map_facts(result),
         plates=plates,
         tables=[],
-        notes=[("How it was computed", _NOTE)],
+        notes=[
+            ("How it was computed", _NOTE),
+            *([("Bands", (band_note(result["bands"]),))] if "bands" in result else []),
+        ],
     )
     return {"map.csv": map_table(grid, columns), **page_files(page)}
+
+
+def map_text(result: Mapping[str, Any]) -> str:
+    """What the command prints."""
+    noted = [text for _, texts in _band_notes(result) for text in texts]
+    return paragraphs("\n".join(map_sentences(result)), *noted)
+
+
+def _band_notes(result: Mapping[str, Any]) -> list[tuple[str, tuple[str, ...]]]:
+    return [("Bands", (band_note(result["bands"]),))] if "bands" in result else []
+
+
+def map_sentences(result: Mapping[str, Any]) -> list[str]:
+    """The outcome in words, and what bands say."""
+    return [map_sentence(result), *(map_band_sentences(result) if "bands" in result else [])]
 
 
 def map_sentence(result: Mapping[str, Any]) -> str:
@@ -166,9 +189,13 @@ def _map_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 def map_figure(robot: Robot, name: str, grid: Grid, columns: Columns) -> tuple["Draw", tuple[float, float]]:
     """What draws a map over one to three axes into an empty figure, and its size [inch]."""
+    return _layer_figure(robot, grid, _layer(name, columns))
+
+
+def _layer_figure(robot: Robot, grid: Grid, layer: "Layer") -> tuple["Draw", tuple[float, float]]:
     from cdpr_struct.reports.figures import frame_plan, workspace_map, workspace_slices
 
-    layer, plan = _layer(name, columns), frame_plan.FramePlan.of(robot, grid)
+    plan = frame_plan.FramePlan.of(robot, grid)
     solid = len(grid.free) == 3
     size = workspace_slices.slices_size(grid) if solid else workspace_map.map_size(grid)
     draw = workspace_slices.draw_slices if solid else workspace_map.draw_map
@@ -199,6 +226,15 @@ def _map_plate(robot: Robot, name: str, grid: Grid, columns: Columns) -> Plate:
     caption, live = _captions(robot, name, grid, columns)
     plot = interactive_map.map_plot(grid, [_layer(name, columns)], frame_plan.FramePlan.of(robot, grid))
     return Plate("map", f"{quantity.label[0].upper()}{quantity.label[1:]}", picture, caption, plot, live_caption=live)
+
+
+def _band_plate(robot: Robot, grid: Grid, one: BandLayer) -> Plate:
+    from cdpr_struct.reports.figures import frame_plan, interactive_map
+    from cdpr_struct.reports.figures.drawing import Drawing
+
+    draw, size = _layer_figure(robot, grid, one.layer)
+    plot = interactive_map.map_plot(grid, [one.layer], frame_plan.FramePlan.of(robot, grid))
+    return Plate(one.name, one.heading, Drawing(one.name, size, draw), one.caption, plot)
 
 
 def _captions(robot: Robot, name: str, grid: Grid, columns: Columns) -> tuple[str, str]:

@@ -1,5 +1,6 @@
 """The files of static pose errors: result, tables, figures, report page."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,11 @@ from cdpr_struct.reports.figures.frame_plan import FramePlan
 from cdpr_struct.reports.figures.interactive_map import map_plot
 from cdpr_struct.reports.figures.style import Draw
 from cdpr_struct.reports.html import HtmlTable, Page, Plate, page_files
+from cdpr_struct.reports.pose_error_bands_told import (
+    pose_error_bands_columns,
+    pose_error_bands_plate,
+    pose_error_bands_table,
+)
 from cdpr_struct.reports.statics_map import map_table
 from cdpr_struct.reports.text import place, rounded
 from cdpr_struct.reports.trust_over_poses import slack_poses, trust_over_poses
@@ -56,18 +62,32 @@ def sufficient_load_json(found: SufficientLoad, pose: Pose) -> dict[str, Any]:
     return {"tolerance_mm": 1e3 * found.tolerance, "pose": pose.in_degrees(), "mass_kg": found.mass}
 
 
+def error_table(errors: PoseErrorMap, bands: Mapping[str, Any] | None = None) -> LongTable:
+    """pose_error.csv, one row a pose, with bands if there are any."""
+    more = {} if bands is None else pose_error_bands_columns(bands)
+    return map_table(errors.grid, {**errors.columns, **more})
+
+
 def pose_error_files(
-    robot: Robot, errors: PoseErrorMap | None, load: tuple[SufficientLoad, Pose] | None
+    robot: Robot,
+    errors: PoseErrorMap | None,
+    load: tuple[SufficientLoad, Pose] | None,
+    bands: Mapping[str, Any] | None = None,
 ) -> dict[str, str | bytes | LongTable]:
-    """CSV, figures and page of pose errors over a grid, of the sufficient load at a pose, or both."""
+    """CSV, figures and page of pose errors over a grid, of the sufficient load at a pose, or both.
+
+    bands : key `bands` of the result at one pose
+    """
     tables: dict[str, str | bytes | LongTable] = {}
     plates = []
     if errors is not None:
-        tables["pose_error.csv"] = map_table(errors.grid, errors.columns)
+        tables["pose_error.csv"] = error_table(errors, bands)
         plates += _pose_error_plates(robot, errors)
     if load is not None:
         tables["sufficient_load.csv"] = csv_text(load_columns(load[0]))
         plates.append(_ladder_plate(*load))
+    if bands is not None:
+        plates.append(pose_error_bands_plate(bands))
     page = Page(
         robot=robot.name,
         title=f"{robot.name}: static pose error",
@@ -76,7 +96,10 @@ def pose_error_files(
         holds=errors is None or bool(errors.counts.all()),
         facts=_facts(errors, load),
         plates=plates,
-        tables=[] if errors is None else [_pose_error_table(errors)],
+        tables=[
+            *([] if errors is None else [_pose_error_table(errors)]),
+            *([] if bands is None else [pose_error_bands_table(bands)]),
+        ],
         notes=[("How it was computed", POSE_ERROR_NOTES)],
     )
     return {**tables, **page_files(page)}

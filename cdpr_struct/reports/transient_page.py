@@ -8,7 +8,9 @@ import numpy as np
 from cdpr_struct.dynamics.vibration_record import VibrationRecord
 from cdpr_struct.measurement.spectrogram import Spectrogram, spectrogram
 from cdpr_struct.reports.csv_table import csv_text
+from cdpr_struct.reports.curve_bands_told import curve_bands_csv, curve_bands_plate, curve_bands_table
 from cdpr_struct.reports.figures import spectrogram as figure
+from cdpr_struct.reports.figures.curve_bands import ShownCurves
 from cdpr_struct.reports.figures.drawing import Drawing
 from cdpr_struct.reports.figures.interactive_vibration import vibration_plot
 from cdpr_struct.reports.figures.style import Draw
@@ -18,18 +20,23 @@ from cdpr_struct.reports.transient_text import PORT_COLUMNS, port_rows, transien
 
 
 def transient_files(
-    record: VibrationRecord, result: Mapping[str, Any], window: float | None = None
+    record: VibrationRecord,
+    result: Mapping[str, Any],
+    window: float | None = None,
+    within: ShownCurves | None = None,
 ) -> dict[str, str | bytes]:
-    """Contents of every file of the report, by name; `result` as `transient_json` gives it."""
+    """Contents of every file of the report, by name; `result` as `transient_json` gives it, within : bands."""
     shown = _shown(record, window)
     drawing = Drawing("vibration", figure.SIZE, lambda f: figure.draw_vibration(f, shown))
     caption = figure.vibration_caption(shown.spectrum)
     plate = Plate("vibration", "Acceleration of the platform", drawing, caption, vibration_plot(shown))
+    plates = [plate] if within is None else [plate, curve_bands_plate(within, result["bands"]["level"])]
     return {
+        **({} if within is None else {"transient_band.csv": curve_bands_csv(within, "port")}),
         "transient.csv": csv_text(transient_columns(record)),
         "spectrogram.csv": spectrogram_csv(shown.spectrum, record.highest_hertz),
         "modes.csv": csv_text({"frequency_hz": record.modes.hertz, "kind": record.modes.kinds}),
-        **page_files(_page(record, result, plate)),
+        **page_files(_page(record, result, plates)),
     }
 
 
@@ -59,7 +66,7 @@ def spectrogram_csv(spectrum: Spectrogram, highest_hertz: float) -> str:
     )
 
 
-def _page(record: VibrationRecord, result: Mapping[str, Any], plate: Plate) -> Page:
+def _page(record: VibrationRecord, result: Mapping[str, Any], plates: list[Plate]) -> Page:
     robot, (x, y, z) = record.point.entered, record.point.position
     summary = transient_summary(result)
     return Page(
@@ -76,8 +83,11 @@ def _page(record: VibrationRecord, result: Mapping[str, Any], plate: Plate) -> P
             (f"{len(result['natural_frequencies_hz'])}", f"modes up to {result['highest_hz']:g} Hz"),
             (f"{100.0 * result['energy_share']:.2f} %", "of the excitation's energy held by these modes"),
         ],
-        plates=[plate],
-        tables=[HtmlTable("Vibration", PORT_COLUMNS, port_rows(result))],
+        plates=plates,
+        tables=[
+            HtmlTable("Vibration", PORT_COLUMNS, port_rows(result)),
+            *([curve_bands_table(result["bands"])] if "bands" in result else []),
+        ],
         notes=[("How it was computed", _NOTES)],
     )
 

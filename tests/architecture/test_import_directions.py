@@ -19,7 +19,7 @@ MAY_IMPORT = {
     "crosscheck": {"robot", "statics", "dynamics", "workspace"},
     "measurement": {"robot", "statics", "dynamics"},
     "observation": {"robot", "statics", "dynamics", "measurement"},
-    "bands": {"robot", "statics", "dynamics", "observation"},
+    "bands": {"robot", "statics", "dynamics", "observation", "workspace"},
     "recordings": {"robot", "measurement"},
     "inference": set(),
     "association": {"observation", "inference"},

@@ -150,6 +150,7 @@ BEYOND = {**OUTSIDE, **UNSEEN, **STATIC_OUTSIDE}  # what no cause of the library
 HANDLING = ("swapped_channels", "unit_error", "sign_error", "pose_mismatch")
 CONVENTION = "rotation_convention"  # in a set of its own
 STATICS_ONLY = ("platform_mass",)  # filed without robot frequencies; weighing the platform separates
+UNSEEN_IN_STATICS = ("platform_inertia",)  # nothing at rest shows it
 ONE_SIDED = ("pulley_friction",)  # equivalent if every cable is always approached from the same side
 
 

@@ -24,6 +24,7 @@ from tests.blind.catalogue import (
     OUTSIDE_HELD,
     RARE,
     UNSEEN,
+    UNSEEN_IN_STATICS,
 )
 from tests.blind.measuring_plan import PlanSize
 
@@ -105,8 +106,13 @@ def composed(name: str, total: int, base: int) -> list[CaseKind]:
     }
     kinds = [kind for key, maker in makers.items() if key in numbers for kind in maker(numbers[key], rng)]
     if name in SMALL_SETS:
-        kinds = [replace(kind, statics=True, size=SMALL, noise="white") for kind in kinds]
+        kinds = [replace(_seen_at_rest(kind), statics=True, size=SMALL, noise="white") for kind in kinds]
     return [kinds[index] for index in rng.permutation(len(kinds))]
+
+
+def _seen_at_rest(kind: CaseKind) -> CaseKind:
+    """The same, or a null where rests do not show the effect."""
+    return CaseKind("null") if any(name in UNSEEN_IN_STATICS for name, _ in kind.effects) else kind
 
 
 def _nulls(count: int, rng: np.random.Generator) -> list[CaseKind]:

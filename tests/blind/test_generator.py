@@ -249,3 +249,12 @@ def test_the_package_knows_nothing_of_the_blind_tests():
         text = path.read_text("utf-8")
         assert "tests.blind" not in text, path
         assert "truth_sha256" not in text, path
+
+
+def test_small_static_sets_hide_nothing_that_rests_do_not_show():
+    kinds = composed("no-conventions", 200, set_seed("no-conventions"))
+    hidden = [name for kind in kinds for name, _ in kind.effects]
+    assert "platform_inertia" not in hidden
+    assert "platform_mass" in hidden
+    assert len(kinds) == 200
+    assert "platform_inertia" in [n for kind in composed("dev", 200, 1) for n, _ in kind.effects]

@@ -21,6 +21,7 @@ ANSWERS = {
     "inverse": lambda: cs.inverse(NAME),
     "forward": lambda: cs.forward(NAME, cs.inverse(NAME).solution.lengths, equilibria=True),
     "pose_error": lambda: cs.pose_error(NAME, "-1:1:2,-1:1:2,0.5"),
+    "pose_error with bands": lambda: cs.pose_error(NAME, band=90, samples=20),
     "map": lambda: cs.map(NAME, "-1:1:3,-1:1:3,0.5", "tension-max"),
     "map of three axes": lambda: cs.map(NAME, "-1:1:3,-1:1:3,0.3:0.6:2", "sag-max"),
     "map of one axis": lambda: cs.map(NAME, "-1:1:3,0,0.5", "stiffness-min"),
@@ -30,6 +31,9 @@ ANSWERS = {
     "compare": lambda: cs.compare(BANDS / "robot.toml", BANDS / "measured.csv"),
     "accept": lambda: cs.accept(BANDS / "robot.toml", BANDS / "requirements.toml"),
     "frf": lambda: cs.frf(NAME, excite="fz", respond="x,z", band=(1, 4, 0.1)),
+    "cable with bands": lambda: cs.cable(force=(100, -100), length=20, EA=2.5e5, rho=0.067, band=90, held="ends"),
+    "map with bands": lambda: cs.map(NAME, "-1:1:3,0,0.5", "tension-min", band=90, limit=190),
+    "frf with bands": lambda: cs.frf(NAME, excite="fz", respond="x,z", band=(1, 4, 0.1), percent=90, samples=20),
     "transient": lambda: cs.transient(NAME, initial_velocity=(0.3, 0, 0), duration=1, highest=8),
     "spectrogram": lambda: cs.spectrogram(ROOT / "examples/stop/acceleration.csv", NAME, highest=10),
     "verify": lambda: cs.verify(NAME, modes=3, elements=(4, 8, 16)),
@@ -37,11 +41,12 @@ ANSWERS = {
     "audit of a grid": lambda: cs.audit(NAME, grid="-1:1:2,-1:1:2,0.5"),
     "audit of a motion": lambda: cs.audit("thesis-5", trajectory="line:0,0,2:1,0,2.5:4"),
     "distribute": lambda: cs.distribute("thesis-5", "helix", instants=31, compare=["fixed"]),
+    "distribute with bands": lambda: cs.distribute("thesis-5", "helix", instants=7, band=90),
     "ambient": lambda: pytest.importorskip("pyoma2") and cs.ambient(ROOT / "examples/ambient/campaign.toml"),
     "plan": lambda: cs.plan(ROOT / "examples/table-4-4/level.toml"),
     "reproduce": lambda: cs.reproduce("fig-2.4"),
 }
-NAMELESS = {"robots", "cable", "reproduce"}
+NAMELESS = {"robots", "cable", "cable with bands", "reproduce"}
 
 
 @pytest.fixture(scope="module")

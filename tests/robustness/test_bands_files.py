@@ -4,6 +4,10 @@ import pytest
 
 from cdpr_struct.cli.main import run
 
+MAP = ["map", "cogiro", "--grid", "0:1:2,0,1.2", "--quantity"]
+CABLE = ["cable", "--force", "100,-100", "--length", "20", "--EA", "2.5e5", "--rho", "0.067"]
+FRF = ["frf", "cogiro", "--excite", "fz", "--respond", "z", "--band"]
+ALONG = ["distribute", "thesis-5", "--trajectory", "helix", "--instants", "11"]
 LIMIT = '[[requirement]]\nname = "a"\nquantity = "frequency"\nat_least = 1.0\n'
 
 
@@ -22,6 +26,40 @@ def complaint(capsys) -> str:
         (["modes", "cogiro", "--samples", "100"], ["samples: got 100", "belongs to --band"]),
         (["inverse", "cogiro", "--band", "90", "--samples", "3"], ["samples: got 3", "20 to 100000"]),
         (["inverse", "cogiro", "--band", "90", "--model", "ideal"], ["model: got 'ideal'", "sagging or spring"]),
+        (
+            ["pose-error", "cogiro", "--grid", "0:1:2,0,1", "--band", "90"],
+            ["grid: got '2 poses'", "one pose for --band"],
+        ),
+        (["pose-error", "cogiro", "--grid", "0,0,1", "--pose", "0,0,1", "--band", "90"], ["pose: got '0,0,1'"]),
+        (
+            [*MAP, "cable-distance", "--band", "90"],
+            ["quantity: got 'cable-distance'", "first-frequency", "tension-min"],
+        ),
+        ([*MAP, "tension-min", "--limit", "3"], ["limit: got 3.0", "belongs to --band"]),
+        ([*MAP, "tension-min", "--band", "90", "--limit", "nan"], ["limit: got nan", "a number in N"]),
+        ([*MAP, "slack-margin", "--band", "90", "--wrenches", "fx=-1:1"], ["wrenches: got 'given'", "leave it out"]),
+        ([*MAP, "pose-error", "--band", "90", "--free", "rx"], ["free: got 'given'", "leave it out"]),
+        (
+            ["map", "examples/robots/gait-trainer/robot.toml", *MAP[2:], "tension-min", "--band", "90"],
+            ["winch_tension", "a band is that of locked lengths"],
+        ),
+        (
+            ["modes", "examples/robots/gait-trainer/robot.toml", "--band", "90"],
+            ["winch_tension", "a band is that of locked lengths"],
+        ),
+        ([*MAP, "workspace", "--band", "90"], ["band: got 90.0", "a workspace has none"]),
+        ([*CABLE, "--held", "ends"], ["held: got 'ends'", "belongs to --band"]),
+        ([*CABLE, "--band", "90", "--held", "top"], ["held: got 'top'", "force or ends"]),
+        ([*CABLE, "--band", "90", "--tolerances", "mass=1"], ["tolerances: got 'mass'", "length_m, anchor_m"]),
+        ([*CABLE, "--band", "90", "--tolerances", "length_m=x"], ["tolerances: got 'length_m=x'", "NAME=VALUE"]),
+        ([*CABLE, "--band", "90", "--tolerances", "length_m=-1"], ["tolerances: got -1.0", "zero or more"]),
+        ([*FRF, "90"], ["band: got '90'", "F0:F1:DF"]),
+        ([*FRF, "1:2:0.1", "--band", "3:4:0.1"], ["band: got '1:2:0.1 and 3:4:0.1'", "a level like 90 at most once"]),
+        ([*FRF, "1:2:0.1", "--band", "90", "--percent", "50"], ["--band", "at most once"]),
+        ([*FRF, "1:2:0.1", "--percent", "100"], ["percent: got 100.0", "below 100"]),
+        ([*FRF, "1:2:0.1", "--samples", "50"], ["samples: got 50", "belongs to --percent"]),
+        ([*ALONG, "--band", "90", "--model", "ideal"], ["model: got 'ideal'", "sagging or spring"]),
+        ([*ALONG, "--samples", "90"], ["samples: got 90", "belongs to --band"]),
         (["sensitivity", "cogiro", "--raise", "first", "--to", "3"], ["raise: got 'first'", "like mode:1"]),
         (["sensitivity", "cogiro", "--to", "3"], ["--raise is missing"]),
         (["sensitivity", "cogiro", "--raise", "mode:1"], ["--to is missing", "frequency in Hz"]),

@@ -350,6 +350,17 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=measured("below 1e-6"),
         ),
         Row(
+            case="bands of mapped quantities, pose errors, cable frequencies and tensions along a motion, four robots",
+            reference="robots drawn from the tolerances and brought to rest one by one",
+            metric="largest difference of the ends of a 90 % band over its width; without sag at anchors 1 mm off",
+            acceptance="0.12 to 0.2, with the chance of 200 to 800 robots",
+            command="python -m pytest tests/laws/test_mapped_bands.py tests/laws/test_force_bands.py",
+            test=f"{_LAWS}/test_mapped_bands.py::test_bands_are_those_of_drawn_robots",
+            twin=f"{_LAWS}/test_pose_error_bands.py::test_a_band_that_first_order_misses_is_that_of_drawn_robots",
+            source="2026-11-26",
+            figure=measured("0.10"),
+        ),
+        Row(
             case="`sensitivity --raise mode:1` by 5 %, six built-in robots, 27 ways that reach it",
             reference="`modes` of the changed robot",
             metric="largest relative deviation from the wanted frequency",
