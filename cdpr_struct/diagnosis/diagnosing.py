@@ -32,7 +32,7 @@ from cdpr_struct.diagnosis.piled_up import piled_up
 from cdpr_struct.diagnosis.recommended import Recommendation, recommended
 from cdpr_struct.diagnosis.recording import Recording, pieces_of, recording
 from cdpr_struct.diagnosis.remainder import remainder
-from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind, doubts, noise_of_kinds, sigmas_used
+from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind, doubts, noise_of_kinds, noise_of_peaks, sigmas_used
 from cdpr_struct.diagnosis.set_aside import set_aside
 from cdpr_struct.diagnosis.unassigned import peak_count, uncertain_peaks
 from cdpr_struct.diagnosis.whole_sizes import WholeSize, whole_sizes
@@ -237,7 +237,8 @@ def _assembled(
     data, search, recorded = story.search.data, story.search, stories.as_recorded(found)
     least, by_pattern = detectable_sizes(search, null)
     unseen = {cause.name: TOO_SMALL for cause in search.causes if not (cause.name in least or cause.tuned)}
-    noise, aside = noise_of_kinds(chosen), tuple(set_aside(data, search.where, chosen))
+    aside = tuple(set_aside(data, search.where, chosen))
+    noise = [*noise_of_kinds(chosen), *noise_of_peaks(chosen)]
     fitted, decision = said.fitted, said.whole
     by_forces = said.forces.p if said.forces is not None and decision != fitted else 1.0
     by_peaks = said.apart.p if said.apart is not None and said.apart.found else 1.0
@@ -286,4 +287,5 @@ def _likeliest(rows: Sequence[Candidate]) -> list[str]:
 
 def _again(aside: Sequence[SetAside]) -> list[Recommendation]:
     """Readings that contradict all others are to be read again."""
-    return [Recommendation("repeat", "", kind=one.kind, case=one.case, cable=one.cable) for one in aside]
+    places = ((one.kind, one.case, one.cable, one.hertz) for one in aside)
+    return [Recommendation("repeat", "", kind=k, case=case, cable=i, hertz=f) for k, case, i, f in places]

@@ -33,6 +33,7 @@ class SetAside:
     """A reading that contradicts all others, or a whole pose: kind as in files, case, cable from 0 (-1: none).
 
     sigmas : by how many stated sigmas it is off;  gain : what its being wrong adds to the log evidence [nat]
+    hertz : of the mode of a modal constant, else 0
     """
 
     kind: str
@@ -40,6 +41,7 @@ class SetAside:
     cable: int
     sigmas: float
     gain: float
+    hertz: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,7 +22,7 @@ class LeftOut:
     """Residuals (n,) of blocks that were not fitted, before and after, and one sigma of them if nothing were wrong.
 
     kind (n,) of `KINDS`;  state, cable (n,) from 0, -1 for none
-    hertz (n,) : of rows of ln f the frequency, else 0
+    hertz (n,) : of rows of ln f and of modal constants the frequency, else 0
     kept (causes,) : log evidence that each cause keeps without the block that it needs most [nat]
     """
 
@@ -124,13 +124,18 @@ def _labels(data: Recorded, where: Layout, modes: np.ndarray) -> np.ndarray:
     ]
     for places in where.sizes_of_states.tolist():
         of = _state_of(data, places[0])
-        rows += [(4, of, -1, 0.0) if place >= 0 else _NONE for place in places]
+        rows += [(4, of, -1, _hertz_of(data, place)) if place >= 0 else _NONE for place in places]
     return np.array(rows, dtype=float).reshape((-1, 4)).T
 
 
 def _state_of(data: Recorded, place: int) -> int:
     """State of a modal constant."""
     return -1 if data.vibrations is None else int(data.vibrations.sizes.state[place])
+
+
+def _hertz_of(data: Recorded, place: int) -> float:
+    """Frequency [Hz] of the mode of a modal constant."""
+    return 0.0 if data.vibrations is None else float(np.exp(data.vibrations.sizes.log_hertz[place]))
 
 
 def _of_block(data: Recorded, shelf: Shelf, k: int, modes: np.ndarray) -> Iterator[tuple[int, int, int, float]]:

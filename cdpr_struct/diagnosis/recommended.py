@@ -28,6 +28,7 @@ class Recommendation:
         "find" what no cause explains
     measurement : what to do, a noun phrase; "" where a reading is to be repeated
     causes : that it is about;  kind, case, cable : of the reading to repeat, cable from 0, -1 for none
+    hertz : of that reading, 0 for none
     nats : log evidence that it is expected to bring, None where this was not computed
     """
 
@@ -38,6 +39,7 @@ class Recommendation:
     case: str = ""
     cable: int = -1
     nats: float | None = None
+    hertz: float = 0.0
 
 
 def recommended(decision: Decision, confirmed: bool, likeliest: Sequence[str]) -> list[Recommendation]:

@@ -11,6 +11,7 @@ from cdpr_struct.diagnosis.decision import Decision
 from cdpr_struct.diagnosis.frame_blocks import FrameBlocks, frame_blocks, numbers_without, spans, stretches
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
 from cdpr_struct.hypotheses.explain import Explained
+from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.hypotheses.significant import SIGNIFICANT
 from cdpr_struct.measurement.campaign import Campaign
@@ -102,7 +103,7 @@ def recording(
     data, where, frames, states = story.search.data, story.search.where, campaign.frames, len(campaign.states.names)
     if every is None:
         return None if frames is None else Recording(frames.of, states, frames.worth, None, None, _NONE, _NONE, None)
-    moving = [i for i, part in enumerate(chosen.hypothesis.parts) if part.cause.in_motion]
+    moving = moving_parts(chosen.hypothesis, [cause.name for cause in story.search.causes])
     blocks = frame_blocks(data, where, chosen, moving[0]) if moving else None
     some, pieces = stretches(data, where), pieces_of(every, story)
     before, after = every.errors(null), every.errors(chosen)
@@ -114,6 +115,13 @@ def recording(
     count = len(every.frames) if frames is None else frames.of
     worth = float(count) if frames is None else frames.worth
     return Recording(count, states, worth, blocks, held_out, by_speed, by_acceleration, beside, p, bend)
+
+
+def moving_parts(hypothesis: Hypothesis, library: Sequence[str]) -> list[int]:
+    """Numbers of the causes that act in motion, in the order of the library, whichever was found first: a delay before
+    a drift, which is no function of speed."""
+    own = [(library.index(p.cause.name), i) for i, p in enumerate(hypothesis.parts) if p.cause.in_motion]
+    return [i for _, i in sorted(own)]
 
 
 def pieces_of(every: AllFrames, story: Explained) -> list[np.ndarray]:

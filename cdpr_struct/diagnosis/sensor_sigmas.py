@@ -4,17 +4,20 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.special import chdtr, fdtrc
+from scipy.special import chdtr, chdtrc, fdtrc
 
+from cdpr_struct.association.peak_noise import SCALES
 from cdpr_struct.hypotheses.detectable import FALSE_ALARMS
 from cdpr_struct.hypotheses.judge import Judged
-from cdpr_struct.inference.scale_mixture import TAU_DEGREES
+from cdpr_struct.inference.scale_mixture import OUTLIER, TAU_DEGREES
 from cdpr_struct.measurement.cable_columns import SWIVEL
 from cdpr_struct.measurement.campaign import AMBIENT, SIGNALS, Campaign, Sheet
 from cdpr_struct.robot.tolerances import tolerance_unit
 
 SENSORS = ("position", "rotation", "tension", "length", "cable_frequency", "frf", "swivel")
 """Names of the kinds of sensors, in the order of their numbers."""
+_PEAKS, _ROBOT = "robot_frequency", 0  # a kind of readings that no block holds, and its place among kinds of lists
+_TOO_SMALL = 1.5  # factor on a stated sigma from which it is said to be too small
 _UNIT = {
     "tension_N": "N", "position_m": "m", "rotation_deg": "deg", "length_m": "m", "frequency_hz": "Hz",
     "acceleration": "m/s^2", "swivel_deg": "deg",
@@ -53,7 +56,7 @@ class Doubt:
 
     about : "sigma", "tolerance", or "errors" that are smaller than sigmas allow
     name, file : of what is doubted;  words : its size;  unit : that it should have, "" for a share
-    large : whether it is too large;  probability : of errors so small, else nan
+    large : whether it (of errors, they) is too large;  probability : of errors so small or large, else nan
     """
 
     about: str
@@ -71,7 +74,7 @@ class NoiseOfKind:
 
     factor : on its stated sigma, outliers apart;  readings, outliers : how many
     p_large : of a factor so large, if stated sigmas are right within what is assumed of them;  p_small : of errors so
-    small, if they are right
+    small, if they are right;  p_stated : of errors so large, if they are right
     """
 
     kind: str
@@ -80,6 +83,14 @@ class NoiseOfKind:
     outliers: int
     p_large: float
     p_small: float
+    p_stated: float = 1.0
+
+    @classmethod
+    def of(cls, kind: str, factor: float, readings: int, outliers: int) -> "NoiseOfKind":
+        """Of a factor that so many readings were found to have."""
+        square = max(factor**2 * (TAU_DEGREES + readings) - TAU_DEGREES, 0.0)
+        large, small = fdtrc(readings, TAU_DEGREES, square / readings), chdtr(readings, square)
+        return cls(kind, factor, readings, outliers, float(large), float(small), float(chdtrc(readings, square)))
 
 
 def noise_of_kinds(found: Judged) -> list[NoiseOfKind]:
@@ -88,12 +99,19 @@ def noise_of_kinds(found: Judged) -> list[NoiseOfKind]:
     for kind, members in enumerate(groups.members > 0.0):
         count = int(groups.size[members].sum())
         if count:
-            factor = float(noise.tau[kind])
-            square = max(factor**2 * (TAU_DEGREES + count) - TAU_DEGREES, 0.0)
-            large, small = float(fdtrc(count, TAU_DEGREES, square / count)), float(chdtr(count, square))
             odd = int(groups.size[members & noise.outlying].sum())
-            rows.append(NoiseOfKind(SENSORS[kind], factor, count, odd, large, small))
+            rows.append(NoiseOfKind.of(SENSORS[kind], float(noise.tau[kind]), count, odd))
     return rows
+
+
+def noise_of_peaks(found: Judged) -> list[NoiseOfKind]:
+    """The same of the robot's peaks, those that belong to a mode; nothing without any."""
+    last = None if found.lists is None else found.lists.association.assignment
+    count = 0 if last is None else round(float(last.number.sum()))
+    if found.lists is None or last is None or not count:
+        return []
+    odd = round(float(last.number[:, SCALES >= OUTLIER].sum()))
+    return [NoiseOfKind.of(_PEAKS, float(found.lists.association.noise.tau[_ROBOT]), count, odd)]
 
 
 def sigmas_used(campaign: Campaign) -> list[Used]:
@@ -136,6 +154,8 @@ def doubts(campaign: Campaign, noise: list[NoiseOfKind]) -> list[Doubt]:
     for one in noise:
         if one.p_small < FALSE_ALARMS:
             rows.append(Doubt("errors", one.kind, "", f"{one.factor:.2g}", "", False, one.p_small))
+        if one.p_stated < FALSE_ALARMS and one.factor >= _TOO_SMALL:
+            rows.append(Doubt("errors", one.kind, "", f"{one.factor:.2g}", "", True, one.p_stated))
     return rows
 
 

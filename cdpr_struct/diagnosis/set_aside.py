@@ -12,17 +12,42 @@ from cdpr_struct.residuals.recorded import Recorded
 
 
 def set_aside(data: Recorded, where: Layout, found: Judged) -> list[SetAside]:
-    """The readings set aside, worst first."""
+    """The readings set aside, worst first; peaks of the robot that are no mode's are those of `unassigned`."""
     noise = found.fit.noise
     odd = noise.outlying & np.isnan(where.groups.fixed_variance)
     rows = []
-    for group, kind, state, cable, value in readings_by_group(data, where, found):
+    readings = (*readings_by_group(data, where, found), *_modal_sizes(data, where, found))
+    for group, kind, state, cable, value in readings:
         if odd[group]:
             factor = float(noise.responsibility[group] @ KAPPA)
-            gain = 0.5 * float(value @ value) * (1.0 - factor**-2) - len(value) * float(np.log(factor))
-            name = data.campaign.states.names[state]
-            rows.append(SetAside(kind, name, cable, float(np.linalg.norm(value)), gain))
+            rows.append(_row(kind, data.campaign.states.names[state], cable, value, factor, _hertz(data, where, group)))
     return sorted(rows, key=lambda row: -row.gain)
+
+
+def _row(kind: str, case: str, cable: int, value: np.ndarray, factor: float, hertz: float) -> SetAside:
+    """A reading that is off by some stated sigmas (d,), and has its sigma enlarged by a factor."""
+    gain = 0.5 * float(value @ value) * (1.0 - factor**-2) - len(value) * float(np.log(factor))
+    return SetAside(kind, case, cable, float(np.linalg.norm(value)), gain, hertz)
+
+
+def _modal_sizes(data: Recorded, where: Layout, found: Judged) -> Iterator[tuple[int, str, int, int, np.ndarray]]:
+    """The same as `readings_by_group` of modal constants, whose blocks come last."""
+    if data.vibrations is None or not len(where.of_sizes):
+        return
+    mean = found.fit.noise_mean[-1]
+    for k, places in enumerate(where.sizes_of_states):
+        for j in np.flatnonzero(places >= 0):
+            place = int(places[j])
+            state = int(data.vibrations.sizes.state[place])
+            yield int(where.of_sizes[place]), "frf", state, -1, mean[k, j : j + 1]
+
+
+def _hertz(data: Recorded, where: Layout, group: int) -> float:
+    """Frequency [Hz] of the mode of a modal constant, 0 for other readings."""
+    own = np.flatnonzero(where.of_sizes == group)
+    if data.vibrations is None or not own.size:
+        return 0.0
+    return float(np.exp(data.vibrations.sizes.log_hertz[own[0]]))
 
 
 def readings_by_group(data: Recorded, where: Layout, found: Judged) -> Iterator[tuple[int, str, int, int, np.ndarray]]:

@@ -123,6 +123,7 @@ class Search:
         for first in [one for one in singles[: self.budget.beginnings] if one.score > least]:
             self._pairs(first)
             self._transfer(2)
+        self._exchange()
         self._laws_beside(self._ranked()[0])
         self._converge()
         return self.answers()
@@ -266,15 +267,29 @@ class Search:
         small = not best.hypothesis.parts and found.moved < SETTLED
         return found.score > best.score - (PRICE if small else self.budget.sure)
 
-    def _pairs(self, first: Judged) -> None:
-        """A second cause beside one, where that may come near the best."""
+    def _pairs(self, first: Judged, *others: NoiseState) -> None:
+        """A second cause beside one, where that may come near the best; screened at other sizes of the noise, too."""
         present = {part.cause.name for part in first.hypothesis.parts}
         known = [part.cause for part in first.hypothesis.parts]
         left = [c for c in self.causes if c.name not in present and not any(same(c, one) for one in known)]
         menu = offered(self.data, self.where, self.seen, left, first)
-        menu = with_choices(menu, first, [first.fit.noise], self.seen)
-        rows = self._screened(menu, [first])[: self.budget.pairs]
+        menu = with_choices(menu, first, [first.fit.noise, *others], self.seen)
+        rows = self._screened(menu, [first], others)[: self.budget.pairs]
         self._fit_best(menu, rows, 0, self._ranked()[0].score - self.budget.pair_near)
+
+    def _exchange(self) -> None:
+        """Each cause of the likeliest pair against its rivals beside the other, which alone may have been unlikely.
+
+        What explains a large effect best alone has a share in the small one; with that known, a rival may be likelier.
+        """
+        best = self._ranked()[0]
+        if len(best.hypothesis.parts) != 2:
+            return
+        for part in best.hypothesis.parts:
+            if not part.cause.tuned and part.law is None:
+                alone = Hypothesis((part,), best.hypothesis.drift)
+                known = self.keep(judged(self.data, self.where, alone, noise=best.fit.noise))
+                self._pairs(known, best.fit.noise)
 
     def _laws_beside(self, best: Judged) -> None:
         """A law outside the library beside the two likeliest causes: these may have shared out its effect."""

@@ -16,6 +16,7 @@ from cdpr_struct.measurement.campaign_cases import Gathering
 from cdpr_struct.measurement.campaign_rows import Rows, read_rows
 from cdpr_struct.measurement.campaign_sources import is_there
 from cdpr_struct.measurement.campaign_template import KINDS
+from cdpr_struct.measurement.identified import lost_notes
 from cdpr_struct.measurement.known_robots import require_known
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.measurement.missing_readings import check_placed, missing_notes
@@ -164,6 +165,7 @@ def load_campaign(
             *(note for sheet in sheets if (note := angle_note(sheet.file, sheet.columns))),
             *misspelt_notes(cases),
             *missing_notes(gathering.states()),
+            *lost_notes([item.record for item in identified]),
             *ambient_notes(ambient),
         ),
         ambient=ambient,

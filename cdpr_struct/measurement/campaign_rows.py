@@ -44,6 +44,7 @@ PREDICTED = "predicted_"  # begins the names of others
 UNFILLED = "?"  # in a cell of a template
 HIGHEST = 1e3  # of any frequency [Hz]
 _BLANK_ALLOWED = ("sigma", "temperature_K", "approach", "tension_N", "length_m", "swivel_deg", "time_s")
+_MAY_BE_LOST = {"frf": ("real", "imag"), "free_decay": ("ax", "ay", "az"), "platform_motion": POSE}
 _READINGS_MAY_LACK = ("static_state", "loaded_pose", "cable_frequency", "robot_frequency")  # of a pose or a cable
 
 
@@ -210,7 +211,7 @@ def _known(kind: str, columns: Sequence[str], cables: int) -> list[str]:
 def _blank_allowed(kind: str, cables: int) -> set[str]:
     """Columns in which a cell may be empty: any reading of a pose or a cable, but of signals the pose is needed."""
     if kind not in _READINGS_MAY_LACK:
-        return set(_BLANK_ALLOWED)
+        return {*_BLANK_ALLOWED, *_MAY_BE_LOST.get(kind, ())} - ({"time_s"} if kind in _MAY_BE_LOST else set())
     if kind == "robot_frequency":
         return {*_BLANK_ALLOWED, *POSE, *QUATERNION, "mode"}
     return {

@@ -52,6 +52,14 @@ def decay_modes(time: np.ndarray, signal: np.ndarray, most: int = MOST_MODES) ->
     return _clear(found, 1.0 / clock[-1])
 
 
+def refilled(time: np.ndarray, signal: np.ndarray, lost: np.ndarray, poles: np.ndarray) -> np.ndarray:
+    """The signal (n, c) with what damped sines of known poles (k,), fitted to all other samples, have where some (n,)
+    were lost."""
+    columns = _Decays(time - time[0])(poles)[0]
+    linear = np.linalg.lstsq(columns[~lost], signal[~lost], rcond=None)[0]
+    return np.where(lost[:, None], columns @ linear, signal)
+
+
 def refine(time: np.ndarray, signal: np.ndarray, start: np.ndarray) -> Modes:
     """The same modes in another record (a window), from known poles (k,); none is left out."""
     step = float(time[-1] - time[0]) / (len(time) - 1)

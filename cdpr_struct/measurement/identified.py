@@ -1,5 +1,6 @@
 """Modes identified in the signals of a campaign, and which of them join it as robot frequencies."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,3 +33,13 @@ class Identified:
     reason: tuple[str, ...]
     note: str
     state: StateModes | None
+
+
+def lost_notes(records: Iterable[SignalRecord]) -> tuple[str, ...]:
+    """Sentences on records that lack samples or lines."""
+    rows = [(one, len(one.axis) + (one.missing if one.kind == "frf" else 0)) for one in records if one.missing]
+    return tuple(
+        f"{one.file}, case {one.case}: {one.missing} of {total} {'lines' if one.kind == 'frf' else 'samples'} are "
+        "missing; they have no weight."
+        for one, total in rows
+    )

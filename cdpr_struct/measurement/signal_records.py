@@ -1,6 +1,6 @@
 """Rows of signal files become records: one per case, all its channels over one time axis or one set of lines."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -9,11 +9,10 @@ from cdpr_struct.errors import InputError
 from cdpr_struct.measurement.ambient_columns import ambient_channels
 from cdpr_struct.measurement.campaign import AMBIENT, Series
 from cdpr_struct.measurement.campaign_rows import POSE, length_columns
+from cdpr_struct.measurement.lost_samples import FEWEST, common_lines, even_samples
 
 ACCELERATION = ("ax", "ay", "az")
 MOTION = ("x", "y", "z", "rx", "ry", "rz")
-FEWEST = 64  # samples or lines
-_EVEN = 0.01
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,6 +24,8 @@ class SignalRecord:
     channels : names of the channels; an FRF's are (respond, excite) as "z/fz"
     position, angles : (3,) [m], (3,) [rad] of the rest, nan if the file has no pose;  payload [kg]
     lengths  : (m,) unstrained as the encoder says [m], nan if absent
+    lost     : (n,) bool, samples that were not recorded, filled in; of an FRF lines are left out: (0,)
+    missing  : how many samples or lines were not recorded
     """
 
     kind: str
@@ -37,6 +38,8 @@ class SignalRecord:
     angles: np.ndarray
     payload: float
     lengths: np.ndarray
+    lost: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=bool))
+    missing: int = 0
 
 
 def records(series: Series, cables: int) -> list[SignalRecord]:
@@ -52,18 +55,30 @@ def records(series: Series, cables: int) -> list[SignalRecord]:
 
 def _record(series: Series, rows: np.ndarray, case: str, cables: int) -> SignalRecord:
     columns = {name: values[rows] for name, values in series.columns.items()}
+    lost, missing = np.zeros(0, dtype=bool), 0
     if series.kind == "frf":
-        axis, signal, channels = _responses(series, rows, columns, case)
+        axis, signal, channels, missing = _responses(series, rows, columns, case)
     else:
-        axis = columns["time_s"]
-        _check_even(series.file, case, axis)
+        columns, lost = even_samples(
+            series.file, case, columns, _measured(series.kind, columns), series.kind != AMBIENT
+        )
+        axis, missing = columns["time_s"], int(lost.sum())
         signal, channels = _samples(series.kind, columns)
     position, angles = _rest(series, columns, case)
     lengths = np.full(cables, np.nan)
     if all(name in columns for name in length_columns(cables)):
         lengths = np.array([np.median(columns[name]) for name in length_columns(cables)])
     payload = float(columns["payload_kg"][0]) if "payload_kg" in columns else 0.0
-    return SignalRecord(series.kind, case, series.file, axis, signal, channels, position, angles, payload, lengths)
+    return SignalRecord(
+        series.kind, case, series.file, axis, signal, channels, position, angles, payload, lengths, lost, missing
+    )
+
+
+def _measured(kind: str, columns: dict[str, np.ndarray]) -> list[str]:
+    """Columns of what was measured over time."""
+    if kind == "free_decay":
+        return list(ACCELERATION)
+    return list(ambient_channels(list(columns))) if kind == AMBIENT else [name for name in POSE if name in columns]
 
 
 def _samples(kind: str, columns: dict[str, np.ndarray]) -> tuple[np.ndarray, tuple[str, ...]]:
@@ -101,27 +116,12 @@ def _rest(series: Series, columns: dict[str, np.ndarray], case: str) -> tuple[np
     return position[0], np.radians(whole[0, 3:])
 
 
-def _check_even(file: str, case: str, time: np.ndarray) -> None:
-    if len(time) < FEWEST:
-        raise InputError(file, f"case {case}", f"{len(time)} samples", f"at least {FEWEST} samples of one vibration")
-    if not np.isfinite(time).all():
-        raise InputError(file, f"case {case}, column time_s", "nothing", "a time for every sample")
-    steps = np.diff(time)
-    mean = (time[-1] - time[0]) / len(steps)
-    worst = int(np.abs(steps - mean).argmax())
-    if not (mean > 0.0 and abs(steps[worst] - mean) <= _EVEN * mean):
-        raise InputError(
-            file, f"case {case}, column time_s", f"a step of {steps[worst]:.6g} s", f"even steps, here {mean:.6g} s"
-        )
-
-
 def _responses(
     series: Series, rows: np.ndarray, columns: dict[str, np.ndarray], case: str
-) -> tuple[np.ndarray, np.ndarray, tuple[str, ...]]:
-    """Lines (f,), responses (f, c) and names of the channels of one case."""
+) -> tuple[np.ndarray, np.ndarray, tuple[str, ...], int]:
+    """Lines (f,), responses (f, c) and names of the channels of one case, and how many lines are missing."""
     pairs = [f"{series.labels['respond'][i]}/{series.labels['excite'][i]}" for i in rows]
-    found: dict[str, np.ndarray] = {}
-    lines = np.zeros(0)
+    found: dict[str, tuple[np.ndarray, np.ndarray]] = {}
     for name in dict.fromkeys(pairs):
         own = np.flatnonzero(np.array(pairs, dtype=object) == name)
         own = own[np.argsort(columns["frequency_hz"][own], kind="stable")]
@@ -132,7 +132,6 @@ def _responses(
         if not (np.diff(hertz) > 0.0).all():
             twice = float(hertz[1:][np.diff(hertz) <= 0.0][0])
             raise InputError(series.file, place, f"{twice:g} Hz twice", "each line once")
-        if lines.size and (len(lines) != len(hertz) or np.abs(lines - hertz).max() > 1e-6 * lines[-1]):
-            raise InputError(series.file, place, f"{len(hertz)} lines", "the same lines for all responses of a case")
-        lines, found[name] = hertz, columns["real"][own] + 1j * columns["imag"][own]
-    return lines, np.stack(list(found.values()), axis=1), tuple(found)
+        found[name] = hertz, columns["real"][own] + 1j * columns["imag"][own]
+    lines, signal, missing = common_lines(series.file, case, found)
+    return lines, signal, tuple(found), missing

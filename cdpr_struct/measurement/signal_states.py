@@ -8,7 +8,7 @@ from scipy.optimize import linear_sum_assignment
 from cdpr_struct.errors import CdprError
 from cdpr_struct.measurement.amplitude_windows import amplitude_windows
 from cdpr_struct.measurement.campaign import Series, Sigmas
-from cdpr_struct.measurement.decay_modes import decay_modes
+from cdpr_struct.measurement.decay_modes import decay_modes, refilled
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.modal_estimate import Modes
 from cdpr_struct.measurement.mode_size import direction, log_sizes, translation_share, ways
@@ -29,6 +29,7 @@ _SPREAD = 0.1  # of ln f
 _EXACT = 0.003  # of ln f: the model may well be right
 _TOO_LARGE, _TOO_SMALL = 2.0, 6.0  # largest cost of a size that is not the mode's; several modes may be fitted as one
 _SIZE_SPREAD = 0.5  # of ln of a mode's size; a peak that much smaller than a mode is another
+_FILLINGS = 2  # of lost samples, from the modes found before
 _OF_WIDTH = 0.25  # of a peak's half-width: modes nearer than their widths are fitted as one
 
 
@@ -61,7 +62,7 @@ def own_modes(record: SignalRecord, sigmas: Sigmas) -> Identified:
         modes, windows = response_modes(record.axis, record.signal), None
         scatter, kinds = np.ones(len(modes)), [MODE] * len(modes)
     else:
-        modes = decay_modes(record.axis, record.signal)
+        record, modes = _decay(record)
         kinds = peak_kinds(modes)
         own = [f for f, kind, s in zip(modes.hertz, kinds, modes.strength, strict=True) if kind == MODE and s > CLEAR]
         windows = amplitude_windows(record.axis, record.signal, modes, min(own, default=0.0))
@@ -75,6 +76,15 @@ def own_modes(record: SignalRecord, sigmas: Sigmas) -> Identified:
     return Identified(
         record, modes, windows, sigma, tuple(kinds), np.full(k, -1), np.zeros(k, dtype=bool), ("",) * k, "", None
     )
+
+
+def _decay(record: SignalRecord) -> tuple[SignalRecord, Modes]:
+    """A record in time with its modes; samples that were lost are filled in with what these have there."""
+    modes = decay_modes(record.axis, record.signal)
+    for _ in range(_FILLINGS if record.lost.any() else 0):
+        record = replace(record, signal=refilled(record.axis, record.signal, record.lost, modes.poles))
+        modes = decay_modes(record.axis, record.signal)
+    return record, modes
 
 
 def held_against(item: Identified, robot: Robot, model: str) -> Identified:

@@ -8,6 +8,7 @@ from cdpr_struct.errors import InputError
 from cdpr_struct.generated.platform import rotation as rotation_from_angles
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.circumstances import Circumstances
+from cdpr_struct.observation.motion import runs
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.residuals.commanded_lengths import SIGMA, Commanded, commanded
 from cdpr_struct.residuals.filled import encoder_zeros, filled
@@ -92,7 +93,7 @@ def recorded(campaign: Campaign) -> Recorded:
     readings = filled(campaign, arrays, known, Readings(position, turn, states.tension, lengths))
     m = arrays.cable_count
     read = np.concatenate([read_pose, np.isfinite(states.tension), np.isfinite(lengths)], axis=1)
-    mean = np.full((len(states.names), m), known.mean_tension)
+    mean = np.broadcast_to(known.mean_tension * _shared(states.time)[:, None], (len(states.names), m))
     pose = np.repeat(np.stack([states.sigma_position, states.sigma_rotation], axis=1), 3, axis=1)
     tension = np.where(np.isfinite(states.tension_sigma), _rounded(states.tension, states.tension_sigma), 1.0)
     length = np.where(np.isfinite(states.length_sigma), states.length_sigma, 1e-3)
@@ -109,6 +110,17 @@ def recorded(campaign: Campaign) -> Recorded:
     return Recorded(
         campaign, arrays, readings, known, radius, sigma, read, unread, blocks, vibrations(campaign), sent, turned
     )
+
+
+def _shared(time: np.ndarray) -> np.ndarray:
+    """(S,) factor on one sigma of a tension that nobody read: internal forces are off alike in all frames of a motion.
+
+    A common error d of n frames costs n d^2 / (2 s^2) where each has one sigma s of its own, so s grows by sqrt(n).
+    """
+    factor = np.ones(len(time))
+    for run in runs(time):
+        factor[run] = np.sqrt(len(run))
+    return factor
 
 
 def _redundant(campaign: Campaign, read: np.ndarray) -> bool:

@@ -36,7 +36,7 @@ from tests.blind.report_page import write_page
 from tests.blind.running import default_command, diagnose_all
 from tests.blind.scoring import case_rows, figures, scored_cases
 from tests.blind.spoilt_scoring import spoilt_figures, spoilt_page, spoilt_rows
-from tests.blind.spoilt_sets import SpoiltKind, spoilt_cases, spoilt_kinds
+from tests.blind.spoilt_sets import RECORDED, SpoiltKind, spoilt_cases, spoilt_kinds
 from tests.blind.suite import FINAL_RATES, FULL, composed, record_final_use, set_seed
 
 _Group = tuple[list[tuple[str, SpoiltKind]], int, Path, Path]  # named kinds of one reality, seed, where to
@@ -51,6 +51,7 @@ WHOLE |= {"outside-dev": 24, "outside-held": 24, "conventions": 40, "conventions
 SPOILT = {"messy": 270, "peaks": 180, "sizes": 224, "messy-dev": 81, "peaks-dev": 63, "sizes-dev": 64}
 SPOILT |= {"few": 180, "few-dev": 144}
 SPOILT |= {"unread": 42, "wheels": 90, "unread-dev": 12, "wheels-dev": 12}
+SPOILT |= {name + part: size for name in RECORDED for part, size in (("", 90), ("-dev", 30))}
 MOVING = {"delays": 120, "delays-dev": 30}
 SETS = WHOLE | SPOILT | MOVING
 

@@ -15,6 +15,7 @@ from tests.blind.controller import lower_bound
 from tests.blind.deviations import TOLERANCES
 from tests.blind.entered_robot import plain_name
 from tests.blind.sensors import CABLE_HZ, ROBOT_HZ, SIGMA
+from tests.blind.spoiled_signals import DECAY, FRF, MOTION, SIGNAL_HZ
 
 MODEL = "exact"
 POSE_SIGMA = ("position_m", "rotation_deg")
@@ -86,6 +87,8 @@ def campaign_text(case: Case) -> str:
 
 def measurement_lines(kind: str, table: pd.DataFrame, sigma: Mapping[str, float] = SIGMA) -> list[str]:
     """Kind, file and sigmas of one file."""
+    if kind in (FRF, DECAY, MOTION):
+        return [f'kind = "{kind}"', f'file = "{kind}.csv"', f"sigma = {{ frequency_hz = {SIGNAL_HZ} }}"]
     names = [*POSE_SIGMA]
     names += [key for key in ("tension_N",) if key in table]
     names += [key for key in ("length_m",) if key in table or "length_1_m" in table]

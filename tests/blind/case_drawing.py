@@ -47,6 +47,7 @@ class CaseKind:
     lengths  : whether lengths are filed
     separated : an ambiguous case with the measurements that tell its names apart, where there are any
     statics  : without frequencies; sizes are then multiples of what statics alone can detect
+    signals  : the same, but for records of vibration that are made of the modes
     robot    : which one; any of `ROBOTS` if not given
     timed    : whether the time of every state is filed
     """
@@ -60,6 +61,7 @@ class CaseKind:
     size: PlanSize = field(default_factory=PlanSize)
     robot: str = ""
     timed: bool = False
+    signals: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +138,7 @@ def drawn_reality(kind: CaseKind, streams: Sequence[np.random.SeedSequence], hid
         deviations, effects = _hidden(kind, robot, deviations, hidden)
     one_sided = _is_confused(kind) and kind.effects[0][0] in ONE_SIDED
     plan = drawn_plan(robot, route, deviations, kind.size, one_sided)
-    if kind.statics:
+    if kind.statics and not kind.signals:
         plan = replace(plan, frequency_states=0)
     return Reality(robot, deviations, effects, plan, observed(robot, deviations, plan))
 

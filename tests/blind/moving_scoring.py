@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from tests.blind.answers import right_class
+from tests.blind.answers import LARGEST_AMBIGUOUS_CLASS, right_class
 from tests.blind.catalogue import CONVENTION
 from tests.blind.intervals import share
 from tests.blind.moving_sets import DELAY, DRIFT
@@ -20,10 +20,19 @@ WITHIN = 1.96  # sigmas of a 95 % interval
 def moving_right(case: Scored) -> bool:
     """A null is adequate; what was hidden is named, and nothing else, but what may be said as well."""
     if case.kind == "null":
-        return case.answer.status == "adequate"
+        return bool(case.answer.status == "adequate")
     said, allowed = set(case.answer.causes), set(case.hidden)
     more = {name for effect in case.truth["effects"] for name in effect.get("may_be_said", ())}
     return case.answer.status == "named" and allowed <= said <= allowed | more
+
+
+def held(case: Scored) -> bool:
+    """Right, or every class that is said holds a name of its own that was hidden, among at most four.
+
+    Of one cable, a wrong length, anchor and drum differ by as little as noise allows along a curve; so do EA and a
+    compliance in line. A class of these is no mistake; that of a delay and a drift is, where one of them is clear.
+    """
+    return moving_right(case) or right_class(case.answer, case.hidden, LARGEST_AMBIGUOUS_CLASS)
 
 
 def delay_named(case: Scored) -> bool:
@@ -75,7 +84,7 @@ def _figures(cases: list[Scored]) -> dict[str, Any]:
     ]
     return {
         "right": share([moving_right(case) for case in cases]),
-        "right_class": share([right_class(case.answer, case.hidden) or moving_right(case) for case in cases]),
+        "right_class": share([held(case) for case in cases]),
         "delay_named": share([delay_named(case) for case in cases if case.kind != "null"]),
         "covered": share([one for one in inside if one is not None]),
         "wrong_confident_name": share(wrong),
@@ -114,7 +123,7 @@ def moving_page(scores: dict[str, Any]) -> str:
     run, figures = scores["run"], scores["figures"]
     lines = [f"# Campaigns along a motion, set `{run['set']}`", "", f"Budget `{run['budget']}`, {run['date']}.", ""]
     lines += [
-        "| hidden | right | or in a class of 3 | delay or drift named | 95 % interval holds | wrong name, P > .9 |"
+        "| hidden | right | or in a class of 4 | delay or drift named | 95 % interval holds | wrong name, P > .9 |"
     ]
     lines[-1] += " a convention said | median s |"
     lines += ["|---" * 8 + "|"]

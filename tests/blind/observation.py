@@ -48,13 +48,15 @@ def _turn(cable: CableEquilibrium) -> float:
 
 @dataclass(frozen=True, eq=False)
 class Observation:
-    """statics, locks : as in the plan. cable_hz : (states, m, 4). robot_hz, shares : (states, k)."""
+    """statics, locks : as in the plan. cable_hz : (states, m, 4). robot_hz, shares : (states, k).
+    robot_shapes : (states, k, 6) motion of the platform [m, rad], modal mass 1 kg."""
 
     statics: tuple[Rest, ...]
     locks: tuple[tuple[Rest, ...], ...]
     cable_hz: np.ndarray
     robot_hz: np.ndarray
     shares: np.ndarray
+    robot_shapes: np.ndarray
 
 
 class SlackStateError(Exception):
@@ -68,19 +70,21 @@ def observed(robot: EnteredRobot, deviations: Deviations, plan: Plan, elements: 
     seen = tuple(Rest.of(rest) for rest in rests)
     if min(float(rest.tensions.min()) for rest in seen) < SLACK:
         raise SlackStateError
-    cables, robots, shares = [], [], []
+    cables, robots, shares, shapes = [], [], [], []
     for number in range(plan.frequency_states):
-        cable, whole, share = _frequencies(robot, deviations, plan.statics[number], rests[number])
+        cable, whole, share, shape = _frequencies(robot, deviations, plan.statics[number], rests[number])
         cables.append(cable)
         robots.append(whole)
         shares.append(share)
-    return Observation(seen, loaded, np.array(cables), np.array(robots), np.array(shares))
+        shapes.append(shape)
+    found = (np.array(own) for own in (cables, robots, shares, shapes))
+    return Observation(seen, loaded, *found)
 
 
 def _frequencies(
     robot: EnteredRobot, deviations: Deviations, command: Command, fine: RobotEquilibrium
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Cable frequencies, extrapolated from meshes of n and n / 2 bars; robot frequencies and energy shares."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Cable frequencies, extrapolated from meshes of n and n / 2 bars; robot frequencies, energy shares and shapes."""
     if np.any(deviations["accelerometer_mass"]):  # sensors hang on the platform while it vibrates, and pull at it
         command = replace(command, payload=command.payload + float(deviations["accelerometer_mass"][0]))
         fine = at_rest(robot, deviations, command, fine.elements)

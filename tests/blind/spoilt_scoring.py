@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ BARE, PULLEYS = "bare", "missing_pulleys"  # way of the set `wheels` that hides 
 
 def spoilt_right(case: Scored) -> bool:
     """A null is adequate; what was hidden is named, or in a class of at most four names."""
+    case = _beside(case)
     if case.kind == "null":
         return case.answer.status == "adequate"
     if case.truth["way"] == BARE:
@@ -24,9 +26,21 @@ def spoilt_right(case: Scored) -> bool:
     return right_class(case.answer, case.hidden, LARGEST_AMBIGUOUS_CLASS)
 
 
+def _beside(case: Scored) -> Scored:
+    """The case without what may be said beside what is hidden; where nothing else was said, all is well."""
+    allowed = set(case.truth.get("may_be_said", ()))
+    groups = tuple(names for names in case.answer.groups if not set(names) <= allowed)
+    if groups == case.answer.groups:
+        return case
+    causes = tuple(name for name in case.answer.causes if name not in allowed)
+    status = case.answer.status if groups else "adequate"
+    return replace(case, answer=replace(case.answer, status=status, causes=causes, groups=groups))
+
+
 def _no_mistake(case: Scored) -> tuple[str, ...]:
     """Names that are no mistake. A controller that knows pulleys which the simulation lacks commands other forces."""
-    return (*case.hidden, "internal_force") if case.truth["way"] == BARE else case.hidden
+    more = ("internal_force",) if case.truth["way"] == BARE else tuple(case.truth.get("may_be_said", ()))
+    return (*case.hidden, *more)
 
 
 def condition(case: Scored) -> str:

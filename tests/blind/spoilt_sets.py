@@ -5,6 +5,7 @@ peaks : campaigns with frequencies, clean, spoilt in six ways, and in all of the
 sizes : the same cause at 2, 4, 8 and 16 times what can be detected, with and without frequencies
 few   : static campaigns, clean, of robots with two to five cables, and of others whose position nobody reads
 unread : static campaigns, clean, of robots with eight cables of whose pose nobody reads anything
+frfs, decays, motions : static campaigns with frequency responses, decays or tracked free motions, clean and spoilt
 wheels : static campaigns, clean, of robots without pulleys, with half of them, and with all but in their file
 """
 
@@ -36,6 +37,7 @@ from tests.blind.observation import SlackStateError
 from tests.blind.sensors import INCLINATION_READ, NOTHING_READ, Noise, filed, picked, unplaced
 from tests.blind.spoiled_peaks import PeakSpoiler, spoil_peak_tables
 from tests.blind.spoiled_readings import spoil_readings
+from tests.blind.spoiled_signals import DECAY, FRF, MOTION, SIGNALS, TOO_SMALL, SignalSpoiler, may_be_said
 
 DEVELOPMENT = "-dev"
 MESSY = ("clean", "student", "outliers", "poses", "missing", "drift", "rounded", "tracker", "encoders")
@@ -45,6 +47,13 @@ CLEAR = 4.0  # multiple of effects whose size is not the question
 NULLS = 3  # every third reality holds no effect
 FREQUENCY_STATES = 6  # of `peaks`: two of them are exchanged
 IN_SERIES = ("joint_compliance", "dead_length")
+<<<<<<< HEAD
+UNSEEN_IN_STATICS = ("platform_inertia",)
+RECORDED = {"frfs": FRF, "decays": DECAY, "motions": MOTION}
+MULTIPLES = (0.0, 2.0, 4.0)  # of what is hidden beside signals, in turn
+SIGNAL_SIZE = PlanSize(static_states=12, locks=2, loads_per_lock=3, frequency_states=4)
+=======
+>>>>>>> main
 WHEELS = ("points", "half", "bare")
 BARE_RADII = (20, 61)  # mm
 MOTIONLESS = "static"
@@ -60,12 +69,14 @@ class SpoiltKind:
     reality : null or single
     way     : how its readings are spoilt
     largest : largest multiple in the group; all have to be possible
+    signal  : kind of the vibration records; "" for frequencies that somebody read
     """
 
     group: int
     reality: CaseKind
     way: str
     largest: float = CLEAR
+    signal: str = ""
 
 
 def spoilt_kinds(name: str, total: int, base: int) -> list[SpoiltKind]:
@@ -73,7 +84,7 @@ def spoilt_kinds(name: str, total: int, base: int) -> list[SpoiltKind]:
     rng = np.random.default_rng([base, 0])
     kind = name.removesuffix(DEVELOPMENT)
     makers = {"messy": _messy, "peaks": _peaks, "sizes": _sizes, "few": _few, "unread": _unread, "wheels": _wheels}
-    kinds = list(makers[kind](total, rng))
+    kinds = list(_signals(total, rng, RECORDED[kind]) if kind in RECORDED else makers[kind](total, rng))
     return [kinds[index] for index in rng.permutation(len(kinds))]
 
 
@@ -98,6 +109,16 @@ def _peaks(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
     size = PlanSize(frequency_states=FREQUENCY_STATES)
     for group, kind in enumerate(_realities(total // len(PEAKS), _names(False), rng)):
         yield from (SpoiltKind(group, replace(kind, size=size), way) for way in PEAKS)
+
+
+def _signals(total: int, rng: np.random.Generator, signal: str) -> Iterator[SpoiltKind]:
+    """A third each of nulls, and of effects of 2 and 4 times the smallest size that statics can detect."""
+    names = iter(rng.permutation(_names(True)).tolist() * total)
+    for group in range(total // len(SIGNALS)):
+        multiple = MULTIPLES[group % len(MULTIPLES)]
+        effects = ((next(names), multiple),) if multiple else ()
+        kind = CaseKind("single" if effects else "null", effects, size=SIGNAL_SIZE, statics=True, signals=True)
+        yield from (SpoiltKind(group, kind, way, multiple, signal) for way in SIGNALS)
 
 
 def _sizes(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
@@ -195,7 +216,11 @@ def read_case(kind: SpoiltKind, real: Reality, seed: tuple[int, ...]) -> Case:
     sensor, spoiler = (np.random.default_rng(stream) for stream in np.random.SeedSequence(seed).spawn(2))
     ways = frozenset(PEAKS) - {"all", "clean"} if kind.way == "all" else frozenset([kind.way])
     noise = Noise(sensor, "student" if "student" in ways else "white")
-    if kind.reality.statics:
+    if kind.signal:
+        said, noise.scale = "", TOO_SMALL if kind.way == "sigma" else 1.0
+        tables = filed(real.plan, replace(real.seen, cable_hz=np.zeros(0)), real.deviations, noise)
+        tables[kind.signal] = SignalSpoiler(kind.signal, kind.way, spoiler).table(real.seen, tables["static_state"])
+    elif kind.reality.statics:
         tables = filed(real.plan, real.seen, real.deviations, noise)
         said = "" if kind.way in (real.robot.name, *WHEELS) else spoil_readings(kind.way, tables, spoiler)
         if not real.robot.tracked:
@@ -211,6 +236,7 @@ def read_case(kind: SpoiltKind, real: Reality, seed: tuple[int, ...]) -> Case:
         effects = [{"cause": "missing_pulleys", "multiple": None, "size": radius, "unit": "m", "shape": shape}]
     truth = truth_record(kind.reality, real.robot, effects, real.deviations)
     truth |= {"kind": "single"} if kind.way == "bare" else {}
+    truth |= {"may_be_said": may_be_said(kind.signal, kind.way)} if kind.signal else {}
     asked = max((multiple for _, multiple in kind.reality.effects), default=0.0)
     truth |= {"way": kind.way, "group": kind.group, "spoilt": said, "asked": asked}
     return Case(real.robot, tables, truth | {"by_size": kind.way in (MOTIONLESS, VIBRATING)})

@@ -44,6 +44,8 @@ SET_SEEDS |= {"few": 31_204, "few-dev": 31_304}
 SET_SEEDS |= {"unread": 31_206, "wheels": 31_207, "unread-dev": 31_306, "wheels-dev": 31_307}
 SET_SEEDS |= {"outside-dev": 31_401, "outside-held": 31_402}
 SET_SEEDS |= {"conventions": 31_205, "conventions-small": 31_209, "no-conventions": 31_210}
+SET_SEEDS |= {"frfs": 31_211, "decays": 31_212, "motions": 31_213}
+SET_SEEDS |= {"frfs-dev": 31_311, "decays-dev": 31_312, "motions-dev": 31_313}
 SET_SEEDS |= {"delays": 31_208, "delays-dev": 31_308}
 USES = Path(__file__).with_name("final_uses.json")
 

@@ -71,8 +71,9 @@ def swinging_mass(robot: EnteredRobot, deviations: Deviations) -> float:
 
 def robot_frequencies(
     robot: EnteredRobot, deviations: Deviations, equilibrium: RobotEquilibrium
-) -> tuple[np.ndarray, np.ndarray]:
-    """Lowest frequencies (k,) [Hz] and the share (k,) of their kinetic energy in the platform."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Lowest frequencies (k,) [Hz], the share (k,) of their kinetic energy in the platform, and its motion (k, 6) [m,
+    rad] of unit modal mass."""
     stiffness, mass = whole_matrices(robot, deviations, equilibrium)
     values, vectors = lowest_eigenpairs(stiffness, mass, ROBOT_MODES, SHIFT)
     end = 3 * len(equilibrium.cables) * (equilibrium.elements - 1)
@@ -80,4 +81,4 @@ def robot_frequencies(
     body = platform_mass_matrix(equilibrium.robot.platform, equilibrium.rotation)
     body = body - moving_parts(robot, deviations, equilibrium.rotation)
     body = body - swinging_mass(robot, deviations) * np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
-    return frequencies_hz(values), np.einsum("ak,ab,bk->k", moved, body, moved)
+    return frequencies_hz(values), np.einsum("ak,ab,bk->k", moved, body, moved), moved.T

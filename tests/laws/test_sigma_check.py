@@ -77,6 +77,14 @@ def test_errors_far_below_their_sigmas_are_told(clean):
     assert "errors of the tension readings are improbably small" in text
 
 
+@pytest.mark.parametrize("factor", [2.0, 3.0])
+def test_a_sigma_stated_too_small_is_told(clean, factor):
+    """Twin: the sigma as stated, and one that is a fifth too small, are no warning."""
+    (text,) = warnings(clean, [NoiseOfKind.of("tension", factor, 96, 0)])
+    assert f"tension readings scatter by {factor:.2g} times their stated sigma" in text
+    assert warnings(clean, [NoiseOfKind.of("tension", 1.0, 96, 0), NoiseOfKind.of("length", 1.2, 96, 0)]) == []
+
+
 def test_screen_and_page_show_the_warning_as_a_sentence(tmp_path, capsys):
     """A sigma of a metre, and a table without angles."""
     root = Path(__file__).parents[2] / "examples" / "table-4-4"

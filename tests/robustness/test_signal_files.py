@@ -33,18 +33,24 @@ def decay(time) -> pd.DataFrame:
     )
 
 
+def _late(table: pd.DataFrame) -> pd.DataFrame:
+    """A sample half a step late."""
+    return table.assign(time_s=table["time_s"] + 0.005 * (table.index == 50))
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
         (lambda t: t.head(20), ["case a", "20 samples", "at least 64"]),
-        (lambda t: t.drop(index=50), ["case a", "time_s", "even steps"]),
+        (_late, ["case a", "time_s", "even steps"]),
+        (lambda t: t.drop(index=range(100, 250)), ["case a", "150 of 400 samples missing", "at most 20% missing"]),
         (lambda t: t.assign(x_m=np.linspace(0.0, 1.0, len(t))), ["case a", "one pose a case"]),
         (lambda t: t.assign(ax="much"), ["row 1", "ax", "much", "a number"]),
         (lambda t: t.assign(z_m=500.0), ["case a", "x_m, y_m, z_m", "500.0", "in mm"]),
         (lambda t: t.assign(**{f"length_{i}_m": 9000.0 for i in range(1, 9)}), ["case a", "length_m", "in mm"]),
         (lambda t: t.assign(**{f"length_{i}_m": 30.0 for i in range(1, 9)}), ["case a", "length_m", "in ft"]),
     ],
-    ids=range(7),
+    ids=range(8),
 )
 def test_bad_decays(change, words, tmp_path, capsys):
     change(decay(np.arange(400) * 0.01)).to_csv(tmp_path / "decay.csv", index=False)

@@ -58,7 +58,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "probabilities": [{"causes": list(b.names), "probability": b.probability} for b in found.beliefs],
         "set_aside": [
             {"kind": row.kind, "case": row.case, "cable": row.cable + 1, "off_sigmas": row.sigmas,
-             "log_evidence_gain": row.gain}
+             "log_evidence_gain": row.gain, "frequency_hz": row.hertz or None}
             for row in found.set_aside
         ],
         "noise": [

@@ -234,7 +234,9 @@ def _aside(found: Diagnosis) -> str:
     rows = found.set_aside
     if not rows:
         return ""
-    places = [f"{reading(row.kind, row.case, row.cable)} (off by {row.sigmas:.0f} sigma)" for row in rows[:_MOST]]
+    places = [
+        f"{reading(row.kind, row.case, row.cable, row.hertz)} (off by {row.sigmas:.0f} sigma)" for row in rows[:_MOST]
+    ]
     more = f"; {len(rows) - _MOST} more" if len(rows) > _MOST else ""
     lead = "One reading contradicts all others" if len(rows) == 1 else f"{len(rows)} readings contradict all others"
     return f"{lead}: {'; '.join(places)}{more}."

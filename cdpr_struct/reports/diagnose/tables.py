@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from cdpr_struct.reports.diagnose.words import quantity
 from cdpr_struct.reports.html import HtmlTable
 from cdpr_struct.reports.text import with_sigma
 from cdpr_struct.reports.tolerances_told import defaults_used
@@ -173,7 +174,7 @@ def noise(rows: Sequence[Row], all_of_them: bool = True) -> HtmlTable | None:
 def set_aside(rows: Sequence[Row]) -> HtmlTable | None:
     """Readings that contradict all others."""
     cells = [
-        [row["kind"].replace("_", " "), row["case"], str(row["cable"]) if row["cable"] else "",
+        [quantity(row["kind"], row["frequency_hz"]), row["case"], str(row["cable"]) if row["cable"] else "",
          figure(row["off_sigmas"]), figure(row["log_evidence_gain"])]
         for row in rows
     ]  # fmt: skip

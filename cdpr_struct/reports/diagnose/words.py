@@ -57,10 +57,16 @@ def plain(name: str) -> str:
     return name.replace("_", " ")
 
 
-def reading(kind: str, case: str, cable: int) -> str:
-    """Which reading it is; cable from 0, -1 for none."""
+def quantity(kind: str, hertz: float | None = None) -> str:
+    """What a kind of readings is called, and at which frequency one of them was."""
+    name = {"frf": "modal constant"}.get(kind, plain(kind))
+    return f"{name} at {hertz:.4g} Hz" if hertz else name
+
+
+def reading(kind: str, case: str, cable: int, hertz: float = 0.0) -> str:
+    """Which reading it is; cable from 0, -1 for none; frequency [Hz], 0 for none."""
     of = f" of cable {cable + 1}" if cable >= 0 else ""
-    return f"the {plain(kind)}{of} in case {case}"
+    return f"the {quantity(kind, hertz)}{of} in case {case}"
 
 
 def place(where: Location | None) -> str:
@@ -74,7 +80,7 @@ def place(where: Location | None) -> str:
 def recommendation(one: Recommendation) -> str:
     """What to measure next, without full stop."""
     if one.purpose == "repeat":
-        return f"measure {reading(one.kind, one.case, one.cable)} again"
+        return f"measure {reading(one.kind, one.case, one.cable, one.hertz)} again"
     nats = "" if one.nats is None else f", expected {one.nats:.0f} nats"
     why = {
         "tell_apart": "tests", "confirm": "confirms or refutes", "find": "tests",
@@ -85,6 +91,11 @@ def recommendation(one: Recommendation) -> str:
 def doubt(one: Doubt) -> str:
     """What is odd about a sigma or tolerance."""
     size = "large" if one.large else "small"
+    if one.about == "errors" and one.large:
+        return (
+            f"The {quantity(one.name)} readings scatter by {one.words} times their stated sigma, outliers apart "
+            f"(p = {one.probability:.0e} if it was right). The larger sigma was used; check the stated one."
+        )
     if one.about == "errors":
         return (
             f"The errors of the {plain(one.name)} readings are improbably small (p = {one.probability:.0e}; their "

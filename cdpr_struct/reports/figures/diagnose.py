@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
+from cdpr_struct.diagnosis.left_out import LeftOut
 from cdpr_struct.reports.diagnose.tables import figure as shown
 from cdpr_struct.reports.diagnose.tables import hypotheses
 from cdpr_struct.reports.figures.style import BLUE, GREY, LIGHT, ORANGE, plain_number, quiet
@@ -25,6 +26,12 @@ ROW_NAMES = {
     "FA": "modal constants", "SW": "swivel angles",
 }  # fmt: skip
 """Of each kind of residuals."""
+_ROWS_OF = {
+    "position": ["EQ", "CO"], "rotation": ["EQ", "CO"], "tension": ["EQ"], "length": ["CO"],
+    "cable_frequency": ["CF"], "frf": ["FA"], "swivel": ["SW"],
+}  # fmt: skip
+"""Residuals that a reading of each kind enters."""
+_OF_CABLE = ("length", "cable_frequency", "swivel")
 
 
 def draw_residuals(figure: Figure, found: Diagnosis) -> None:
@@ -40,12 +47,30 @@ def draw_residuals(figure: Figure, found: Diagnosis) -> None:
         mended = after.after / after.sigma
         values.append(mended[order] if len(mended) == len(order) else mended)
         axes.plot(np.arange(len(mended)), values[1], ".", color=BLUE, markersize=4, label="with causes")
+    doubted = np.flatnonzero(_down_weighted(found, rows)[order])
+    if doubted.size:
+        last = values[-1] if len(values[-1]) == len(before) else before
+        axes.plot(doubted, last[doubted], "o", color=GREY, fillstyle="none", label="down-weighted reading")
     _name_kinds(axes, rows.kind[order])
     _name_states(axes, rows.kind[order], [found.campaign.states.names[i] for i in rows.state[order]])
     _plain_sigmas(axes, values)
     axes.set_ylabel("residual / its sigma [-]")
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper right", ncols=2)
     quiet(axes)
+
+
+def _down_weighted(found: Diagnosis, rows: LeftOut) -> np.ndarray:
+    """(n,) whether a reading that the fit down-weighted enters a row."""
+    marked, names = np.zeros(len(rows.kind), dtype=bool), found.campaign.states.names
+    for one in found.set_aside:
+        own = np.isin(rows.kind, _ROWS_OF[one.kind]) & (rows.state == names.index(one.case))
+        if one.kind in _OF_CABLE:
+            own &= rows.cable == one.cable
+        if one.hertz and own.any():
+            apart = np.where(own, np.abs(rows.hertz - one.hertz), np.inf)
+            own = apart == apart.min()
+        marked |= own
+    return marked
 
 
 def draw_state_errors(figure: Figure, result: Mapping[str, Any]) -> None:
