@@ -47,13 +47,9 @@ CLEAR = 4.0  # multiple of effects whose size is not the question
 NULLS = 3  # every third reality holds no effect
 FREQUENCY_STATES = 6  # of `peaks`: two of them are exchanged
 IN_SERIES = ("joint_compliance", "dead_length")
-<<<<<<< HEAD
-UNSEEN_IN_STATICS = ("platform_inertia",)
 RECORDED = {"frfs": FRF, "decays": DECAY, "motions": MOTION}
 MULTIPLES = (0.0, 2.0, 4.0)  # of what is hidden beside signals, in turn
 SIGNAL_SIZE = PlanSize(static_states=12, locks=2, loads_per_lock=3, frequency_states=4)
-=======
->>>>>>> main
 WHEELS = ("points", "half", "bare")
 BARE_RADII = (20, 61)  # mm
 MOTIONLESS = "static"
