@@ -57,12 +57,13 @@ def map_band_sentences(result: Mapping[str, Any]) -> list[str]:
     said = [f"Sigma within the tolerances: {bands['sigma']['mean']:.3g} {unit}." if one else _sigma(bands, unit)]
     if "limit" in bands:
         most, limit = bands["probability_below"]["largest"], f"{bands['limit']:g} {unit}"
-        if one:
-            said.append(f"It falls below {limit} with a probability of {_chance(most['value'])}.")
+        chance = _chance(most["value"])
+        if one or most["value"] < 10.0**-_DECIMALS:
+            said.append(f"It falls below {limit} with a probability of {chance}{'' if one else ' at every pose'}.")
         else:
             count = bands["poses_that_may_fall_below"]
             said.append(
-                f"It falls below {limit} with a probability of up to {_chance(most['value'])}, at {_at(most)}; at "
+                f"It falls below {limit} with a probability of up to {chance}, at {_at(most)}; at "
                 f"{count} of {bands['poses']} poses with more than {_SELDOM:g}."
             )
     if differ := bands.get("samples", {}).get("differing_poses"):
