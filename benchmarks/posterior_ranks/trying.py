@@ -10,7 +10,7 @@ from benchmarks.posterior_ranks.drawing import Drawn, drawn
 from cdpr_struct.diagnosis.whole_sizes import WholeSize, whole_sizes
 from cdpr_struct.hypotheses.causes.library import LIBRARY
 from cdpr_struct.hypotheses.hypothesis import SCALES, Hypothesis, Part
-from cdpr_struct.hypotheses.judge import judged
+from cdpr_struct.hypotheses.judge import converged, judged
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.residuals.layout import layout
@@ -42,5 +42,5 @@ def posterior(one: Drawn) -> WholeSize:
     cause = LIBRARY[one.cause]
     pattern = next(each for each in cause.patterns(seen) if each.label == one.label)
     fits = [judged(data, where, Hypothesis((Part(cause, pattern, scale),))) for scale in SCALES]
-    best = max(fits, key=lambda found: found.score)
+    best = converged(data, where, max(fits, key=lambda found: found.score))
     return whole_sizes(data, seen, best)[0]
