@@ -76,7 +76,8 @@ CAUSES = (
 class Drawn:
     """A campaign with its cause.
 
-    label : of the pattern in which it occurs;  theta : (d,) whole change, tolerances of the same numbers included
+    label : of the pattern in which it occurs;  theta : (d,) whole change, tolerances of the same numbers included, the
+        mean of all cables where these are alike
     chosen : the number, from 0, whose rank counts;  scale : of the prior from which it was drawn
     """
 
@@ -145,7 +146,11 @@ def _tolerances(
             continue
         off = float(rng.standard_normal()) * change
         drawn = drawn.plus(name, off)
-        if name == sized.cause and (not sized.common or (change == change[0]).all()):
-            mine = off.reshape(-1, numbers)[cable] if sized.carrier else off[:numbers]
-            beside = beside + mine
+        if name == sized.cause:
+            beside = beside + _of_the_cause(off.reshape(-1, numbers), sized, cable)
     return drawn, beside
+
+
+def _of_the_cause(off: np.ndarray, sized: Sized, cable: int) -> np.ndarray:
+    """(d,) of changes (carriers, d): those of one cable, or the mean of all, which is the size of what they share."""
+    return np.asarray(off[cable] if sized.carrier else off.mean(axis=0))
