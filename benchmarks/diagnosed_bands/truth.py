@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.band_coverage.fem_rest import FemRest
 from cdpr_struct.fem_reference import RobotEquilibrium
 from cdpr_struct.robot.pose import angles_from_rotation
 from tests.blind.deviations import Deviations
@@ -19,20 +20,6 @@ POSES = 3
 FREQUENCIES = 3
 _ELEMENTS = 40  # bars a cable; frequencies are the limit of these and half as many
 _SIZE = PlanSize(static_states=POSES, locks=0, frequency_states=0)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Truth:
-    """At rest at commanded lengths: pose (6,) [m, rad], tension (m,) at the platform [N], hertz (k,) [Hz]."""
-
-    pose: np.ndarray
-    tension: np.ndarray
-    hertz: np.ndarray
-
-    @property
-    def all(self) -> np.ndarray:
-        """(6 + m + k,)."""
-        return np.concatenate([self.pose, self.tension, self.hertz])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,7 +43,7 @@ class TrueRobot:
         """States drawn anew."""
         return drawn_plan(self.entered, rng, self.deviations, _SIZE).statics
 
-    def at(self, command: Command) -> Truth:
+    def at(self, command: Command) -> FemRest:
         """Where it comes to rest there.
 
         Raises
@@ -66,7 +53,8 @@ class TrueRobot:
         fine, coarse = (at_rest(self.entered, self.deviations, command, n) for n in (_ELEMENTS, _ELEMENTS // 2))
         hertz = (4.0 * self._hertz(fine) - self._hertz(coarse)) / 3.0
         pull = np.array([np.linalg.norm(cable.end_force) for cable in fine.cables])
-        return Truth(np.concatenate([fine.position, angles_from_rotation(fine.rotation)]), pull, hertz)
+        pose = np.concatenate([fine.position, np.degrees(angles_from_rotation(fine.rotation))])
+        return FemRest(pose, pull, hertz)
 
     def _hertz(self, rest: RobotEquilibrium) -> np.ndarray:
         return np.asarray(robot_frequencies(self.entered, self.deviations, rest)[0][:FREQUENCIES])

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 import cdpr_struct as cs
-from benchmarks.diagnosed_bands.truth import FREQUENCIES, POSES, TrueRobot, Truth
+from benchmarks.band_coverage.fem_rest import FemRest
+from benchmarks.diagnosed_bands.truth import FREQUENCIES, POSES, TrueRobot
 from cdpr_struct.fem_reference import FemError
 from cdpr_struct.robot.pose import angles_from_rotation
 from tests.blind.true_robot import Command
@@ -48,7 +49,7 @@ def _chosen(true: TrueRobot, rng: np.random.Generator) -> list[int]:
     return [pose, 6 + m + mode, component, 6 + cable]
 
 
-def _at_pose(robot: Path, command: Command, truth: Truth) -> Told:
+def _at_pose(robot: Path, command: Command, truth: FemRest) -> Told:
     start = cs.Pose(command.position, angles_from_rotation(command.rotation))
     asked: dict[str, Any] = {"payload": command.payload, "start": start, "lengths": command.lengths}
     inside = {}
@@ -57,9 +58,7 @@ def _at_pose(robot: Path, command: Command, truth: Truth) -> Told:
         modes = cs.modes(robot, count=FREQUENCIES, band=level, **asked)
         told, hertz = rest.answer["bands"], modes.answer["bands"]
         ends = np.concatenate([told["pose"], told["tensions_N"], hertz["frequencies_hz"]])
-        ends[3:6] = np.radians(ends[3:6])
         inside[str(level)] = ((ends[:, 0] <= truth.all) & (truth.all <= ends[:, 1])).tolist()
     sigma = np.concatenate([told["pose_sigma"], told["tension_sigma_N"], hertz["sigma_hz"]])
-    sigma[3:6] = np.radians(sigma[3:6])
     off = truth.all - ends.mean(axis=1)
     return {"off": off.tolist(), "sigma": sigma.tolist(), "inside": inside}

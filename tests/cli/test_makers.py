@@ -1,9 +1,7 @@
 """The two machines of makers: files are those that make.py writes, campaigns validate, errors are as the pages say."""
 
-import importlib.util
 import shutil
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pandas as pd
@@ -17,6 +15,7 @@ from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
+from tests.virtual_truths import made
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ROUTER, PRINTER = EXAMPLES / "two-chain-router", EXAMPLES / "hanging-printer"
@@ -24,16 +23,6 @@ CAMPAIGNS = [
     ROUTER / "campaign.toml", ROUTER / "with-weight.toml", ROUTER / "level.toml",
     PRINTER / "campaign.toml", PRINTER / "with-weight.toml", PRINTER / "with-tensions.toml", PRINTER / "beam.toml",
 ]  # fmt: skip
-
-
-def made(folder: Path) -> ModuleType:
-    """The script that makes an example's data."""
-    spec = importlib.util.spec_from_file_location("make", folder / "make.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def rests(path: Path, lengths: np.ndarray, model: str = "sagging") -> np.ndarray:
