@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from cdpr_struct.bands.frequency_bands import drawn_changes
 from cdpr_struct.bands.locked_response import LockedResponse
@@ -24,11 +25,14 @@ class DrawnRest:
     rotation_error: np.ndarray
 
     @classmethod
-    def of(cls, point: OperatingPoint, response: LockedResponse, spread: Spread) -> "DrawnRest":
-        """Drawn from the tolerances; spread: which robots are probable."""
+    def of(
+        cls, point: OperatingPoint, response: LockedResponse, spread: Spread, entered: OperatingPoint
+    ) -> "DrawnRest":
+        """Drawn about a point; spread: which robots are probable;  entered : the one that errors are distances from."""
         changes = drawn_changes(spread)
         tension = point.cables.tension_at_platform + changes @ response.tension
-        motion = changes @ response.pose
+        turned = Rotation.from_matrix(point.rotation @ entered.rotation.T).as_rotvec()
+        motion = changes @ response.pose + np.concatenate([point.position - entered.position, turned])
         strain = tension / point.cables.axial_stiffness
         lengths = (np.linalg.norm(part, axis=1) for part in (motion[:, :3], motion[:, 3:]))
         return cls(tension, strain, *lengths)

@@ -151,7 +151,7 @@ class _AtPose:
             state = rest(robot, pose, None)
             require_valid(model, state.point, force)
             banded = Banded.at(state.point, AskedBand(_LEVEL), True, assembly=assembly)
-            drawn = DrawnRest.of(state.point, banded.response, banded.spread)
+            drawn = DrawnRest.of(banded.point, banded.response, banded.spread, banded.origin)
             modes = _modes(banded, asked, model)
         except (OutsideValidityError, InputError):
             raise

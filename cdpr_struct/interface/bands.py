@@ -7,9 +7,11 @@ import numpy as np
 
 from cdpr_struct.bands.drawn_robots import DrawnRobots, drawn_robots
 from cdpr_struct.bands.frequency_bands import FrequencyBands, frequency_bands
+from cdpr_struct.bands.likeliest_robot import at_the_means
 from cdpr_struct.bands.locked_response import LockedResponse, locked_response
 from cdpr_struct.bands.mode_rates import ModeRates, mode_rates
 from cdpr_struct.bands.rest_bands import rest_bands
+from cdpr_struct.crosscheck.robot_modes import MODELS, robot_modes
 from cdpr_struct.dynamics.cable_dynamics import CableModel
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
@@ -78,9 +80,12 @@ def band_head(asked: AskedBand, robot: Robot) -> dict[str, Any]:
 class Banded:
     """A robot at rest whose numbers may be off: what its predictions do then.
 
-    spread : which robots are probable
+    origin : as entered, or as a diagnosis extended it
+    point : with its likeliest numbers, which are the same without a diagnosis
+    spread : which robots are probable, about the likeliest
     """
 
+    origin: OperatingPoint
     point: OperatingPoint
     asked: AskedBand
     response: LockedResponse
@@ -104,7 +109,8 @@ class Banded:
         require_locked_lengths(point.entered, "a band is that of locked lengths")
         if not stable:
             raise CdprError("there is no band: the platform is not held there, and a small change moves it far")
-        return cls(point, asked, locked_response(point, assembly, model), spread_of(point.entered), model, assembly)
+        there, spread = at_the_means(point, spread_of(point.entered), model)
+        return cls(point, there, asked, locked_response(there, assembly, model), spread, model, assembly)
 
     def rest(self) -> tuple[dict[str, Any], list[Check]]:
         """Key `bands` of a result about a state of rest, and what is to be doubted."""
@@ -115,7 +121,10 @@ class Banded:
     def frequencies(self, hertz: np.ndarray, model: str) -> tuple[dict[str, Any], list[Check]]:
         """The same of a result about frequencies (k,) [Hz], as a model of the cables has them."""
         vibrating = hertz > 0.0
-        found = _of_modes(self, hertz[vibrating], model)
+        likeliest = hertz
+        if self.point is not self.origin:
+            likeliest = robot_modes(self.point, one_of(model, "model", MODELS), len(hertz), self.assembly).hertz
+        found = _of_modes(self, likeliest[vibrating], model)
         drawn = self._drawn(hertz[vibrating] if vibrating.any() else None, model)
         told = frequencies_told(found, hertz, drawn, self.asked.level)
         return self._head() | told, self._checks(drawn)
@@ -128,10 +137,10 @@ class Banded:
         if not self.asked.samples:
             return None
         models = self.assembly, self.model, vibrating_like(model)
-        return drawn_robots(self.point, self.spread, self.asked.samples, hertz, *models)
+        return drawn_robots(self.origin, spread_of(self.origin.entered), self.asked.samples, hertz, *models)
 
     def _head(self) -> dict[str, Any]:
-        return band_head(self.asked, self.point.entered)
+        return band_head(self.asked, self.origin.entered)
 
     def _checks(self, drawn: DrawnRobots | None) -> list[Check]:
         return slack_check(self.point.cables.tension_at_platform, self.spread.sigma(self.response.tension), drawn)

@@ -19,6 +19,7 @@ from cdpr_struct.crosscheck.robot_modes import robot_modes
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.interface.operating_point import rest
 from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.robot.robot_from_arrays import robot_from_arrays
 from cdpr_struct.robot.tolerances import (
     VARIED,
     Spread,
@@ -168,7 +169,7 @@ def test_every_number_of_a_robot_moves_once():
 
 def test_chances_are_shares_of_robots_within_the_tolerances():
     point = at_rest("cogiro")
-    drawn = DrawnRest.of(point, locked_response(point), Spread.within(Tolerances(), 8))
+    drawn = DrawnRest.of(point, locked_response(point), Spread.within(Tolerances(), 8), point)
     middle = point.cables.tension_at_platform[2]
     assert abs(chance(drawn.tension[:, 2:3], middle, None) - 0.5) < 0.01
     assert chance(drawn.tension, None, 1e6) == 1.0
@@ -225,3 +226,23 @@ def test_a_diagnosed_robot_has_the_bands_of_its_posterior_and_says_so():
     assert "defaults used" in before.text()
     assert "that a diagnosis left probable" in after.text()
     assert "defaults used" not in after.text()
+
+
+def test_modes_that_change_places_before_the_likeliest_robot_have_its_bands():
+    """A diagnosis that moves tensions by tens of newtons: bands are about the robot as it most probably is."""
+    entered = cs.load_robot("cogiro")
+    within = Spread.within(Tolerances(), 8)
+    off = np.zeros(len(within.mean))
+    off[places(8)[2]] = [0.004, -0.003, 0.0, 0.002, -0.004, 0.003, 0.001, -0.002]  # lengths [m]
+    known = replace(entered, posterior=Spread(0.02 * within.root, off))
+    held = cs.inverse(entered)
+    start = cs.Pose(held.pose.position, held.pose.angles)
+    found = cs.modes(known, lengths=held.answer["lengths_m"], start=start, count=6, band=90)
+    moved = robot_from_arrays(entered, changed(RobotArrays.of(entered), off))
+    truth = cs.modes(moved, lengths=held.answer["lengths_m"], start=start, count=6).modes.hertz
+    low, high = np.array(found.answer["bands"]["frequencies_hz"]).T
+    assert ((low < truth) & (truth < high)).all()
+    assert ((found.modes.hertz < low) | (found.modes.hertz > high)).any()  # of the robot without what was found beside
+    rest = cs.forward(known, held.answer["lengths_m"], start=start, band=90).answer["bands"]
+    own = cs.forward(moved, held.answer["lengths_m"], start=start)
+    np.testing.assert_allclose(np.mean(rest["tensions_N"], axis=1), own.answer["tensions_N"], rtol=1e-9)
