@@ -82,11 +82,11 @@ class UncertainForces:
         shared, instant = self.found.distribution, self.instant
         shape = (len(instant), shared.tensions.shape[1])
         tension, (lower, upper) = shared.tensions[instant], (self._bound(end)[instant] for end in ("lower", "upper"))
-        changes = drawn_changes(self.spread)
+        changes, wrench = drawn_changes(self.spread), self._wrench
         sigma, shift = np.empty(shape), np.empty(shape)
         least, missing, excess = (np.full(len(changes), start) for start in (np.inf, -np.inf, -np.inf))
         for row, number in enumerate(instant):
-            stations = LockedStations.about(self._point(number), self.found.model, self._wrench[number])
+            stations = LockedStations.about(self._point(number), self.found.model, wrench[number])
             rates = stations.slope(stations.rests.cables.tension_at_platform)
             sigma[row], shift[row] = self.spread.sigma(rates), self.spread.shift(rates)
             drawn = tension[row] + changes @ rates
@@ -106,11 +106,9 @@ class UncertainForces:
         """Robots drawn from the tolerances and balanced anew, at a few instants."""
         instant = self.instant
         place = np.unique(np.linspace(0, len(instant) - 1, min(len(instant), _CHECKED)).round().astype(int))
-        ends, lost = [], 0
+        ends, lost, wrench = [], 0, self._wrench
         for number in instant[place]:
-            rests, kept = drawn_rests(
-                self._point(number), self.spread, samples, self.found.model, self._wrench[number]
-            )  # fmt: skip
+            rests, kept = drawn_rests(self._point(number), self.spread, samples, self.found.model, wrench[number])
             pulled = rests.cables.tension_at_platform
             ends.append(np.quantile(pulled, [0.5 - 0.5 * level, 0.5 + 0.5 * level], axis=0).T)
             lost += samples - len(kept)

@@ -12,7 +12,7 @@ from cdpr_struct.residuals.recorded import Recorded
 
 
 def set_aside(data: Recorded, where: Layout, found: Judged) -> list[SetAside]:
-    """The readings set aside, worst first; peaks of the robot that are no mode's are those of `unassigned`."""
+    """The readings set aside, worst first; peaks that belong to no mode are in `unassigned`."""
     noise = found.fit.noise
     odd = noise.outlying & np.isnan(where.groups.fixed_variance)
     rows = []

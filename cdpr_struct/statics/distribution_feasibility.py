@@ -101,16 +101,12 @@ def _concave_maximum(problem: DistributionProblem, ceiling: np.ndarray, along: n
 
 def _slopes(problem: DistributionProblem, tension: np.ndarray, along: np.ndarray) -> np.ndarray:
     """(k, m) derivative of `_shares` by the chord tensions."""
-    rate = problem.hold(tension).force_rate
-    wrench = np.concatenate([rate, np.cross(problem.holding.arms.arms, rate)], axis=-1)
-    return np.einsum("kmn,kn->km", wrench, along / problem.holding.unit)
+    return problem.shares(problem.hold(tension).force_rate, along)
 
 
 def _shares(problem: DistributionProblem, tension: np.ndarray, along: np.ndarray) -> np.ndarray:
     """(k, m) what each cable contributes to the wrench in the scaled direction `along` (k, 6) [N]."""
-    force = problem.hold(tension).states.force_on_platform
-    wrench = np.concatenate([force, np.cross(problem.holding.arms.arms, force)], axis=-1)
-    return np.einsum("kmn,kn->km", wrench, along / problem.holding.unit)
+    return problem.shares(problem.hold(tension).states.force_on_platform, along)
 
 
 def explain(

@@ -224,9 +224,12 @@ class DistributionProblem:
         """(k, m) what each cable adds to the Lagrangian with multipliers (k, 6)."""
         states = self.hold(tension).states
         value = self.cost.terms(states.tension_at_platform, self.holding.low, self.holding.high, self.size)[0]
-        force = states.force_on_platform
+        return np.asarray(value - self.shares(states.force_on_platform, dual))
+
+    def shares(self, force: np.ndarray, along: np.ndarray) -> np.ndarray:
+        """(k, m) part of the wrench of each cable's force (k, m, 3) in the scaled wrench direction `along` (k, 6)."""
         wrench = np.concatenate([force, np.cross(self.holding.arms.arms, force)], axis=-1)
-        return np.asarray(value - np.einsum("kmn,kn->km", wrench, dual / self.holding.unit))
+        return np.asarray(np.einsum("kmn,kn->km", wrench, along / self.holding.unit))
 
     def _inside(self, tension: np.ndarray) -> np.ndarray:
         """Chord tensions moved into their bounds, and off them where the cost asks for it."""

@@ -9,38 +9,48 @@ cables are looked at, and where the other minimum is deeper the search begins th
 
 import numpy as np
 
-from cdpr_struct.statics.distribution_problem import PATIENT, USUAL, DistributionProblem, Optimum
+from cdpr_struct.statics.distribution_problem import PATIENT, USUAL, DistributionProblem, Optimum, Tangent
 
 _LOOKED_AT = 24  # chord tensions from floor to ceiling
 _DEEPER = 1e-9  # of the cost
 _ROUNDS = 3  # cables that change places, one after the other
 
 
-def best_of_minima(problem: DistributionProblem, optimum: Optimum) -> Optimum:
-    """The optimum, searched again from the deeper minimum of cables that bend down, and kept if it is better."""
-    items = np.flatnonzero(optimum.found)
+def bettered(problem: DistributionProblem, optimum: Optimum, tangent: Tangent) -> bool:
+    """Whether a search from the deeper minima of cables that bend down ends at better optima, which are put in place.
+
+    tangent : at the optimum
+    """
+    items, found_better = np.flatnonzero(optimum.found), False
+    there = tangent.take(items)
     for _ in range(_ROUNDS):
-        part = problem.take(items)
-        start = _deeper(part, optimum.take(items))
-        items, start = items[np.isfinite(start[:, 0])], start[np.isfinite(start[:, 0])]
+        start = _deeper(problem.take(items), optimum.take(items), there)
+        deeper = np.isfinite(start[:, 0])
+        items, there = items[deeper], there.take(deeper)
         if not items.size:
             break
-        other = problem.take(items).search(start)
-        better = other.found & (_cost(problem.take(items), other) < _cost(problem.take(items), optimum.take(items)))
-        items, other = items[better], other.take(better)
-        optimum = optimum.replaced(items, other)
-    return optimum
+        part = problem.take(items)
+        other = part.search(start[deeper])
+        after = part.tangent(other.chord_tension)
+        better = other.found & (after.value < there.value)
+        items, there = items[better], after.take(better)
+        optimum.replaced(items, other.take(better))
+        found_better = found_better or bool(better.any())
+    return found_better
 
 
 def searched_elsewhere(problem: DistributionProblem, optimum: Optimum, items: np.ndarray, near: np.ndarray) -> Optimum:
     """The optimum with some poses, `items` (n,), searched again: from chord tensions `near` (n, m) [N] that balance,
     from the least norm as `inverse` has it, then with patience, and from the poses beside them that are found."""
     optimum = optimum.replaced(items, problem.take(items).search(near))
-    for effort in (USUAL, PATIENT):
-        lost = items[~optimum.found[items]]
-        if lost.size:
-            part = problem.take(lost)
-            optimum = optimum.replaced(lost, part.search(part.holding.solve()[0], None, effort))
+    lost = items[~optimum.found[items]]
+    if lost.size:
+        start = problem.take(lost).holding.solve()[0]
+        for effort in (USUAL, PATIENT):
+            open_ = ~optimum.found[lost]
+            if open_.any():
+                found = problem.take(lost[open_]).search(start[open_], None, effort)
+                optimum = optimum.replaced(lost[open_], found)
     lost = items[~optimum.found[items]]
     while lost.size:
         last = len(optimum.found) - 1
@@ -54,11 +64,11 @@ def searched_elsewhere(problem: DistributionProblem, optimum: Optimum, items: np
     return optimum
 
 
-def _deeper(problem: DistributionProblem, optimum: Optimum) -> np.ndarray:
-    """(k, m) chord tensions with one cable in a deeper minimum of its own; nan where there is none."""
-    tension = optimum.chord_tension.copy()
+def _deeper(problem: DistributionProblem, optimum: Optimum, tangent: Tangent) -> np.ndarray:
+    """(k, m) chord tensions with cables in deeper minima of their own; nan where there are none."""
+    tension = optimum.chord_tension
     start = np.full(tension.shape, np.nan)
-    bends_down = problem.curvature(problem.tangent(tension), optimum.multiplier) < 0.0
+    bends_down = problem.curvature(tangent, optimum.multiplier) < 0.0
     items = np.flatnonzero(bends_down.any(axis=1))
     if not items.size:
         return start
@@ -73,7 +83,3 @@ def _deeper(problem: DistributionProblem, optimum: Optimum) -> np.ndarray:
     gains = least.min(axis=1) < -_DEEPER * np.abs(here).sum(axis=1)
     start[items[gains]] = at[gains]
     return start
-
-
-def _cost(problem: DistributionProblem, optimum: Optimum) -> np.ndarray:
-    return problem.tangent(optimum.chord_tension).value

@@ -16,36 +16,21 @@ _RANK = 1e-9  # relative
 
 def balanced_together(problem: HangingProblem, ends: Hung) -> Hung:
     """The same orientations, changed where something is left; an item keeps what left less."""
-    left = _left(problem, ends)
-    items = np.flatnonzero(ends.found & (left > _BALANCED))
+    items = np.flatnonzero(ends.found & (ends.left > _BALANCED))
     for _ in range(_ROUNDS):
         if not items.size:
             break
-        part, before = problem.take(items), ends.take(items)
-        tried = _changed(part, before)
-        after = _left(part, tried)
-        better = tried.found & (after < left[items])
+        tried = _changed(problem.take(items), ends.take(items))
+        better = tried.found & (tried.left < ends.left[items])
         ends.replaced(items[better], tried.take(better))
-        left[items[better]] = after[better]
-        items = items[better & (after > _BALANCED)]
+        items = items[better & (tried.left > _BALANCED)]
     return ends
-
-
-def _left(problem: HangingProblem, ends: Hung) -> np.ndarray:
-    """(k,) wrench left over, over load and tensions."""
-    holding = problem.holding(ends.angles, ends.rotation)
-    wrench = holding.linearised(ends.tension)[1]
-    return np.asarray(np.linalg.norm(wrench, axis=1) / (np.linalg.norm(holding.load[:, :3], axis=1) + _pulls(ends)))
-
-
-def _pulls(ends: Hung) -> np.ndarray:
-    return np.asarray(ends.tension.sum(axis=1))
 
 
 def _changed(problem: HangingProblem, ends: Hung) -> Hung:
     """One step of least norm in tensions, over their sum, and angles."""
     rate, wrench = problem.holding(ends.angles, ends.rotation).linearised(ends.tension)
-    free, size = np.flatnonzero(problem.free), _pulls(ends)[:, None]
+    free, size = np.flatnonzero(problem.free), ends.tension.sum(axis=1)[:, None]
     turns = []
     for axis in free:
         shift = np.zeros_like(ends.angles)
@@ -56,4 +41,5 @@ def _changed(problem: HangingProblem, ends: Hung) -> Hung:
     step = -(np.linalg.pinv(rates, rcond=_RANK) @ wrench[..., None])[..., 0]
     count, turn = ends.tension.shape[1], np.zeros_like(ends.angles)
     turn[:, free] = step[:, count:]
-    return problem.measured(*problem.reoriented(ends, turn), ends.tension + size * step[:, :count])
+    there = problem.reoriented(ends, turn)
+    return problem.measured(problem.holding(*there), *there, ends.tension + size * step[:, :count])

@@ -62,7 +62,8 @@ class HangingProblem:
 
     def hung(self, angles: np.ndarray, rotation: np.ndarray, tension: np.ndarray | None) -> "Hung":
         """Moments at angles (k, 3) [rad] and their rotations (k, 3, 3)."""
-        return self.measured(angles, rotation, self.holding(angles, rotation).solve(tension)[0])
+        holding = self.holding(angles, rotation)
+        return self.measured(holding, angles, rotation, holding.solve(tension)[0])
 
     def holding(self, angles: np.ndarray, rotation: np.ndarray) -> HoldingProblem:
         """The search for tensions that balance all but the moments about the free angles."""
@@ -73,28 +74,32 @@ class HangingProblem:
         """(k, 3, 3) rows: the axes about which steps of the free angles turn the platform."""
         return np.broadcast_to(np.eye(3), (*angles.shape, 3)) if self.free.all() else turning_axes(angles)
 
-    def measured(self, angles: np.ndarray, rotation: np.ndarray, tension: np.ndarray) -> "Hung":
-        """Moments that chord tensions (k, m) [N] leave."""
-        problem, axes = self.holding(angles, rotation), self._axes(angles)
+    def measured(
+        self, problem: HoldingProblem, angles: np.ndarray, rotation: np.ndarray, tension: np.ndarray
+    ) -> "Hung":
+        """Moments that chord tensions (k, m) [N] leave; problem : of `holding` at these angles."""
+        axes = self._axes(angles)
         states = self.model.hold(problem.arrays, problem.arms.points, tension).states
         left = cable_wrench(states, problem.arms) + problem.load
         pulls = np.linalg.norm(problem.load[:, :3], axis=1) + states.tension_at_platform.sum(axis=1)
         about = np.where(self.free, np.einsum("kij,kj->ki", axes, left[:, 3:]), 0.0)
         unbalanced = np.linalg.norm(problem.balanced(left / problem.unit), axis=1)
         carried = (unbalanced <= allowed_unbalance(self.arrays, WITHIN, pulls)) & ~lost(states).any(axis=1)
-        return Hung(angles, rotation, tension, about / (platform_radius(self.arrays) * pulls)[:, None], carried)
+        moment = about / (platform_radius(self.arrays) * pulls)[:, None]
+        return Hung(angles, rotation, tension, moment, carried, np.linalg.norm(left / problem.unit, axis=1) / pulls)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hung(BatchItems):
     """angles (k, 3) [rad], rotations (k, 3, 3), chord tensions (k, m) [N], moments (k, 3) about the free angles over
-    arms times tensions, and whether the tensions balance all else (k,)."""
+    arms times tensions, whether the tensions balance all else (k,), and the wrench left over load and tensions (k,)."""
 
     angles: np.ndarray
     rotation: np.ndarray
     tension: np.ndarray
     moment: np.ndarray
     carried: np.ndarray
+    left: np.ndarray
 
     @property
     def size(self) -> np.ndarray:

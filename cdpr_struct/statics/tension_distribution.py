@@ -13,8 +13,8 @@ from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_models import CableModel, cable_model
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.distribution_feasibility import LeastUnbalance, explain, least_unbalance
-from cdpr_struct.statics.distribution_problem import DistributionProblem, Optimum
-from cdpr_struct.statics.distribution_restarts import best_of_minima, searched_elsewhere
+from cdpr_struct.statics.distribution_problem import DistributionProblem, Optimum, Tangent
+from cdpr_struct.statics.distribution_restarts import bettered, searched_elsewhere
 from cdpr_struct.statics.holding_tensions import HoldingProblem
 from cdpr_struct.statics.tension_bound import chord_tension_at, chord_tension_at_length, constant, floor_at
 from cdpr_struct.statics.tension_cost import EuclideanNorm, TensionCost
@@ -177,7 +177,7 @@ def solve_distribution(
     crossed = problem.ceiling <= problem.floor
     if crossed.any():
         raise _crossed_bounds(problem, crossed, where)
-    optimum = best_of_minima(problem, problem.solve())
+    optimum = problem.solve()
     failed = np.flatnonzero(~optimum.found)
     status = np.where(optimum.found, DistributionStatus.OPTIMAL, DistributionStatus.NOT_FOUND)
     if failed.size:
@@ -190,7 +190,12 @@ def solve_distribution(
         optimum.chord_tension[failed[~ends.feasible]] = ends.chord_tension[~ends.feasible]
         if not allow_unheld:
             _require_held(problem, status, failed, ends, where)
-    return _distribution(problem, optimum, status)
+    held = problem.hold(optimum.chord_tension)
+    tangent = problem.tangent_of(held)
+    if bettered(problem, optimum, tangent):
+        held = problem.hold(optimum.chord_tension)
+        tangent = problem.tangent_of(held)
+    return _distribution(problem, optimum, held.states, tangent, status)
 
 
 def _require_held(
@@ -226,9 +231,10 @@ def _crossed_bounds(
     )
 
 
-def _distribution(problem: DistributionProblem, optimum: Optimum, status: np.ndarray) -> TensionDistribution:
-    holding, held = problem.holding, problem.hold(optimum.chord_tension)
-    tangent, states = problem.tangent_of(held), held.states
+def _distribution(
+    problem: DistributionProblem, optimum: Optimum, states: CableStates, tangent: Tangent, status: np.ndarray
+) -> TensionDistribution:
+    holding = problem.holding
     values = np.linalg.svd(tangent.matrix, compute_uv=False)
     finite = np.where(np.isfinite(holding.unit), holding.unit, 0.0)  # a guide takes what is left over there
     return TensionDistribution(

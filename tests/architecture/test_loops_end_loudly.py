@@ -39,7 +39,7 @@ DEFENDED = {
     "cdpr_struct/statics/catenary.py:_solve_span": LEFT + "solve_end_forces marks cables by their residual",
     "cdpr_struct/statics/distribution_problem.py:_advance": HALVED,
     "cdpr_struct/statics/distribution_problem.py:search": LEFT + "step and imbalance, which make the status",
-    "cdpr_struct/statics/distribution_restarts.py:best_of_minima": "every round ends at an optimum, the better of two",
+    "cdpr_struct/statics/distribution_restarts.py:bettered": "every round ends at an optimum, the better of two",
     "cdpr_struct/statics/hanging_balance.py:balanced_together": LEFT + "imbalance, from which `found` is made",
     "cdpr_struct/statics/hanging_search.py:newton": LEFT + "imbalance, from which `found` is made",
     "cdpr_struct/statics/free_orientation.py:hang_freely": LEFT + "imbalance, from which `found` is made",
