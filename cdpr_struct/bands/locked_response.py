@@ -23,6 +23,7 @@ _STATIONS = (1.0, -1.0, 2.0, -2.0)  # steps at which values are taken
 _WEIGHTS = (2.0 / 3.0, -2.0 / 3.0, -1.0 / 12.0, 1.0 / 12.0)  # their parts in a derivative of fourth order
 _SHORTEST = 1e-10  # of the chord: shorter steps are lost in rounding
 _PART = 0.03  # of a sigma, of what a diagnosis found to be off
+_NOTHING = 1e-9  # any unit, of what is known exactly
 _NEUTRAL = 1e-13  # of the largest singular value: a smaller one is zero but for rounding
 
 
@@ -132,7 +133,9 @@ def _steps_of_found(cables: int, spread: Spread) -> np.ndarray:
     """Of numbers beside `VARIED`; those of one kind alike."""
     own = np.linalg.norm(spread.root, axis=1)
     kinds = places(cables, spread.varied)[len(VARIED) :]
-    return np.concatenate([np.zeros(0), *(np.full(k.stop - k.start, _PART * (own[k].max() or 1.0)) for k in kinds)])
+    return np.concatenate(
+        [np.zeros(0), *(np.full(k.stop - k.start, _PART * (own[k].max() or _NOTHING)) for k in kinds)]
+    )
 
 
 def _balance(point: OperatingPoint, robots: RobotArrays, model: str, wrench: np.ndarray) -> LockedBalance:
