@@ -17,10 +17,13 @@ from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import judged
 from cdpr_struct.residuals.layout import layout
 from cdpr_struct.residuals.recorded import recorded
+from cdpr_struct.robot.changed_arrays import plus
 from cdpr_struct.robot.remainder import Remainder
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import robot_of_text
 from cdpr_struct.robot.robot_writing import robot_toml
 from cdpr_struct.robot.tolerances import Spread, Tolerances, Varied, change_count, places
+from cdpr_struct.statics.forward_kinematics import forward
 from cdpr_struct.statics.inverse_kinematics import inverse
 from tests.laws.written_campaigns import cogiro, extended, mast_values, measured, noisy, plan_of, rotation, written
 
@@ -50,7 +53,7 @@ def found_law(campaign) -> Remainder:
 def test_the_size_of_random_forces_is_found(size):
     found = found_law(shaken(size, 0.0, 3))
     assert found.force_N == pytest.approx(size, rel=0.3)  # three sigmas of the rms of 48 numbers
-    assert found.moment_Nm < 0.1 * size
+    assert found.moment_Nm < 2.5  # cells of 2 N on arms of about a metre
     assert found.length_m < 1e-3
 
 
@@ -86,14 +89,12 @@ def test_bands_hold_forces_that_are_new_at_every_rest():
     robot = replace(cogiro(), posterior=Spread(*(0.0 * part for part in within())), remainder=Remainder(force_N=40.0))
     held = cs.inverse(cogiro())
     bands = cs.forward(robot, held.answer["lengths_m"], band=90).answer["bands"]
-    rng, inside = np.random.default_rng(1), []
-    for _ in range(40):
-        pushed = cs.forward(
-            cogiro(), held.answer["lengths_m"], wrench=[*(40.0 * rng.standard_normal(3)), 0.0, 0.0, 0.0]
-        )
-        low, high = np.array(bands["tensions_N"]).T
-        inside.append((low < pushed.answer["tensions_N"]) & (pushed.answer["tensions_N"] < high))
-    assert 0.8 < np.mean(inside) < 0.97
+    pushed = plus(RobotArrays.of(cogiro()), force=40.0 * np.random.default_rng(1).standard_normal((200, 3)))
+    rests = forward(pushed, np.array(held.answer["lengths_m"]), held.pose.position, np.eye(3))
+    for name, found in (("tensions_N", rests.tensions), ("pose", np.hstack([rests.position, np.zeros((200, 3))]))):
+        low, high = np.array(bands[name]).T
+        inside = (low < found) & (found < high)
+        assert inside[:, :3].mean(axis=0) == pytest.approx([0.9] * 3, abs=0.07)
 
 
 def within() -> tuple[np.ndarray, np.ndarray]:
@@ -164,15 +165,13 @@ def test_bands_hold_the_size_of_masts_as_drawn_robots_do():
     sure = known.root.copy()
     sure[kinds["frame_compliance"]] = 0.0
     wide, narrow = (
-        cs.modes(replace(robot, posterior=replace(known, root=root)), count=3, band=90, samples=400).answer["bands"]
+        cs.modes(replace(robot, posterior=replace(known, root=root)), count=3, band=90, samples=200).answer["bands"]
         for root in (known.root, sure)
     )
     width = [np.ptp(one["frequencies_hz"], axis=1) for one in (wide, narrow)]
     assert np.abs(width[0] / width[1] - 1.0).max() > 0.02
-    drawn = (
-        np.ptp(wide["drawn_hz"], axis=1) if "drawn_hz" in wide else np.ptp(wide["samples"]["frequencies_hz"], axis=1)
-    )
-    assert drawn == pytest.approx(width[0], rel=0.2)
+    assert np.ptp(wide["samples"]["frequencies_hz"], axis=1) == pytest.approx(width[0], rel=0.2)
+    assert not wide["samples"]["differ"]
 
 
 @pytest.mark.parametrize(
