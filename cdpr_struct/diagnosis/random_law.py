@@ -5,19 +5,17 @@ under which the readings are likeliest: of each kind one rms, found by expectati
 Rubin 1977) beside tolerances and noise. What sensors alone may have wrong stays noise.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cdpr_struct.association.peak_noise import SCALES
-from cdpr_struct.hypotheses.causes.cause import Parameter, Pattern
-from cdpr_struct.hypotheses.hypothesis import Hypothesis, Part
-from cdpr_struct.hypotheses.judge import Judged, judged
-from cdpr_struct.hypotheses.laws import OUTSIDE
+from cdpr_struct.errors import CdprError
+from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.evidence import Fit, fit
 from cdpr_struct.inference.scale_mixture import NoiseState
-from cdpr_struct.residuals.assembled import stacked
+from cdpr_struct.residuals.assembled import Lists, errors_of_states, linear_model
 from cdpr_struct.residuals.layout import Layout
 from cdpr_struct.residuals.linearised import Local, Outside
 from cdpr_struct.residuals.recorded import LENGTH, Recorded
@@ -39,61 +37,60 @@ class RandomLaw:
 
 def random_law(data: Recorded, where: Layout, null: Judged) -> RandomLaw:
     """Of a campaign of which no cause explains what is wrong; null : nothing wrong, as it was fitted."""
-    local = Local.about(data, null.point)
+    sizes = np.array([_FORCE, _FORCE * data.radius, _LENGTH])
+    starts = (NoiseState.stated(null.model.groups), null.fit.noise)
+    found = max((_fitted(data, where, null, sizes, noise) for noise in starts), key=lambda one: one[0].log_evidence)
+    with suppress(CdprError, np.linalg.LinAlgError):  # where these numbers are the robot may have no stable equilibrium
+        there = replace(null, point=found[0].likeliest(data, where))
+        found = _fitted(data, where, there, found[1], found[0].fit.noise)
+    return RandomLaw(found[0], _remainder(data, *found))
+
+
+def _fitted(
+    data: Recorded, where: Layout, about: Judged, size: np.ndarray, noise: NoiseState
+) -> tuple[Judged, np.ndarray]:
+    """Linearised about a point, the fit beside errors of the likeliest rms (3,): forces, moments, lengths."""
+    local = Local.about(data, about.point)
+    model, lists = linear_model(local, where), Lists.of(local, where)
+    assigned = None if lists is None else lists.at_point(about.fit.z_covariance)
     errors = _errors(local)
-    columns = stacked(where, local.r.of_outside(Outside.joined([column for column, _ in errors])))
-    kinds = np.repeat(np.arange(len(errors)), [column.count for column, _ in errors])
-    start = np.array([size for _, size in errors])
-    tried = [_grown(null, columns, kinds, start, noise) for noise in (NoiseState.stated(null.model.groups), None)]
-    size, found = max(tried, key=lambda one: one[1].log_evidence)
-    parts = tuple(_part(column, rms) for (column, _), rms in zip(errors, size, strict=True))
-    law = judged(data, where, Hypothesis(parts, null.hypothesis.drift), null.point, found.noise)
-    return RandomLaw(law, _remainder(data, law, size))
+    kinds = np.repeat(np.arange(3), [one.count for one in errors])
+    columns = errors_of_states(local, where, Outside.joined(errors))
+    for _ in range(_ROUNDS):
+        scale = size[kinds]
+        noisy = model.with_noise([own * np.tile(scale, own.shape[2] // len(kinds)) for own in columns])
+        found = fit(noisy, noise, lists, assigned)
+        noise = found.noise
+        size = size * _grown(found, columns, kinds)
+    return replace(about, model=noisy, lists=lists, fit=found), size
 
 
-def _errors(local: Local) -> list[tuple[Outside, float]]:
-    """Columns of the force, moment and lengths of every state, a unit, and the rms of each to begin with."""
-    count, m = len(local.data.sigma), local.data.cables
+def _errors(local: Local) -> list[Outside]:
+    """Columns of the force, moment and lengths of each state, a unit."""
     force = local.of_three(lambda arrays, z: plus(arrays, force=z), _STEP)
     moment = local.of_three(lambda arrays, z: plus(arrays, moment=z), _STEP)
-    length = local.of_reading(slice(6 + m, None))
-    sizes = (_FORCE, _FORCE * local.data.radius, _LENGTH)
-    found = [(one, size) for one, size in zip((force, moment, length), sizes, strict=True) if one.static.any()]
-    return [(one.shared(_own(count, one.count), local.states_of_rows), size) for one, size in found]
+    return [force, moment, local.of_reading(slice(6 + local.data.cables, None))]
 
 
-def _own(states: int, errors: int) -> np.ndarray:
-    """(S, k, S k) share of each number in each state's k errors: one of its own."""
-    return np.einsum("kl,st->sktl", np.eye(errors), np.eye(states)).reshape((states, errors, -1))
-
-
-def _grown(
-    null: Judged, columns: Sequence[np.ndarray], kinds: np.ndarray, size: np.ndarray, noise: NoiseState | None
-) -> tuple[np.ndarray, Fit]:
-    """Rms of each kind of error, and the fit with them, from sizes of the noise on; default: those of the null."""
-    noise, known = null.fit.noise if noise is None else noise, null.model.parameters
-    lists = None if null.lists is None else null.lists.copy()
-    for _ in range(_ROUNDS):
-        model = null.model.with_columns([shelf * size[kinds] for shelf in columns])
-        found = fit(model, noise, lists, null.fit.soft)
-        noise = found.noise
-        square = found.z_mean[known:] ** 2 + np.diagonal(found.z_covariance)[known:]
-        size = size * np.sqrt(np.bincount(kinds, square) / np.bincount(kinds))
-    return size, found
-
-
-def _part(columns: Outside, rms: float) -> Part:
-    """Errors of an rms, each of a state by itself."""
-    named = tuple(Parameter(str(i), "1", rms) for i in range(columns.count))
-    return Part(OUTSIDE, Pattern(OUTSIDE.name, np.eye(columns.count), named, 1.0), 1.0, columns)
+def _grown(found: Fit, columns: list[np.ndarray], kinds: np.ndarray) -> np.ndarray:
+    """(3,) rms of the errors of each kind that act, in sizes that they were given; one where none act."""
+    square, count = np.zeros(3), np.zeros(3)
+    for own, mean, variance in zip(columns, found.noise_mean, found.noise_variance, strict=True):
+        acts, last = own.any(axis=1), mean.shape[1] - own.shape[2]
+        of = np.broadcast_to(np.tile(kinds, own.shape[2] // len(kinds)), acts.shape)
+        square += np.bincount(of[acts], (mean**2 + variance)[:, last:][acts], 3)
+        count += np.bincount(of[acts], minlength=3)
+    return np.sqrt(np.where(count > 0, square / np.maximum(count, 1), 1.0))
 
 
 def _remainder(data: Recorded, law: Judged, size: np.ndarray) -> Remainder:
     """As predictions need it: a robot's lengths are off by what its encoders are off beyond their sigma, too."""
-    force, moment, *length = (float(rms) for rms in size)
-    encoders = _beyond(float(law.fit.noise.tau[LENGTH])) * float(data.sigma[:, 6 + data.cables :].mean())
-    off = float(np.hypot(length[0], encoders)) if length else 0.0
-    return Remainder(force, moment, off, _scatter(law))
+    read = data.read[:, 6 + data.cables :]
+    if not read.any():
+        return Remainder(float(size[0]), float(size[1]), 0.0, _scatter(law))
+    sigma = float(data.sigma[:, 6 + data.cables :][read].mean())
+    length = np.hypot(size[2], _beyond(float(law.fit.noise.tau[LENGTH])) * sigma)
+    return Remainder(float(size[0]), float(size[1]), float(length), _scatter(law))
 
 
 def _scatter(law: Judged) -> float:
