@@ -229,8 +229,8 @@ def _left_at_random(found: Diagnosis) -> list[str]:
     peaks = f", and frequencies scatter by {100.0 * left.frequency:.2g} %" if left.frequency else ""
     return [
         f"For predictions it counts as random, new at every rest: forces of {left.force_N:.2g} N and moments of "
-        f"{left.moment_Nm:.2g} N m (rms of each component), lengths off by {1e3 * left.length_m:.2g} mm{peaks}. Bands of "
-        "the extended robot hold it."
+        f"{left.moment_Nm:.2g} N m (rms of each component), lengths off by {1e3 * left.length_m:.2g} mm{peaks}. Bands "
+        "of the extended robot hold it."
     ]
 
 
