@@ -128,6 +128,24 @@ def test_pose_and_tensions_have_the_bands_of_drawn_robots():
         assert (np.abs(mine - ends) <= 0.12 * (ends[:, 1] - ends[:, 0])[:, None]).all()
 
 
+def stiffening() -> OperatingPoint:
+    """A robot at rest whose cables have EA (T / T0)^0.15."""
+    robot = entered("cogiro")
+    law = {"stiffening_exponent": 0.15, "incremental_ratio": 1.0 / 0.85, "reference_tension": 400.0}
+    law = {name: np.array(value) for name, value in law.items()}
+    return cs.inverse(robot_from_arrays(robot, replace(RobotArrays.of(robot), **law))).point
+
+
+def test_a_drawn_robot_that_is_not_off_is_the_one_as_entered():
+    """With cables that are stiffer in vibration than at rest."""
+    point = stiffening()
+    hertz = robot_modes(point, "exact", 3).hertz
+    drawn = drawn_robots(point, Spread(np.zeros((change_count(8), 1)), np.zeros(change_count(8))), 2, hertz)
+    assert drawn.lost == 0
+    assert np.allclose(drawn.hertz, hertz, rtol=1e-6)
+    assert np.allclose(drawn.tension, point.cables.tension_at_platform, rtol=1e-6)
+
+
 def test_a_band_is_as_wide_as_its_tolerances():
     """Twice the tolerances, twice the sigma; none, no band."""
     point = at_rest("cogiro")
