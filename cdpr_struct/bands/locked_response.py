@@ -10,9 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from cdpr_struct.bands.stiffening_balance import in_static_motion, settled
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.observation.dependence import Dependence
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.tolerances import VARIED, change_count, changed, places
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.locked_balance import LockedBalance
@@ -21,6 +23,7 @@ _SHARE = 1e-3  # of a value, or of the tension: steps change nothing by more tha
 _STATIONS = (1.0, -1.0, 2.0, -2.0)  # steps at which values are taken
 _WEIGHTS = (2.0 / 3.0, -2.0 / 3.0, -1.0 / 12.0, 1.0 / 12.0)  # their parts in a derivative of fourth order
 _SHORTEST = 1e-10  # of the chord: shorter steps are lost in rounding
+_PASSES = 2  # where cables stiffen: their tangent at constant EA is right to a part in a thousand
 _NEUTRAL = 1e-13  # of the largest singular value: a smaller one is zero but for rounding
 
 
@@ -61,10 +64,14 @@ class LockedStations:
         balance = _balance(point, ways.reshape((-1, len(step))), model, wrench)
         place = np.repeat(point.position[None], len(balance.length), axis=0)
         turn = np.repeat(point.rotation[None], len(balance.length), axis=0)
-        rest = _balance(point, np.zeros((1, len(step))), model, wrench).evaluate(place[:1], turn[:1])
-        left = _slope(balance.evaluate(place, turn).wrench, step)
-        motion = (ways @ left @ np.linalg.pinv(rest.tangent[0], _NEUTRAL).T).reshape((-1, 6))
-        there, turned = balance.moved(place, turn, motion)
+        rest = in_static_motion(_balance(point, np.zeros((1, len(step))), model, wrench), place[:1], turn[:1])
+        give = np.linalg.pinv(rest.evaluate(place[:1], turn[:1]).tangent[0], _NEUTRAL).T
+        there, turned, motion = place, turn, np.zeros((len(place), 6))
+        for _ in range(_PASSES if balance.arrays.stiffens else 1):
+            left = _slope(settled(balance, there, turned).evaluate(there, turned).wrench, step)
+            motion = motion + (ways @ left @ give).reshape((-1, 6))
+            there, turned = balance.moved(place, turn, motion)
+        balance = settled(balance, there, turned)
         return cls(OperatingPoint(balance.arrays, there, turned, balance.states(there, turned)), step)
 
     def slope(self, values: np.ndarray) -> np.ndarray:
@@ -76,8 +83,6 @@ def locked_response(point: OperatingPoint, assembly: Assembly = "consistent", mo
     """Response of one robot at rest, no batch axes; a neutral freedom stays where it is.
 
     model : of the cables, sagging or spring
-
-    Cables that stiffen with tension do so as they are at this rest: that EA itself follows the tension is left out.
     """
     stations = LockedStations.about(point, model)
     rests = stations.rests
@@ -118,7 +123,7 @@ def step_sizes(point: OperatingPoint) -> np.ndarray:
 
 def _balance(point: OperatingPoint, change: np.ndarray, model: str, wrench: np.ndarray) -> LockedBalance:
     """Robots with changes (n, p), their winches as the robot at rest has them."""
-    arrays, lead = point.arrays, (len(change),)
+    arrays, lead = RobotArrays.of(point.robot), (len(change),)
     robots = changed(arrays, change)
     length = robots.paid_out(arrays.reading(point.cables.paid_out))
     length = np.broadcast_to(length, (*lead, arrays.cable_count))
