@@ -94,7 +94,7 @@ class UncertainForces:
         changes, middle, sigma = drawn_changes(spread), np.empty(shape), np.empty(shape)
         least, missing, excess = (np.full(len(changes), start) for start in (np.inf, -np.inf, -np.inf))
         for row, point in enumerate(points):
-            stations = LockedStations.about(point, self.found.model, wrench[row])
+            stations = LockedStations.about(point, self.found.model, wrench[row], spread)
             rates = stations.slope(stations.rests.cables.tension_at_platform)
             middle[row], sigma[row] = point.cables.tension_at_platform, spread.sigma(rates)
             drawn = middle[row] + changes @ rates

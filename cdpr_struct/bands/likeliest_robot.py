@@ -32,8 +32,8 @@ def likeliest_rests(
     if not points or not spread.mean.any():
         return list(points)
     entered, arrays = points[0].entered, RobotArrays.of(points[0].entered)
-    moved = robot_from_arrays(entered, changed(arrays, spread.mean), entered.extensions.causes)
-    robot = replace(moved, posterior=None)
+    moved = robot_from_arrays(entered, changed(arrays, spread.mean, spread.varied), entered.extensions.causes)
+    robot = replace(moved, posterior=None, remainder=None)
     lengths = np.array([arrays.reading(point.cables.paid_out) for point in points])
     place, turn = np.array([point.position for point in points]), np.array([point.rotation for point in points])
     if not (RobotArrays.of(robot).paid_out(lengths) > 0.0).all():

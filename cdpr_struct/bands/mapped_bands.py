@@ -80,7 +80,8 @@ class BandedQuantity:
     def __str__(self) -> str:
         """Everything that the columns depend on beside robot and poses."""
         asked = f"band {self.level!r} limit {self.limit!r} samples {self.samples}"
-        return f"{asked} within {fingerprint('spread', self.spread.root, self.spread.mean)}"
+        known = f"{fingerprint('spread', self.spread.root, self.spread.mean)} scatter {self.spread.scatter!r}"
+        return f"{asked} within {known} of {[one.field for one in self.spread.varied]}"
 
     def __call__(
         self, robot: Robot, position: np.ndarray, rotation: np.ndarray, found: InverseSolution | None = None
@@ -124,7 +125,7 @@ class BandedQuantity:
         """A robot at rest as entered and as it most probably is."""
         if point is None:
             return {}
-        quantity, stations = REST_QUANTITIES[self.quantity], LockedStations.about(point)
+        quantity, stations = REST_QUANTITIES[self.quantity], LockedStations.about(point, spread=self.about)
         there = OperatingPoint(point.arrays, point.position[None], point.rotation[None], point.cables.at(None))
         rates = stations.slope(quantity.smooth(stations.rests))
         drawn = quantity.reduced(robot, quantity.smooth(there) + self.changes @ rates)
@@ -138,7 +139,8 @@ class BandedQuantity:
         """The first frequency of a robot, hertz as entered [Hz], about the robot as it most probably is."""
         if point is None:
             return {}
-        response, model, first = locked_response(point), FREQUENCIES[self.quantity], np.array([hertz])
+        response = locked_response(point, spread=self.about)
+        model, first = FREQUENCIES[self.quantity], np.array([hertz])
         try:
             likeliest = first if point is entered else _first_above_zero(point, model)
             rates = mode_rates(point, likeliest, response, self.about, model=model)
@@ -164,8 +166,8 @@ class BandedQuantity:
     def _pose_error(self, entered: ErringRobot, erring: ErringRobot | None) -> _Told:
         if erring is None:
             return {}
-        response, which = locked_response(erring.sagging), POSE_ERRORS[self.quantity]
-        drawn = 1e3 * (erring.numbers().components + self.changes @ erring.rates(response))[:, which]
+        response, which = locked_response(erring.sagging, spread=self.about), POSE_ERRORS[self.quantity]
+        drawn = 1e3 * (erring.numbers().components + self.changes @ erring.rates(response, self.about))[:, which]
         told = self._of_draws(drawn) | self._slack(erring.sagging, response.tension)
         if not self.samples:
             return told

@@ -99,7 +99,7 @@ class ErringRobot:
 
         The size of an error is no linear function of it where it is small: its band is that of drawn components.
         """
-        rates, own = self.rates(response), self.numbers()
+        rates, own = self.rates(response, spread), self.numbers()
         middle, sigma = own.components, spread.sigma(rates)
         reach = ndtri(0.5 + 0.5 * level) * np.array([-1.0, 1.0])
         sizes = PoseErrorNumbers(own.components + drawn_changes(spread) @ rates).sizes
@@ -118,9 +118,9 @@ class ErringRobot:
         found = self._numbers(place[:, :3], rotation_from_angles(*place[:, 3:].T), there[:, :3])
         return found.all, sagging
 
-    def rates(self, response: LockedResponse) -> np.ndarray:
-        """(p, 12) of the components."""
-        sagging, spring = response.pose, locked_response(self.spring, model="spring").pose[:, :3]
+    def rates(self, response: LockedResponse, spread: Spread | None = None) -> np.ndarray:
+        """(p, 12) of the components; spread : as in `LockedStations.about`."""
+        sagging, spring = response.pose, locked_response(self.spring, model="spring", spread=spread).pose[:, :3]
         back = self.reference_rotation.T
         angles = pose_by_motion(back @ self.sagging.rotation)[3:, 3:] @ back
         return np.concatenate([sagging[:, :3], spring, sagging[:, :3] - spring, sagging[:, 3:] @ angles.T], axis=1)

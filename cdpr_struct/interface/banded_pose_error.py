@@ -52,7 +52,7 @@ def banded_pose_error(
     known = spread_of(robot)
     errors, drawn = erring.drawn(known, asked.samples) if asked.samples else (None, None)
     likeliest, spread = required(ErringRobot.likeliest([erring], known))[0], about_the_means(known)
-    response = locked_response(likeliest.sagging)
+    response = locked_response(likeliest.sagging, spread=spread)
     found = likeliest.bands(response, spread, asked.level)
     tension = likeliest.sagging.cables.tension_at_platform
     checks = slack_check(tension, spread.sigma(response.tension), drawn)

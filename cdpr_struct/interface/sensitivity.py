@@ -162,7 +162,7 @@ def _moved(
     point, spread = at_the_means(entered, spread_of(entered.entered))
     if point is not entered:
         hertz = robot_modes(point, model, count, assembly, 0).hertz
-    response = locked_response(point, assembly)
+    response = locked_response(point, assembly, spread=spread)
     found = mode_rates(point, hertz, response, spread, assembly, vibrating_like(model))
     own = of_equal_modes(found.hertz, found.own)[:, :count]
     pose = response.pose @ pose_by_motion(point.rotation).T * np.where(np.arange(6) < 3, 1e3, 180.0 / np.pi)
