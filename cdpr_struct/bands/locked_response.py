@@ -5,6 +5,7 @@ everything else are evaluated again. Both are central differences of fourth orde
 is left out.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +16,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.observation.dependence import Dependence
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.robot.tolerances import VARIED, Spread, change_count, changed, places
+from cdpr_struct.robot.tolerances import VARIED, Spread, Varied, change_count, changed, places
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.locked_balance import LockedBalance
 
@@ -65,13 +66,13 @@ class LockedStations:
         spread : which robots are probable, where a diagnosis found more to be off than tolerances are about
         """
         varied, step = VARIED if spread is None else spread.varied, step_sizes(point, spread)
-        wrench, arrays = np.zeros(6) if wrench is None else wrench, RobotArrays.of(point.robot)
+        wrench = np.zeros(6) if wrench is None else wrench
         ways = np.array(_STATIONS)[:, None, None] * np.diag(step)
-        balance = _balance(point, changed(arrays, ways.reshape((-1, len(step))), varied), model, wrench)
+        balance = _balance(point, ways.reshape((-1, len(step))), varied, model, wrench)
         place = np.repeat(point.position[None], len(balance.length), axis=0)
         turn = np.repeat(point.rotation[None], len(balance.length), axis=0)
-        still = changed(arrays, np.zeros((1, len(step))), varied)
-        rest = in_static_motion(_balance(point, still, model, wrench), place[:1], turn[:1])
+        still = _balance(point, np.zeros((1, len(step))), varied, model, wrench)
+        rest = in_static_motion(still, place[:1], turn[:1])
         give = np.linalg.pinv(rest.evaluate(place[:1], turn[:1]).tangent[0], _NEUTRAL).T
         there, turned, motion = place, turn, np.zeros((len(place), 6))
         for _ in range(_PASSES if balance.arrays.stiffens else 1):
@@ -142,9 +143,12 @@ def _steps_of_found(cables: int, spread: Spread) -> np.ndarray:
     )
 
 
-def _balance(point: OperatingPoint, robots: RobotArrays, model: str, wrench: np.ndarray) -> LockedBalance:
-    """Robots (n), their winches as the robot at rest has them."""
-    arrays, lead = RobotArrays.of(point.robot), robots.mass.shape
+def _balance(
+    point: OperatingPoint, change: np.ndarray, varied: Sequence[Varied], model: str, wrench: np.ndarray
+) -> LockedBalance:
+    """Robots with changes (n, p), their winches as the robot at rest has them."""
+    arrays, lead = RobotArrays.of(point.robot), (len(change),)
+    robots = changed(arrays, change, varied)
     length = robots.paid_out(arrays.reading(point.cables.paid_out))
     length = np.broadcast_to(length, (*lead, arrays.cable_count))
     return LockedBalance(robots.flattened(lead), length, np.broadcast_to(wrench, (*lead, 6)), cable_model(model))

@@ -80,8 +80,9 @@ class BandedQuantity:
     def __str__(self) -> str:
         """Everything that the columns depend on beside robot and poses."""
         asked = f"band {self.level!r} limit {self.limit!r} samples {self.samples}"
-        known = f"{fingerprint('spread', self.spread.root, self.spread.mean)} scatter {self.spread.scatter!r}"
-        return f"{asked} within {known} of {[one.field for one in self.spread.varied]}"
+        own = self.spread
+        found = " ".join(one.field for one in own.found)
+        return f"{asked} within {fingerprint(f'spread {found}', own.root, own.mean, np.array(own.scatter))}"
 
     def __call__(
         self, robot: Robot, position: np.ndarray, rotation: np.ndarray, found: InverseSolution | None = None
@@ -139,8 +140,8 @@ class BandedQuantity:
         """The first frequency of a robot, hertz as entered [Hz], about the robot as it most probably is."""
         if point is None:
             return {}
-        response = locked_response(point, spread=self.about)
-        model, first = FREQUENCIES[self.quantity], np.array([hertz])
+        response, model = locked_response(point, spread=self.about), FREQUENCIES[self.quantity]
+        first = np.array([hertz])
         try:
             likeliest = first if point is entered else _first_above_zero(point, model)
             rates = mode_rates(point, likeliest, response, self.about, model=model)

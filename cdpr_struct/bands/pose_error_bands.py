@@ -118,8 +118,8 @@ class ErringRobot:
         found = self._numbers(place[:, :3], rotation_from_angles(*place[:, 3:].T), there[:, :3])
         return found.all, sagging
 
-    def rates(self, response: LockedResponse, spread: Spread | None = None) -> np.ndarray:
-        """(p, 12) of the components; spread : as in `LockedStations.about`."""
+    def rates(self, response: LockedResponse, spread: Spread) -> np.ndarray:
+        """(p, 12) of the components by the numbers of a spread."""
         sagging, spring = response.pose, locked_response(self.spring, model="spring", spread=spread).pose[:, :3]
         back = self.reference_rotation.T
         angles = pose_by_motion(back @ self.sagging.rotation)[3:, 3:] @ back
