@@ -174,6 +174,8 @@ def _of_tensions(local: Local, known: _Known) -> Iterator[Law]:
     yield cells.law("that changes with the other tensions", cross)
     for neighbour, words in ((1, "last"), (-1, "next")):
         yield cells.law(f"with the {words} cable's tension", np.roll(whole, neighbour, axis=1)[..., None])
+    before = np.concatenate([whole[:1], whole[:-1]])  # states are filed in the order in which they were measured
+    yield from cells.both("that lags behind the state before", (before - whole)[..., None])
     for power, words in ((2, "square"), (3, "cube")):
         yield cells.law(f"with the {words} of the tension", whole[..., None] ** power)
     yield from _of_readings(cells, known)

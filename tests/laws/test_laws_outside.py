@@ -46,6 +46,17 @@ def test_a_law_of_the_cells_changes_what_is_expected_of_plucked_cables(campaign,
     assert np.abs(found.cables).max() > 1e-7
 
 
+def test_cells_that_lag_say_in_part_what_pulled_before(campaign, local):
+    law = next(one for one in laws(local) if one.words.endswith("that lags behind the state before, all alike"))
+    tension = campaign.states.tension
+    before = np.concatenate([tension[:1], tension[:-1]])
+    data = recorded(with_states(campaign, tension=tension + 1e-4 * 0.02 * (before - tension)))
+    changed = Local.about(data, Point.entered(data)).r
+    found = 1e-4 * law.columns.static[..., 0]
+    np.testing.assert_allclose(changed.static - local.r.static, found, rtol=1e-2, atol=1e-6)
+    assert np.abs(found).max() > 1e-3
+
+
 @pytest.mark.parametrize("period", [0.17, 0.4, 1.1])
 def test_a_period_is_found_wherever_it_lies(period):
     rng = np.random.default_rng(3)

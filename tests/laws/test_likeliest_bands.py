@@ -10,6 +10,8 @@ from cdpr_struct.bands.force_bands import UncertainForces
 from cdpr_struct.bands.likeliest_robot import at_the_means, likeliest_rests, required
 from cdpr_struct.bands.mapped_bands import BELOW, DRAWN, ENDS, BandedQuantity, band_column
 from cdpr_struct.errors import CdprError
+from cdpr_struct.interface.bands import spread_of
+from cdpr_struct.robot.remainder import Remainder
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_from_arrays import robot_from_arrays
 from cdpr_struct.robot.tolerances import VARIED, Spread, Tolerances, change_count, changed, places
@@ -85,6 +87,23 @@ def test_sensitivities_are_those_of_the_robot_with_its_numbers_as_they_are():
         size = np.abs(right).max()
         assert np.allclose(mine, right, rtol=0.0, atol=1e-5 * size)
         assert not np.allclose(mine, before, rtol=0.0, atol=1e-3 * size)
+
+
+def test_numbers_beside_the_tolerances_are_in_bands_of_maps_pose_errors_and_motions():
+    """A force, a moment and lengths that are drawn anew at every rest, beside what a diagnosis found."""
+    robot = replace(diagnosed(), remainder=Remainder(force_N=30.0, moment_Nm=5.0, length_m=0.0005))
+    spread = spread_of(robot)
+    found = BandedQuantity("tension-min", spread, 0.9, None, 200)(
+        robot, robot.home.position[None] + 0.3, robot.home.rotation
+    )
+    low, high, narrow, wide = (found[band_column("tension-min", end)] for end in (*ENDS[:2], *DRAWN))
+    assert apart(low, high, [narrow, wide]) < 0.2
+    rows = cs.pose_error(robot, pose=(0.3, -0.2, 1.3), band=90, samples=200).answer["bands"]["errors"]
+    assert max(apart(*row["band"], row["drawn"]) for row in rows.values()) < 0.25
+    bands = UncertainForces(cs.distribute(robot, LINE, instants=2).found[0], spread)
+    drawn, mine = bands.drawn(200, 0.9), bands.bands(0.9).band
+    assert apart(mine[drawn.place, :, 0], mine[drawn.place, :, 1], np.moveaxis(drawn.ends, -1, 0)) < 0.2
+    assert cs.sensitivity(robot, count=2).answer["shares"]
 
 
 def test_rests_of_many_points_are_those_of_each():
