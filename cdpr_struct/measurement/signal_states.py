@@ -101,12 +101,31 @@ def held_against(item: Identified, robot: Robot, model: str) -> Identified:
             partner[own] = partners(modes.take(own), state, record)
         except CdprError as error:
             note = str(error)
-    own_size = _own_size(modes, partner, state, record)
+    return _judged(replace(item, partner=partner, note=note, state=state), seen)
+
+
+def held_at(item: Identified, other: Identified) -> Identified:
+    """Identified modes held against the model at another record's pose."""
+    there = other.record
+    place = {name: getattr(there, name) for name in ("case", "position", "angles", "lengths", "payload")}
+    record, state = replace(item.record, **place), other.state
+    partner, own = np.full(len(item.modes), -1), np.flatnonzero([kind == MODE for kind in item.kinds])
+    if state is not None and len(own):
+        partner[own] = partners(item.modes.take(own), state, record)
+    mass = 0.0 if state is None else state.point.entered.platform.mass
+    moved = replace(item, record=record, partner=partner, note=other.note, state=state)
+    return _judged(moved, translation_share(item.modes, record, mass))
+
+
+def _judged(item: Identified, seen: np.ndarray) -> Identified:
+    """With what joins the campaign; seen (k,) : share of the energy that is seen in the platform."""
+    state, own_size = item.state, _own_size(item.modes, item.partner, item.state, item.record)
     reason = [
-        _reason(i, modes, kinds, partner, state, bool(seen[i] >= SEEN), bool(own_size[i])) for i in range(len(modes))
+        _reason(i, item.modes, item.kinds, item.partner, state, bool(seen[i] >= SEEN), bool(own_size[i]))
+        for i in range(len(item.modes))
     ]
     used = np.array([not r for r in reason], dtype=bool) & (state is not None)
-    return replace(item, partner=partner, used=used, reason=tuple(reason), note=note, state=state)
+    return replace(item, used=used, reason=tuple(reason))
 
 
 def _own_size(modes: Modes, partner: np.ndarray, state: StateModes | None, record: SignalRecord) -> np.ndarray:

@@ -137,9 +137,7 @@ def changes_of(modes: VibratingModes, points: OperatingPoint) -> np.ndarray:
     return np.asarray(Dependence.of(points, modes.assembly).vector - modes.dependence)
 
 
-def _collected(
-    found: ExpandedModes, gradient: np.ndarray, kept: np.ndarray, assembly: Assembly
-) -> VibratingModes:
+def _collected(found: ExpandedModes, gradient: np.ndarray, kept: np.ndarray, assembly: Assembly) -> VibratingModes:
     """Those to be kept, from `gradient` (F, n, k) of omega^2."""
     shapes = found.shapes
     gradient = _joined(gradient / (2.0 * shapes.omega**2)[..., None, :], shapes.omega)

@@ -140,30 +140,33 @@ class Vibrating:
         """(F, M) of the robot's modes."""
         return np.zeros((len(self.measured.states), 0)) if self.robot is None else self.robot.log_hertz
 
-    def changes(
-        self, arrays: RobotArrays, readings: Readings, count: int
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def changes(self, arrays: RobotArrays, readings: Readings, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Changes of ln f, of cable modes (count, r) and the robot's (count, F, M), and of ln of modal constants
         (count, a) with the modes, for nearby robots or readings."""
         point = _point(self.states, self.measured, self.known, arrays, readings)
         own = cable_rates(self.cables, point, np.ones(count))
         if self.robot is None:
             return own, np.zeros((count, len(self.measured.states), 0)), np.zeros((count, len(self.measured.sizes)))
-        change = changes_of(self.robot, point)
+        change = self._changed(point, count)
         robot = np.moveaxis(np.moveaxis(change, 0, 1) @ self.robot.gradient, 0, 1)
-        sizes = np.zeros((len(change), len(self.measured.sizes)))
+        sizes = np.zeros((count, len(self.measured.sizes)))
         if self.sizes is not None:
             sizes = np.einsum("ban,an->ba", change[:, self.sizes.row], self.sizes.gradient, optimize=True)
-        lead = (count, *self.robot.log_hertz.shape)
-        return own, np.broadcast_to(robot, lead), np.broadcast_to(sizes, (count, sizes.shape[1]))
+        return own, robot, sizes
 
     def turns(self, arrays: RobotArrays, readings: Readings, count: int) -> np.ndarray:
         """(count, a) by how much the modes of modal constants turn into others, for nearby robots or readings [rad]."""
         if self.robot is None or self.sizes is None:
             return np.zeros((count, len(self.measured.sizes)))
-        change = changes_of(self.robot, _point(self.states, self.measured, self.known, arrays, readings))
+        change = self._changed(_point(self.states, self.measured, self.known, arrays, readings), count)
         turn = np.einsum("ban,anc->bac", change[:, self.sizes.row], self.sizes.turn, optimize=True)
-        return np.broadcast_to(np.linalg.norm(turn, axis=-1), (count, turn.shape[1]))
+        return np.asarray(np.linalg.norm(turn, axis=-1))
+
+    def _changed(self, point: OperatingPoint, count: int) -> np.ndarray:
+        """(count, F, n) changes of what the modes depend on."""
+        assert self.robot is not None
+        change = changes_of(self.robot, point)
+        return np.broadcast_to(change, (count, *change.shape[-2:]))
 
     def log_sizes(self, arrays: RobotArrays) -> np.ndarray:
         """(B, a) ln of modal constants of the modes at the point, by the accelerometers of robots (B, 1)."""
