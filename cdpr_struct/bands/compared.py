@@ -35,6 +35,7 @@ def compared(
     rates: np.ndarray,
     spread: Spread,
     level: float,
+    scatter: np.ndarray | None = None,
 ) -> Compared:
     """Compare readings (n,).
 
@@ -42,13 +43,15 @@ def compared(
     ----------
     noise : (n,) sigma of each reading;  ends : (n, 2) band of what is predicted, tolerances only, at this level
     rates : (p, n) of the predicted numbers;  spread : which robots are probable
+    scatter : (n,) sigma of each prediction by itself, which its band has already; default: none
     """
     reach = ndtri(0.5 + 0.5 * level)
     middle = np.clip(predicted + spread.shift(rates), *ends.T)
     low = middle - np.hypot(middle - ends[:, 0], reach * noise)
     high = middle + np.hypot(ends[:, 1] - middle, reach * noise)
     off, own = measured - middle, rates.T @ spread.root
-    covariance = own @ own.T + np.diag(noise**2)
+    alone = noise if scatter is None else np.hypot(noise, scatter)
+    covariance = own @ own.T + np.diag(alone**2)
     sigma = np.sqrt(np.diag(covariance))
     whitened = np.linalg.solve(np.linalg.cholesky(covariance), off)
     inside = (measured >= low) & (measured <= high)

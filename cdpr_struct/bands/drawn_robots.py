@@ -65,6 +65,8 @@ def drawn_robots(
     around = np.remainder(turned + np.pi, 2.0 * np.pi) - np.pi
     pose = np.concatenate([rests.position, angles + around], axis=-1)
     modes = np.zeros((len(kept), 0)) if hertz is None else _like(point, rests, hertz, assembly, vibrating)
+    if spread.scatter:
+        modes = np.sort(modes * np.exp(spread.scatter * np.random.default_rng(_SEED + 1).standard_normal(modes.shape)))
     return DrawnRobots(kept, pose, rests.cables.tension_at_platform, modes, count - len(kept))
 
 
@@ -77,7 +79,7 @@ def drawn_rests(
     """
     arrays, cables = point.arrays, point.cables
     drawn = spread.drawn(np.random.default_rng(_SEED).standard_normal((count, spread.root.shape[1])))
-    robots, lengths = changed(arrays, drawn), arrays.reading(cables.paid_out)
+    robots, lengths = changed(arrays, drawn, spread.varied), arrays.reading(cables.paid_out)
     found = forward(robots, lengths, point.position, point.rotation, model, wrench)
     kept = np.flatnonzero(found.stable)
     robots = robots.flattened((count,)).take(kept)

@@ -32,7 +32,7 @@ def frequency_bands(rates: ModeRates, spread: Spread, level: float) -> Frequency
 
     spread : which robots are probable
     """
-    sigma = spread.sigma(rates.own)
+    sigma = np.hypot(spread.sigma(rates.own), spread.scatter)
     reach = ndtri(0.5 + 0.5 * level) * sigma
     middle = spread.shift(rates.own)
     low, high = rates.hertz * np.exp(middle - reach), rates.hertz * np.exp(middle + reach)
@@ -41,7 +41,7 @@ def frequency_bands(rates: ModeRates, spread: Spread, level: float) -> Frequency
     if meeting:
         changes = drawn_changes(spread)
     for group in meeting:
-        logarithm = _drawn_frequencies(rates, group, changes)
+        logarithm = _scattered(_drawn_frequencies(rates, group, changes), spread)
         sigma[group] = logarithm.std(axis=0)
         ends = np.exp(np.quantile(logarithm, [0.5 - 0.5 * level, 0.5 + 0.5 * level], axis=0))
         low[group], high[group] = ends
@@ -53,11 +53,21 @@ def chance_above(rates: ModeRates, spread: Spread, mode: int, hertz: float) -> f
     group = np.flatnonzero(rates.groups == rates.groups[mode])
     if len(group) == 1:
         own = rates.own[:, [mode]]
-        sigma = float(spread.sigma(own)[0])
+        sigma = float(np.hypot(spread.sigma(own)[0], spread.scatter))
         gap = float(np.log(rates.hertz[mode] / hertz) + spread.shift(own)[0])
         return float(ndtr(gap / sigma)) if sigma > 0.0 else float(gap > 0.0)
-    drawn = _drawn_frequencies(rates, group, drawn_changes(spread))[:, int(np.searchsorted(group, mode))]
+    drawn = _scattered(_drawn_frequencies(rates, group, drawn_changes(spread)), spread)[
+        :, int(np.searchsorted(group, mode))
+    ]
     return float((drawn > np.log(hertz)).mean())
+
+
+def _scattered(logarithm: np.ndarray, spread: Spread) -> np.ndarray:
+    """(n, g) drawn ln f with what each is off by itself; in ascending order again."""
+    if not spread.scatter:
+        return logarithm
+    own = np.random.default_rng(_SEED + 1).standard_normal(logarithm.shape)
+    return np.sort(logarithm + spread.scatter * own, axis=1)
 
 
 def drawn_changes(spread: Spread) -> np.ndarray:

@@ -28,8 +28,8 @@ def at_the_means(point: OperatingPoint, spread: Spread, model: str) -> tuple[Ope
     if not spread.mean.any():
         return point, spread
     entered, arrays = point.entered, RobotArrays.of(point.entered)
-    moved = changed(arrays, spread.mean)
-    robot = replace(robot_from_arrays(entered, moved, entered.extensions.causes), posterior=None)
+    moved = changed(arrays, spread.mean, spread.varied)
+    robot = replace(robot_from_arrays(entered, moved, entered.extensions.causes), posterior=None, remainder=None)
     rest = forward(robot, arrays.reading(point.cables.paid_out), point.position, point.rotation, model)
     if not rest.stable:
         raise CdprError("there is no band: with its likeliest numbers the platform does not come to rest there")

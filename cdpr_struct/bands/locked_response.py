@@ -13,7 +13,8 @@ from scipy.spatial.transform import Rotation
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.observation.dependence import Dependence
-from cdpr_struct.robot.tolerances import VARIED, change_count, changed, places
+from cdpr_struct.robot.robot_arrays import RobotArrays
+from cdpr_struct.robot.tolerances import VARIED, Spread, change_count, changed, places
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.locked_balance import LockedBalance
 
@@ -21,12 +22,14 @@ _SHARE = 1e-3  # of a value, or of the tension: steps change nothing by more tha
 _STATIONS = (1.0, -1.0, 2.0, -2.0)  # steps at which values are taken
 _WEIGHTS = (2.0 / 3.0, -2.0 / 3.0, -1.0 / 12.0, 1.0 / 12.0)  # their parts in a derivative of fourth order
 _SHORTEST = 1e-10  # of the chord: shorter steps are lost in rounding
+_PART = 0.03  # of a sigma, of what a diagnosis found to be off
+_NOTHING = 1e-9  # any unit, of what is known exactly
 _NEUTRAL = 1e-13  # of the largest singular value: a smaller one is zero but for rounding
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LockedResponse:
-    """What changes (p,) of the robot's numbers do at locked lengths, to first order, in the units of `VARIED`.
+    """What changes (p,) of the robot's numbers do at locked lengths, to first order, in the units of `Varied`.
 
     pose       : (p, 6) motion of the platform origin and turn, world axes [m, rad]
     tension    : (p, m) at the platform [N]
@@ -43,25 +46,30 @@ class LockedStations:
     """Robots at rest beside one of them, each with one number changed by a small step, its winches as they are.
 
     rests : (4 p) of p numbers, the stations of a central difference of fourth order outermost
-    step  : (p,) in the units of `VARIED`
+    step  : (p,) in the units of `Varied`
     """
 
     rests: OperatingPoint
     step: np.ndarray
 
     @classmethod
-    def about(cls, point: OperatingPoint, model: str = "sagging", wrench: np.ndarray | None = None) -> "LockedStations":
+    def about(
+        cls, point: OperatingPoint, model: str = "sagging", wrench: np.ndarray | None = None,
+        spread: Spread | None = None,
+    ) -> "LockedStations":  # fmt: skip
         """Of one robot at rest, no batch axes; a neutral freedom stays where it is.
 
         model : of the cables, sagging or spring;  wrench : (6,) on the platform beside its weight [N, N m]
+        spread : which robots are probable, where a diagnosis found more to be off than tolerances are about
         """
-        step = step_sizes(point)
+        varied, step = VARIED if spread is None else spread.varied, step_sizes(point, spread)
         wrench = np.zeros(6) if wrench is None else wrench
         ways = np.array(_STATIONS)[:, None, None] * np.diag(step)
-        balance = _balance(point, ways.reshape((-1, len(step))), model, wrench)
+        balance = _balance(point, changed(point.arrays, ways.reshape((-1, len(step))), varied), model, wrench)
         place = np.repeat(point.position[None], len(balance.length), axis=0)
         turn = np.repeat(point.rotation[None], len(balance.length), axis=0)
-        rest = _balance(point, np.zeros((1, len(step))), model, wrench).evaluate(place[:1], turn[:1])
+        still = changed(point.arrays, np.zeros((1, len(step))), varied)
+        rest = _balance(point, still, model, wrench).evaluate(place[:1], turn[:1])
         left = _slope(balance.evaluate(place, turn).wrench, step)
         motion = (ways @ left @ np.linalg.pinv(rest.tangent[0], _NEUTRAL).T).reshape((-1, 6))
         there, turned = balance.moved(place, turn, motion)
@@ -72,14 +80,16 @@ class LockedStations:
         return _slope(values, self.step)
 
 
-def locked_response(point: OperatingPoint, assembly: Assembly = "consistent", model: str = "sagging") -> LockedResponse:
+def locked_response(
+    point: OperatingPoint, assembly: Assembly = "consistent", model: str = "sagging", spread: Spread | None = None
+) -> LockedResponse:
     """Response of one robot at rest, no batch axes; a neutral freedom stays where it is.
 
-    model : of the cables, sagging or spring
+    model : of the cables, sagging or spring;  spread : as in `LockedStations.about`
 
     Cables that stiffen with tension do so as they are at this rest: that EA itself follows the tension is left out.
     """
-    stations = LockedStations.about(point, model)
+    stations = LockedStations.about(point, model, spread=spread)
     rests = stations.rests
     depends = Dependence.of(rests, assembly).vector
     about = Rotation.from_matrix(rests.rotation @ np.swapaxes(point.rotation, -1, -2)).as_rotvec()
@@ -93,8 +103,11 @@ def _slope(values: np.ndarray, step: np.ndarray) -> np.ndarray:
     return np.asarray(np.tensordot(_WEIGHTS, stations, axes=1) / step[:, None])
 
 
-def step_sizes(point: OperatingPoint) -> np.ndarray:
-    """(p,) changes small enough for everything to be linear, and large against rounding."""
+def step_sizes(point: OperatingPoint, spread: Spread | None = None) -> np.ndarray:
+    """(p,) changes small enough for everything to be linear, and large against rounding.
+
+    Of what a diagnosis found to be off they are shares of how far it may be.
+    """
     arrays, cables = point.arrays, point.cables
     chord = cables.chord
     strained = cables.tension_at_platform * cables.length / cables.axial_stiffness
@@ -113,13 +126,21 @@ def step_sizes(point: OperatingPoint) -> np.ndarray:
     for one, place in zip(VARIED, places(arrays.cable_count), strict=True):
         if one.field in sizes:
             result[place] = sizes[one.field]
-    return result
+    return result if spread is None else np.concatenate([result, _steps_of_found(arrays.cable_count, spread)])
 
 
-def _balance(point: OperatingPoint, change: np.ndarray, model: str, wrench: np.ndarray) -> LockedBalance:
-    """Robots with changes (n, p), their winches as the robot at rest has them."""
-    arrays, lead = point.arrays, (len(change),)
-    robots = changed(arrays, change)
+def _steps_of_found(cables: int, spread: Spread) -> np.ndarray:
+    """Of numbers beside `VARIED`; those of one kind alike."""
+    own = np.linalg.norm(spread.root, axis=1)
+    kinds = places(cables, spread.varied)[len(VARIED) :]
+    return np.concatenate(
+        [np.zeros(0), *(np.full(k.stop - k.start, _PART * (own[k].max() or _NOTHING)) for k in kinds)]
+    )
+
+
+def _balance(point: OperatingPoint, robots: RobotArrays, model: str, wrench: np.ndarray) -> LockedBalance:
+    """Robots (n), their winches as the robot at rest has them."""
+    arrays, lead = point.arrays, robots.mass.shape
     length = robots.paid_out(arrays.reading(point.cables.paid_out))
     length = np.broadcast_to(length, (*lead, arrays.cable_count))
     return LockedBalance(robots.flattened(lead), length, np.broadcast_to(wrench, (*lead, 6)), cable_model(model))

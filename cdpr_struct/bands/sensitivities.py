@@ -58,13 +58,13 @@ def of_equal_modes(hertz: np.ndarray, rates: np.ndarray) -> np.ndarray:
 
 
 def variance_shares(rates: np.ndarray, spread: Spread, cables: int) -> dict[str, np.ndarray]:
-    """Share (k,) of the variance of each of k predictions that comes of each of `VARIED`, by field.
+    """Share (k,) of the variance of each of k predictions that comes of each kind of number, by field.
 
     rates : (p, k);  spread : which robots are probable
     """
     parts = {
         varied.field: ((rates[place].T @ spread.root[place]) ** 2).sum(axis=1)
-        for varied, place in zip(VARIED, places(cables), strict=True)
+        for varied, place in zip(spread.varied, places(cables, spread.varied), strict=True)
     }
     whole = np.maximum(np.sum(list(parts.values()), axis=0), np.finfo(float).tiny)
     return {name: part / whole for name, part in parts.items()}

@@ -23,7 +23,7 @@ from cdpr_struct.diagnosis.diagnosis import (
     SetAside,
 )
 from cdpr_struct.diagnosis.errors_of_kinds import errors_of_kinds, located
-from cdpr_struct.diagnosis.extended import extended_robot
+from cdpr_struct.diagnosis.extended import extended_robot, unexplained_robot
 from cdpr_struct.diagnosis.generic_fit import generic_ratio
 from cdpr_struct.diagnosis.internal_forces import InternalForces, internal_forces
 from cdpr_struct.diagnosis.left_out import LeftOut, left_out, rows_of
@@ -268,7 +268,9 @@ def _rows(story: Explained, found: Judged) -> LeftOut:
 
 
 def _extended(story: Explained, decision: Decision, sizes: Sequence[WholeSize], chosen: Judged) -> Robot | None:
-    """The robot with what the decision names, and how sure its numbers are."""
+    """The robot with what the decision names, and how sure its numbers are; after `unknown`, with what is left."""
+    if decision.status == UNKNOWN:
+        return unexplained_robot(story.search.data, story.search.where, stories.null_of(story).best)
     if not decision.classes:
         return None
     own = [] if story.correction is None else [story.correction.cause]

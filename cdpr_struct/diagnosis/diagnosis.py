@@ -20,6 +20,7 @@ from cdpr_struct.hypotheses.hypothesis import Part
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.measurement.campaign import Campaign
+from cdpr_struct.robot.remainder import Remainder
 from cdpr_struct.robot.robot import Robot
 
 DAMPING = "DA"
@@ -220,6 +221,11 @@ class Diagnosis:
     def by_forces(self) -> bool:
         """Whether the decision speaks of internal forces that encoders and load cells show together."""
         return self.fitted != self.decision and not self.by_damping
+
+    @property
+    def left_at_random(self) -> Remainder | None:
+        """What no cause explains, as a random law; None where the decision is another one than `unknown`."""
+        return None if self.extended is None else self.extended.remainder
 
     @property
     def outside(self) -> tuple[str, float]:

@@ -6,9 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from cdpr_struct.diagnosis.posterior_spread import posterior_spread
+from cdpr_struct.diagnosis.random_law import random_law
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.observation.circumstances import first_time
+from cdpr_struct.residuals.layout import Layout
 from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
@@ -24,7 +26,17 @@ def extended_robot(data: Recorded, sizes: Sequence[WholeSize], causes: Sequence[
     arrays, entered = extended_arrays(data, sizes), data.campaign.robot
     named = tuple(dict.fromkeys([*entered.extensions.causes, *causes]))
     robot = robot_from_arrays(entered, arrays, named)
-    return replace(robot, posterior=posterior_spread(data, found, arrays))
+    return replace(robot, posterior=posterior_spread(data, found, arrays), remainder=None)
+
+
+def unexplained_robot(data: Recorded, where: Layout, null: Judged) -> Robot:
+    """The campaign's robot after `unknown`: as entered, with what the readings say of its numbers beside a random law.
+
+    null : nothing wrong, as it was fitted
+    """
+    law = random_law(data, where, null)
+    robot = robot_from_arrays(data.campaign.robot, data.arrays, data.campaign.robot.extensions.causes)
+    return replace(robot, posterior=posterior_spread(data, law.judged, data.arrays), remainder=law.remainder)
 
 
 def extended_arrays(data: Recorded, sizes: Sequence[WholeSize]) -> RobotArrays:

@@ -5,28 +5,35 @@ import numpy as np
 from cdpr_struct.diagnosis.whole_sizes import over_scales
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.residuals.recorded import Recorded
+from cdpr_struct.robot.parameters import EXTENSIONS, SENSORS
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.robot.tolerances import Spread, change_between
+from cdpr_struct.robot.tolerances import VARIED, Spread, Varied, change_between
 
 _STEP = 1e-3  # sigmas: changes are linear in it
 _SMALL = 1e-6  # of the largest singular value: directions below it are known exactly
 
 
 def posterior_spread(data: Recorded, found: Judged, extended: RobotArrays) -> Spread:
-    """Changes of the extended robot's numbers: tolerances as the data narrowed them, and the sizes of the causes.
-
-    Sizes of causes that change other numbers than those of tolerances are taken as they were found.
-    """
+    """Changes of the extended robot's numbers: tolerances as the data narrowed them, and the sizes of the causes."""
     mean, covariance = over_scales(found)
     steps = _STEP * np.eye(len(mean))
     ways = np.concatenate([mean + steps, mean - steps, mean[None]])
-    change = change_between(data.arrays, _robots(data, found, ways))
+    robots = _robots(data, found, ways)
+    off = _found_off(data.arrays, robots)
+    change = change_between(data.arrays, robots, (*VARIED, *off))
     count = len(mean)
     slope = (change[:count] - change[count : 2 * count]).T / (2.0 * _STEP)
     left, size, _ = np.linalg.svd(slope @ _root(covariance), full_matrices=False)
     kept = size > _SMALL * size[:1]
-    beside = change[-1] - change_between(data.arrays, extended)[0]
-    return Spread(left[:, kept] * size[kept], beside)
+    beside = change[-1] - change_between(data.arrays, extended, (*VARIED, *off))[0]
+    return Spread(left[:, kept] * size[kept], beside, off)
+
+
+def _found_off(entered: RobotArrays, robots: RobotArrays) -> tuple[Varied, ...]:
+    """Numbers beside those of tolerances in which probable robots differ, sensors' own left out."""
+    known = {*SENSORS, *(one.field for one in VARIED)}
+    rest = [Varied.found(name) for name in EXTENSIONS if name not in known]
+    return tuple(one for one in rest if np.ptp(change_between(entered, robots, (one,)), axis=0).any())
 
 
 def _robots(data: Recorded, found: Judged, ways: np.ndarray) -> RobotArrays:

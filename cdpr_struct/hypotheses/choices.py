@@ -94,11 +94,23 @@ def _added(gram: np.ndarray, score: np.ndarray, mixes: np.ndarray, i: int) -> np
 
 
 def occurs(found: Judged) -> bool:
-    """Whether the mean size of each cause in one of several ways would be found alone, and is not too small.
+    """Whether the mean size of each cause in one of several ways would be found alone, and no size is too small or
+    larger than any that occurs.
 
     What goes along may act alone: then another cause says the same without it.
     """
-    return all(_occurs(found, i) for i, part in enumerate(found.hypothesis.parts) if part.cause.one_of)
+    parts = found.hypothesis.parts
+    return all(_occurs(found, i) for i, part in enumerate(parts) if part.cause.one_of) and _none_too_large(found)
+
+
+def _none_too_large(found: Judged) -> bool:
+    """Whether no size is larger by more than two sigmas than what occurs."""
+    parts = found.hypothesis.parts
+    factor = np.concatenate([np.zeros(0), *(part.scale * part.pattern.prior for part in parts)])
+    most = np.concatenate([np.zeros(0), *([p.most for p in part.pattern.parameters] for part in parts)])
+    last = len(found.fit.z_mean) - len(factor)
+    sigma = factor * np.sqrt(np.diagonal(found.fit.z_covariance)[last:])
+    return bool((np.abs(factor * found.fit.z_mean[last:]) - 2.0 * sigma <= most).all())
 
 
 def _occurs(found: Judged, i: int) -> bool:

@@ -57,8 +57,10 @@ def read_band(band: float | None, samples: int | None = None, name: str = "band"
 
 
 def spread_of(robot: Robot) -> Spread:
-    """Robots that are probable: after a diagnosis its posterior, else those within the tolerances."""
-    return robot.posterior or Spread.within(Tolerances(**robot.tolerances), len(robot.cables))
+    """Robots that are probable at a rest: after a diagnosis its posterior, else those within the tolerances; with what
+    it left unexplained."""
+    known = robot.posterior or Spread.within(Tolerances(**robot.tolerances), len(robot.cables))
+    return known if robot.remainder is None else robot.remainder.beside(known, len(robot.cables))
 
 
 def known_from(robot: Robot) -> str:
@@ -110,7 +112,7 @@ class Banded:
         if not stable:
             raise CdprError("there is no band: the platform is not held there, and a small change moves it far")
         there, spread = at_the_means(point, spread_of(point.entered), model)
-        return cls(point, there, asked, locked_response(there, assembly, model), spread, model, assembly)
+        return cls(point, there, asked, locked_response(there, assembly, model, spread), spread, model, assembly)
 
     def rest(self) -> tuple[dict[str, Any], list[Check]]:
         """Key `bands` of a result about a state of rest, and what is to be doubted."""

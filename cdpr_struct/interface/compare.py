@@ -124,7 +124,8 @@ def compare(
     with state.advised():
         numbers, predicted, ends, rates = _predicted(banded, readings, name, os.fspath(measured))
     values, noise = np.array([[one.measured, one.sigma] for one in readings]).T
-    found = compared(values, noise, predicted, ends, rates, banded.spread, asked.level)
+    scatter = banded.spread.scatter * predicted * [one.column == "frequency_hz" for one in readings]
+    found = compared(values, noise, predicted, ends, rates, banded.spread, asked.level, scatter)
     answer = {
         "robot": machine.name,
         "pose": pose_in_degrees(state.point),

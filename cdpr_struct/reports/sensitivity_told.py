@@ -7,7 +7,7 @@ import numpy as np
 
 from cdpr_struct.bands.sensitivities import Mover, rates_of
 from cdpr_struct.reports.text import paragraphs, plain_table
-from cdpr_struct.robot.tolerances import VARIED, Varied
+from cdpr_struct.robot.tolerances import Varied
 
 NAMES = {
     "frame_anchors": "frame_anchor",
@@ -76,7 +76,7 @@ def rate_rows(movers: Sequence[Mover], rates: np.ndarray, key: str, names: Seque
 
 def share_rows(shares: Mapping[str, np.ndarray], names: Sequence[str], sigmas: Sequence[str]) -> list[dict[str, Any]]:
     """Per predicted number its sigma in words, and the share of the variance of each parameter."""
-    by_name = {NAMES.get(varied.field, varied.field): shares[varied.field] for varied in VARIED if not varied.of_cells}
+    by_name = {NAMES.get(field, field): share for field, share in shares.items() if not field.startswith("cell_")}
     return [
         {"of": name, "sigma": sigma, "shares": {key: float(value[i]) for key, value in by_name.items()}}
         for i, (name, sigma) in enumerate(zip(names, sigmas, strict=True))

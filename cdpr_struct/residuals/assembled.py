@@ -7,7 +7,7 @@ from cdpr_struct.inference.linear_model import LinearModel, Stack
 from cdpr_struct.inference.soft_rows import SoftExpectation
 from cdpr_struct.residuals.commanded_lengths import MISSED
 from cdpr_struct.residuals.layout import Layout, Shelf
-from cdpr_struct.residuals.linearised import Local, Point, Rows
+from cdpr_struct.residuals.linearised import Local, Outside, Point, Rows
 from cdpr_struct.residuals.modal_sizes import measured_sizes
 from cdpr_struct.residuals.recorded import Recorded
 
@@ -101,9 +101,7 @@ def _noise(local: Local, where: Layout, shelf: Shelf, by_noise: Rows) -> np.ndar
     (_, p), (_, c), (_, w) = shelf.states.shape, shelf.cables.shape, shelf.swivels.shape
     found = np.zeros((k, n, shelf.index.shape[1]))
     found[..., p * own : p * own + m] = slopes[..., own:]
-    place = _places(local, shelf, n, own)
-    for j in range(p):
-        found[..., j * own : (j + 1) * own] = np.where((place == j)[..., None], slopes[..., :own], 0.0)
+    found[..., : p * own] = _of_each_state(slopes[..., :own], _places(local, shelf, n, own), p)
     if c and local.vibrating is not None:
         sigma = np.where(shelf.cables >= 0, local.vibrating.measured.sigma[shelf.cables], 0.0)
         for j in range(c):
@@ -114,6 +112,21 @@ def _noise(local: Local, where: Layout, shelf: Shelf, by_noise: Rows) -> np.ndar
             found[:, p * own + c + j, p * own + m + c + j] = turn[:, j]
     found[np.broadcast_to((shelf.index < 0)[:, None, :], found.shape)] = 0.0
     return found
+
+
+def _of_each_state(columns: np.ndarray, place: np.ndarray, states: int) -> np.ndarray:
+    """(K, n, p d) of columns (K, n, d): errors of each of p states, in its own rows alone."""
+    return np.concatenate([np.where((place == j)[..., None], columns, 0.0) for j in range(states)], axis=-1)
+
+
+def errors_of_states(local: Local, where: Layout, columns: Outside) -> list[np.ndarray]:
+    """What d errors that each state has for itself do to the blocks, (K, n, p d) a shelf."""
+    rows, found = local.r.of_outside(columns), []
+    for shelf in where.shelves:
+        own = of_shelf(where, shelf, rows)
+        place = _places(local, shelf, own.shape[1], 6 + where.m)
+        found.append(_of_each_state(own, place, shelf.states.shape[1]))
+    return [*found, np.zeros((*where.sizes_of_states.shape, 0))] if len(local.r.sizes) else found
 
 
 def _meant(local: Local, where: Layout, shelf: Shelf) -> np.ndarray:

@@ -16,6 +16,7 @@ from cdpr_struct.robot.pose import Pose
 from cdpr_struct.robot.winches import Winches, winches_fault
 
 if TYPE_CHECKING:
+    from cdpr_struct.robot.remainder import Remainder
     from cdpr_struct.robot.tolerances import Spread
 
 _ROUNDING = 1e-15  # a vector whose length is one but for this is left as it is: files are read as written
@@ -41,6 +42,7 @@ class Robot:
     lumps            : point masses on cables
     tolerances       : those that the file states, by name; see `Tolerances`
     posterior        : what a diagnosis left uncertain, in place of the tolerances, or None
+    remainder        : what a diagnosis left unexplained, as a random law, or None
     """
 
     name: str
@@ -59,6 +61,7 @@ class Robot:
     lumps: tuple[Lump, ...] = ()
     tolerances: Mapping[str, float] = field(default_factory=dict)
     posterior: "Spread | None" = None
+    remainder: "Remainder | None" = None
 
     def __post_init__(self) -> None:
         self._settle_gravity()

@@ -17,8 +17,9 @@ from cdpr_struct.robot.lump import LumpTable, lumps_fault
 from cdpr_struct.robot.parameters import EXTENSIONS
 from cdpr_struct.robot.platform import Platform
 from cdpr_struct.robot.pose import Pose
+from cdpr_struct.robot.remainder import Remainder
 from cdpr_struct.robot.robot import FREEDOMS, Robot, cable_drag_fault, internal_mass_fault, swinging_mass_fault
-from cdpr_struct.robot.tolerance_table import PosteriorTable, TolerancesTable
+from cdpr_struct.robot.tolerance_table import PosteriorTable, RemainderTable, TolerancesTable
 from cdpr_struct.robot.toml_text import toml_table
 from cdpr_struct.robot.winches import winches_fault
 
@@ -82,6 +83,7 @@ class RobotTable(_Table):
     lumps: list[LumpTable] = []
     tolerances: TolerancesTable = TolerancesTable()
     posterior: PosteriorTable | None = None
+    remainder: RemainderTable | None = None
 
 
 def builtin_names() -> list[str]:
@@ -158,6 +160,7 @@ def _build(table: RobotTable, source: str) -> Robot:
             lumps=lumps,
             tolerances=table.tolerances.stated(),
             posterior=None if table.posterior is None else table.posterior.spread(len(cables), source),
+            remainder=None if table.remainder is None else Remainder(**table.remainder.model_dump()),
             bodies=tuple(body_of(entry, source, i) for i, entry in enumerate(table.bodies, start=1)),
         )
     except InputError:

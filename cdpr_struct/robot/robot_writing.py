@@ -2,14 +2,16 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import asdict
 
 import numpy as np
 
 from cdpr_struct.robot.body_table import body_lines
 from cdpr_struct.robot.cable import STEEL, Cable
 from cdpr_struct.robot.lump import lump_lines
+from cdpr_struct.robot.remainder import Remainder
 from cdpr_struct.robot.robot import Robot
-from cdpr_struct.robot.tolerances import VARIED, Spread
+from cdpr_struct.robot.tolerances import Spread
 
 
 def robot_toml(robot: Robot, name: str, comments: Sequence[str] = ()) -> str:
@@ -41,20 +43,29 @@ def robot_toml(robot: Robot, name: str, comments: Sequence[str] = ()) -> str:
         lines += ["", "[tolerances]", *(f"{name} = {float(size)!r}" for name, size in robot.tolerances.items())]
     if robot.posterior is not None:
         lines += ["", *_posterior(robot.posterior)]
+    if robot.remainder is not None:
+        lines += ["", *_remainder(robot.remainder)]
     return "\n".join(lines) + "\n"
 
 
 def _posterior(spread: Spread) -> list[str]:
     """Lines of the table of what a diagnosis left uncertain."""
-    order = ", ".join(one.field for one in VARIED)
+    order = ", ".join(one.field for one in spread.varied)
     return [
         "[posterior]  # normal changes of the numbers above that readings leave probable, in place of [tolerances];",
         f"# of {order}; covariance = root root'",
+        *([f"found = {_words([one.field for one in spread.found])}"] if spread.found else []),
         f"mean = [{_numbers(spread.mean)}]",
         "root = [",
         *(f"  [{_numbers(row)}]," for row in spread.root),
         "]",
     ]
+
+
+def _remainder(law: Remainder) -> list[str]:
+    """Lines of the table of what a diagnosis left unexplained."""
+    sizes = [f"{name} = {float(f'{size:.6e}')!r}" for name, size in asdict(law).items()]
+    return ["[remainder]  # unexplained: rms of errors that are new at every rest", *sizes]
 
 
 def _numbers(values: np.ndarray) -> str:

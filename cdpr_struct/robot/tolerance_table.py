@@ -1,4 +1,4 @@
-"""The tables [tolerances] of robot files and campaigns, and [posterior] of robots that a diagnosis extended."""
+"""The tables [tolerances] of robot files and campaigns, [posterior] and [remainder] of robots that a diagnosis left."""
 
 from typing import Annotated
 
@@ -6,9 +6,11 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from cdpr_struct.errors import InputError
-from cdpr_struct.robot.tolerances import Spread, change_count
+from cdpr_struct.robot.parameters import EXTENSIONS, SENSORS
+from cdpr_struct.robot.tolerances import VARIED, Spread, Varied, change_count
 
-_Size = Annotated[float, Field(strict=True, ge=0.0, le=1e12)] | None
+_Rms = Annotated[float, Field(strict=True, ge=0.0, le=1e12)]
+_Size = _Rms | None
 
 
 class TolerancesTable(BaseModel):
@@ -37,11 +39,23 @@ class TolerancesTable(BaseModel):
 _Number = Annotated[float, Field(strict=True, ge=-1e12, le=1e12)]
 
 
-class PosteriorTable(BaseModel):
-    """Mean and root of the covariance of changes, in the order of `VARIED`."""
+class RemainderTable(BaseModel):
+    """Rms of errors that a robot has anew at every rest, as `Remainder` says."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
+    force_N: _Rms = 0.0
+    moment_Nm: _Rms = 0.0
+    length_m: _Rms = 0.0
+    frequency: _Rms = 0.0
+
+
+class PosteriorTable(BaseModel):
+    """Mean and root of the covariance of changes, in the order of `VARIED` and of fields that were found to be off."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+    found: list[str] = []
     mean: list[_Number]
     root: list[list[_Number]]
 
@@ -50,13 +64,19 @@ class PosteriorTable(BaseModel):
 
         Raises
         ------
-        InputError : rows or numbers that are too many or too few; the file is called `source`.
+        InputError : fields that no robot has, rows or numbers that are too many or too few; the file is called
+            `source`.
         """
-        count = change_count(cables)
+        known = [name for name in EXTENSIONS if name not in {*SENSORS, *(one.field for one in VARIED)}]
+        for name in self.found:
+            if name not in known or self.found.count(name) > 1:
+                raise InputError(source, "posterior.found", name, f"each once, and one of: {', '.join(known)}")
+        found = tuple(Varied.found(name) for name in self.found)
+        count = change_count(cables, (*VARIED, *found))
         if len(self.mean) != count:
             raise InputError(source, "posterior.mean", f"{len(self.mean)} numbers", f"{count} for {cables} cables")
         lengths = {len(row) for row in self.root}
         if len(self.root) != count or len(lengths) != 1:
             given = f"{len(self.root)} rows of {' or '.join(map(str, sorted(lengths)))} numbers"
             raise InputError(source, "posterior.root", given, f"{count} rows of equal length")
-        return Spread(np.array(self.root).reshape(count, -1), np.array(self.mean))
+        return Spread(np.array(self.root).reshape(count, -1), np.array(self.mean), found)

@@ -1,6 +1,7 @@
 """What is never exactly known about a robot, and which robots are as probable as the one entered."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
@@ -8,7 +9,7 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from cdpr_struct.robot.changed_arrays import plus, times
-from cdpr_struct.robot.parameters import CABLES
+from cdpr_struct.robot.parameters import CABLES, PARAMETERS
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _HALF = np.sqrt(0.5)  # of a relative tolerance's sigma is common to all cables, which come from one reel
@@ -53,8 +54,8 @@ def tolerance_unit(name: str) -> str:
 class Varied:
     """A number of a robot, or one of each cable, that may be off.
 
-    field : of `RobotArrays`;  tolerance : of `Tolerances`
-    unit : of a change, "1" for the change of the logarithm
+    field : of `RobotArrays`;  tolerance : of `Tolerances`, "" of what only a diagnosis finds to be off
+    unit : of a change; with a tolerance, "1" is that of the logarithm
     shape : axes, as in `Parameter`;  reel : cables share half of the variance
     """
 
@@ -67,7 +68,7 @@ class Varied:
     @property
     def relative(self) -> bool:
         """Whether changes are those of the logarithm."""
-        return self.unit == "1"
+        return self.unit == "1" and self.tolerance != ""
 
     @property
     def of_cells(self) -> bool:
@@ -76,7 +77,17 @@ class Varied:
 
     def count(self, cables: int) -> int:
         """Numbers in it."""
-        return math.prod(cables if isinstance(n, str) else n for n in self.shape)
+        return math.prod(self.lengths(cables))
+
+    def lengths(self, cables: int) -> tuple[int, ...]:
+        """Of its axes."""
+        return tuple(cables if isinstance(n, str) else n for n in self.shape)
+
+    @classmethod
+    def found(cls, field: str) -> "Varied":
+        """A number that no tolerance is about, and that a diagnosis finds to be off."""
+        rule = PARAMETERS[field]
+        return cls(field, "", rule.unit, rule.shape)
 
 
 VARIED = (
@@ -92,24 +103,25 @@ VARIED = (
     Varied("cell_bias", "load_cell_bias_N", "N", (CABLES,)),
     Varied("pulley_radius", "pulley_radius_m", "m", (CABLES,)),
 )
-"""In the order in which changes stand behind each other."""
+"""In the order in which changes stand behind each other; what else a diagnosis found stands behind them."""
 
 
-def places(cables: int) -> list[slice]:
-    """Of each of `VARIED` among the changes of a robot with so many cables."""
-    ends = list(accumulate(one.count(cables) for one in VARIED))
-    return [slice(end - one.count(cables), end) for one, end in zip(VARIED, ends, strict=True)]
+def places(cables: int, varied: Sequence[Varied] = VARIED) -> list[slice]:
+    """Of each kind of number among the changes of a robot with so many cables."""
+    ends = list(accumulate(one.count(cables) for one in varied))
+    return [slice(end - one.count(cables), end) for one, end in zip(varied, ends, strict=True)]
 
 
-def change_count(cables: int) -> int:
+def change_count(cables: int, varied: Sequence[Varied] = VARIED) -> int:
     """How many numbers may be off."""
-    return places(cables)[-1].stop
+    return places(cables, varied)[-1].stop
 
 
-def changed(arrays: RobotArrays, change: np.ndarray) -> RobotArrays:
-    """The robot with changes (..., p), in the units of `VARIED`; (...) are batch axes of its fields."""
+def changed(arrays: RobotArrays, change: np.ndarray, varied: Sequence[Varied] = VARIED) -> RobotArrays:
+    """The robot with changes (..., p), in the units of `varied`, which begins with `VARIED`; (...) are batch axes of
+    its fields."""
     m, lead = arrays.cable_count, change.shape[:-1]
-    part = {one.field: change[..., place] for one, place in zip(VARIED, places(m), strict=True)}
+    part = {one.field: change[..., place] for one, place in zip(varied, places(m, varied), strict=True)}
     stretch = np.exp(0.5 * part["inertia"])
     moved = plus(
         arrays,
@@ -120,20 +132,21 @@ def changed(arrays: RobotArrays, change: np.ndarray) -> RobotArrays:
         center_of_mass=part["center_of_mass"],
         cell_bias=part["cell_bias"],
         pulley_radius=np.where(arrays.pulley_radius > 0.0, part["pulley_radius"], 0.0),
+        **{one.field: part[one.field].reshape((*lead, *one.lengths(m))) for one in varied[len(VARIED) :]},
     )
     relative = {name: np.exp(part[name]) for name in ("axial_stiffness", "linear_density", "cell_gain")}
     return times(moved, **relative, inertia=stretch[..., :, None] * stretch[..., None, :])
 
 
-def change_between(entered: RobotArrays, arrays: RobotArrays) -> np.ndarray:
+def change_between(entered: RobotArrays, arrays: RobotArrays, varied: Sequence[Varied] = VARIED) -> np.ndarray:
     """Changes (n, p) that make one robot of another, its fields with axes (n or 1, 1) before their own.
 
     What differs from state to state is no change of a robot.
     """
     m = entered.cable_count
-    parts = [_change_of(one, entered, arrays) for one in VARIED]
+    parts = [_change_of(one, entered, arrays) for one in varied]
     count = max(len(part) for part in parts)
-    whole = [np.broadcast_to(part, (count, one.count(m))) for one, part in zip(VARIED, parts, strict=True)]
+    whole = [np.broadcast_to(part, (count, one.count(m))) for one, part in zip(varied, parts, strict=True)]
     return np.concatenate(whole, axis=-1)
 
 
@@ -178,16 +191,25 @@ class Spread:
 
     root : (p, t) changes per sigma of independent numbers, so that the covariance is root root'
     mean : (p,) what a diagnosis found beside its causes; zero of a robot that nobody measured
+    found : what is off beside `VARIED`, behind it among the p numbers
+    scatter : sigma of ln f of every natural frequency by itself, besides
     """
 
     root: np.ndarray
     mean: np.ndarray
+    found: tuple[Varied, ...] = ()
+    scatter: float = 0.0
 
     @classmethod
     def within(cls, tolerances: Tolerances, cables: int) -> "Spread":
         """Of a robot that is known to within its tolerances."""
         root = tolerance_factor(tolerances, cables)
         return cls(root, np.zeros(len(root)))
+
+    @property
+    def varied(self) -> tuple[Varied, ...]:
+        """Kinds of the p numbers."""
+        return (*VARIED, *self.found)
 
     def sigma(self, rates: np.ndarray) -> np.ndarray:
         """(k,) of numbers with rates (p, k)."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tests.blind.catalogue import CAUSES, LAWS
+from tests.blind.catalogue import CAME_IN, CAUSES, LAWS
 from tests.blind.running import RECORD, RESULT
 
 CONFIDENT = 0.9
@@ -59,7 +59,7 @@ def asking_for_more(answers: Path) -> set[str]:
 def kind_in_truth(truth: dict[str, Any]) -> str:
     """Kind of a case; one outside the library when it was drawn may be of a law that has come into it."""
     hidden = [effect["cause"] for effect in truth["effects"]]
-    return "law" if truth["kind"] == "outside" and set(hidden) <= set(LAWS) else str(truth["kind"])
+    return "law" if truth["kind"] == "outside" and set(hidden) <= {*LAWS, *CAME_IN} else str(truth["kind"])
 
 
 def names_in_truth(truth: dict[str, Any]) -> tuple[str, ...]:

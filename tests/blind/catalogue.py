@@ -143,7 +143,12 @@ RARE = {
 }  # causes of the library that the other sets do not hide, in campaigns that note the time
 LAWS |= RARE
 
-CAUSES = {"bearing_friction": "pulley_friction", "power_elasticity": "nonlinear_elasticity"}  # where the name differs
+CAME_IN = ("construction_stretch",)  # drawn as outside the library: a rope that stiffens as its wires bed down
+CAUSES = {  # where the name differs
+    "bearing_friction": "pulley_friction",
+    "power_elasticity": "nonlinear_elasticity",
+    "construction_stretch": "nonlinear_elasticity",
+}
 
 BEYOND = {**OUTSIDE, **UNSEEN, **STATIC_OUTSIDE}  # what no cause of the library explains
 

@@ -23,6 +23,7 @@ class Parameter:
     prior   : one sigma of theta
     tried   : values at which a search begins too, beside zero or, of frequencies, those of peaks that belong to no mode
     least   : smallest size that occurs, of those of a cause in one of several ways
+    most    : largest size of either sign that occurs at all
     in_band : a frequency, its prior in the highest one that was measured of the robot; no check bounds it
     """
 
@@ -35,6 +36,7 @@ class Parameter:
     in_band: bool = False
     tried: tuple[float, ...] = ()
     least: float = 0.0
+    most: float = np.inf
 
     def shown(self, theta: float, sigma: float) -> dict[str, float | str]:
         """Value, sigma and unit as they are reported."""

@@ -74,6 +74,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
         "outside_library": {"law": law[0], "log_evidence_gain": finite(law[1])},
         "gain": _gain(found),
         "extended_model": None if found.extended is None else "extended_robot.toml",
+        "unexplained": found.left_at_random and asdict(found.left_at_random),
         "not_testable": sorted(hidden),
         "why_not_testable": hidden,
         "minimum_detectable": found.minimum_detectable,

@@ -212,12 +212,26 @@ def _unknown(found: Diagnosis) -> list[str]:
     law, gain = found.outside
     if law and gain > 0.0:
         parts.append(f"The best description of the error is {law}.")
+    parts += _left_at_random(found)
     if any(one.factor > _FAR for one in found.noise):
         parts.append(
             "The scatter is far larger than wear or slip can cause. Check that the campaign names the robot that was "
             "measured, and that all files use its axes and units."
         )
     return parts
+
+
+def _left_at_random(found: Diagnosis) -> list[str]:
+    """How large what is left is, for predictions."""
+    left = found.left_at_random
+    if left is None:
+        return []
+    peaks = f", and frequencies scatter by {100.0 * left.frequency:.2g} %" if left.frequency else ""
+    return [
+        f"For predictions it counts as random, new at every rest: forces of {left.force_N:.2g} N and moments of "
+        f"{left.moment_Nm:.2g} N m (rms of each component), lengths off by {1e3 * left.length_m:.2g} mm{peaks}. Bands "
+        "of the extended robot hold it."
+    ]
 
 
 def _peaks(found: Diagnosis) -> str:
