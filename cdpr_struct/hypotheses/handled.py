@@ -18,6 +18,7 @@ from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.observation.rest import static_residuals
 from cdpr_struct.residuals.assembled import FLOOR
+from cdpr_struct.residuals.doubt_of_sizes import doubt_of_sizes
 from cdpr_struct.residuals.linearised import Local, Point
 from cdpr_struct.residuals.recorded import Recorded, recorded
 from cdpr_struct.residuals.swivels import swivels
@@ -124,7 +125,7 @@ def _of_sizes(local: Local, campaign: Campaign) -> float:
     for there in (Local.about(data, Point.entered(data)), local):
         assert there.vibrating is not None
         sizes = there.vibrating.measured.sizes
-        own = sizes.sigma**2 + sizes.common**2 + there.doubt_of_sizes**2 + (there.own_columns.sizes**2).sum(axis=1)
+        own = sizes.sigma**2 + sizes.common**2 + doubt_of_sizes(there) ** 2 + (there.own_columns.sizes**2).sum(axis=1)
         costs.append(float(_student(there.r.sizes**2, own).sum()))
     return costs[0] - costs[1]
 

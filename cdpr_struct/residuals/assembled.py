@@ -6,6 +6,7 @@ from cdpr_struct.association.association import Association
 from cdpr_struct.inference.linear_model import LinearModel, Stack
 from cdpr_struct.inference.soft_rows import SoftExpectation
 from cdpr_struct.residuals.commanded_lengths import MISSED
+from cdpr_struct.residuals.doubt_of_sizes import doubt_of_sizes, posed_sizes
 from cdpr_struct.residuals.layout import Layout, Shelf
 from cdpr_struct.residuals.linearised import Local, Outside, Point, Rows
 from cdpr_struct.residuals.modal_sizes import measured_sizes
@@ -46,7 +47,7 @@ def _of_sizes(local: Local, where: Layout, residual: np.ndarray, columns: np.nda
     place = sizes.by_state
     _, mode = np.unique(sizes.peak, return_inverse=True)
     shared = (mode[:, None] == np.arange(mode.max() + 1)) * sizes.common[:, None]
-    common = [shared, entered.posed_sizes, np.diag(entered.doubt_of_sizes)]
+    common = [shared, posed_sizes(entered), np.diag(doubt_of_sizes(entered))]
     own = _placed(place, np.broadcast_to(sizes.sigma, (1, len(sizes))).T)[..., 0]
     floor = np.where(place >= 0, FLOOR[3], 1.0)
     noise = own[:, :, None] * np.eye(place.shape[1])

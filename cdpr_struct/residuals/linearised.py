@@ -267,30 +267,6 @@ class Local:
             parts.append(self._slope(arrays, readings, len(term.sigma)))
         return Rows.joined(parts)
 
-    @cached_property
-    def doubt_of_sizes(self) -> np.ndarray:
-        """(a,) one sigma of ln of modal constants: modes that may be in their sums, and the second order of tolerances.
-
-        The logarithm of 1 + x bends by x^2 / 2, and a mode that turns by an angle loses the square of it. Of a normal
-        number of variance s^2 the square has the root mean square sqrt 3 s^2.
-        """
-        if self.vibrating is None or self.vibrating.sizes is None:
-            return np.zeros(len(self.r.sizes))
-        term = tolerance_term(self.data)
-        moved = term.applied(self.arrays, _STEP * np.eye(len(term.sigma))[:, None, :])
-        turned = self.vibrating.turns(moved, self.point.readings(self.data), len(term.sigma)) / _STEP
-        bent = 0.5 * (np.square(self.own_columns.sizes).sum(axis=1) + np.square(self.posed_sizes).sum(axis=1))
-        lost = np.square(turned).sum(axis=0)
-        return np.asarray(np.sqrt(self.vibrating.sizes.doubt**2 + 3.0 * (bent**2 + lost**2)))
-
-    @cached_property
-    def posed_sizes(self) -> np.ndarray:
-        """(a, 6 + 2 m) change of ln of modal constants by one sigma of each reading of their state, read or not."""
-        if self.vibrating is None:
-            return np.zeros((len(self.r.sizes), self.data.sigma.shape[1]))
-        known = np.where(self.data.read, 1.0, self.data.unread / self.data.sigma)
-        return np.asarray(self.by_noise.sizes * known[self.vibrating.measured.sizes.state])
-
     def told(self) -> np.ndarray:
         """(t,) numbers of the point's terms that the robot there has; zero those of laws outside the model."""
         pairs = zip(self.point.terms, self.point.z, strict=True)
