@@ -121,7 +121,7 @@ def _weight_rates(
     width = np.array([_width(items[r], m) for r, m in zip(sizes.record, sizes.mode, strict=True)])
     main = weight.argmax(axis=1)
     apart = (robot.log_hertz[row] - np.take_along_axis(robot.log_hertz[row], main[:, None], axis=1)) / width[:, None]
-    slope = -4.0 * apart * np.sqrt(weight) / width[:, None]
+    slope = -2.0 * 2.0 * apart * np.sqrt(weight) / width[:, None]
     gradient = robot.gradient[row]
     faster = gradient - np.take_along_axis(gradient, main[:, None, None], axis=2)
     return np.asarray(slope[:, None] * faster)
