@@ -42,11 +42,11 @@ def compared(
     Parameters
     ----------
     noise : (n,) sigma of each reading;  ends : (n, 2) band of what is predicted, tolerances only, at this level
-    rates : (p, n) of the predicted numbers;  spread : which robots are probable
+    rates : (p, n) of the predicted numbers;  spread : which robots are probable, about the predicted one
     scatter : (n,) sigma of each prediction by itself, which its band has already; default: none
     """
     reach = ndtri(0.5 + 0.5 * level)
-    middle = np.clip(predicted + spread.shift(rates), *ends.T)
+    middle = np.clip(predicted, *ends.T)
     low = middle - np.hypot(middle - ends[:, 0], reach * noise)
     high = middle + np.hypot(ends[:, 1] - middle, reach * noise)
     off, own = measured - middle, rates.T @ spread.root

@@ -11,6 +11,7 @@ from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.observation.expanded_modes import ExpandedModes
 from cdpr_struct.observation.robot_modes import frequencies_at
 from cdpr_struct.robot.pose import angles_from_rotation
+from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.tolerances import Spread, changed
 from cdpr_struct.statics.forward_kinematics import forward
 
@@ -77,7 +78,7 @@ def drawn_rests(
 
     wrench : (6,) on the platform beside its weight [N, N m]
     """
-    arrays, cables = point.arrays, point.cables
+    arrays, cables = RobotArrays.of(point.robot), point.cables
     drawn = spread.drawn(np.random.default_rng(_SEED).standard_normal((count, spread.root.shape[1])))
     robots, lengths = changed(arrays, drawn, spread.varied), arrays.reading(cables.paid_out)
     found = forward(robots, lengths, point.position, point.rotation, model, wrench)

@@ -12,6 +12,7 @@ from scipy.special import ndtr, ndtri
 
 from cdpr_struct.bands.drawn_robots import drawn_rests
 from cdpr_struct.bands.frequency_bands import drawn_changes
+from cdpr_struct.bands.likeliest_robot import about_the_means, likeliest_rests, required
 from cdpr_struct.bands.locked_response import LockedStations
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.trajectory_distribution import TrajectoryDistribution
@@ -27,7 +28,8 @@ _TINY = 1e-12
 class ForceBands:
     """Tensions at the platform of m cables at n instants [N], within the tolerances.
 
-    instant : (n,) which of the distribution's;  tension, sigma : (n, m);  band : (n, m, 2)
+    instant : (n,) which of the distribution's;  tension : (n, m) of the robot as entered;  sigma : (n, m)
+    band : (n, m, 2)
     slack, below, above : (n, m) probability of no tension at all, of less than the lower, of more than the upper bound
     all_taut, all_above, all_below : that every cable keeps them along the whole motion
     missing : (d,) by how much the least tension of each of d drawn robots lies below its lower bound, negative: above
@@ -78,22 +80,28 @@ class UncertainForces:
         return np.unique(np.linspace(0, count - 1, min(count, MOST_INSTANTS)).round().astype(int))
 
     def bands(self, level: float) -> ForceBands:
-        """Central bands to first order that hold with a probability `level`, each tension by itself."""
+        """Central bands to first order that hold with a probability `level`, each tension by itself.
+
+        Raises
+        ------
+        CdprError : with its likeliest numbers the robot finds no balance somewhere.
+        """
         shared, instant = self.found.distribution, self.instant
         shape = (len(instant), shared.tensions.shape[1])
         tension, (lower, upper) = shared.tensions[instant], (self._bound(end)[instant] for end in ("lower", "upper"))
-        changes, wrench = drawn_changes(self.spread), self._wrench
-        sigma, shift = np.empty(shape), np.empty(shape)
+        wrench, spread = self._wrench[instant], about_the_means(self.spread)
+        points = required(likeliest_rests(self._points(instant), self.spread, self.found.model, wrench))
+        changes, middle, sigma = drawn_changes(spread), np.empty(shape), np.empty(shape)
         least, missing, excess = (np.full(len(changes), start) for start in (np.inf, -np.inf, -np.inf))
-        for row, number in enumerate(instant):
-            stations = LockedStations.about(self._point(number), self.found.model, wrench[number])
+        for row, point in enumerate(points):
+            stations = LockedStations.about(point, self.found.model, wrench[row], spread)
             rates = stations.slope(stations.rests.cables.tension_at_platform)
-            sigma[row], shift[row] = self.spread.sigma(rates), self.spread.shift(rates)
-            drawn = tension[row] + changes @ rates
+            middle[row], sigma[row] = point.cables.tension_at_platform, spread.sigma(rates)
+            drawn = middle[row] + changes @ rates
             least = np.minimum(least, drawn.min(axis=1))
             missing = np.maximum(missing, (lower[row] - drawn).max(axis=1))
             excess = np.maximum(excess, (drawn - upper[row]).max(axis=1))
-        middle, safe = tension + shift, np.maximum(sigma, _TINY)
+        safe = np.maximum(sigma, _TINY)
         reach = ndtri(0.5 + 0.5 * level) * np.array([-1.0, 1.0])
         below = (ndtr((limit - middle) / safe) for limit in (0.0, lower, upper))
         slack, under, within = below
@@ -107,8 +115,8 @@ class UncertainForces:
         instant = self.instant
         place = np.unique(np.linspace(0, len(instant) - 1, min(len(instant), _CHECKED)).round().astype(int))
         ends, lost, wrench = [], 0, self._wrench
-        for number in instant[place]:
-            rests, kept = drawn_rests(self._point(number), self.spread, samples, self.found.model, wrench[number])
+        for point, number in zip(self._points(instant[place]), instant[place], strict=True):
+            rests, kept = drawn_rests(point, self.spread, samples, self.found.model, wrench[number])
             pulled = rests.cables.tension_at_platform
             ends.append(np.quantile(pulled, [0.5 - 0.5 * level, 0.5 + 0.5 * level], axis=0).T)
             lost += samples - len(kept)
@@ -124,7 +132,9 @@ class UncertainForces:
         shared = self.found.distribution
         return np.asarray(np.broadcast_to(getattr(shared, which), shared.tensions.shape))
 
-    def _point(self, number: int) -> OperatingPoint:
+    def _points(self, instant: np.ndarray) -> list[OperatingPoint]:
+        """The robot as entered at instants (n,)."""
         path, cables = self.found.trajectory, self.found.distribution.cables
-        place, turned = path.position[number], path.rotation[number]
-        return OperatingPoint(self.found.robot, place, turned, cables.at(int(number)))
+        return [
+            OperatingPoint(self.found.robot, path.position[i], path.rotation[i], cables.at(int(i))) for i in instant
+        ]

@@ -30,12 +30,11 @@ class FrequencyBands:
 def frequency_bands(rates: ModeRates, spread: Spread, level: float) -> FrequencyBands:
     """Central bands that hold with a probability `level`, each frequency by itself.
 
-    spread : which robots are probable
+    spread : which robots are probable, about the one that has the rates
     """
     sigma = np.hypot(spread.sigma(rates.own), spread.scatter)
     reach = ndtri(0.5 + 0.5 * level) * sigma
-    middle = spread.shift(rates.own)
-    low, high = rates.hertz * np.exp(middle - reach), rates.hertz * np.exp(middle + reach)
+    low, high = rates.hertz * np.exp(-reach), rates.hertz * np.exp(reach)
     members = [np.flatnonzero(rates.groups == g) for g in range(rates.groups.max(initial=-1) + 1)]
     meeting = [group for group in members if len(group) > 1]
     if meeting:
@@ -54,7 +53,7 @@ def chance_above(rates: ModeRates, spread: Spread, mode: int, hertz: float) -> f
     if len(group) == 1:
         own = rates.own[:, [mode]]
         sigma = float(np.hypot(spread.sigma(own)[0], spread.scatter))
-        gap = float(np.log(rates.hertz[mode] / hertz) + spread.shift(own)[0])
+        gap = float(np.log(rates.hertz[mode] / hertz))
         return float(ndtr(gap / sigma)) if sigma > 0.0 else float(gap > 0.0)
     drawn = _scattered(_drawn_frequencies(rates, group, drawn_changes(spread)), spread)[
         :, int(np.searchsorted(group, mode))

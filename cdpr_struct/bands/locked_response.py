@@ -5,16 +5,18 @@ everything else are evaluated again. Both are central differences of fourth orde
 is left out.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from cdpr_struct.bands.stiffening_balance import in_static_motion, settled
 from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.observation.dependence import Dependence
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.robot.tolerances import VARIED, Spread, change_count, changed, places
+from cdpr_struct.robot.tolerances import VARIED, Spread, Varied, change_count, changed, places
 from cdpr_struct.statics.cable_models import cable_model
 from cdpr_struct.statics.locked_balance import LockedBalance
 
@@ -24,6 +26,7 @@ _WEIGHTS = (2.0 / 3.0, -2.0 / 3.0, -1.0 / 12.0, 1.0 / 12.0)  # their parts in a 
 _SHORTEST = 1e-10  # of the chord: shorter steps are lost in rounding
 _PART = 0.03  # of a sigma, of what a diagnosis found to be off
 _NOTHING = 1e-9  # any unit, of what is known exactly
+_PASSES = 2  # where cables stiffen: their tangent at constant EA is right to a part in a thousand
 _NEUTRAL = 1e-13  # of the largest singular value: a smaller one is zero but for rounding
 
 
@@ -65,14 +68,18 @@ class LockedStations:
         varied, step = VARIED if spread is None else spread.varied, step_sizes(point, spread)
         wrench = np.zeros(6) if wrench is None else wrench
         ways = np.array(_STATIONS)[:, None, None] * np.diag(step)
-        balance = _balance(point, changed(point.arrays, ways.reshape((-1, len(step))), varied), model, wrench)
+        balance = _balance(point, ways.reshape((-1, len(step))), varied, model, wrench)
         place = np.repeat(point.position[None], len(balance.length), axis=0)
         turn = np.repeat(point.rotation[None], len(balance.length), axis=0)
-        still = changed(point.arrays, np.zeros((1, len(step))), varied)
-        rest = _balance(point, still, model, wrench).evaluate(place[:1], turn[:1])
-        left = _slope(balance.evaluate(place, turn).wrench, step)
-        motion = (ways @ left @ np.linalg.pinv(rest.tangent[0], _NEUTRAL).T).reshape((-1, 6))
-        there, turned = balance.moved(place, turn, motion)
+        still = _balance(point, np.zeros((1, len(step))), varied, model, wrench)
+        rest = in_static_motion(still, place[:1], turn[:1])
+        give = np.linalg.pinv(rest.evaluate(place[:1], turn[:1]).tangent[0], _NEUTRAL).T
+        there, turned, motion = place, turn, np.zeros((len(place), 6))
+        for _ in range(_PASSES if balance.arrays.stiffens else 1):
+            left = _slope(settled(balance, there, turned).evaluate(there, turned).wrench, step)
+            motion = motion + (ways @ left @ give).reshape((-1, 6))
+            there, turned = balance.moved(place, turn, motion)
+        balance = settled(balance, there, turned)
         return cls(OperatingPoint(balance.arrays, there, turned, balance.states(there, turned)), step)
 
     def slope(self, values: np.ndarray) -> np.ndarray:
@@ -86,8 +93,6 @@ def locked_response(
     """Response of one robot at rest, no batch axes; a neutral freedom stays where it is.
 
     model : of the cables, sagging or spring;  spread : as in `LockedStations.about`
-
-    Cables that stiffen with tension do so as they are at this rest: that EA itself follows the tension is left out.
     """
     stations = LockedStations.about(point, model, spread=spread)
     rests = stations.rests
@@ -138,9 +143,12 @@ def _steps_of_found(cables: int, spread: Spread) -> np.ndarray:
     )
 
 
-def _balance(point: OperatingPoint, robots: RobotArrays, model: str, wrench: np.ndarray) -> LockedBalance:
-    """Robots (n), their winches as the robot at rest has them."""
-    arrays, lead = point.arrays, robots.mass.shape
+def _balance(
+    point: OperatingPoint, change: np.ndarray, varied: Sequence[Varied], model: str, wrench: np.ndarray
+) -> LockedBalance:
+    """Robots with changes (n, p), their winches as the robot at rest has them."""
+    arrays, lead = RobotArrays.of(point.robot), (len(change),)
+    robots = changed(arrays, change, varied)
     length = robots.paid_out(arrays.reading(point.cables.paid_out))
     length = np.broadcast_to(length, (*lead, arrays.cable_count))
     return LockedBalance(robots.flattened(lead), length, np.broadcast_to(wrench, (*lead, 6)), cable_model(model))

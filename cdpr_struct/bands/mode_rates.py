@@ -46,7 +46,7 @@ def mode_rates(
 ) -> ModeRates:
     """Rates of the frequencies hertz (k,) [Hz] of one robot at rest, all above zero, ascending, and some beyond.
 
-    spread : which robots are probable: how far modes may move, and so which may meet
+    spread : which robots are probable, about this one: how far modes may move, and so which may meet
     model : whose relative rates are taken, exact or static; frequencies of dsm and fem have those of exact
 
     Raises
@@ -58,7 +58,7 @@ def mode_rates(
     hertz = _with_those_beyond(shapes.omega[0] / (2.0 * np.pi), hertz)
     squared = shapes.omega[0] ** 2
     own = response.dependence @ found.gradient(shapes)[0] / (2.0 * squared)
-    groups = _groups(len(hertz), _near(np.log(hertz) + spread.shift(own), own, spread))
+    groups = _groups(len(hertz), _near(np.log(hertz), own, spread))
     pairs = np.argwhere(np.triu(groups[:, None] == groups, 1))
     mixing = np.zeros((len(own), 0))
     if len(pairs):

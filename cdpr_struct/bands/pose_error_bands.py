@@ -1,12 +1,14 @@
 """Static pose errors of robots within the tolerances, at the lengths that are commanded to the robot as entered."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import ndtri
 
 from cdpr_struct.bands.drawn_robots import DrawnRobots, drawn_robots
 from cdpr_struct.bands.frequency_bands import drawn_changes
+from cdpr_struct.bands.likeliest_robot import likeliest_rests
 from cdpr_struct.bands.locked_response import LockedResponse, locked_response
 from cdpr_struct.bands.rest_bands import pose_by_motion
 from cdpr_struct.dynamics.operating_point import OperatingPoint
@@ -47,10 +49,9 @@ class PoseErrorNumbers:
 class PoseErrorBands:
     """Of 16 numbers, components first, then sizes.
 
-    value : (16,) of the robot as entered;  band : (16, 2);  sigma : (16,)
+    band : (16, 2);  sigma : (16,)
     """
 
-    value: np.ndarray
     band: np.ndarray
     sigma: np.ndarray
 
@@ -75,28 +76,39 @@ class ErringRobot:
         )
         return cls(error.reference_position, error.reference_rotation, sagging, spring)
 
+    @staticmethod
+    def likeliest(entered: "Sequence[ErringRobot]", spread: Spread) -> "list[ErringRobot | None]":
+        """Each robot with its numbers at their means, at the lengths commanded to it as entered; None: no rest."""
+        rests = [
+            likeliest_rests([getattr(one, model) for one in entered], spread, model) for model in ("sagging", "spring")
+        ]
+        return [
+            None if sagging is None or spring is None else replace(one, sagging=sagging, spring=spring)
+            for one, sagging, spring in zip(entered, *rests, strict=True)
+        ]
+
     def numbers(self) -> PoseErrorNumbers:
-        """The errors of the robot as entered."""
+        """The errors of this robot."""
         sagging, spring = self.sagging, self.spring
         return self._numbers(sagging.position, sagging.rotation, spring.position)
 
     def bands(self, response: LockedResponse, spread: Spread, level: float) -> PoseErrorBands:
         """Central bands to first order that hold with a probability `level`, each number by itself.
 
-        response : of the robot on its sagging cables;  spread : which robots are probable
+        response : of the robot on its sagging cables;  spread : which robots are probable, about this one
 
         The size of an error is no linear function of it where it is small: its band is that of drawn components.
         """
-        rates, own = self.rates(response), self.numbers()
-        middle, sigma = own.components + spread.shift(rates), spread.sigma(rates)
+        rates, own = self.rates(response, spread), self.numbers()
+        middle, sigma = own.components, spread.sigma(rates)
         reach = ndtri(0.5 + 0.5 * level) * np.array([-1.0, 1.0])
         sizes = PoseErrorNumbers(own.components + drawn_changes(spread) @ rates).sizes
         ends = np.quantile(sizes, [0.5 - 0.5 * level, 0.5 + 0.5 * level], axis=0).T
         band = np.concatenate([middle[:, None] + sigma[:, None] * reach, ends])
-        return PoseErrorBands(own.all, band, np.concatenate([sigma, sizes.std(axis=0)]))
+        return PoseErrorBands(band, np.concatenate([sigma, sizes.std(axis=0)]))
 
     def drawn(self, spread: Spread, count: int) -> tuple[np.ndarray, DrawnRobots]:
-        """(n, 16) errors of robots drawn from the tolerances, each brought to rest twice, and the sagging ones."""
+        """(n, 16) errors of robots drawn like this one as entered, each brought to rest twice, and the sagging ones."""
         sagging, spring = (
             drawn_robots(point, spread, count, model=model)
             for point, model in ((self.sagging, "sagging"), (self.spring, "spring"))
@@ -106,9 +118,9 @@ class ErringRobot:
         found = self._numbers(place[:, :3], rotation_from_angles(*place[:, 3:].T), there[:, :3])
         return found.all, sagging
 
-    def rates(self, response: LockedResponse) -> np.ndarray:
-        """(p, 12) of the components."""
-        sagging, spring = response.pose, locked_response(self.spring, model="spring").pose[:, :3]
+    def rates(self, response: LockedResponse, spread: Spread) -> np.ndarray:
+        """(p, 12) of the components by the numbers of a spread."""
+        sagging, spring = response.pose, locked_response(self.spring, model="spring", spread=spread).pose[:, :3]
         back = self.reference_rotation.T
         angles = pose_by_motion(back @ self.sagging.rotation)[3:, 3:] @ back
         return np.concatenate([sagging[:, :3], spring, sagging[:, :3] - spring, sagging[:, 3:] @ angles.T], axis=1)

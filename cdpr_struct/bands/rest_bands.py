@@ -29,13 +29,12 @@ class RestBands:
 
 
 def rest_bands(point: OperatingPoint, response: LockedResponse, spread: Spread, level: float) -> RestBands:
-    """Bands that hold with a probability `level`; spread: which robots are probable."""
+    """Bands that hold with a probability `level`; spread: which robots are probable, about this one."""
     reach = ndtri(0.5 + 0.5 * level) * np.array([-1.0, 1.0])
     motion = response.pose @ pose_by_motion(point.rotation).T
     moved, pulled = spread.sigma(motion), spread.sigma(response.tension)
-    pose = np.concatenate([point.position, angles_from_rotation(point.rotation)]) + spread.shift(motion)
-    pull = point.cables.tension_at_platform + spread.shift(response.tension)
-    tension = np.maximum(pull[:, None] + pulled[:, None] * reach, 0.0)
+    pose = np.concatenate([point.position, angles_from_rotation(point.rotation)])
+    tension = np.maximum(point.cables.tension_at_platform[:, None] + pulled[:, None] * reach, 0.0)
     return RestBands(pose[:, None] + moved[:, None] * reach, moved, tension, pulled)
 
 

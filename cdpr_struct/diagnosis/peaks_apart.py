@@ -31,9 +31,10 @@ _BESIDE = 0.1  # peaks of no mode a list at least
 _TYPICAL = 12.0  # peaks of a list that has `SPURIOUS_PER_LIST` of no mode
 _BELOW, _ABOVE = 0.35, 0.02  # of ln f: how far from the lowest and highest peak or mode a list was searched
 _SEED, _DRAWS = 20251125, 400
-STIFFER = ("axial_stiffness", "platform_mass", "platform_inertia")
-"""Causes that raise all frequencies of a platform."""
-SOFTER = (*STIFFER, "joint_compliance", "dead_length", "frame_compliance")
+_EITHER = ("axial_stiffness", "platform_mass", "platform_inertia")
+STIFFER = (*_EITHER, "flexible_platform")
+"""Causes that raise the frequencies of a platform: a part of it on a mount is no mass above the mount's frequency."""
+SOFTER = (*_EITHER, "joint_compliance", "dead_length", "frame_compliance")
 """Causes that lower them."""
 
 

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from cdpr_struct.bands.likeliest_robot import about_the_means, required
 from cdpr_struct.bands.locked_response import locked_response
 from cdpr_struct.bands.pose_error_bands import ErringRobot
 from cdpr_struct.errors import InputError
@@ -48,9 +49,12 @@ def banded_pose_error(
     angles = np.radians(found_angles(values)[0]) if "rx_deg" in values else grid.angles
     reference = Pose(grid.positions[0], angles)
     erring = ErringRobot.of(robot, pose_error(robot, reference.position, reference.rotation))
-    response, spread = locked_response(erring.sagging), spread_of(robot)
-    found = erring.bands(response, spread, asked.level)
-    errors, drawn = erring.drawn(spread, asked.samples) if asked.samples else (None, None)
-    tension = erring.sagging.cables.tension_at_platform
+    known = spread_of(robot)
+    errors, drawn = erring.drawn(known, asked.samples) if asked.samples else (None, None)
+    likeliest, spread = required(ErringRobot.likeliest([erring], known))[0], about_the_means(known)
+    response = locked_response(likeliest.sagging, spread=spread)
+    found = likeliest.bands(response, spread, asked.level)
+    tension = likeliest.sagging.cables.tension_at_platform
     checks = slack_check(tension, spread.sigma(response.tension), drawn)
-    return band_head(asked, robot) | pose_error_bands_told(found, errors, drawn, asked.level), checks
+    told = pose_error_bands_told(erring.numbers().all, found, errors, drawn, asked.level)
+    return band_head(asked, robot) | told, checks

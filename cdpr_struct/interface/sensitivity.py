@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cdpr_struct.bands.designs import KNOBS, LEAST_TENSION, Change, Design
+from cdpr_struct.bands.likeliest_robot import at_the_means
 from cdpr_struct.bands.locked_response import locked_response
 from cdpr_struct.bands.mode_rates import mode_rates
 from cdpr_struct.bands.rest_bands import pose_by_motion
@@ -150,11 +151,18 @@ def sensitivity(
     return SensitivityResult(with_extensions(answer, machine, "sensitivity", name), state.point)
 
 
-def _moved(point: OperatingPoint, hertz: np.ndarray, model: str, assembly: Assembly, mode: int) -> dict[str, Any]:
-    """All rates, those that move one mode most, and shares of the variance."""
-    cables, count = point.arrays.cable_count, len(hertz)
-    spread = spread_of(point.entered)
-    response = locked_response(point, assembly)
+def _moved(
+    entered: OperatingPoint, hertz: np.ndarray, model: CableModel, assembly: Assembly, mode: int
+) -> dict[str, Any]:
+    """All rates of the likeliest robot, those that move one mode most, and shares of the variance.
+
+    hertz : (k,) of the robot as entered [Hz]
+    """
+    cables, count = entered.arrays.cable_count, len(hertz)
+    point, spread = at_the_means(entered, spread_of(entered.entered))
+    if point is not entered:
+        hertz = robot_modes(point, model, count, assembly, 0).hertz
+    response = locked_response(point, assembly, spread=spread)
     found = mode_rates(point, hertz, response, spread, assembly, vibrating_like(model))
     own = of_equal_modes(found.hertz, found.own)[:, :count]
     pose = response.pose @ pose_by_motion(point.rotation).T * np.where(np.arange(6) < 3, 1e3, 180.0 / np.pi)
@@ -172,8 +180,8 @@ def _moved(point: OperatingPoint, hertz: np.ndarray, model: str, assembly: Assem
         "tensions": list(told.rate_rows(moving, response.tension, "tension_of_cable", numbers, ["N"] * cables)),
         "largest": _largest(moving, own[:, mode - 1], spread),
         "shares": told.share_rows(variance_shares(every, spread, cables), names, sigmas),
-        "known_from": known_from(point.entered),
-        "tolerances": of_a_robot(point.entered.tolerances),
+        "known_from": known_from(entered.entered),
+        "tolerances": of_a_robot(entered.entered.tolerances),
     }
 
 

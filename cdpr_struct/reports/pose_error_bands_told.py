@@ -27,11 +27,14 @@ _DIGITS = 3
 
 
 def pose_error_bands_told(
-    found: PoseErrorBands, errors: np.ndarray | None, drawn: DrawnRobots | None, level: float
+    entered: np.ndarray, found: PoseErrorBands, errors: np.ndarray | None, drawn: DrawnRobots | None, level: float
 ) -> dict[str, Any]:
-    """Bands of errors [mm, deg] by name; errors (n, 16) of drawn robots, if there are any."""
+    """Bands of errors [mm, deg] by name.
+
+    entered : (16,) errors of the robot as entered;  errors : (n, 16) of drawn robots, if there are any
+    """
     scale = np.array([1e3 if name.endswith("_mm") else np.degrees(1.0) for name in NAMES])
-    value, sigma, band = scale * found.value, scale * found.sigma, scale[:, None] * found.band
+    value, sigma, band = scale * entered, scale * found.sigma, scale[:, None] * found.band
     rows = {
         name: {"value": value[i], "band": band[i], "sigma": sigma[i]} for i, name in enumerate(NAMES)
     }  # fmt: skip

@@ -215,10 +215,6 @@ class Spread:
         """(k,) of numbers with rates (p, k)."""
         return np.linalg.norm(rates.T @ self.root, axis=1)
 
-    def shift(self, rates: np.ndarray) -> np.ndarray:
-        """(k,) by which numbers with rates (p, k) lie beside those of the robot as entered, in the mean."""
-        return np.asarray(self.mean @ rates)
-
     def drawn(self, normal: np.ndarray) -> np.ndarray:
         """(n, p) changes from standard normal numbers (n, t)."""
         return np.asarray(self.mean + normal @ self.root.T)

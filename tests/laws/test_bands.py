@@ -45,6 +45,14 @@ def at_rest(name: str) -> OperatingPoint:
     return rest(entered(name), None, None).point
 
 
+def stiffening() -> OperatingPoint:
+    """A robot at rest whose cables have EA (T / T0)^0.15."""
+    robot = entered("cogiro")
+    law = {"stiffening_exponent": 0.15, "incremental_ratio": 1.0 / 0.85, "reference_tension": 400.0}
+    law = {name: np.array(value) for name, value in law.items()}
+    return cs.inverse(robot_from_arrays(robot, replace(RobotArrays.of(robot), **law))).point
+
+
 def with_change(point: OperatingPoint, change: np.ndarray) -> OperatingPoint:
     """The changed robot at rest at the same lengths, solved anew."""
     arrays = RobotArrays.of(point.entered)
@@ -92,6 +100,20 @@ def test_rates_are_those_of_solutions_made_anew(name):
             assert np.abs(rate - difference).max() <= 1e-6 * max(np.abs(difference).max(), 1e-2), one.field
 
 
+@pytest.mark.parametrize("field", ["length_offset", "axial_stiffness", "mass"])
+def test_rates_of_cables_that_stiffen_know_that_they_do(field):
+    """EA follows the tension at rest, and in vibration is larger than the secant; to a part in a hundred thousand."""
+    point = stiffening()
+    hertz, response = robot_modes(point, "exact", 4).hertz, locked_response(point)
+    found = mode_rates(point, hertz, response, Spread.within(Tolerances(), 8))
+    index = places(8)[[one.field for one in VARIED].index(field)].start
+    step = step_sizes(point)[index] * np.eye(change_count(8))[index]
+    expected = slope(point, step) / step[index]
+    rates = np.concatenate([found.own[index, :4], response.pose[index, :3], response.tension[index]])
+    for part in (slice(4), slice(4, 7), slice(7, None)):
+        assert np.allclose(rates[part], expected[part], rtol=0.0, atol=1e-5 * np.abs(expected[part]).max())
+
+
 def test_reels_share_half_of_the_variance():
     factor = tolerance_factor(Tolerances(axial_stiffness=0.04), 3)
     assert factor.shape == (change_count(3), tolerance_count(3))
@@ -126,6 +148,16 @@ def test_pose_and_tensions_have_the_bands_of_drawn_robots():
     for mine, name in ((found.pose, "pose"), (found.tension, "tension")):
         ends = drawn.quantiles(name, 0.9)
         assert (np.abs(mine - ends) <= 0.12 * (ends[:, 1] - ends[:, 0])[:, None]).all()
+
+
+def test_a_drawn_robot_that_is_not_off_is_the_one_as_entered():
+    """With cables that are stiffer in vibration than at rest."""
+    point = stiffening()
+    hertz = robot_modes(point, "exact", 3).hertz
+    drawn = drawn_robots(point, Spread(np.zeros((change_count(8), 1)), np.zeros(change_count(8))), 2, hertz)
+    assert drawn.lost == 0
+    assert np.allclose(drawn.hertz, hertz, rtol=1e-6)
+    assert np.allclose(drawn.tension, point.cables.tension_at_platform, rtol=1e-6)
 
 
 def test_a_band_is_as_wide_as_its_tolerances():

@@ -191,3 +191,28 @@ def test_a_law_that_no_robot_can_have_is_refused(table, said):
 def test_no_size_is_negative():
     with pytest.raises(ValueError, match=r"Remainder\.length_m must be zero or more"):
         Remainder(length_m=-1.0)
+
+
+@pytest.mark.parametrize("quantity", ["tension-min", "first-frequency", "pose-error"])
+def test_maps_hold_what_is_left(quantity):
+    """Far more than tolerances do; drawn robots say how much."""
+    widths = []
+    for left in (None, Remainder(force_N=100.0, length_m=2e-3, frequency=0.05)):
+        robot = replace(cogiro(), remainder=left)
+        found = cs.map(robot, "0,0,1.2", quantity, band=90, samples=60 if left else None)
+        columns = found.columns()
+        widths.append(column(columns, "high") - column(columns, "low"))
+    assert widths[1] > 1.5 * widths[0]
+    drawn = column(columns, "drawn_high") - column(columns, "drawn_low")
+    assert widths[1] == pytest.approx(drawn, rel=0.35)
+
+
+def column(columns, ending: str) -> float:
+    return next(float(values[0]) for name, values in columns.items() if name.rstrip("_NHzm").endswith(f"_{ending}"))
+
+
+def test_other_commands_take_a_robot_with_what_is_left():
+    robot = replace(masts().extended, remainder=Remainder(5.0, 1.0, 2e-4, 0.002))
+    assert cs.pose_error(robot, pose=robot.home, band=90).answer["bands"]
+    assert cs.sensitivity(robot, count=2).answer["shares"]
+    assert cs.accept(robot, "examples/bands/requirements.toml").answer
