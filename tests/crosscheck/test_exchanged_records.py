@@ -1,9 +1,8 @@
-"""Frequency responses filed under each other's case, with the FEM as truth: the exchange is named."""
+"""Frequency responses filed under each other's case, with the FEM as truth: the exchange is found."""
 
 import numpy as np
 import pytest
 
-from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.hypotheses.exchanged import exchanged_records
 from cdpr_struct.hypotheses.handled import promising, readings_felt
 from cdpr_struct.hypotheses.handling import corrections
@@ -37,8 +36,3 @@ def test_an_exchange_undone_is_none(clean):
     again = exchanged(exchanged(clean))
     assert np.array_equal(again.robot_frequencies.state, clean.robot_frequencies.state)
     assert [item.record.case for item in again.identified] == [item.record.case for item in clean.identified]
-
-
-@pytest.mark.slow
-def test_the_exchange_is_named(clean):
-    assert ("pose_mismatch",) in diagnosed(exchanged(clean)).decision.classes
