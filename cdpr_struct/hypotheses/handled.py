@@ -18,13 +18,15 @@ from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.observation.readings import Readings
 from cdpr_struct.observation.rest import static_residuals
 from cdpr_struct.residuals.assembled import FLOOR
+from cdpr_struct.residuals.doubt_of_sizes import doubt_of_sizes
 from cdpr_struct.residuals.linearised import Local, Point
-from cdpr_struct.residuals.recorded import Recorded
+from cdpr_struct.residuals.recorded import Recorded, recorded
 from cdpr_struct.residuals.swivels import swivels
 from cdpr_struct.residuals.vibrations import Vibrating
 
 _MOST = 4  # corrections that are judged
 _NOT_POSSIBLE = 1e6  # N, m: of readings that mean no robot at all
+_FAR = 1.0  # of ln f: a mode that no sensor on the platform sees
 _FELT = 3.0  # times what the others tell of a reading: so unsure must it be without its sensor to contradict them
 
 
@@ -37,8 +39,8 @@ def promising(data: Recorded, found: Sequence[Correction], felt: np.ndarray) -> 
     costs = _costs(data, covariance, [one.campaign for one in found]) + prices
     costs += np.array([_of_frequencies(local, one.campaign) for one in found])
     costs += np.array([_of_swivels(local, covariance, one.campaign) for one in found])
-    order = np.argsort(costs, kind="stable")
-    return [found[i] for i in order[:_MOST] if costs[i] < now]
+    order = np.argsort(costs, kind="stable")[:_MOST]
+    return [found[i] for i in order if costs[i] + _of_sizes(local, found[i].campaign) < now]
 
 
 def readings_felt(data: Recorded) -> np.ndarray:
@@ -97,19 +99,41 @@ def _of_frequencies(local: Local, campaign: Campaign) -> float:
         campaign.cable_frequencies is own.cable_frequencies and campaign.robot_frequencies is own.robot_frequencies
     ):
         return 0.0
-    return _apart(local.vibrating, campaign) - _apart(local.vibrating, own)
+    return _apart(local, local.vibrating, campaign) - _apart(local, local.vibrating, own)
 
 
-def _apart(vibrating: Vibrating, campaign: Campaign) -> float:
+def _apart(local: Local, vibrating: Vibrating, campaign: Campaign) -> float:
+    """Minus ln of the density, modes being as sure as the tolerances let them be."""
     rows, peaks, robot = campaign.cable_frequencies, campaign.robot_frequencies, vibrating.robot
-    far = [np.log(rows.hertz) - vibrating.cables.log_hertz]
+    variance = (rows.sigma / rows.hertz) ** 2 + (local.own_columns.cables**2).sum(axis=1)
+    costs = [_student((np.log(rows.hertz) - vibrating.cables.log_hertz) ** 2, variance)]
     if robot is not None:
         state = np.searchsorted(vibrating.measured.states, peaks.state)
-        modes = np.where(robot.mask & (robot.share > SHARE_INVISIBLE), robot.log_hertz, np.inf)
-        far.append(np.abs(np.log(peaks.hertz)[:, None] - modes[state]).min(axis=1, initial=1.0))
-    sigma = np.concatenate([rows.sigma / rows.hertz, peaks.sigma / peaks.hertz])[: sum(map(len, far))]
-    square = (np.concatenate(far) / sigma) ** 2
-    return float(0.5 * (TAU_DEGREES + 1.0) * np.log1p(square / TAU_DEGREES).sum())
+        visible = (robot.mask & (robot.share > SHARE_INVISIBLE))[state]
+        square = np.where(visible, (np.log(peaks.hertz)[:, None] - robot.log_hertz[state]) ** 2, _FAR**2)
+        spread = (local.own_columns.robot**2).sum(axis=-1)[state]
+        costs.append(_student(square, (peaks.sigma / peaks.hertz)[:, None] ** 2 + spread).min(axis=1))
+    return float(np.concatenate(costs).sum())
+
+
+def _of_sizes(local: Local, campaign: Campaign) -> float:
+    """Change of minus ln of the density of modal constants, each Student's about what the model has in its place."""
+    if not len(local.r.sizes) or campaign.robot_frequencies is local.data.campaign.robot_frequencies:
+        return 0.0
+    data = recorded(campaign)
+    costs = []
+    for there in (Local.about(data, Point.entered(data)), local):
+        assert there.vibrating is not None
+        sizes = there.vibrating.measured.sizes
+        own = sizes.sigma**2 + sizes.common**2 + doubt_of_sizes(there) ** 2 + (there.own_columns.sizes**2).sum(axis=1)
+        costs.append(float(_student(there.r.sizes**2, own).sum()))
+    return costs[0] - costs[1]
+
+
+def _student(square: np.ndarray, variance: np.ndarray) -> np.ndarray:
+    """Minus ln of Student's density, but for a constant."""
+    freedom = TAU_DEGREES
+    return np.asarray(0.5 * (freedom + 1.0) * np.log1p(square / (freedom * variance)) + 0.5 * np.log(variance))
 
 
 def _of_swivels(local: Local, covariance: np.ndarray, campaign: Campaign) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 
 from cdpr_struct.hypotheses.conventions import conventions
 from cdpr_struct.hypotheses.correction import BEYOND_NOISE, Correction, several_tilted, with_states
+from cdpr_struct.hypotheses.exchanged import exchanged_records
 from cdpr_struct.measurement.campaign import Campaign, States
 
 TENSION_UNITS = {"kgf": 9.80665, "lbf": 4.4482216, "kN": 1000.0, "daN": 10.0}
@@ -20,7 +21,8 @@ PAIRS_OF_STATES = 2000  # static ones: all of 63
 
 def corrections(campaign: Campaign) -> list[Correction]:
     """Every hypothesis about the handling of the data, with the number of its kind filled in."""
-    families = [list(f(campaign)) for f in (_units, _signs, _senses, _swaps, _exchanged_poses, conventions)]
+    tried = (_units, _signs, _senses, _swaps, _exchanged_poses, exchanged_records, conventions)
+    families = [list(f(campaign)) for f in tried]
     return [replace(c, alternatives=len(family)) for family in families for c in family]
 
 

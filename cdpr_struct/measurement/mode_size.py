@@ -28,6 +28,12 @@ def ways(record: SignalRecord) -> np.ndarray:
     return np.array([[direction(part) for part in name.split("/", 1)] for name in record.channels])
 
 
+def channel_shapes(platform: np.ndarray, record: SignalRecord) -> np.ndarray:
+    """(k, c) modal constants in an FRF's channels of modes of unit modal mass whose platforms move by (k, 6)."""
+    respond, excite = ways(record).transpose(1, 0, 2)
+    return np.asarray((platform @ respond.T) * (platform @ excite.T))
+
+
 def modal_constants(modes: Modes) -> np.ndarray:
     """(k, c) complex modal constants of an FRF's modes, per channel [1/kg, 1/(kg m), 1/(kg m^2)]."""
     pole = modes.poles

@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from cdpr_struct.errors import CdprError
 from cdpr_struct.measurement.amplitude_windows import amplitude_windows
@@ -11,8 +10,9 @@ from cdpr_struct.measurement.campaign import Series, Sigmas
 from cdpr_struct.measurement.decay_modes import decay_modes, refilled
 from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.modal_estimate import Modes
-from cdpr_struct.measurement.mode_size import direction, log_sizes, translation_share, ways
-from cdpr_struct.measurement.peak_kinds import MODE, assurance, peak_kinds
+from cdpr_struct.measurement.mode_partners import SIZE_SPREAD, paired
+from cdpr_struct.measurement.mode_size import channel_shapes, direction, log_sizes, translation_share
+from cdpr_struct.measurement.peak_kinds import MODE, peak_kinds
 from cdpr_struct.measurement.response_modes import response_modes
 from cdpr_struct.measurement.signal_records import SignalRecord, records
 from cdpr_struct.measurement.state_modes import StateModes, state_modes
@@ -24,11 +24,6 @@ from cdpr_struct.statics.energy_descent import arm_scale
 VISIBLE = 0.15  # share of the kinetic energy in the platform from which on a mode counts as the robot's
 SEEN = 0.25  # the same as an FRF shows it, whatever the model says
 CLEAR = 10.0  # amplitude over its sigma
-_NO_PARTNER = 16.0  # cost; a frequency 40 % off with the right shape
-_SPREAD = 0.1  # of ln f
-_EXACT = 0.003  # of ln f: the model may well be right
-_TOO_LARGE, _TOO_SMALL = 2.0, 6.0  # largest cost of a size that is not the mode's; several modes may be fitted as one
-_SIZE_SPREAD = 0.5  # of ln of a mode's size; a peak that much smaller than a mode is another
 _FILLINGS = 2  # of lost samples, from the modes found before
 _OF_WIDTH = 0.25  # of a peak's half-width: modes nearer than their widths are fitted as one
 
@@ -106,12 +101,31 @@ def held_against(item: Identified, robot: Robot, model: str) -> Identified:
             partner[own] = partners(modes.take(own), state, record)
         except CdprError as error:
             note = str(error)
-    own_size = _own_size(modes, partner, state, record)
+    return _judged(replace(item, partner=partner, note=note, state=state), seen)
+
+
+def held_at(item: Identified, other: Identified) -> Identified:
+    """Identified modes held against the model at another record's pose."""
+    there = other.record
+    place = {name: getattr(there, name) for name in ("case", "position", "angles", "lengths", "payload")}
+    record, state = replace(item.record, **place), other.state
+    partner, own = np.full(len(item.modes), -1), np.flatnonzero([kind == MODE for kind in item.kinds])
+    if state is not None and len(own):
+        partner[own] = partners(item.modes.take(own), state, record)
+    mass = 0.0 if state is None else state.point.entered.platform.mass
+    moved = replace(item, record=record, partner=partner, note=other.note, state=state)
+    return _judged(moved, translation_share(item.modes, record, mass))
+
+
+def _judged(item: Identified, seen: np.ndarray) -> Identified:
+    """With what joins the campaign; seen (k,) : share of the energy that is seen in the platform."""
+    state, own_size = item.state, _own_size(item.modes, item.partner, item.state, item.record)
     reason = [
-        _reason(i, modes, kinds, partner, state, bool(seen[i] >= SEEN), bool(own_size[i])) for i in range(len(modes))
+        _reason(i, item.modes, item.kinds, item.partner, state, bool(seen[i] >= SEEN), bool(own_size[i]))
+        for i in range(len(item.modes))
     ]
     used = np.array([not r for r in reason], dtype=bool) & (state is not None)
-    return replace(item, partner=partner, used=used, reason=tuple(reason), note=note, state=state)
+    return replace(item, used=used, reason=tuple(reason))
 
 
 def _own_size(modes: Modes, partner: np.ndarray, state: StateModes | None, record: SignalRecord) -> np.ndarray:
@@ -119,7 +133,7 @@ def _own_size(modes: Modes, partner: np.ndarray, state: StateModes | None, recor
     if state is None or record.kind != "frf":
         return np.ones(len(modes), dtype=bool)
     off = log_sizes(modes, model_shapes(state, record))[np.arange(len(modes)), partner]
-    return off > -_SIZE_SPREAD
+    return off > -SIZE_SPREAD
 
 
 def _reason(
@@ -149,22 +163,9 @@ def _reason(
 
 
 def partners(modes: Modes, state: StateModes, record: SignalRecord) -> np.ndarray:
-    """(k,) the model's mode for each identified one, by frequency, shape, and size in an FRF or visibility; -1 where
-    none is near."""
-    far = (np.log(modes.hertz)[:, None] - np.log(state.hertz)[None]) / _SPREAD
-    shapes = model_shapes(state, record)
-    unlike = np.array([[1.0 - assurance(s, p) for p in shapes] for s in modes.shape * channel_weight(state, record)])
-    cost = far**2 + 0.5 * np.log1p((far * _SPREAD / _EXACT) ** 2) + 12.0 * unlike
-    if record.kind == "frf":
-        size = log_sizes(modes, shapes) / _SIZE_SPREAD
-        cost = cost + np.minimum(size**2, np.where(size > 0.0, _TOO_LARGE, _TOO_SMALL))
-    else:
-        cost = cost + 3.0 * (1.0 - state.modes.platform_energy)[None]
-    alone = np.full((len(modes), len(modes)), _NO_PARTNER)
-    rows, columns = linear_sum_assignment(np.concatenate([cost, alone], axis=1))
-    found = np.full(len(modes), -1)
-    found[rows] = np.where(columns < len(state.hertz), columns, -1)
-    return found
+    """(k,) the model's mode for each identified one; -1 where none is near."""
+    hidden = None if record.kind == "frf" else 1.0 - state.modes.platform_energy
+    return paired(modes, channel_weight(state, record), state.hertz, model_shapes(state, record), hidden)
 
 
 def model_shapes(state: StateModes, record: SignalRecord) -> np.ndarray:
@@ -174,8 +175,7 @@ def model_shapes(state: StateModes, record: SignalRecord) -> np.ndarray:
         return platform[:, :3]
     if record.kind == "platform_motion":
         return platform * channel_weight(state, record)
-    respond, excite = ways(record).transpose(1, 0, 2)
-    return (platform @ respond.T) * (platform @ excite.T)
+    return channel_shapes(platform, record)
 
 
 def platform_shape(record: SignalRecord, shape: np.ndarray) -> np.ndarray:

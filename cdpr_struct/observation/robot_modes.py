@@ -7,11 +7,12 @@ import numpy as np
 
 from cdpr_struct.dynamics.cable_dynamics import CableModel, expand_catenaries_at, polynomial_order
 from cdpr_struct.dynamics.operating_point import OperatingPoint
-from cdpr_struct.dynamics.ritz_modes import RitzModes, ritz_modes
+from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.dynamics.robot_dynamic_stiffness import Assembly
 from cdpr_struct.errors import CrowdedModesError, UnstableEquilibriumError
 from cdpr_struct.observation.dependence import Dependence
 from cdpr_struct.observation.expanded_modes import ExpandedModes, beyond_cables
+from cdpr_struct.observation.mode_mixing import Mixing
 
 BEYOND = 1.3  # times the highest frequency of the band: from there changes of tens of per cent bring modes into it
 PLATFORM_SHARE = 0.02  # of the kinetic energy: modes beyond the band with less in the platform are left out
@@ -26,6 +27,8 @@ class VibratingModes:
     log_hertz (F, M) : ln f [Hz];  share (F, M) : of the kinetic energy in the platform, parts that move in it included
     platform (F, M, 6) : motion of the platform in modes of unit modal mass, world axes
     dependence (F, n) : what they depend on, `Dependence.vector`;  gradient (F, n, M) : of ln f by it
+    mass (F, 6, 6) : of the platform, world axes
+    mixing : how their shapes change, of all states together or of each, None where a state has no modes
     """
 
     log_hertz: np.ndarray
@@ -34,7 +37,20 @@ class VibratingModes:
     mask: np.ndarray
     dependence: np.ndarray
     gradient: np.ndarray
+    mass: np.ndarray
     assembly: Assembly
+    mixing: tuple[Mixing | None, ...]
+
+    def motion_rates(self, index: np.ndarray) -> np.ndarray:
+        """(F, n, q, 6) change of `platform` of modes (F, q) by `dependence`; zero in a state that has no modes."""
+        if len(self.mixing) == 1 and self.mixing[0] is not None:
+            return self.mixing[0].rates(index)
+        blank = np.zeros((1, self.dependence.shape[1], index.shape[1], 6))
+        parts = [
+            blank if one is None else one.rates(np.minimum(own, one.kept.shape[1] - 1)[None])
+            for one, own in zip(self.mixing, index, strict=True)
+        ]
+        return np.concatenate(parts)
 
 
 def modes_at(
@@ -55,7 +71,7 @@ def modes_at(
     shapes = found.shapes
     kept = (shapes.omega < np.asarray(highest_omega)[:, None]) | (shapes.platform_energy > PLATFORM_SHARE)
     within = model == "static" or shapes.omega < limit[:, None]
-    return _collected(shapes, found.dependence, found.gradient(), kept & within, assembly)
+    return _collected(found, found.gradient(), kept & within, assembly)
 
 
 def of_states_apart(modes: Sequence[VibratingModes | None]) -> VibratingModes:
@@ -74,15 +90,16 @@ def of_states_apart(modes: Sequence[VibratingModes | None]) -> VibratingModes:
 
     def stacked(name: str) -> np.ndarray:
         """Along states, padded along modes."""
-        parts = [getattr(one or blank, name) * (one is not None) for one in modes]
-        if name == "dependence":
+        parts = [getattr(one or blank, name) * (one is not None or name == "mass") for one in modes]
+        if name in ("dependence", "mass"):
             return np.concatenate(parts)
         axis = 2 if name == "gradient" else 1
         missing = [[(0, (most - part.shape[k]) * (k == axis)) for k in range(part.ndim)] for part in parts]
         return np.concatenate([np.pad(part, width) for part, width in zip(parts, missing, strict=True)])
 
-    arrays = {field.name: stacked(field.name) for field in fields(VibratingModes) if field.name != "assembly"}
-    return VibratingModes(**arrays, assembly=blank.assembly)
+    names = [field.name for field in fields(VibratingModes) if field.name not in ("assembly", "mixing")]
+    mixing = tuple(None if one is None else one.mixing[0] for one in modes)
+    return VibratingModes(**{name: stacked(name) for name in names}, assembly=blank.assembly, mixing=mixing)
 
 
 def frequencies_at(
@@ -111,15 +128,18 @@ def rates(modes: VibratingModes, points: OperatingPoint, steps: np.ndarray) -> n
 
     points : (B, F) operating points after steps (B,), small enough for their cables to change linearly
     """
-    change = Dependence.of(points, modes.assembly).vector - modes.dependence
-    change = change / np.asarray(steps, dtype=float)[:, None, None]
+    change = changes_of(modes, points) / np.asarray(steps, dtype=float)[:, None, None]
     return np.moveaxis(np.moveaxis(change, 0, 1) @ modes.gradient, 0, 1)
 
 
-def _collected(
-    shapes: RitzModes, now: Dependence, gradient: np.ndarray, kept: np.ndarray, assembly: Assembly
-) -> VibratingModes:
+def changes_of(modes: VibratingModes, points: OperatingPoint) -> np.ndarray:
+    """(B, F, n) change of what modes depend on towards nearby states (B, F)."""
+    return np.asarray(Dependence.of(points, modes.assembly).vector - modes.dependence)
+
+
+def _collected(found: ExpandedModes, gradient: np.ndarray, kept: np.ndarray, assembly: Assembly) -> VibratingModes:
     """Those to be kept, from `gradient` (F, n, k) of omega^2."""
+    shapes = found.shapes
     gradient = _joined(gradient / (2.0 * shapes.omega**2)[..., None, :], shapes.omega)
     rank = np.argsort(~kept, axis=-1, kind="stable")[:, : int(kept.sum(axis=-1).max())]
     mask = np.take_along_axis(kept, rank, axis=-1)
@@ -130,9 +150,10 @@ def _collected(
         return np.where(mask.reshape(shape), np.take_along_axis(values, rank.reshape(shape), axis=axis), 0.0)
 
     log_hertz = np.log(shapes.omega / (2.0 * np.pi))
+    mass = np.broadcast_to(shapes.platform_mass, (len(mask), 6, 6))
     return VibratingModes(
-        chosen(log_hertz), chosen(shapes.platform_energy), chosen(shapes.platform, -2), mask, now.vector,
-        chosen(gradient), assembly,
+        chosen(log_hertz), chosen(shapes.platform_energy), chosen(shapes.platform, -2), mask, found.dependence.vector,
+        chosen(gradient), mass, assembly, (Mixing(found, rank),),
     )  # fmt: skip
 
 

@@ -6,9 +6,10 @@ from cdpr_struct.association.association import Association
 from cdpr_struct.inference.linear_model import LinearModel, Stack
 from cdpr_struct.inference.soft_rows import SoftExpectation
 from cdpr_struct.residuals.commanded_lengths import MISSED
+from cdpr_struct.residuals.doubt_of_sizes import doubt_of_sizes, posed_sizes
 from cdpr_struct.residuals.layout import Layout, Shelf
-from cdpr_struct.residuals.linearised import Local, Outside, Rows
-from cdpr_struct.residuals.modal_sizes import MODEL, measured_sizes
+from cdpr_struct.residuals.linearised import Local, Outside, Point, Rows
+from cdpr_struct.residuals.modal_sizes import measured_sizes
 from cdpr_struct.residuals.recorded import Recorded
 
 FLOOR = (0.05, 2e-5, 3e-4, 5e-3)
@@ -36,17 +37,23 @@ def linear_model(local: Local, where: Layout) -> LinearModel:
 
 
 def _of_sizes(local: Local, where: Layout, residual: np.ndarray, columns: np.ndarray) -> Stack:
-    """Modal constants, those of a state as one block: each with noise of its own, those of a mode with a common one."""
+    """Modal constants, those of a state as one block: each with noise of its own, those of a mode with a common one.
+
+    What they cannot be sure of is that of the robot as entered, the same for every hypothesis. The readings of their
+    state, on which they hardly depend, count once more.
+    """
+    entered = Local.about(local.data, Point.entered(local.data))
     sizes = local.vibrating.measured.sizes if local.vibrating is not None else measured_sizes(local.data.campaign)
     place = sizes.by_state
     _, mode = np.unique(sizes.peak, return_inverse=True)
-    shared = (mode[:, None] == np.arange(mode.max() + 1)) * np.hypot(sizes.common, MODEL)[:, None]
+    shared = (mode[:, None] == np.arange(mode.max() + 1)) * sizes.common[:, None]
+    common = [shared, posed_sizes(entered), np.diag(doubt_of_sizes(entered))]
     own = _placed(place, np.broadcast_to(sizes.sigma, (1, len(sizes))).T)[..., 0]
     floor = np.where(place >= 0, FLOOR[3], 1.0)
     noise = own[:, :, None] * np.eye(place.shape[1])
     index = np.where(place >= 0, where.of_sizes[place], -1)
     stack = Stack(_placed(place, residual), noise, _placed(place, columns), floor, index, np.zeros(0))
-    return stack.with_noise(_placed(place, shared))
+    return stack.with_noise(_placed(place, np.concatenate(common, axis=1)))
 
 
 def _placed(place: np.ndarray, values: np.ndarray) -> np.ndarray:

@@ -279,9 +279,8 @@ class Local:
         turned = self._turned(arrays, readings, count)
         if self.vibrating is None:
             return replace(self.r.only_static(static), swivels=turned)
-        cables, robot = self.vibrating.changes(arrays, readings, count)
-        measured = self.vibrating.measured.sizes.log
-        sizes = np.broadcast_to(self.vibrating.log_sizes(arrays) - measured, (count, len(measured))) + self.r.sizes
+        cables, robot, mixed = self.vibrating.changes(arrays, readings, count)
+        sizes = mixed + self.vibrating.log_sizes(arrays) - self.vibrating.measured.sizes.log + self.r.sizes
         cables, robot, sizes = (np.moveaxis(part, 0, -1) / _STEP for part in (cables, robot, sizes))
         return Rows(static, cables, robot, sizes, turned)
 

@@ -15,7 +15,6 @@ from cdpr_struct.measurement.identified import Identified
 from cdpr_struct.measurement.mode_size import modal_constants, ways
 
 NOISE = 0.05  # of a modal constant: what repeated modal tests scatter by
-MODEL = 0.05  # of it, shared by the channels of a mode: by mass and inertia within their tolerances
 _FLOOR = 0.02  # of the largest constant of the mode in the same unit
 _LEAST = 0.1  # of it: a channel with less is near a node of the mode
 _APART = 2.0  # sums of damping ratios: nearer modes are fitted into each other
@@ -29,6 +28,7 @@ class ModalSizes:
     respond, excite (a, 6) unit motion and wrench of the platform
     log (a,) ln |A|, A in 1/kg, 1/(kg m), 1/(kg m^2)
     sigma (a,) of ln |A|, each on its own;  common (a,) that of the mode's damping, shared by its channels
+    record, mode (a,) number of the identified record, and of the mode in it
     """
 
     peak: np.ndarray
@@ -39,6 +39,8 @@ class ModalSizes:
     log: np.ndarray
     sigma: np.ndarray
     common: np.ndarray
+    record: np.ndarray
+    mode: np.ndarray
 
     def __len__(self) -> int:
         return len(self.log)
@@ -56,11 +58,6 @@ class ModalSizes:
         for k, state in enumerate(states):
             found[k, : count[k]] = np.flatnonzero(self.state == state)
         return found
-
-    def of_modes(self, motion: np.ndarray) -> np.ndarray:
-        """(a,) ln |A| of modes of unit modal mass whose platforms move by (a, 6)."""
-        size = np.abs((motion * self.respond).sum(axis=-1) * (motion * self.excite).sum(axis=-1))
-        return np.asarray(np.log(np.maximum(size, 1e-12)))
 
     def log_gain(self, gain: np.ndarray) -> np.ndarray:
         """(..., a) ln of the accelerometers' gain (..., 6) in each constant."""
@@ -80,7 +77,8 @@ def measured_sizes(campaign: Campaign) -> ModalSizes:
     log_hertz = np.log(peaks.hertz[peak]) if len(peak) else np.zeros(0)
     log, sigma, common = rows[:, 13:].T
     state = peaks.state[peak].astype(int)
-    return ModalSizes(peak, state, log_hertz, rows[:, 1:7], rows[:, 7:13], log, sigma, common)
+    origin = (peaks.origin[peak] if len(peak) else np.zeros((0, 2), dtype=int)).T
+    return ModalSizes(peak, state, log_hertz, rows[:, 1:7], rows[:, 7:13], log, sigma, common, *origin)
 
 
 def _apart(item: Identified, i: int) -> bool:

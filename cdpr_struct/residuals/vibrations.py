@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from cdpr_struct.association.association import Association
-from cdpr_struct.association.detection import SHARE_INVISIBLE, clutter, robot_detection
+from cdpr_struct.association.detection import clutter, robot_detection
 from cdpr_struct.association.doubles import detection_of_doubles
 from cdpr_struct.association.modes import PredictedModes, robot_modes
 from cdpr_struct.association.peak_noise import PeakNoise
@@ -22,13 +22,14 @@ from cdpr_struct.observation.rest import rest
 from cdpr_struct.observation.robot_modes import (
     BEYOND,
     VibratingModes,
+    changes_of,
     frequencies_at,
     modes_at,
     of_states_apart,
-    rates,
 )
 from cdpr_struct.observation.vibrating import of_states, vibrating
 from cdpr_struct.residuals.modal_sizes import ModalSizes, measured_sizes
+from cdpr_struct.residuals.modelled_sizes import ModelledSizes
 from cdpr_struct.robot.parameters import PARAMETERS
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import VECTORS
@@ -114,6 +115,7 @@ class Vibrating:
     known: Circumstances
     cables: CableModes
     robot: VibratingModes | None
+    sizes: ModelledSizes | None
 
     @classmethod
     def about(
@@ -128,33 +130,52 @@ class Vibrating:
                 robot = _modes(campaign, point, measured)
             except UnstableEquilibriumError:
                 robot = _of_stable(campaign, known, measured, arrays, readings)
-        return cls(states, measured, known, cable_modes_at(point, measured.rows), robot)
+        sizes = None
+        if robot is not None and len(measured.sizes):
+            sizes = ModelledSizes.about(measured.sizes, measured.states, campaign.identified, robot)
+        return cls(states, measured, known, cable_modes_at(point, measured.rows), robot, sizes)
 
     @property
     def log_hertz(self) -> np.ndarray:
         """(F, M) of the robot's modes."""
         return np.zeros((len(self.measured.states), 0)) if self.robot is None else self.robot.log_hertz
 
-    def changes(self, arrays: RobotArrays, readings: Readings, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """Changes of ln f, of cable modes (count, r) and the robot's (count, F, M), for nearby robots or readings."""
+    def changes(self, arrays: RobotArrays, readings: Readings, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Changes of ln f, of cable modes (count, r) and the robot's (count, F, M), and of ln of modal constants
+        (count, a) with the modes, for nearby robots or readings."""
         point = _point(self.states, self.measured, self.known, arrays, readings)
-        ones = np.ones(count)
-        own = cable_rates(self.cables, point, ones)
+        own = cable_rates(self.cables, point, np.ones(count))
         if self.robot is None:
-            return own, np.zeros((count, len(self.measured.states), 0))
-        return own, np.broadcast_to(rates(self.robot, point, ones), (count, *self.robot.log_hertz.shape))
+            return own, np.zeros((count, len(self.measured.states), 0)), np.zeros((count, len(self.measured.sizes)))
+        change = self._changed(point, count)
+        robot = np.moveaxis(np.moveaxis(change, 0, 1) @ self.robot.gradient, 0, 1)
+        sizes = np.zeros((count, len(self.measured.sizes)))
+        if self.sizes is not None:
+            sizes = np.einsum("ban,an->ba", change[:, self.sizes.row], self.sizes.gradient, optimize=True)
+        return own, robot, sizes
+
+    def turns(self, arrays: RobotArrays, readings: Readings, count: int) -> np.ndarray:
+        """(count, a) by how much the modes of modal constants turn into others, for nearby robots or readings [rad]."""
+        if self.robot is None or self.sizes is None:
+            return np.zeros((count, len(self.measured.sizes)))
+        change = self._changed(_point(self.states, self.measured, self.known, arrays, readings), count)
+        turn = np.einsum("ban,anc->bac", change[:, self.sizes.row], self.sizes.turn, optimize=True)
+        return np.asarray(np.linalg.norm(turn, axis=-1))
+
+    def _changed(self, point: OperatingPoint, count: int) -> np.ndarray:
+        """(count, F, n) changes of what the modes depend on."""
+        assert self.robot is not None
+        change = changes_of(self.robot, point)
+        return np.broadcast_to(change, (count, *change.shape[-2:]))
 
     def log_sizes(self, arrays: RobotArrays) -> np.ndarray:
-        """(B, a) ln of modal constants of the modes nearest to the peaks, by the accelerometers of robots (B, 1)."""
-        sizes, robot = self.measured.sizes, self.robot
-        if not len(sizes) or robot is None:
+        """(B, a) ln of modal constants of the modes at the point, by the accelerometers of robots (B, 1)."""
+        sizes = self.measured.sizes
+        if self.sizes is None:
             return np.zeros((1, len(sizes)))
         gain = sizes.log_gain(arrays.accelerometer_gain)
         gain = gain[:, 0] if gain.ndim > 2 else gain.reshape((-1, len(sizes)))
-        row = np.searchsorted(self.measured.states, sizes.state)
-        apart = np.abs(robot.log_hertz[row] - sizes.log_hertz[:, None])
-        near = np.where(robot.mask[row] & (robot.share[row] > SHARE_INVISIBLE), apart, np.inf).argmin(axis=1)
-        return np.asarray(gain + sizes.of_modes(robot.platform[row, near]))
+        return np.asarray(gain + self.sizes.log)
 
     def association(self) -> Association | None:
         """The lists of peaks beside the modes at the point."""

@@ -35,7 +35,8 @@ MOVED = np.array([0.01, 0.01, 0.01, 0.01, 0.01, 0.01])  # m/s and rad/s of the p
 
 def may_be_said(kind: str, way: str) -> list[str]:
     """Names that are true of the records beside what is hidden in the robot."""
-    return [*DAMPED, *(("accelerometer_gain",) if kind == FRF and way in ("gain", "drift") else ())]
+    gain = ("accelerometer_gain",) if kind == FRF and way in ("gain", "drift") else ()
+    return [*DAMPED, *gain, *(("pose_mismatch",) if way == "exchanged" else ())]
 
 
 @dataclass(frozen=True)

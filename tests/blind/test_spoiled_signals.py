@@ -59,6 +59,7 @@ def test_a_wrong_gain_is_that_of_the_sensor_along_z(real):
     assert ratio.to_numpy() == pytest.approx([1.0, 1.0, GAIN[DECAY]])
     assert may_be_said(FRF, "gain")[-1] == "accelerometer_gain"
     assert "accelerometer_gain" not in may_be_said(DECAY, "gain")
+    assert [way for way in SIGNALS if "pose_mismatch" in may_be_said(DECAY, way)] == ["exchanged"]
 
 
 def test_a_third_hides_nothing_and_the_rest_two_and_four_times_the_detectable_size():
