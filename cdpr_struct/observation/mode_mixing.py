@@ -9,6 +9,7 @@ of the gradients of (v_i + v_j) / sqrt 2 and (v_i - v_j) / sqrt 2. Modes beyond 
 """
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -60,7 +61,7 @@ def _moving(shapes: RitzModes) -> np.ndarray:
 
 def _taken(shapes: RitzModes, index: np.ndarray) -> RitzModes:
     """Modes (F, k), others in each state."""
-    fields = {}
+    fields: dict[str, Any] = {}
     for name in ("omega", *_FIELDS):
         values = getattr(shapes, name)
         fields[name] = np.take_along_axis(values, index.reshape((*index.shape, *(1,) * (values.ndim - 2))), axis=1)
