@@ -2,8 +2,8 @@
 
 Whatever the law is, in each state it acts as a wrench on the platform and as errors of lengths, those of each cable and
 of all alike. Their sizes are those under which the readings are likeliest: one rms of each part of the wrench and of
-both errors of lengths, found by expectation and maximisation (Dempster, Laird, Rubin 1977) beside tolerances and noise. What
-sensors alone may have wrong stays noise.
+both errors of lengths, found by expectation and maximisation (Dempster, Laird, Rubin 1977) beside tolerances and
+noise. What sensors alone may have wrong stays noise.
 """
 
 from contextlib import suppress
