@@ -37,13 +37,13 @@ TENSION_STEP = 1e-3  # N
 NOISE = 4e-12  # rounding of ln omega, a few differences summed: up to 3e-12 with some processors' BLAS kernels
 
 
+VIBRATING = {"added_mass", "added_mass_place", "bending_stiffness", "bending_fixity"}
+"""Of cables with mass only."""
+
+
 def rates(modes, points, steps):
     """(B, F, M) rates of ln f towards nearby states after steps (B,)."""
     return log_changes(modes, changes_of(modes, points) / steps[:, None, None])
-
-
-VIBRATING = {"added_mass", "added_mass_place", "bending_stiffness", "bending_fixity"}
-"""Of cables with mass only."""
 
 
 @dataclass(frozen=True)
