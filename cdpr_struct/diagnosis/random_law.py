@@ -17,9 +17,9 @@ from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.evidence import Fit, fit
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.residuals.assembled import Lists, errors_of_states, linear_model
-from cdpr_struct.residuals.layout import Layout
+from cdpr_struct.residuals.layout import Layout, noise_of_states
 from cdpr_struct.residuals.linearised import Local, Outside
-from cdpr_struct.residuals.recorded import LENGTH, Recorded
+from cdpr_struct.residuals.recorded import Recorded
 from cdpr_struct.robot.changed_arrays import plus
 from cdpr_struct.robot.remainder import Remainder
 
@@ -44,7 +44,7 @@ def random_law(data: Recorded, where: Layout, null: Judged) -> RandomLaw:
     with suppress(CdprError, np.linalg.LinAlgError):  # where these numbers are the robot may have no stable equilibrium
         there = replace(null, point=found[0].likeliest(data, where))
         found = _fitted(data, where, there, found[1], found[0].fit.noise)
-    return RandomLaw(found[0], _remainder(data, *found))
+    return RandomLaw(found[0], _remainder(data, where, *found))
 
 
 def _fitted(
@@ -86,13 +86,15 @@ def _grown(found: Fit, columns: list[np.ndarray], kinds: np.ndarray) -> np.ndarr
     return np.sqrt(np.where(count > 0, square / np.maximum(count, 1), 1.0))
 
 
-def _remainder(data: Recorded, law: Judged, size: np.ndarray) -> Remainder:
-    """As predictions need it: a robot's lengths are off by what its encoders are off beyond their sigma, too."""
-    read, (x, y, z, rx, ry, rz, own, alike) = data.read[:, 6 + data.cables :], size.tolist()
+def _remainder(data: Recorded, where: Layout, law: Judged, size: np.ndarray) -> Remainder:
+    """As predictions need it: a robot's lengths are off by what its encoders are off beyond their sigma, too, odd
+    readings included: a clamp that slips once will do so again."""
+    lengths, (x, y, z, rx, ry, rz, own, alike) = slice(6 + data.cables, None), size.tolist()
+    read = data.read[:, lengths]
     if not read.any():
         return Remainder((x, y, z), (rx, ry, rz), frequency=_scatter(law))
-    sigma = float(data.sigma[:, 6 + data.cables :][read].mean())
-    own = float(np.hypot(own, _beyond(float(law.fit.noise.tau[LENGTH])) * sigma))
+    off = noise_of_states(data, where, law.fit.noise_mean)[:, lengths][read]
+    own = float(np.hypot(own, _beyond(float(np.sqrt(np.mean(off**2)))) * data.sigma[:, lengths][read].mean()))
     return Remainder((x, y, z), (rx, ry, rz), own, alike, _scatter(law))
 
 
