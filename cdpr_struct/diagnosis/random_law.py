@@ -13,7 +13,8 @@ import numpy as np
 
 from cdpr_struct.association.peak_noise import SCALES
 from cdpr_struct.errors import CdprError
-from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.hypotheses.hypothesis import Hypothesis
+from cdpr_struct.hypotheses.judge import Judged, judged
 from cdpr_struct.inference.evidence import Fit, fit
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.residuals.assembled import Lists, errors_of_states, linear_model
@@ -37,7 +38,11 @@ class RandomLaw:
 
 
 def random_law(data: Recorded, where: Layout, null: Judged) -> RandomLaw:
-    """Of a campaign of which no cause explains what is wrong; null : nothing wrong, as it was fitted."""
+    """Of a campaign of which no cause explains what is wrong; null : nothing wrong, as it was fitted.
+
+    Whether sensors drift is not known beside an unknown law: what changes with time counts for the robot.
+    """
+    null = judged(data, where, Hypothesis(), noise=null.fit.noise) if null.hypothesis.drift else null
     sizes = np.repeat([_FORCE, _FORCE * data.radius, _LENGTH], (3, 3, 2))
     starts = (NoiseState.stated(null.model.groups), null.fit.noise)
     found = max((_fitted(data, where, null, sizes, noise) for noise in starts), key=lambda one: one[0].log_evidence)
