@@ -13,6 +13,7 @@ from cdpr_struct.bands.mode_rates import ModeRates
 from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.diagnosis.random_law import random_law
 from cdpr_struct.errors import InputError
+from cdpr_struct.hypotheses.drift import ENCODERS, drifts
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import judged
 from cdpr_struct.residuals.layout import layout
@@ -83,6 +84,19 @@ def test_forces_in_one_direction_and_lengths_that_are_off_alike_are_told_apart()
     assert max(found.force_N[:2]) < 5.0
     assert found.common_length_m == pytest.approx(0.004, rel=0.45)
     assert found.length_m < 1e-3
+
+
+def test_lengths_that_drift_count_for_the_robot():
+    campaign = shaken(0.0, 0.0, 9)
+    states = campaign.states
+    data = recorded(
+        replace(campaign, states=replace(states, length=states.length + np.linspace(0.0, 0.006, STATES)[:, None]))
+    )
+    where, drift = layout(data), next(one for one in drifts(data) if one.sensor == ENCODERS)
+    drifting = judged(data, where, Hypothesis(drift=drift))
+    assert drifting.score > judged(data, where, Hypothesis()).score
+    found = random_law(data, where, drifting).remainder.common_length_m
+    assert 0.0015 < found < 0.0036  # 6 mm over the root of 12 about their mean, of the root of 3 about nothing
 
 
 def test_nothing_is_left_where_nothing_is_wrong():
