@@ -123,18 +123,14 @@ def frequencies_at(
     return np.where(kept, np.log(shapes.omega / (2.0 * np.pi)), np.inf), np.where(kept, shapes.platform_energy, 0.0)
 
 
-def rates(modes: VibratingModes, points: OperatingPoint, steps: np.ndarray) -> np.ndarray:
-    """d ln f / d(step) (B, F, M) towards nearby states.
-
-    points : (B, F) operating points after steps (B,), small enough for their cables to change linearly
-    """
-    change = changes_of(modes, points) / np.asarray(steps, dtype=float)[:, None, None]
-    return np.moveaxis(np.moveaxis(change, 0, 1) @ modes.gradient, 0, 1)
-
-
 def changes_of(modes: VibratingModes, points: OperatingPoint) -> np.ndarray:
     """(B, F, n) change of what modes depend on towards nearby states (B, F)."""
     return np.asarray(Dependence.of(points, modes.assembly).vector - modes.dependence)
+
+
+def log_changes(modes: VibratingModes, change: np.ndarray) -> np.ndarray:
+    """(B, F, M) changes of ln f by small changes (B, F, n) of what modes depend on."""
+    return np.moveaxis(np.moveaxis(change, 0, 1) @ modes.gradient, 0, 1)
 
 
 def _collected(found: ExpandedModes, gradient: np.ndarray, kept: np.ndarray, assembly: Assembly) -> VibratingModes:

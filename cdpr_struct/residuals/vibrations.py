@@ -24,6 +24,7 @@ from cdpr_struct.observation.robot_modes import (
     VibratingModes,
     changes_of,
     frequencies_at,
+    log_changes,
     modes_at,
     of_states_apart,
 )
@@ -148,7 +149,7 @@ class Vibrating:
         if self.robot is None:
             return own, np.zeros((count, len(self.measured.states), 0)), np.zeros((count, len(self.measured.sizes)))
         change = self._changed(point, count)
-        robot = np.moveaxis(np.moveaxis(change, 0, 1) @ self.robot.gradient, 0, 1)
+        robot = log_changes(self.robot, change)
         sizes = np.zeros((count, len(self.measured.sizes)))
         if self.sizes is not None:
             sizes = np.einsum("ban,an->ba", change[:, self.sizes.row], self.sizes.gradient, optimize=True)

@@ -1,48 +1,53 @@
 """What no cause explains of a robot, as a random law: at every rest another error, independent of all others."""
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import astuple, dataclass, fields, replace
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from cdpr_struct.robot.tolerances import VARIED, Spread, Varied, change_count, places
+
+Three = tuple[float, float, float]
+_NONE: Three = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
 class Remainder:
     """Rms of normal errors that a robot has anew at every rest.
 
-    force_N, moment_Nm : each component of a force and moment on the platform origin, world axes
-    length_m           : the length of each cable
-    frequency          : relative, each natural frequency
+    force_N, moment_Nm : of the parts along x, y, z of a force and moment on the platform origin, world axes
+    length_m           : of the length of each cable by itself
+    common_length_m    : of an error of all lengths alike
+    frequency          : relative, of each natural frequency
 
     Raises
     ------
-    ValueError : a size that is negative or no number.
+    ValueError : a size that is negative or no number, or a force that has not three parts.
     """
 
-    force_N: float = 0.0
-    moment_Nm: float = 0.0
+    force_N: Three = _NONE
+    moment_Nm: Three = _NONE
     length_m: float = 0.0
+    common_length_m: float = 0.0
     frequency: float = 0.0
 
     def __post_init__(self) -> None:
-        for one in fields(self):
-            if not 0.0 <= getattr(self, one.name) < np.inf:
-                raise ValueError(f"Remainder.{one.name} must be zero or more, got {getattr(self, one.name)!r}")
+        for one, value in zip(fields(self), astuple(self), strict=True):
+            sizes = np.asarray(value, dtype=float)
+            if sizes.shape not in ((), (3,)) or not ((sizes >= 0.0) & (sizes < np.inf)).all():
+                raise ValueError(f"Remainder.{one.name} must be zero or more, got {value!r}")
 
     def beside(self, spread: Spread, cables: int) -> Spread:
         """Robots that are probable at a rest: those of a spread, each with errors of its own."""
         known = {one.field for one in spread.found}
-        new = tuple(Varied.found(name) for name in ("force", "moment") if name not in known)
-        varied = (*spread.varied, *new)
+        varied = (*spread.varied, *(Varied.found(name) for name in ("force", "moment") if name not in known))
         own = dict(zip((one.field for one in varied), places(cables, varied), strict=True))
+        lengths = np.hstack([self.length_m * np.eye(cables), np.full((cables, 1), self.common_length_m)])
         count = change_count(cables, varied)
-        sizes = np.zeros(count)
-        for field, size in (("force", self.force_N), ("moment", self.moment_Nm), ("length_offset", self.length_m)):
-            sizes[own[field]] = size
+        errors = np.zeros((count, 6 + lengths.shape[1]))
+        rows = np.concatenate([np.arange(count)[own[field]] for field in ("force", "moment", "length_offset")])
+        errors[rows] = block_diag(np.diag(self.force_N), np.diag(self.moment_Nm), lengths)
         more = count - len(spread.mean)
-        root = np.hstack([np.pad(spread.root, [(0, more), (0, 0)]), np.diag(sizes)[:, sizes > 0.0]])
-        scatter = float(np.hypot(spread.scatter, self.frequency))
-        return replace(
-            spread, root=root, mean=np.pad(spread.mean, (0, more)), found=varied[len(VARIED) :], scatter=scatter
-        )
+        root = np.hstack([np.pad(spread.root, [(0, more), (0, 0)]), errors[:, errors.any(axis=0)]])
+        mean, scatter = np.pad(spread.mean, (0, more)), float(np.hypot(spread.scatter, self.frequency))
+        return replace(spread, root=root, mean=mean, found=varied[len(VARIED) :], scatter=scatter)

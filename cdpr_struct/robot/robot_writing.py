@@ -64,8 +64,15 @@ def _posterior(spread: Spread) -> list[str]:
 
 def _remainder(law: Remainder) -> list[str]:
     """Lines of the table of what a diagnosis left unexplained."""
-    sizes = [f"{name} = {float(f'{size:.6e}')!r}" for name, size in asdict(law).items()]
+    sizes = [f"{name} = {_rounded(size)}" for name, size in asdict(law).items()]
     return ["[remainder]  # unexplained: rms of errors that are new at every rest", *sizes]
+
+
+def _rounded(size: float | Sequence[float]) -> str:
+    """A number, or several as a list, to seven digits."""
+    if isinstance(size, Sequence):
+        return f"[{', '.join(map(_rounded, size))}]"
+    return repr(float(f"{size:.6e}"))
 
 
 def _numbers(values: np.ndarray) -> str:

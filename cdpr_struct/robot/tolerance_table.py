@@ -44,9 +44,10 @@ class RemainderTable(BaseModel):
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
-    force_N: _Rms = 0.0
-    moment_Nm: _Rms = 0.0
+    force_N: tuple[_Rms, _Rms, _Rms] = (0.0, 0.0, 0.0)
+    moment_Nm: tuple[_Rms, _Rms, _Rms] = (0.0, 0.0, 0.0)
     length_m: _Rms = 0.0
+    common_length_m: _Rms = 0.0
     frequency: _Rms = 0.0
 
 

@@ -12,7 +12,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.ritz_modes import ritz_modes
 from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.observation.cable_modes import CableRows, cable_modes_at, cable_rates
-from cdpr_struct.observation.robot_modes import modes_at, of_states_apart, rates
+from cdpr_struct.observation.robot_modes import changes_of, log_changes, modes_at, of_states_apart
 from cdpr_struct.robot.parameters import PARAMETERS
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.robot.robot_file import load_robot
@@ -39,6 +39,11 @@ NOISE = 4e-12  # rounding of ln omega, a few differences summed: up to 3e-12 wit
 
 VIBRATING = {"added_mass", "added_mass_place", "bending_stiffness", "bending_fixity"}
 """Of cables with mass only."""
+
+
+def rates(modes, points, steps):
+    """(B, F, M) rates of ln f towards nearby states after steps (B,)."""
+    return log_changes(modes, changes_of(modes, points) / steps[:, None, None])
 
 
 @dataclass(frozen=True)

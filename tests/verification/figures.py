@@ -104,6 +104,16 @@ def band_coverage() -> Figure:
     return Figure(f"of {robots}: {counts}; p {min(row[4] for row in rows)} or more", all(inside + uniform))
 
 
+def after_unknown() -> Figure:
+    """Percentages inside 50, 90 and 99 % bands, none below nominal by more than five."""
+    rows = [row for row in table("benchmarks.md", "effect outside the library") if row[0].endswith(", unknown")]
+    shares = [[tuple(map(int, cell.split(" / "))) for cell in row[2:5]] for row in rows]
+    met = all(
+        own >= nominal - 5 for row in shares for cell in row for own, nominal in zip(cell, (50, 90, 99), strict=True)
+    )
+    return Figure("; ".join(f"{row[0].split(',')[0]} {', '.join(row[2:5])} %" for row in rows), met)
+
+
 def virtual_sensors() -> Figure:
     """Shares of true tensions in 90 % bands, each beside the standard error of its mean over robots."""
     rows = table("virtual_sensors.md", "robot", "read", "one sigma")

@@ -383,6 +383,17 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=figures.band_coverage,
         ),
         Row(
+            case="30 blind robots called `unknown`, an effect outside the library, three new poses each",
+            reference="FEM of the true robots",
+            metric="truths inside the 50, 90 and 99 % bands of frequencies, positions and tensions",
+            acceptance="never below nominal by more than 5 points",
+            command="python -m benchmarks diagnosed-bands --set results/held --out held-bands",
+            test=f"{_LAWS}/test_random_law.py::test_bands_hold_forces_that_are_new_at_every_rest",
+            twin=f"{_LAWS}/test_random_law.py::test_nothing_is_left_where_nothing_is_wrong",
+            source="benchmarks.md",
+            figure=figures.after_unknown,
+        ),
+        Row(
             case="tensions without cells: 20 robots in motion, 20 of nine stretched lines with 3 gauges, 20 without",
             reference="FEM of robots off by draws from their tolerances",
             metric="true tensions inside the 90 % bands of `diagnose --virtual-sensors`",

@@ -130,7 +130,8 @@ DESCRIPTIONS = {
     "pose_mismatch": Description(
         "true pose of one state = pose read, turned and shifted by the parameters",
         "what turns the entered pose into the true one",
-        "Everything is off in one state and nothing in the others",
+        "Everything is off in one state and nothing in the others. Where two records of vibration are filed under "
+        "each other's case, frequencies and modal constants of these two states are those of the other pose",
     ),
     "platform_mass": Description(
         "mass becomes mass times the factor; the inertia stays",

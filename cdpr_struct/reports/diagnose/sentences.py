@@ -221,6 +221,10 @@ def _unknown(found: Diagnosis) -> list[str]:
     return parts
 
 
+def _rms(parts: Sequence[float]) -> str:
+    return ", ".join(f"{part:.2g}" for part in parts)
+
+
 def _left_at_random(found: Diagnosis) -> list[str]:
     """How large what is left is, for predictions."""
     left = found.left_at_random
@@ -228,9 +232,9 @@ def _left_at_random(found: Diagnosis) -> list[str]:
         return []
     peaks = f", and frequencies scatter by {100.0 * left.frequency:.2g} %" if left.frequency else ""
     return [
-        f"For predictions it counts as random, new at every rest: forces of {left.force_N:.2g} N and moments of "
-        f"{left.moment_Nm:.2g} N m (rms of each component), lengths off by {1e3 * left.length_m:.2g} mm{peaks}. Bands "
-        "of the extended robot hold it."
+        f"For predictions it counts as random, new at every rest: a force of {_rms(left.force_N)} N and a moment of "
+        f"{_rms(left.moment_Nm)} N m (rms along x, y, z), lengths off by {1e3 * left.length_m:.2g} mm each and "
+        f"{1e3 * left.common_length_m:.2g} mm all alike{peaks}. Bands of the extended robot hold it."
     ]
 
 
