@@ -33,9 +33,10 @@ class Remainder:
 
     def __post_init__(self) -> None:
         for one, value in zip(fields(self), astuple(self), strict=True):
-            sizes = np.asarray(value, dtype=float)
-            if sizes.shape not in ((), (3,)) or not ((sizes >= 0.0) & (sizes < np.inf)).all():
-                raise ValueError(f"Remainder.{one.name} must be zero or more, got {value!r}")
+            sizes, parts = np.asarray(value, dtype=float), one.name in ("force_N", "moment_Nm")
+            if sizes.shape != ((3,) if parts else ()) or not ((sizes >= 0.0) & (sizes < np.inf)).all():
+                wanted = "three numbers, each zero or more" if parts else "zero or more"
+                raise ValueError(f"Remainder.{one.name} must be {wanted}, got {value!r}")
 
     def beside(self, spread: Spread, cables: int) -> Spread:
         """Robots that are probable at a rest: those of a spread, each with errors of its own."""

@@ -91,7 +91,7 @@ def test_sensitivities_are_those_of_the_robot_with_its_numbers_as_they_are():
 
 def test_numbers_beside_the_tolerances_are_in_bands_of_maps_pose_errors_and_motions():
     """A force, a moment and lengths that are drawn anew at every rest, beside what a diagnosis found."""
-    robot = replace(diagnosed(), remainder=Remainder(force_N=30.0, moment_Nm=5.0, length_m=0.0005))
+    robot = replace(diagnosed(), remainder=Remainder(force_N=(30.0,) * 3, moment_Nm=(5.0,) * 3, length_m=0.0005))
     spread = spread_of(robot)
     found = BandedQuantity("tension-min", spread, 0.9, None, 200)(
         robot, robot.home.position[None] + 0.3, robot.home.rotation

@@ -229,6 +229,8 @@ def test_a_law_that_no_robot_can_have_is_refused(table, said):
 def test_no_size_is_negative():
     with pytest.raises(ValueError, match=r"Remainder\.length_m must be zero or more"):
         Remainder(length_m=-1.0)
+    with pytest.raises(ValueError, match=r"Remainder\.force_N must be three numbers"):
+        Remainder(force_N=1.0)
 
 
 @pytest.mark.parametrize("quantity", ["tension-min", "first-frequency", "pose-error"])
