@@ -66,8 +66,7 @@ def drawn_robots(
     around = np.remainder(turned + np.pi, 2.0 * np.pi) - np.pi
     pose = np.concatenate([rests.position, angles + around], axis=-1)
     modes = np.zeros((len(kept), 0)) if hertz is None else _like(point, rests, hertz, assembly, vibrating)
-    if spread.scatter:
-        modes = np.sort(modes * np.exp(spread.scatter * np.random.default_rng(_SEED + 1).standard_normal(modes.shape)))
+    modes = np.exp(spread.scattered(np.log(modes), _SEED + 1)) if spread.scatter else modes
     return DrawnRobots(kept, pose, rests.cables.tension_at_platform, modes, count - len(kept))
 
 

@@ -40,7 +40,7 @@ def frequency_bands(rates: ModeRates, spread: Spread, level: float) -> Frequency
     if meeting:
         changes = drawn_changes(spread)
     for group in meeting:
-        logarithm = _scattered(_drawn_frequencies(rates, group, changes), spread)
+        logarithm = spread.scattered(_drawn_frequencies(rates, group, changes), _SEED + 1)
         sigma[group] = logarithm.std(axis=0)
         ends = np.exp(np.quantile(logarithm, [0.5 - 0.5 * level, 0.5 + 0.5 * level], axis=0))
         low[group], high[group] = ends
@@ -55,18 +55,9 @@ def chance_above(rates: ModeRates, spread: Spread, mode: int, hertz: float) -> f
         sigma = float(np.hypot(spread.sigma(own)[0], spread.scatter))
         gap = float(np.log(rates.hertz[mode] / hertz))
         return float(ndtr(gap / sigma)) if sigma > 0.0 else float(gap > 0.0)
-    drawn = _scattered(_drawn_frequencies(rates, group, drawn_changes(spread)), spread)[
-        :, int(np.searchsorted(group, mode))
-    ]
-    return float((drawn > np.log(hertz)).mean())
-
-
-def _scattered(logarithm: np.ndarray, spread: Spread) -> np.ndarray:
-    """(n, g) drawn ln f with what each is off by itself; in ascending order again."""
-    if not spread.scatter:
-        return logarithm
-    own = np.random.default_rng(_SEED + 1).standard_normal(logarithm.shape)
-    return np.sort(logarithm + spread.scatter * own, axis=1)
+    drawn = spread.scattered(_drawn_frequencies(rates, group, drawn_changes(spread)), _SEED + 1)
+    own_place = int(np.searchsorted(group, mode))
+    return float((drawn[:, own_place] > np.log(hertz)).mean())
 
 
 def drawn_changes(spread: Spread) -> np.ndarray:

@@ -35,8 +35,9 @@ def unexplained_robot(data: Recorded, where: Layout, null: Judged) -> Robot:
     null : nothing wrong, as it was fitted
     """
     law = random_law(data, where, null)
-    robot = robot_from_arrays(data.campaign.robot, data.arrays, data.campaign.robot.extensions.causes)
-    return replace(robot, posterior=posterior_spread(data, law.judged, data.arrays), remainder=law.remainder)
+    return replace(
+        data.campaign.robot, posterior=posterior_spread(data, law.judged, data.arrays), remainder=law.remainder
+    )
 
 
 def extended_arrays(data: Recorded, sizes: Sequence[WholeSize]) -> RobotArrays:

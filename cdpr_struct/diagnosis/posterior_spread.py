@@ -5,9 +5,8 @@ import numpy as np
 from cdpr_struct.diagnosis.whole_sizes import over_scales
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.residuals.recorded import Recorded
-from cdpr_struct.robot.parameters import EXTENSIONS, SENSORS
 from cdpr_struct.robot.robot_arrays import RobotArrays
-from cdpr_struct.robot.tolerances import VARIED, Spread, Varied, change_between
+from cdpr_struct.robot.tolerances import FINDABLE, VARIED, Spread, Varied, change_between
 
 _STEP = 1e-3  # sigmas: changes are linear in it
 _SMALL = 1e-6  # of the largest singular value: directions below it are known exactly
@@ -30,10 +29,10 @@ def posterior_spread(data: Recorded, found: Judged, extended: RobotArrays) -> Sp
 
 
 def _found_off(entered: RobotArrays, robots: RobotArrays) -> tuple[Varied, ...]:
-    """Numbers beside those of tolerances in which probable robots differ, sensors' own left out."""
-    known = {*SENSORS, *(one.field for one in VARIED)}
-    rest = [Varied.found(name) for name in EXTENSIONS if name not in known]
-    return tuple(one for one in rest if np.ptp(change_between(entered, robots, (one,)), axis=0).any())
+    """Numbers beside those of tolerances in which probable robots differ."""
+    return tuple(
+        one for one in map(Varied.found, FINDABLE) if np.ptp(change_between(entered, robots, (one,)), axis=0).any()
+    )
 
 
 def _robots(data: Recorded, found: Judged, ways: np.ndarray) -> RobotArrays:

@@ -31,7 +31,7 @@ _STEP = 0.1  # N and N m, by which columns are differentiated
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RandomLaw:
-    """The fit beside which errors are random, and their sizes."""
+    """A fit with random errors in every state, and their rms."""
 
     judged: Judged
     remainder: Remainder

@@ -6,8 +6,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from cdpr_struct.errors import InputError
-from cdpr_struct.robot.parameters import EXTENSIONS, SENSORS
-from cdpr_struct.robot.tolerances import VARIED, Spread, Varied, change_count
+from cdpr_struct.robot.tolerances import FINDABLE, VARIED, Spread, Varied, change_count
 
 _Rms = Annotated[float, Field(strict=True, ge=0.0, le=1e12)]
 _Size = _Rms | None
@@ -68,10 +67,9 @@ class PosteriorTable(BaseModel):
         InputError : fields that no robot has, rows or numbers that are too many or too few; the file is called
             `source`.
         """
-        known = [name for name in EXTENSIONS if name not in {*SENSORS, *(one.field for one in VARIED)}]
         for name in self.found:
-            if name not in known or self.found.count(name) > 1:
-                raise InputError(source, "posterior.found", name, f"each once, and one of: {', '.join(known)}")
+            if name not in FINDABLE or self.found.count(name) > 1:
+                raise InputError(source, "posterior.found", name, f"each once, and one of: {', '.join(FINDABLE)}")
         found = tuple(Varied.found(name) for name in self.found)
         count = change_count(cables, (*VARIED, *found))
         if len(self.mean) != count:

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from cdpr_struct.robot.changed_arrays import plus, times
-from cdpr_struct.robot.parameters import CABLES, PARAMETERS
+from cdpr_struct.robot.parameters import CABLES, EXTENSIONS, PARAMETERS, SENSORS
 from cdpr_struct.robot.robot_arrays import RobotArrays
 
 _HALF = np.sqrt(0.5)  # of a relative tolerance's sigma is common to all cables, which come from one reel
@@ -104,6 +104,8 @@ VARIED = (
     Varied("pulley_radius", "pulley_radius_m", "m", (CABLES,)),
 )
 """In the order in which changes stand behind each other; what else a diagnosis found stands behind them."""
+FINDABLE = tuple(name for name in EXTENSIONS if name not in {*SENSORS, *(one.field for one in VARIED)})
+"""Fields that only a diagnosis finds to be off; sensors' own left out."""
 
 
 def places(cables: int, varied: Sequence[Varied] = VARIED) -> list[slice]:
@@ -214,6 +216,13 @@ class Spread:
     def sigma(self, rates: np.ndarray) -> np.ndarray:
         """(k,) of numbers with rates (p, k)."""
         return np.linalg.norm(rates.T @ self.root, axis=1)
+
+    def scattered(self, logarithm: np.ndarray, seed: int) -> np.ndarray:
+        """(n, k) ln f of drawn robots with what each is off by itself, ascending again."""
+        if not self.scatter:
+            return logarithm
+        own = np.random.default_rng(seed).standard_normal(logarithm.shape)
+        return np.sort(logarithm + self.scatter * own, axis=1)
 
     def drawn(self, normal: np.ndarray) -> np.ndarray:
         """(n, p) changes from standard normal numbers (n, t)."""
