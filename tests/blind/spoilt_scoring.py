@@ -44,7 +44,12 @@ def _no_mistake(case: Scored) -> tuple[str, ...]:
 
 
 def condition(case: Scored) -> str:
-    """The row of the table in which a case counts: its way and, where sizes are the question, its multiple."""
+    """The row of the table in which a case counts: its way and, where sizes are the question, its multiple.
+
+    Where every cause has its row, what it hides.
+    """
+    if case.truth.get("by_cause"):
+        return " + ".join(case.hidden)
     way, asked = str(case.truth["way"]), float(case.truth["asked"])
     return f"{way}, {asked:g}x" if case.truth["by_size"] else way
 

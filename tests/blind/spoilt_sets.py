@@ -7,12 +7,15 @@ few   : static campaigns, clean, of robots with two to five cables, and of other
 unread : static campaigns, clean, of robots with eight cables of whose pose nobody reads anything
 frfs, decays, motions : static campaigns with frequency responses, decays or tracked free motions, clean and spoilt
 wheels : static campaigns, clean, of robots without pulleys, with half of them, and with all but in their file
+causes : every cause alone, clear, in static campaigns and with frequencies, a third of them spoilt
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
+from itertools import product
 
 import numpy as np
 
@@ -29,10 +32,11 @@ from tests.blind.case_drawing import (
     sized,
     truth_record,
 )
-from tests.blind.catalogue import EQUIVALENT, LIBRARY, UNSEEN_IN_STATICS
+from tests.blind.catalogue import EQUIVALENT, HANDLING, LAWS, LIBRARY, RARE, UNSEEN_IN_STATICS
 from tests.blind.detectability import FEW, UNREAD
 from tests.blind.entered_robot import BARE_PART, HALF_SUFFIX
 from tests.blind.measuring_plan import PlanSize
+from tests.blind.note_errors import spoiled
 from tests.blind.observation import SlackStateError
 from tests.blind.sensors import INCLINATION_READ, NOTHING_READ, Noise, filed, picked, unplaced
 from tests.blind.spoiled_peaks import PeakSpoiler, spoil_peak_tables
@@ -66,6 +70,7 @@ class SpoiltKind:
     way     : how its readings are spoilt
     largest : largest multiple in the group; all have to be possible
     signal  : kind of the vibration records; "" for frequencies that somebody read
+    by_cause : its row of the table is that of what it hides
     """
 
     group: int
@@ -73,6 +78,7 @@ class SpoiltKind:
     way: str
     largest: float = CLEAR
     signal: str = ""
+    by_cause: bool = False
 
 
 def spoilt_kinds(name: str, total: int, base: int) -> list[SpoiltKind]:
@@ -80,6 +86,7 @@ def spoilt_kinds(name: str, total: int, base: int) -> list[SpoiltKind]:
     rng = np.random.default_rng([base, 0])
     kind = name.removesuffix(DEVELOPMENT)
     makers = {"messy": _messy, "peaks": _peaks, "sizes": _sizes, "few": _few, "unread": _unread, "wheels": _wheels}
+    makers["causes"] = _causes
     kinds = list(_signals(total, rng, RECORDED[kind]) if kind in RECORDED else makers[kind](total, rng))
     return [kinds[index] for index in rng.permutation(len(kinds))]
 
@@ -163,6 +170,30 @@ def _wheels(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
         group += 1
 
 
+def _causes(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
+    """As many cases of each cause, all clear: half without frequencies where rests show it, every third spoilt.
+
+    Laws have their typical size; a note-taker's mistake comes after whatever else spoils the readings.
+    """
+    laws = [name for name in LAWS if name not in RARE]
+    names = [*_names(False), *laws, *HANDLING]
+    for group, (number, name) in enumerate(product(range(total // len(names)), names)):
+        kind = "handling" if name in HANDLING else "law" if name in laws else "single"
+        statics = number % 2 == 0 and kind == "single" and name not in UNSEEN_IN_STATICS
+        robot = str(rng.choice(_able(name))) if statics else ""
+        multiple = 1.0 if kind == "law" else CLEAR
+        reality = CaseKind(kind, ((name, multiple),), statics=statics, robot=robot)
+        clean, spoiling = (MOTIONLESS, MESSY[1:]) if statics else (VIBRATING, PEAKS[1:])
+        way = str(rng.choice(spoiling)) if group % NULLS == 0 else clean
+        yield SpoiltKind(group, reality, way, multiple, by_cause=True)
+
+
+@cache
+def _able(name: str) -> list[str]:
+    """Robots at rest that can have four times the smallest detectable size of an effect."""
+    return [robot for robot in (*ROBOTS, *FEW) if _reaches(name, CLEAR, True, (robot,))]
+
+
 def _reaches(name: str, multiple: float, statics: bool, robots: Sequence[str] = ROBOTS) -> bool:
     """Whether some robot can have an effect of so many times its detectable size that is not absurd."""
     effect, rng = {**EQUIVALENT, **LIBRARY}[name], np.random.default_rng(0)
@@ -218,7 +249,7 @@ def read_case(kind: SpoiltKind, real: Reality, seed: tuple[int, ...]) -> Case:
         tables[kind.signal] = SignalSpoiler(kind.signal, kind.way, spoiler).table(real.seen, tables["static_state"])
     elif kind.reality.statics:
         tables = filed(real.plan, real.seen, real.deviations, noise)
-        said = "" if kind.way in (real.robot.name, *WHEELS) else spoil_readings(kind.way, tables, spoiler)
+        said = "" if kind.way in (real.robot.name, MOTIONLESS, *WHEELS) else spoil_readings(kind.way, tables, spoiler)
         if not real.robot.tracked:
             tables = unplaced(tables, INCLINATION_READ if real.robot.inclined else NOTHING_READ)
     else:
@@ -230,9 +261,13 @@ def read_case(kind: SpoiltKind, real: Reality, seed: tuple[int, ...]) -> Case:
     if kind.way == "bare":
         radius, shape = real.robot.pulley_radius, real.robot.name.partition(BARE_PART)[2]
         effects = [{"cause": "missing_pulleys", "multiple": None, "size": radius, "unit": "m", "shape": shape}]
+    if kind.reality.kind == "handling":
+        name = kind.reality.effects[0][0]
+        effects = [{"cause": name, "multiple": None, "variant": spoiled(name, tables, spoiler)}]
     truth = truth_record(kind.reality, real.robot, effects, real.deviations)
-    truth |= {"kind": "single"} if kind.way == "bare" else {}
+    truth |= {"kind": "single"} if kind.way == "bare" or kind.by_cause else {}
     truth |= {"may_be_said": may_be_said(kind.signal, kind.way)} if kind.signal else {}
     asked = max((multiple for _, multiple in kind.reality.effects), default=0.0)
     truth |= {"way": kind.way, "group": kind.group, "spoilt": said, "asked": asked}
-    return Case(real.robot, tables, truth | {"by_size": kind.way in (MOTIONLESS, VIBRATING)})
+    by_size = kind.way in (MOTIONLESS, VIBRATING) and not kind.by_cause
+    return Case(real.robot, tables, truth | {"by_size": by_size, "by_cause": kind.by_cause})

@@ -194,6 +194,25 @@ def test_sets_have_their_composition_and_seeds_of_their_own():
     assert len(set(SET_SEEDS.values())) == len(SET_SEEDS)
 
 
+def test_every_cause_of_a_campaign_is_hidden_as_often_and_a_third_of_them_in_spoilt_readings():
+    kinds = spoilt_kinds("causes", 62, 5)
+    hidden = Counter(kind.reality.effects[0][0] for kind in kinds)
+    assert set(hidden.values()) == {2}
+    assert set(hidden) == {*LIBRARY, *IN_SERIES, *HANDLING, *LAWS} - set(RARE)
+    assert sum(kind.way not in ("static", "with frequencies") for kind in kinds) / 62 == pytest.approx(1.0 / 3.0, abs=0.01)
+    for kind in kinds:
+        assert kind.way in ("static", *MESSY) if kind.reality.statics else kind.way in ("with frequencies", *PEAKS)
+        assert kind.reality.effects[0][1] == (1.0 if kind.reality.kind == "law" else 4.0)
+
+
+def test_a_mistake_of_the_note_taker_comes_after_what_spoils_the_peaks():
+    kind = CaseKind("handling", (("unit_error", 4.0),), size=SMALL)
+    real = group_realities([SpoiltKind(0, kind, "line")], SEED)[kind]
+    case = read_case(SpoiltKind(0, kind, "line", by_cause=True), real, (5, 7))
+    assert case.truth["effects"][0]["variant"] in ("kilogram-force", "rad/s", "rad")
+    assert condition(Scored("c1", case.truth, Answer("adequate", (), (), None, {}, {}, 1.0))) == "unit_error"
+
+
 def scored(kind: str, way: str, status: str, names: tuple[str, ...], probability: float = 0.95) -> Scored:
     hidden = [{"cause": "drum_scale", "multiple": 4.0}] if kind == "single" else []
     truth = {"kind": kind, "effects": hidden, "way": way, "asked": 4.0, "by_size": False, "robot": "cogiro"}
