@@ -71,7 +71,7 @@ NUMBERS_PER_ROBOT = {
     "cell_fading": 1,  # ratio - 1 of all cells at the last state, nothing at the first
     "noon_frame": 1,  # m by which exits at 5 m from the middle are farther out at noon, half way through the campaign
     "tracker_heading": 1,  # rad about the vertical that the tracker adds at 3 m in x
-    "second_layer": 1,  # m that a drum pays out more beyond 6 m of cable, where its rope lies in one layer
+    "second_layer": 1,  # m that a drum pays out more beyond its length at home, where its rope lies in one layer
     "clamp_slip": 1,  # m by which the third cable is longer in the later half of the campaign
     "cubic_hose": 1,  # N at 1 m from home, with the cube of that distance
 }

@@ -55,6 +55,11 @@ class EnteredRobot:
         return self.cables < FREEDOMS
 
     @property
+    def home_lengths(self) -> np.ndarray:
+        """Straight lengths (m,) [m] at home, untilted."""
+        return np.asarray(np.linalg.norm(self.home + self.platform_anchors - self.frame_anchors, axis=1))
+
+    @property
     def cables(self) -> int:
         """Number m of cables."""
         return len(self.frame_anchors)

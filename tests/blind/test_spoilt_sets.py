@@ -9,12 +9,22 @@ import pytest
 from tests.blind.answers import Answer
 from tests.blind.campaign_files import write_case
 from tests.blind.case_drawing import Case, CaseKind
+from tests.blind.catalogue import HANDLING, LAWS, LIBRARY, RARE
 from tests.blind.measuring_plan import PlanSize
 from tests.blind.scoring import Scored
 from tests.blind.sensors import POSE, SIGMA, Noise
 from tests.blind.spoiled_peaks import PeakSpoiler, merged
-from tests.blind.spoilt_scoring import spoilt_figures, spoilt_page, spoilt_right
-from tests.blind.spoilt_sets import MESSY, PEAKS, SIZES, SpoiltKind, group_realities, read_case, spoilt_kinds
+from tests.blind.spoilt_scoring import condition, spoilt_figures, spoilt_page, spoilt_right
+from tests.blind.spoilt_sets import (
+    IN_SERIES,
+    MESSY,
+    PEAKS,
+    SIZES,
+    SpoiltKind,
+    group_realities,
+    read_case,
+    spoilt_kinds,
+)
 from tests.blind.suite import SET_SEEDS
 
 SMALL = PlanSize(static_states=6, locks=2, loads_per_lock=2, frequency_states=2)
@@ -199,7 +209,9 @@ def test_every_cause_of_a_campaign_is_hidden_as_often_and_a_third_of_them_in_spo
     hidden = Counter(kind.reality.effects[0][0] for kind in kinds)
     assert set(hidden.values()) == {2}
     assert set(hidden) == {*LIBRARY, *IN_SERIES, *HANDLING, *LAWS} - set(RARE)
-    assert sum(kind.way not in ("static", "with frequencies") for kind in kinds) / 62 == pytest.approx(1.0 / 3.0, abs=0.01)
+    assert sum(kind.way not in ("static", "with frequencies") for kind in kinds) / 62 == pytest.approx(
+        1.0 / 3.0, abs=0.01
+    )
     for kind in kinds:
         assert kind.way in ("static", *MESSY) if kind.reality.statics else kind.way in ("with frequencies", *PEAKS)
         assert kind.reality.effects[0][1] == (1.0 if kind.reality.kind == "law" else 4.0)
@@ -210,7 +222,7 @@ def test_a_mistake_of_the_note_taker_comes_after_what_spoils_the_peaks():
     real = group_realities([SpoiltKind(0, kind, "line")], SEED)[kind]
     case = read_case(SpoiltKind(0, kind, "line", by_cause=True), real, (5, 7))
     assert case.truth["effects"][0]["variant"] in ("kilogram-force", "rad/s", "rad")
-    assert condition(Scored("c1", case.truth, Answer("adequate", (), (), None, {}, {}, 1.0))) == "unit_error"
+    assert condition(Scored("c1", case.truth, Answer("adequate", (), (), 0.5, 1.0, {}))) == "unit_error"
 
 
 def scored(kind: str, way: str, status: str, names: tuple[str, ...], probability: float = 0.95) -> Scored:

@@ -98,3 +98,14 @@ def test_a_rope_that_slips_is_longer_afterwards_and_no_other(plan):
     slipped = EXACT.plus("clamp_slip", np.full(1, 0.01))
     more = [true_lengths(slipped, command) - command.lengths for command in (plan.statics[0], plan.locks[0][-1])]
     np.testing.assert_allclose(more, [np.zeros(8), 0.01 * np.eye(8)[2]], atol=1e-12)
+
+
+def test_a_drum_pays_out_more_beyond_its_home_length_which_a_plan_crosses(plan):
+    layered = EXACT.plus("second_layer", np.full(1, 0.01))
+    more = np.array([true_lengths(layered, c, ROBOT.home_lengths) - c.lengths for c in plan.statics])
+    longer = np.array([command.lengths for command in plan.statics]) - ROBOT.home_lengths
+    assert (np.ptp(longer, axis=0) > 0.2).all()
+    np.testing.assert_allclose(more[longer > 0.5], 0.01, atol=1e-4)
+    np.testing.assert_allclose(more[longer < -0.5], 0.0, atol=1e-4)
+    assert (longer > 0.5).any()
+    assert (longer < -0.5).any()

@@ -29,7 +29,7 @@ BEDDED = 300.0  # N, over which the wires of a rope bed down
 JOINT_RADIUS = 0.03  # m, a joint is a ball of it
 HOOK = np.array([1.0, -0.5, 2.5])  # m from home, of the balancer's line
 MAGNET = np.array([0.8, 0.5, -2.0])  # m from home, of the place on the floor
-MIDDLE, REACH, CHANGE = 6.0, 3.0, 0.2  # m: of a drum, from there, and along which it changes its layer
+MIDDLE, REACH, CHANGE = 6.0, 3.0, 0.2  # m: of an encoder, from there, and along which a drum changes its layer
 SETTLING_DAY = 0.2  # share of the campaign in which settling exits sink by all but 1 / e
 FRAME_REACH = 5.0  # m
 HOURS = 4.0  # that a campaign takes
@@ -58,13 +58,13 @@ class Command:
     motion: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))
 
 
-def true_lengths(deviations: Deviations, command: Command) -> np.ndarray:
-    """Unstrained lengths (m,) [m] that are really paid out."""
+def true_lengths(deviations: Deviations, command: Command, home: np.ndarray | float = MIDDLE) -> np.ndarray:
+    """Unstrained lengths (m,) [m] that are really paid out; drums change their layer at lengths `home` (m,) [m]."""
     wanted, phases = command.lengths, 0.7 * np.arange(len(command.lengths))
     eccentric = deviations["drum_eccentricity"] * np.sin(2.0 * np.pi * wanted / DRUM_CIRCUMFERENCE + phases)
     paid = wanted + deviations["unstrained_length_offset"] + eccentric + deviations["backlash"] * command.approach
     paid = paid + deviations["encoder_quadratic"] * ((wanted - MIDDLE) / REACH) ** 2
-    paid = paid + deviations["second_layer"] * 0.5 * (1.0 + np.tanh((wanted - MIDDLE) / CHANGE))
+    paid = paid + deviations["second_layer"] * 0.5 * (1.0 + np.tanh((wanted - home) / CHANGE))
     paid = paid + deviations["clamp_slip"] * (np.arange(len(wanted)) == 2) * (command.day > 0.5)
     paid = paid + deviations["brake_slip"] * HOURS * command.day
     warmed = 1.0 + EXPANSION * deviations["cable_warming"] * command.day
@@ -221,7 +221,7 @@ def true_robot(
     return RobotData(
         anchors,
         (robot.platform_anchors + _offsets(deviations, "platform")) * warmth,
-        true_cables(robot, deviations, true_lengths(deviations, command), about, command.day),
+        true_cables(robot, deviations, true_lengths(deviations, command, robot.home_lengths), about, command.day),
         platform,
         true_gravity(robot, deviations),
         pulleys,
