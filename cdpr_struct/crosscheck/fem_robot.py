@@ -9,7 +9,7 @@ from cdpr_struct.dynamics.operating_point import OperatingPoint
 from cdpr_struct.dynamics.robot_dynamic_stiffness import attachment
 from cdpr_struct.errors import CdprError
 from cdpr_struct.robot.extensions import masts_of
-from cdpr_struct.robot.robot import FREEDOMS, Robot
+from cdpr_struct.robot.robot import Robot
 from cdpr_struct.statics.masts import carriers, of_each_mast
 
 NOT_IN_FEM = ("bending_stiffness", "added_mass", "internal_mass", "swinging_mass")
@@ -50,7 +50,7 @@ def to_fem(
     )
     body = robot.platform
     platform = fem.PlatformData(body.mass, np.array(body.center_of_mass), np.array(body.inertia))
-    guided = tuple(i for i, name in enumerate(FREEDOMS) if name in robot.guided)
+    guided = tuple(np.flatnonzero(robot.held_freedoms).tolist())
     pulleys = tuple(None if p is None else fem.PulleyData(p.radius, np.array(p.axis)) for p in robot.pulleys)
     anchors = np.array(robot.frame_anchors), np.array(robot.platform_anchors)
     around, air = _surroundings(robot), (np.array(more.wind), more.air_density)

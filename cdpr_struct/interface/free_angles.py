@@ -10,7 +10,7 @@ from cdpr_struct.errors import InputError, UnholdablePoseError
 from cdpr_struct.interface.arguments import one_of
 from cdpr_struct.interface.winches import require_locked_lengths, require_own_winches, wound
 from cdpr_struct.robot.pose import Pose, angle_between, angles_from_rotation
-from cdpr_struct.robot.robot import FREEDOMS, Robot
+from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.equilibrium import PlatformArms
 from cdpr_struct.statics.even_orientation import even_orientation
@@ -140,7 +140,7 @@ def read_free(given: FreeAngles, robot: Robot, angles: np.ndarray) -> tuple[np.n
     if held := [name for name in names if name in robot.guided]:
         what = "it" if len(held) == 1 else "them"
         raise InputError("free", "", given, f"leave out {', '.join(held)}: a guide of {robot.name} holds {what}")
-    guided = np.array([name in robot.guided for name in FREEDOMS])
+    guided = robot.held_freedoms
     try:
         free = left_free(asked, *_holding(robot, guided))
     except ValueError as error:

@@ -7,7 +7,7 @@ import numpy as np
 
 from cdpr_struct.errors import InputError, UnholdablePoseError
 from cdpr_struct.robot.pose import Pose
-from cdpr_struct.robot.robot import FREEDOMS, Robot
+from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.cable_state import CableStates
 from cdpr_struct.statics.free_orientation import left_free
@@ -155,7 +155,7 @@ def held_on_shared_winches(robot: Robot, where: Pose, model: str) -> InverseSolu
     ------
     UnholdablePoseError : the platform does not rest there, or turned otherwise; the message says how.
     """
-    guided = np.array([name in robot.guided for name in FREEDOMS])
+    guided = robot.held_freedoms
     try:
         free = left_free((False,) * 3, robot.winches.count, guided, ("winch", "winches"))
     except ValueError as error:

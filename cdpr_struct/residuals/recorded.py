@@ -15,7 +15,7 @@ from cdpr_struct.residuals.filled import encoder_zeros, filled
 from cdpr_struct.residuals.resting_poses import Spread, at_lengths, fitted_poses
 from cdpr_struct.residuals.swivels import Swivels, swivels
 from cdpr_struct.residuals.vibrations import Vibrations, vibrations
-from cdpr_struct.robot.robot import FREEDOMS, Robot
+from cdpr_struct.robot.robot import Robot
 from cdpr_struct.robot.robot_arrays import RobotArrays
 from cdpr_struct.statics.energy_descent import arm_scale
 
@@ -64,7 +64,7 @@ class Recorded:
     @property
     def held(self) -> np.ndarray:
         """(6,) bool, freedoms of the platform that a guide holds."""
-        return held_freedoms(self.campaign.robot)
+        return self.campaign.robot.held_freedoms
 
 
 def recorded(campaign: Campaign) -> Recorded:
@@ -129,7 +129,7 @@ def _redundant(campaign: Campaign, read: np.ndarray) -> bool:
     read (S, 6 + 2 m) : which readings exist; what is read of a freedom that a guide holds contradicts nothing
     """
     m, read = (read.shape[1] - 6) // 2, read.copy()
-    read[:, :6] &= ~held_freedoms(campaign.robot)
+    read[:, :6] &= ~campaign.robot.held_freedoms
     if campaign.cable_frequencies.hertz.size or campaign.robot_frequencies.hertz.size or campaign.series:
         return True
     turned = np.isfinite(campaign.states.swivel)
@@ -139,11 +139,6 @@ def _redundant(campaign: Campaign, read: np.ndarray) -> bool:
         for own in _blocks(campaign.states.lock)
     ]
     return max(count) > m
-
-
-def held_freedoms(robot: Robot) -> np.ndarray:
-    """(6,) bool, which of x, y, z, rx, ry, rz a guide holds."""
-    return np.array([name in robot.guided for name in FREEDOMS])
 
 
 def _places(campaign: Campaign) -> tuple[np.ndarray, np.ndarray]:

@@ -94,6 +94,11 @@ class Robot:
         if fault := winches_fault(self.cables):
             raise ValueError(fault)
 
+    @property
+    def held_freedoms(self) -> np.ndarray:
+        """(6,) bool, which of FREEDOMS a guide holds."""
+        return np.array([name in self.guided for name in FREEDOMS])
+
     def _settle_gravity(self) -> None:
         """Size and direction of gravity, which may have been given as one vector."""
         given = np.asarray(self.gravity, dtype=float)

@@ -10,7 +10,7 @@ from cdpr_struct.robot.extensions import drag, drag_across, masts_of, uprights_o
 from cdpr_struct.robot.lump import lump_arrays
 from cdpr_struct.robot.parameters import EXTENSIONS, PARAMETERS
 from cdpr_struct.robot.platform import joined_masses
-from cdpr_struct.robot.robot import FREEDOMS, Robot
+from cdpr_struct.robot.robot import Robot
 
 _KEPT = 16  # robots whose arrays are kept
 _LEAST_MODULUS = 0.05  # of E as entered: the law is a straight line and would end below zero
@@ -322,7 +322,7 @@ def _entered(robot: Robot) -> RobotArrays:
         inertia=robot.platform.inertia,
         gravity=np.asarray(robot.gravity, dtype=float),
         down=robot.down,
-        guided=np.array([float(name in robot.guided) for name in FREEDOMS]),
+        guided=robot.held_freedoms.astype(float),
         damping_ratio=robot.damping_ratio,
         thermal_expansion=np.array([cable.thermal_expansion for cable in robot.cables]),
         force_min=robot.force_min,
