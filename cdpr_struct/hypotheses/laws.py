@@ -176,6 +176,9 @@ def _of_tensions(local: Local, known: _Known) -> Iterator[Law]:
         yield cells.law(f"with the {words} cable's tension", np.roll(whole, neighbour, axis=1)[..., None])
     before = np.concatenate([whole[:1], whole[:-1]])  # states are filed in the order in which they were measured
     yield from cells.both("that lags behind the state before", (before - whole)[..., None])
+    later = np.linspace(0.0, 1.0, len(whole))[:, None]  # calibrated before the first state
+    worn = whole[..., None] * np.stack([later, later**2], axis=-1)
+    yield from cells.both("in proportion to the tension that changes with time", worn)
     for power, words in ((2, "square"), (3, "cube")):
         yield cells.law(f"with the {words} of the tension", whole[..., None] ** power)
     yield from _of_readings(cells, known)

@@ -113,7 +113,7 @@ OUTSIDE_HELD = {
         Effect("cell_fading", "ratio - 1 at the end", ("common",)),
         Effect("noon_frame", "m", ("common",)),
         Effect("tracker_heading", "rad at 3 m", ("common",)),
-        Effect("second_layer", "m", ("common",)),
+        Effect("second_layer", "m", ("common",), typical=1e-3),
         Effect("clamp_slip", "m", ("common",), signed=False),
         Effect("cubic_hose", "N at 1 m", ("common",), signed=False),
     )

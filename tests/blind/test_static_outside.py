@@ -21,7 +21,7 @@ SEEN_IN = {"cell_tilt": CELLS, "cell_fading": CELLS, "tracker_shear": TRACKER, "
 
 def grown(name: str) -> Deviations:
     """Four times what can be detected, as in the sets."""
-    size = reference_size(ROBOT.name, name, np.ones(1), statics=True)
+    size = STATIC_OUTSIDE[name].typical or reference_size(ROBOT.name, name, np.ones(1), statics=True)
     assert size is not None
     return EXACT.plus(name, np.full(1, 4.0 * size))
 

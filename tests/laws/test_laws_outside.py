@@ -57,6 +57,29 @@ def test_cells_that_lag_say_in_part_what_pulled_before(campaign, local):
     assert np.abs(found).max() > 1e-3
 
 
+def test_cells_whose_gain_fades_are_off_in_proportion_to_time_and_tension(campaign, local):
+    law = next(one for one in laws(local) if one.words.endswith("tension that changes with time, all alike"))
+    tension = campaign.states.tension
+    later = np.linspace(0.0, 1.0, len(tension))[:, None]
+    data = recorded(with_states(campaign, tension=tension * (1.0 + 0.02e-4 * later)))
+    changed = Local.about(data, Point.entered(data)).r
+    found = 1e-4 * law.columns.static[..., 0]
+    np.testing.assert_allclose(changed.static - local.r.static, found, rtol=1e-2, atol=1e-6)
+    assert np.abs(found).max() > 1e-3
+
+
+def test_cells_whose_gain_fades_are_unknown_and_none_whose_zeros_drift():
+    robot = load_robot("cogiro")
+    sound = noisy(written(robot, plan_of(robot, 12)), 8)
+    later = np.linspace(0.0, 1.0, 12)[:, None]
+    said = diagnosed(with_states(sound, tension=sound.states.tension * (1.0 - 0.05 * later)))
+    assert said.decision.status == "unknown", said.decision
+    assert "in proportion to the tension that changes with time" in said.outside[0]
+    zeros = np.cumsum(np.random.default_rng(2).normal(0.0, 1.5, (12, 8)), axis=0)
+    drifting = diagnosed(with_states(sound, tension=sound.states.tension + zeros - zeros[:1]))
+    assert drifting.decision.status == "adequate", drifting.decision
+
+
 @pytest.mark.parametrize("period", [0.17, 0.4, 1.1])
 def test_a_period_is_found_wherever_it_lies(period):
     rng = np.random.default_rng(3)
