@@ -93,8 +93,10 @@ def judged(
     return settled(data, where, _fitted(data, where, hypothesis, point, noise))
 
 
-def begun(data: Recorded, where: Layout, base: Judged, more: Hypothesis, z: np.ndarray) -> Judged:
-    """A hypothesis with one more cause than a judged one, from the numbers z of that cause on."""
+def begun(
+    data: Recorded, where: Layout, base: Judged, more: Hypothesis, z: np.ndarray, least: float = -np.inf
+) -> Judged:
+    """A hypothesis with one more cause than a judged one, from the numbers z of that cause on; `least` as in `settled`."""
     start = base.likeliest(data, where)
     point = replace(start.with_term(more.parts[-1].term, z), noise=start.noise)
     local = Local.about(data, point)
@@ -103,7 +105,7 @@ def begun(data: Recorded, where: Layout, base: Judged, more: Hypothesis, z: np.n
     known = len(base.fit.z_mean)
     covariance[:known, :known] = base.fit.z_covariance
     assigned = None if lists is None else lists.at_point(covariance)
-    return settled(data, where, _of_model(data, where, more, point, model, base.fit.noise, lists, assigned))
+    return settled(data, where, _of_model(data, where, more, point, model, base.fit.noise, lists, assigned), least)
 
 
 def extended(
@@ -122,15 +124,20 @@ def again(data: Recorded, where: Layout, found: Judged, noise: NoiseState) -> Ju
     return other if other.log_evidence >= found.log_evidence + WORTH else found
 
 
-def settled(data: Recorded, where: Layout, found: Judged) -> Judged:
-    """Linearised about its likeliest point until that stays where it is, or comes no nearer to that."""
-    for _ in range(PASSES):
+def settled(data: Recorded, where: Layout, found: Judged, least: float = -np.inf) -> Judged:
+    """Linearised about its likeliest point until that stays where it is, or comes no nearer to that.
+
+    Or until a score `least` would not be reached if each pass left gained as much as the last one.
+    """
+    for left in reversed(range(PASSES)):
         if found.moved < SETTLED:
             break
         nearer = _nearer(data, where, found)
         if nearer is None:
             break
-        found = nearer
+        before, found = found, nearer
+        if found.score + left * max(found.score - before.score, 0.0) < least:
+            break
     return found
 
 

@@ -214,8 +214,9 @@ class Search:
         for one in large:
             if one.part.cause.name not in present:
                 more = Hypothesis((*base.hypothesis.parts, one.part), base.hypothesis.drift)
+                least = self._ranked()[0].score - self.budget.hopeless
                 try:
-                    self.keep(begun(self.data, self.where, base, more, one.z))
+                    self.keep(begun(self.data, self.where, base, more, one.z, least))
                 except UnstableEquilibriumError:  # nor is a robot with so large a change one that was measured
                     continue
 
