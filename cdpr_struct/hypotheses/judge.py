@@ -96,7 +96,7 @@ def judged(
 def begun(
     data: Recorded, where: Layout, base: Judged, more: Hypothesis, z: np.ndarray, least: float = -np.inf
 ) -> Judged:
-    """A hypothesis with one more cause than a judged one, from the numbers z of that cause on; `least`: see `settled`."""
+    """A hypothesis with one more cause than a judged one, from those numbers z of it on; `least` as in `settled`."""
     start = base.likeliest(data, where)
     point = replace(start.with_term(more.parts[-1].term, z), noise=start.noise)
     local = Local.about(data, point)

@@ -223,3 +223,12 @@ def _of_poses(local: Local, known: _Known) -> Iterator[Law]:
         tracker = _Channel("pose", f"an error of the tracker's {words} that changes with", effect, local.states_of_rows)
         for feature, values in known.of_states.items():
             yield tracker.law(feature, tracker.each(values))
+        if words == "position":
+            yield tracker.law("the distance from the middle, outwards", _outwards(local.data.readings.position))
+
+
+def _outwards(position: np.ndarray) -> np.ndarray:
+    """(S, 3, 2) with the distance and with its cube, as a wrong scale and a lens move what a camera sees."""
+    x = position - position.mean(axis=0)
+    x = x / np.sqrt((x**2).sum(axis=-1).mean())
+    return np.stack([x, (x**2).sum(axis=-1, keepdims=True) * x], axis=-1)

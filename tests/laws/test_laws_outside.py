@@ -80,6 +80,31 @@ def test_cells_whose_gain_fades_are_unknown_and_none_whose_zeros_drift():
     assert drifting.decision.status == "adequate", drifting.decision
 
 
+def test_a_lens_moves_positions_outwards_with_the_distance_from_the_middle(campaign, local):
+    law = next(one for one in laws(local) if one.words.endswith("the distance from the middle, outwards"))
+    assert law.columns.count == 2
+    position = campaign.states.position
+    x = position - position.mean(axis=0)
+    far = x / np.sqrt((x**2).sum(axis=1).mean())
+    sigma = local.data.sigma[:, :3].mean(axis=0)
+    for number, moved in enumerate([far, (far**2).sum(axis=1, keepdims=True) * far]):
+        data = recorded(with_states(campaign, position=position + 1e-3 * 5.0 * sigma * moved))
+        changed = Local.about(data, Point.entered(data)).r
+        found = 1e-3 * law.columns.static[..., number]
+        np.testing.assert_allclose(changed.static - local.r.static, found, rtol=2e-2, atol=1e-5)
+        assert np.abs(found).max() > 1e-4
+
+
+def test_a_lens_is_unknown_and_no_temperature():
+    robot = load_robot("cogiro")
+    sound = noisy(written(robot, plan_of(robot, 12)), 8)
+    x = sound.states.position - sound.states.position.mean(axis=0)
+    bent = sound.states.position + 0.6e-3 * (x**2).sum(axis=1, keepdims=True) * x
+    said = diagnosed(with_states(sound, position=bent))
+    assert said.decision.status == "unknown", said.decision
+    assert "outwards" in said.outside[0]
+
+
 @pytest.mark.parametrize("period", [0.17, 0.4, 1.1])
 def test_a_period_is_found_wherever_it_lies(period):
     rng = np.random.default_rng(3)
