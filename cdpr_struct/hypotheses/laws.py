@@ -155,6 +155,9 @@ def _of_force_and_place(local: Local, known: _Known) -> Iterator[Law]:
     force = _Channel("force", "a force on the platform that changes with", moved, local.states_of_rows)
     for words, features in known.of_states.items():
         yield force.law(words, force.each(features))
+    outwards = _outwards(local.data.readings.position)
+    held = np.broadcast_to(np.eye(3), (len(outwards), 3, 3))  # a hose may also push at rest
+    yield force.law("the distance from the middle, outwards", np.concatenate([held, outwards], axis=-1))
     states = len(known.pull)
     yield force.law("every state", force.each(np.sqrt(states) * np.eye(states)))
     placed = local.of_three(lambda arrays, z: plus(arrays, center_of_mass=z), 1e-4).times(np.full(3, _PLACE))
@@ -228,7 +231,7 @@ def _of_poses(local: Local, known: _Known) -> Iterator[Law]:
 
 
 def _outwards(position: np.ndarray) -> np.ndarray:
-    """(S, 3, 2) with the distance and with its cube, as a wrong scale and a lens move what a camera sees."""
+    """(S, 3, 2) with the distance and with its cube, as lenses move what a camera sees and hoses pull."""
     x = position - position.mean(axis=0)
     x = x / np.sqrt((x**2).sum(axis=-1).mean())
     return np.stack([x, (x**2).sum(axis=-1, keepdims=True) * x], axis=-1)

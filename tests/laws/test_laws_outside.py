@@ -105,6 +105,23 @@ def test_a_lens_is_unknown_and_no_temperature():
     assert "outwards" in said.outside[0]
 
 
+def test_a_force_that_grows_with_the_cube_of_the_distance_pulls_outwards_and_needs_no_other_number(campaign, local):
+    law = next(
+        one
+        for one in laws(local)
+        if one.words.endswith("force on the platform that changes with the distance from the middle, outwards")
+    )
+    assert law.columns.count == 5
+    x = campaign.states.position - campaign.states.position.mean(axis=0)
+    far = x / np.sqrt((x**2).sum(axis=1).mean())
+    every = next(one for one in laws(local) if one.words.endswith("changes with every state")).columns.static
+    states = len(x)
+    each = every.reshape((*every.shape[:-1], 3, states)) / np.sqrt(states)
+    np.testing.assert_allclose(law.columns.static[..., :3], each.sum(axis=-1), atol=1e-9)
+    cube = (far**2).sum(axis=1, keepdims=True) * far
+    np.testing.assert_allclose(law.columns.static[..., 4], (each * cube.T).sum(axis=(-2, -1)), atol=1e-9)
+
+
 @pytest.mark.parametrize("period", [0.17, 0.4, 1.1])
 def test_a_period_is_found_wherever_it_lies(period):
     rng = np.random.default_rng(3)
