@@ -105,12 +105,9 @@ def test_a_lens_is_unknown_and_no_temperature():
     assert "outwards" in said.outside[0]
 
 
-def test_a_force_that_grows_with_the_cube_of_the_distance_pulls_outwards_and_needs_no_other_number(campaign, local):
-    law = next(
-        one
-        for one in laws(local)
-        if one.words.endswith("force on the platform that changes with the distance from the middle, outwards")
-    )
+def test_a_hose_that_stiffens_pulls_outwards_with_the_cube_of_the_distance(campaign, local):
+    outwards = [one for one in laws(local) if one.words.endswith("the distance from the middle, outwards")]
+    law = next(one for one in outwards if one.channel == "force")
     assert law.columns.count == 5
     x = campaign.states.position - campaign.states.position.mean(axis=0)
     far = x / np.sqrt((x**2).sum(axis=1).mean())
