@@ -27,6 +27,7 @@ from cdpr_struct.interface.modes import ASSEMBLIES
 from cdpr_struct.interface.operating_point import AtRest, pose_in_degrees, rest
 from cdpr_struct.interface.result import Files, Result
 from cdpr_struct.interface.vibration_model import read_model, require_valid
+from cdpr_struct.interface.winches import require_locked_lengths
 from cdpr_struct.reports import sensitivity_told as told
 from cdpr_struct.reports.extension_notes import with_extensions
 from cdpr_struct.reports.tolerances_told import of_a_robot
@@ -130,6 +131,7 @@ def sensitivity(
     wanted = _wanted(raise_mode, to)
     way, name = one_of(assembly, "assembly", ASSEMBLIES), read_model(model)
     machine = read_robot(robot, payload, mass, lower_bound, upper_bound, wrench, temperature, lumps=True, winches=True)
+    require_locked_lengths(machine, "rates are those of locked lengths")
     state = rest(machine, pose, lengths, start, free)
     require_valid(name, state.point, force)
     with state.advised():

@@ -64,6 +64,7 @@ def complaint(capsys) -> str:
         (["sensitivity", "cogiro", "--to", "3"], ["--raise is missing"]),
         (["sensitivity", "cogiro", "--raise", "mode:1"], ["--to is missing", "frequency in Hz"]),
         (["sensitivity", "cogiro", "--mode", "9"], ["mode: got 9", "1 to 6"]),
+        (["sensitivity", "examples/robots/gait-trainer/robot.toml"], ["winch_tension", "rates are those of locked"]),
     ],
 )
 def test_options(words, said, capsys):
