@@ -21,6 +21,7 @@ _STEPS = (1.0, 0.4, 0.1)  # of the way to the likeliest point, as long as that l
 WORTH = 0.1  # nats: a smaller difference is none; by so much must another start be better to be followed
 NEAR = 3.0  # sigmas: so far the model is straight, and a step that is no shorter only assigns peaks anew
 _BENDS = np.repeat([0.01, 0.005], 3)  # m, rad: a pose that moves so far counts as a sigma where it was not read
+_SLACKEST = 20.0  # weight over tension of a cable: no state with more is measured, and its modes take minutes
 _STILL = 0.01  # sigmas: so near its point the evidence of a hypothesis has converged
 SETTLED = 0.5  # sigmas: a point that moves less is where it was; what bends on so short a way is no tenth of a nat
 
@@ -95,10 +96,19 @@ def judged(
 
 def begun(
     data: Recorded, where: Layout, base: Judged, more: Hypothesis, z: np.ndarray, least: float = -np.inf
-) -> Judged:
-    """A hypothesis with one more cause than a judged one, from those numbers z of it on; `least` as in `settled`."""
+) -> Judged | None:
+    """A hypothesis with one more cause than a judged one, from those numbers z of it on; `least` as in `settled`.
+
+    None where a cable would be slack.
+
+    Raises
+    ------
+    UnstableEquilibriumError : such a robot is not at rest.
+    """
     start = base.likeliest(data, where)
     point = replace(start.with_term(more.parts[-1].term, z), noise=start.noise)
+    if not _possible(data, point):
+        return None
     local = Local.about(data, point)
     model, lists = linear_model(local, where), Lists.of(local, where)
     covariance = np.zeros((model.parameters, model.parameters))
@@ -177,7 +187,8 @@ def converged(data: Recorded, where: Layout, found: Judged) -> Judged:
 def _possible(data: Recorded, point: Point) -> bool:
     """Whether all cables are tight and have a length, and the platform has a mass."""
     readings, arrays = point.readings(data), point.robot(data)
-    return bool((readings.tension > 0.0).all() and (readings.length > 0.0).all() and np.all(arrays.mass > 0.0))
+    tight = (readings.tension > 0.0) & (readings.tension * _SLACKEST > arrays.weight * readings.length)
+    return bool(tight.all() and (readings.length > 0.0).all() and np.all(arrays.mass > 0.0))
 
 
 def _copied(lists: Lists | None) -> Lists | None:

@@ -24,6 +24,7 @@ _COARSE = 10.0  # nats by which the grid of amplitudes may miss the best one
 _STATES = 6  # those with most peaks: enough to see what stands out
 _SPREAD = 0.01  # of ln f: what half a step between amplitudes does to a mode
 _OF_A_CAUSE = 2  # amplitudes: the grid may put the best one on either side
+_SUITS = 1.0  # nats: a part that swings slowly and suits peaks that are explained by less is not looked for
 _LEFT = 2.0  # peaks that belong to no mode, expected: with fewer there is nothing to put right
 _STEADY = 1.0  # peaks that belong to no mode, expected near one frequency: from there a mode is looked for
 _NEAR, _PLACES = 0.03, 2  # of ln f: so near, and at so many frequencies
@@ -46,31 +47,42 @@ class Beginning:
     gain: float
 
 
-def beginnings(data: Recorded, menu: Sequence[Offered], about: Judged, most: int, significant: bool) -> list[Beginning]:
-    """The best large changes beside a judged one, and parts that move in the platform.
-
-    Where its modes explain the peaks, only parts that swing so slowly that their own are not among them, and these only
-    if something is wrong.
-    """
-    explained = about.lists is None or about.lists.left < _LEFT
-    slow = [cause for cause in menu if cause.cause.tried] if significant else []
-    if about.lists is None or data.campaign.model == "static" or (explained and not slow):
+def beginnings(data: Recorded, menu: Sequence[Offered], about: Judged, most: int) -> list[Beginning]:
+    """The best large changes beside a judged hypothesis whose modes do not explain the peaks."""
+    if not _has_modes(data, about) or _explained(about):
         return []
     scan = _Scan(data, about)
-    if explained:
-        return [one for cause in slow for one in scan.tuned(cause, [])]
     best: list[Beginning] = []
-    mounted: list[Beginning] = []
-    places = _steady_places(about.lists)
-    for cause in menu:
-        if cause.cause.tuned:
-            mounted += scan.tuned(cause, places)
-            continue
+    for cause in [one for one in menu if not one.cause.tuned and not one.laws and "RF" in one.cause.seen_in]:
         singles = [i for i, p in enumerate(cause.patterns) if p.basis.shape[1] == 1 and not p.label.startswith("cable")]
-        if not cause.laws and "RF" in cause.cause.seen_in and singles:
-            found = sorted((b for i in singles for b in scan.of(cause, i)), key=lambda one: -one.gain)
-            best += [one for one in found[:_OF_A_CAUSE] if one.gain > -_COARSE]
-    return [*sorted(best, key=lambda one: -one.gain)[:most], *mounted]
+        found = sorted((b for i in singles for b in scan.of(cause, i)), key=lambda one: -one.gain)
+        best += [one for one in found[:_OF_A_CAUSE] if one.gain > -_COARSE]
+    return sorted(best, key=lambda one: -one.gain)[:most]
+
+
+def mounts(data: Recorded, menu: Sequence[Offered], about: Judged, significant: bool) -> list[Beginning]:
+    """Parts that move in the platform, beside a judged hypothesis.
+
+    Where its modes explain the peaks, only parts that swing so slowly that their own are not among them, if these suit
+    the peaks better, and only if something is wrong.
+    """
+    if not _has_modes(data, about):
+        return []
+    explained = _explained(about)
+    some = [one for one in menu if (one.cause.tried and significant if explained else one.cause.tuned)]
+    if not some:
+        return []
+    scan = _Scan(data, about)
+    places = [] if explained or about.lists is None else _steady_places(about.lists)
+    return [one for cause in some for one in scan.tuned(cause, places, _SUITS if explained else -np.inf)]
+
+
+def _has_modes(data: Recorded, about: Judged) -> bool:
+    return about.lists is not None and data.campaign.model != "static"
+
+
+def _explained(about: Judged) -> bool:
+    return about.lists is None or about.lists.left < _LEFT
 
 
 def carriers(data: Recorded, menu: Sequence[Offered], about: Judged) -> list[Beginning]:
@@ -130,8 +142,10 @@ class _Scan:
             found.append(_beginning(cause, i, np.array([size]), float(gain)))
         return found
 
-    def tuned(self, cause: Offered, places: Sequence[float]) -> list[Beginning]:
+    def tuned(self, cause: Offered, places: Sequence[float], least: float) -> list[Beginning]:
         """The best of a part on a mount whose mode is at one of these frequencies [Hz], and the same in wider patterns.
+
+        least : nats by which they suit the peaks better
 
         The mount's own frequency is between that and the one it has where the platform is free: lower by the root of
         one less the part's share of the mass.
@@ -142,7 +156,8 @@ class _Scan:
             for some in np.array_split(rows, 1 + len(rows) // _BLOCK) if len(rows) else []:
                 theta = ((some * pattern.prior) @ pattern.basis.T)[:, None, :]
                 gains = self._of_peaks(cause.cause.apply(self.arrays, theta)) - self.level
-                found += [_beginning(cause, i, row, float(gain)) for row, gain in zip(some, gains, strict=True)]
+                pairs = zip(some, gains, strict=True)
+                found += [_beginning(cause, i, row, float(gain)) for row, gain in pairs if gain > least]
         best = sorted(found, key=lambda one: -one.gain)[:_OF_A_CAUSE]
         return [*best, *(wide for one in best[:1] for wide in _widened(cause, one))]
 

@@ -20,7 +20,7 @@ from cdpr_struct.hypotheses.drift import drifts
 from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES, Hypothesis
 from cdpr_struct.hypotheses.judge import NEAR, SETTLED, Judged, again, begun, converged, extended, judged, settled
 from cdpr_struct.hypotheses.laws import UNKNOWN
-from cdpr_struct.hypotheses.scan import Beginning, beginnings, carriers
+from cdpr_struct.hypotheses.scan import Beginning, beginnings, carriers, mounts
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.hypotheses.significant import SIGNIFICANT, p_of_null
 from cdpr_struct.inference.evidence import bound_at, fit
@@ -111,14 +111,14 @@ class Search:
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
         self._bend(nulls)
         significant = self.p_value < SIGNIFICANT
-        large = beginnings(self.data, menu, base, self.budget.beginnings + 1, significant)
-        self._begin(large, base)
+        large = beginnings(self.data, menu, base, self.budget.beginnings + 1)
+        self._begin([*large, *mounts(self.data, menu, base, significant)], base)
         if significant:
             self._begin_alone(carriers(self.data, menu, base), base)
         self._transfer()
         singles = self._singles()
         if singles[0].score > base.score:
-            self._begin(large, singles[0])
+            self._begin([*large, *mounts(self.data, menu, singles[0], significant)], singles[0])
         least = max(singles[0].score - self.budget.near, self._ranked(0)[0].score - _NOTHING)
         for first in [one for one in singles[: self.budget.beginnings] if one.score > least]:
             self._pairs(first)
@@ -206,7 +206,9 @@ class Search:
                 more = Hypothesis((part,), one.hypothesis.drift)
                 self.spread[more.key] = self.spread.get(one.hypothesis.key, 0.0)
                 z = np.append(one.sizes[0], np.zeros(len(part.pattern.prior) - len(one.sizes[0])))
-                self.keep(begun(self.data, self.where, base, more, z))
+                found = begun(self.data, self.where, base, more, z)
+                if found is not None:
+                    self.keep(found)
 
     def _begin(self, large: Sequence[Beginning], base: Judged) -> None:
         """Fits of large changes that would put peaks right, beside what is known by then."""
@@ -216,9 +218,11 @@ class Search:
                 more = Hypothesis((*base.hypothesis.parts, one.part), base.hypothesis.drift)
                 least = self._ranked()[0].score - self.budget.hopeless
                 try:
-                    self.keep(begun(self.data, self.where, base, more, one.z, least))
-                except UnstableEquilibriumError:  # nor is a robot with so large a change one that was measured
+                    found = begun(self.data, self.where, base, more, one.z, least)
+                except UnstableEquilibriumError:  # a robot with so large a change is none that was measured
                     continue
+                if found is not None:
+                    self.keep(found)
 
     def _begin_alone(self, alone: Sequence[Beginning], base: Judged) -> None:
         """Fits of changes of one cable, mast or axis: those that may come near the best, the likeliest first."""
