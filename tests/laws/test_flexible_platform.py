@@ -8,9 +8,11 @@ import pytest
 
 from cdpr_struct.diagnosis.diagnosing import Diagnosis, diagnosed
 from cdpr_struct.dynamics.certified_modes import certified_modes
+from cdpr_struct.hypotheses.alternatives import offered
 from cdpr_struct.hypotheses.causes import library
 from cdpr_struct.hypotheses.hypothesis import Hypothesis, Part
-from cdpr_struct.hypotheses.judge import WORTH, begun, judged
+from cdpr_struct.hypotheses.judge import WORTH, Judged, begun, judged
+from cdpr_struct.hypotheses.scan import mounts
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.measurement.campaign import Campaign, RobotFrequencies
 from cdpr_struct.reports.diagnose.sentences import sentence
@@ -106,6 +108,33 @@ def test_evidence_does_not_depend_on_the_start():
     ]
     assert np.ptp(values) < WORTH  # nats: another start is not followed for less
     assert values[0] > null.log_evidence + 10.0
+
+
+def test_a_fit_is_not_begun_where_a_cable_would_be_slack():
+    """Its modes would take minutes, and are nobody's measurement."""
+    data = recorded(campaign(KILOGRAMS))
+    where, cause = (
+        layout(data),
+        next(one for one in library.testable(seen_in(recorded(campaign(0.0))), {})[0] if one.name == NAME),
+    )
+    part = Part(cause, cause.patterns(seen_in(data))[0], 2.0)
+    null = judged(data, where, Hypothesis())
+    start, z = null.likeliest(data, where), np.array([1.5, 4.9]) / part.term.sigma
+    loose = np.zeros_like(start.noise)
+    loose[0, 6] = (start.readings(data).tension[0, 0] - 0.1) / data.sigma[0, 6]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Judged, "likeliest", lambda *_: replace(start, noise=start.noise + loose))
+        assert begun(data, where, null, Hypothesis((part,)), z) is None
+
+
+def test_parts_on_mounts_are_looked_for_where_they_suit_the_peaks():
+    for kilograms, some in ((KILOGRAMS, True), (0.0, False)):
+        data = recorded(campaign(kilograms))
+        seen, where = seen_in(data), layout(data)
+        null = judged(data, where, Hypothesis())
+        menu = offered(data, where, seen, library.testable(seen, {})[0], null)
+        assert bool(mounts(data, menu, null, significant=True)) == some
+        assert not some or all(one.part.cause.tuned for one in mounts(data, menu, null, significant=True))
 
 
 def test_a_check_bounds_the_mass_and_not_the_frequency():
