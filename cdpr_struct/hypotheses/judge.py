@@ -139,14 +139,14 @@ def settled(data: Recorded, where: Layout, found: Judged, least: float = -np.inf
 
     Or until a score `least` would not be reached if each pass left gained as much as the last one.
     """
-    for left in reversed(range(PASSES)):
+    for done in range(1, PASSES + 1):
         if found.moved < SETTLED:
             break
         nearer = _nearer(data, where, found)
         if nearer is None:
             break
         before, found = found, nearer
-        if found.score + left * max(found.score - before.score, 0.0) < least:
+        if found.score + (PASSES - done) * max(found.score - before.score, 0.0) < least:
             break
     return found
 
