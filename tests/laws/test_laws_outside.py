@@ -80,8 +80,13 @@ def test_cells_whose_gain_fades_are_unknown_and_none_whose_zeros_drift():
     assert drifting.decision.status == "adequate", drifting.decision
 
 
+def _outwards(local, channel):
+    found = [one for one in laws(local) if one.words.endswith("the distance from the middle, outwards")]
+    return next(one for one in found if one.channel == channel)
+
+
 def test_a_lens_moves_positions_outwards_with_the_distance_from_the_middle(campaign, local):
-    law = next(one for one in laws(local) if one.words.endswith("the distance from the middle, outwards"))
+    law = _outwards(local, "pose")
     assert law.columns.count == 2
     position = campaign.states.position
     x = position - position.mean(axis=0)
@@ -106,8 +111,7 @@ def test_a_lens_is_unknown_and_no_temperature():
 
 
 def test_a_hose_that_stiffens_pulls_outwards_with_the_cube_of_the_distance(campaign, local):
-    outwards = [one for one in laws(local) if one.words.endswith("the distance from the middle, outwards")]
-    law = next(one for one in outwards if one.channel == "force")
+    law = _outwards(local, "force")
     assert law.columns.count == 5
     x = campaign.states.position - campaign.states.position.mean(axis=0)
     far = x / np.sqrt((x**2).sum(axis=1).mean())
