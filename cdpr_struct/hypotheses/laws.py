@@ -233,5 +233,5 @@ def _of_poses(local: Local, known: _Known) -> Iterator[Law]:
 def _outwards(position: np.ndarray) -> np.ndarray:
     """(S, 3, 2) with the distance and with its cube, as lenses move what a camera sees and hoses pull."""
     x = position - position.mean(axis=0)
-    x = x / np.sqrt((x**2).sum(axis=-1).mean())
+    x = x / max(float(np.sqrt((x**2).sum(axis=-1).mean())), 1e-3)
     return np.stack([x, (x**2).sum(axis=-1, keepdims=True) * x], axis=-1)
