@@ -116,7 +116,7 @@ CAUSES = (
     Cause(
         "temperature",
         "cables and frame are warmer or colder than at calibration",
-        (Parameter("temperature_change", "K", 15.0, most=40.0),),
+        (Parameter("temperature_change", "K", 15.0, most=60.0),),
         _temperature,
         seen_in=("CO",),
         sentence="the temperature of cables and frame is {value} K off the calibration temperature",
