@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cdpr_struct.errors import CdprError
+from cdpr_struct.errors import CdprError, UnstableEquilibriumError
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.inference.evidence import Fit, fit
 from cdpr_struct.inference.linear_model import LinearModel
@@ -96,19 +96,17 @@ def judged(
 
 def begun(
     data: Recorded, where: Layout, base: Judged, more: Hypothesis, z: np.ndarray, least: float = -np.inf
-) -> Judged | None:
+) -> Judged:
     """A hypothesis with one more cause than a judged one, from those numbers z of it on; `least` as in `settled`.
-
-    None where a cable would be slack.
 
     Raises
     ------
-    UnstableEquilibriumError : such a robot is not at rest.
+    UnstableEquilibriumError : such a robot is not at rest, or a cable of it hangs slack.
     """
     start = base.likeliest(data, where)
     point = replace(start.with_term(more.parts[-1].term, z), noise=start.noise)
     if not _possible(data, point):
-        return None
+        raise UnstableEquilibriumError("a cable hangs slack")
     local = Local.about(data, point)
     model, lists = linear_model(local, where), Lists.of(local, where)
     covariance = np.zeros((model.parameters, model.parameters))

@@ -206,9 +206,7 @@ class Search:
                 more = Hypothesis((part,), one.hypothesis.drift)
                 self.spread[more.key] = self.spread.get(one.hypothesis.key, 0.0)
                 z = np.append(one.sizes[0], np.zeros(len(part.pattern.prior) - len(one.sizes[0])))
-                found = begun(self.data, self.where, base, more, z)
-                if found is not None:
-                    self.keep(found)
+                self._begin_at(z, more, base)
 
     def _begin(self, large: Sequence[Beginning], base: Judged) -> None:
         """Fits of large changes that would put peaks right, beside what is known by then."""
@@ -216,13 +214,14 @@ class Search:
         for one in large:
             if one.part.cause.name not in present:
                 more = Hypothesis((*base.hypothesis.parts, one.part), base.hypothesis.drift)
-                least = self._ranked()[0].score - self.budget.hopeless
-                try:
-                    found = begun(self.data, self.where, base, more, one.z, least)
-                except UnstableEquilibriumError:  # a robot with so large a change is none that was measured
-                    continue
-                if found is not None:
-                    self.keep(found)
+                self._begin_at(one.z, more, base, self._ranked()[0].score - self.budget.hopeless)
+
+    def _begin_at(self, z: np.ndarray, more: Hypothesis, base: Judged, least: float = -np.inf) -> None:
+        """A fit with one more cause than the base, from its numbers z on, if a robot with these may have been measured."""
+        try:
+            self.keep(begun(self.data, self.where, base, more, z, least))
+        except UnstableEquilibriumError:
+            return
 
     def _begin_alone(self, alone: Sequence[Beginning], base: Judged) -> None:
         """Fits of changes of one cable, mast or axis: those that may come near the best, the likeliest first."""

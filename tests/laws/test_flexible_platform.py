@@ -8,6 +8,7 @@ import pytest
 
 from cdpr_struct.diagnosis.diagnosing import Diagnosis, diagnosed
 from cdpr_struct.dynamics.certified_modes import certified_modes
+from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.hypotheses.alternatives import offered
 from cdpr_struct.hypotheses.causes import library
 from cdpr_struct.hypotheses.hypothesis import Hypothesis, Part
@@ -124,7 +125,8 @@ def test_a_fit_is_not_begun_where_a_cable_would_be_slack():
     loose[0, 6] = (start.readings(data).tension[0, 0] - 0.1) / data.sigma[0, 6]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Judged, "likeliest", lambda *_: replace(start, noise=start.noise + loose))
-        assert begun(data, where, null, Hypothesis((part,)), z) is None
+        with pytest.raises(UnstableEquilibriumError, match="slack"):
+            begun(data, where, null, Hypothesis((part,)), z)
 
 
 def test_parts_on_mounts_are_looked_for_where_they_suit_the_peaks():
