@@ -6,6 +6,7 @@ never finds less.
 """
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -217,17 +218,14 @@ class Search:
                 self._begin_at(one.z, more, base, self._ranked()[0].score - self.budget.hopeless)
 
     def _begin_at(self, z: np.ndarray, more: Hypothesis, base: Judged, least: float = -np.inf) -> None:
-        """A fit with one more cause than the base, from its numbers z on, if a robot with these may have been measured."""
-        try:
+        """A fit with one more cause than the base, from its numbers z on, if there may be such a robot."""
+        with suppress(UnstableEquilibriumError):
             self.keep(begun(self.data, self.where, base, more, z, least))
-        except UnstableEquilibriumError:
-            return
 
     def _begin_alone(self, alone: Sequence[Beginning], base: Judged) -> None:
         """Fits of changes of one cable, mast or axis: those that may come near the best, the likeliest first."""
-        for one in alone[: self.budget.alone]:
-            if one.gain > alone[0].gain - self.budget.near:
-                self._begin([one], base)
+        few = alone[: self.budget.alone]
+        self._begin([one for one in few if one.gain > alone[0].gain - self.budget.near], base)
 
     def _ranked(self, causes: int | None = None) -> list[Judged]:
         """All fits, or those of so many causes, best first, that say what may occur."""
