@@ -271,6 +271,18 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=measured("15 of 16 with a cause, 8 of 8 without"),
         ),
         Row(
+            case="60 blind campaigns with twelve effects outside the library, new seeds",
+            reference="sealed truth",
+            metric="`unknown`, or the cause that such an effect has become; wrong names above 0.9",
+            acceptance="95 %; 0",
+            command="python -m tests.blind make|run|score --set unseen --count 36, and --set outside-held",
+            test="tests/laws/test_laws_outside.py::test_a_lens_is_unknown_and_no_temperature",
+            twin="tests/laws/test_laws_outside.py::"
+            "test_an_encoder_that_often_skips_is_unknown_and_two_wrong_lengths_are_none",
+            source="2026-11-27",
+            figure=measured("98 % (59); 0"),
+        ),
+        Row(
             case="blind campaigns without a hidden error",
             reference="sealed truth",
             metric="false alarms",
