@@ -15,6 +15,10 @@ from cdpr_struct.robot.robot import FREEDOMS
 TAUT = 3.0
 """Sigmas of its tension that a cable should have before it goes slack."""
 _NOT_OF_RESTS = ("load_cell_gain", "load_cell_bias_N", "damping")  # tolerances that move no robot at rest
+_ABOUT = (
+    " They lie about the likeliest of these robots; the values beside them are those of the numbers in the file, and may lie "
+    "outside."
+)
 _ALIKE = 0.2  # of a band's width by which its ends may differ from those of drawn robots
 
 
@@ -108,7 +112,7 @@ def band_note(bands: Mapping[str, Any]) -> str:
         f"Bands: {bands['level']:g} % of robots {robots} lie inside, each number by itself, winches locked where the "
         "robot as entered has them."
     )
-    text += "" if diagnosed else _tolerances_used(bands["tolerances"])
+    text += _ABOUT if diagnosed else _tolerances_used(bands["tolerances"])
     differ = bands.get("samples", {}).get("differ")
     if differ:
         text += (

@@ -257,6 +257,8 @@ def test_a_diagnosed_robot_has_the_bands_of_its_posterior_and_says_so():
     assert [one.answer["bands"]["known_from"] for one in (before, after)] == ["tolerances", "diagnosis"]
     assert "defaults used" in before.text()
     assert "that a diagnosis left probable" in after.text()
+    assert "about the likeliest of these robots" in after.text()
+    assert "about the likeliest of these robots" not in before.text()
     assert "defaults used" not in after.text()
 
 
