@@ -16,8 +16,8 @@ TAUT = 3.0
 """Sigmas of its tension that a cable should have before it goes slack."""
 _NOT_OF_RESTS = ("load_cell_gain", "load_cell_bias_N", "damping")  # tolerances that move no robot at rest
 _ABOUT = (
-    " They lie about the likeliest of these robots; the values beside them are those of the numbers in the file, and may lie "
-    "outside."
+    " They lie about the likeliest of these robots; the values beside them are those of the numbers in the file, and "
+    "may lie outside."
 )
 _ALIKE = 0.2  # of a band's width by which its ends may differ from those of drawn robots
 
