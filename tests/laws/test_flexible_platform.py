@@ -145,4 +145,6 @@ def test_a_check_bounds_the_mass_and_not_the_frequency():
     own = next(one for one in causes if one.name == NAME)
     *roots, hertz = own.parameters
     assert [p.prior for p in roots] == [0.5, 0.5, 0.5]
+    assert [p.most for p in roots] == [2.0, 2.0, 2.0]  # four times what is left
+    assert hertz.most == np.inf
     assert hertz.prior == library.LIBRARY[NAME].parameters[-1].prior * seen.highest > 1.0

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from cdpr_struct.diagnosis.decision import Decision
+from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.hypotheses.causes.library import LIBRARY
 from cdpr_struct.hypotheses.hypothesis import Hypothesis, Part
 from cdpr_struct.hypotheses.judge import judged
@@ -91,6 +92,15 @@ def test_what_was_checked_is_not_recommended_again():
     said = recommendations(diagnosis(campaign, (MASSES,)))
     assert "joint_mass" not in {one.what.check for one in said}
     assert said[0].what.check == "platform_mass"
+
+
+def test_what_was_weighed_is_not_blamed_for_more_than_the_scale_leaves():
+    """A scale of 0.5 % against a platform 10 % heavier than entered: twenty sigmas are not left."""
+    said = [diagnosed(heavier(0.1, checked)) for checked in ({}, {"platform_mass": 5e-3})]
+    blamed = [{name for names in one.decision.classes for name in names} for one in said]
+    assert "platform_mass" in blamed[0]
+    assert "platform_mass" not in blamed[1]
+    assert said[1].decision.status != "adequate"
 
 
 def test_what_a_measurement_adds_grows_with_the_square_of_the_effect(found):

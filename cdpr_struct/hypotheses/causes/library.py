@@ -21,6 +21,7 @@ from cdpr_struct.hypotheses.causes.cause import Cause, Parameter, Seen
 FAMILIES = (stiffness, geometry, pulleys, platform, cables, sensors, clocks, accelerometers)
 LIBRARY: dict[str, Cause] = {cause.name: cause for family in FAMILIES for cause in family.CAUSES}
 
+_CHECKED = 4.0  # sigmas of a check: no larger size is left
 ENTRY_POINTS = "cdpr_struct.causes"
 """Group in which an installed package names its causes: each entry is a `Cause`, or a sequence of them."""
 
@@ -76,4 +77,5 @@ def _within(p: Parameter, sigma: float, seen: Seen) -> Parameter:
     """The parameter with the prior that it has in this campaign."""
     if p.in_band:
         return replace(p, prior=p.prior * seen.highest)
-    return replace(p, prior=min(p.prior, math.sqrt(sigma) if p.squared else sigma))
+    left = math.sqrt(sigma) if p.squared else sigma
+    return replace(p, prior=min(p.prior, left), most=min(p.most, _CHECKED * left))
