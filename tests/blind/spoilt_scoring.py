@@ -13,6 +13,7 @@ from tests.blind.intervals import share
 from tests.blind.scoring import Scored
 
 WHOLE = "whole set"
+EXCHANGED = ("exchanged", "all")  # ways in which two poses have each other's list of peaks
 BARE, PULLEYS = "bare", "missing_pulleys"  # way of the set `wheels` that hides them, and their name
 
 
@@ -28,7 +29,7 @@ def spoilt_right(case: Scored) -> bool:
 
 def _beside(case: Scored) -> Scored:
     """The case without what may be said beside what is hidden; where nothing else was said, all is well."""
-    allowed = set(case.truth.get("may_be_said", ()))
+    allowed = set(_true_beside(case))
     groups = tuple(names for names in case.answer.groups if not set(names) <= allowed)
     if groups == case.answer.groups:
         return case
@@ -39,8 +40,13 @@ def _beside(case: Scored) -> Scored:
 
 def _no_mistake(case: Scored) -> tuple[str, ...]:
     """Names that are no mistake. A controller that knows pulleys which the simulation lacks commands other forces."""
-    more = ("internal_force",) if case.truth["way"] == BARE else tuple(case.truth.get("may_be_said", ()))
-    return (*case.hidden, *more)
+    return (*case.hidden, *(("internal_force",) if case.truth["way"] == BARE else _true_beside(case)))
+
+
+def _true_beside(case: Scored) -> tuple[str, ...]:
+    """Names that are true of the readings beside what is hidden in the robot; exchanged lists are what they are."""
+    exchanged = ("pose_mismatch",) if case.truth["way"] in EXCHANGED else ()
+    return (*case.truth.get("may_be_said", ()), *exchanged)
 
 
 def condition(case: Scored) -> str:

@@ -1,6 +1,7 @@
 """Sets of spoilt campaigns: each way does what it says and nothing else, on the same reality."""
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -245,6 +246,16 @@ def test_right_is_the_name_or_a_class_of_four_that_holds_it():
         ("unknown", ()),
     ]
     assert not any(spoilt_right(scored("single", "drift", *answer)) for answer in wrong)
+
+
+def test_exchanged_lists_may_be_said_where_they_are_and_only_there():
+    def both(way):
+        case = scored("single", way, "named", ("drum_scale", "pose_mismatch"))
+        return replace(case, answer=replace(case.answer, groups=(("drum_scale",), ("pose_mismatch",))))
+
+    assert [spoilt_right(both(way)) for way in ("exchanged", "all", "line")] == [True, True, False]
+    counts = [spoilt_figures([both(way)])["whole set"]["wrong_confident_name"]["successes"] for way in ("all", "line")]
+    assert counts == [0, 1]
 
 
 def test_the_table_counts_each_way_by_itself():
