@@ -29,7 +29,7 @@ def spoilt_right(case: Scored) -> bool:
 
 def _beside(case: Scored) -> Scored:
     """The case without what may be said beside what is hidden; where nothing else was said, all is well."""
-    allowed = set(_true_beside(case))
+    allowed = set(_true_beside(case)) - set(case.hidden)
     groups = tuple(names for names in case.answer.groups if not set(names) <= allowed)
     if groups == case.answer.groups:
         return case

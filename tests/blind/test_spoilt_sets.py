@@ -254,6 +254,9 @@ def test_exchanged_lists_may_be_said_where_they_are_and_only_there():
         return replace(case, answer=replace(case.answer, groups=(("drum_scale",), ("pose_mismatch",))))
 
     assert [spoilt_right(both(way)) for way in ("exchanged", "all", "line")] == [True, True, False]
+    mixed = scored("single", "all", "named", ("pose_mismatch",))
+    mixed = replace(mixed, truth={**mixed.truth, "effects": [{"cause": "pose_mismatch", "multiple": None}]})
+    assert spoilt_right(mixed)
     counts = [spoilt_figures([both(way)])["whole set"]["wrong_confident_name"]["successes"] for way in ("all", "line")]
     assert counts == [0, 1]
 
