@@ -271,6 +271,18 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=measured("15 of 16 with a cause, 8 of 8 without"),
         ),
         Row(
+            case="blind campaigns of robots with two to eight cables, each of 31 causes at 4x, a third of the readings spoilt",
+            reference="sealed truth",
+            metric="right name, or a class of at most four; wrong names above 0.9",
+            acceptance="90 %; 0.5 %",
+            command="python -m tests.blind make|run|score --set causes",
+            test="tests/blind/test_spoilt_sets.py::"
+            "test_every_cause_of_a_campaign_is_hidden_as_often_and_a_third_of_them_in_spoilt_readings",
+            twin="tests/blind/test_spoilt_sets.py::test_right_is_the_name_or_a_class_of_four_that_holds_it",
+            source="2026-11-27",
+            figure=measured("96 % (305 of 315); 0.6 %"),
+        ),
+        Row(
             case="60 blind campaigns with twelve effects outside the library, new seeds",
             reference="sealed truth",
             metric="`unknown`, or the cause that such an effect has become; wrong names above 0.9",
