@@ -271,7 +271,7 @@ SUBJECTS: dict[str, tuple[Row, ...]] = {
             figure=measured("15 of 16 with a cause, 8 of 8 without"),
         ),
         Row(
-            case="blind campaigns of robots with two to eight cables, each of 31 causes at 4x, a third of the readings spoilt",
+            case="blind campaigns of robots with two to eight cables, each of 31 causes at 4x, a third spoilt",
             reference="sealed truth",
             metric="right name, or a class of at most four; wrong names above 0.9",
             acceptance="90 %; 0.5 %",
