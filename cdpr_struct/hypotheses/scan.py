@@ -49,7 +49,8 @@ class Beginning:
 
 def beginnings(data: Recorded, menu: Sequence[Offered], about: Judged, most: int) -> list[Beginning]:
     """The best large changes beside a judged hypothesis whose modes do not explain the peaks."""
-    if not _has_modes(data, about) or _explained(about):
+    lists = _compared(data, about)
+    if lists is None or lists.left < _LEFT:
         return []
     scan = _Scan(data, about)
     best: list[Beginning] = []
@@ -66,28 +67,26 @@ def mounts(data: Recorded, menu: Sequence[Offered], about: Judged, significant: 
     Where its modes explain the peaks, only parts that swing so slowly that their own are not among them, if these suit
     the peaks better, and only if something is wrong.
     """
-    if not _has_modes(data, about):
+    lists = _compared(data, about)
+    if lists is None:
         return []
-    explained = _explained(about)
+    explained = lists.left < _LEFT
     some = [one for one in menu if (one.cause.tried and significant if explained else one.cause.tuned)]
     if not some:
         return []
     scan = _Scan(data, about)
-    places = [] if explained or about.lists is None else _steady_places(about.lists)
-    return [one for cause in some for one in scan.tuned(cause, places, _SUITS if explained else -np.inf)]
+    places, least = ([], _SUITS) if explained else (_steady_places(lists), -np.inf)
+    return [one for cause in some for one in scan.tuned(cause, places, least)]
 
 
-def _has_modes(data: Recorded, about: Judged) -> bool:
-    return about.lists is not None and data.campaign.model != "static"
-
-
-def _explained(about: Judged) -> bool:
-    return about.lists is None or about.lists.left < _LEFT
+def _compared(data: Recorded, about: Judged) -> Lists | None:
+    """Lists of peaks, None where none were measured or modes are those of the static stiffness."""
+    return None if data.campaign.model == "static" else about.lists
 
 
 def carriers(data: Recorded, menu: Sequence[Offered], about: Judged) -> list[Beginning]:
     """The best changes of one cable, mast or axis alone beside a judged hypothesis, as far as static readings allow."""
-    if about.lists is None or data.campaign.model == "static":
+    if _compared(data, about) is None:
         return []
     scan, best = _Scan(data, about, _FEW_STATES), []
     for cause in menu:

@@ -25,7 +25,7 @@ from tests.blind.detectability import reference_size, sigmas_left
 from tests.blind.deviations import Deviations, drawn_tolerances
 from tests.blind.entered_robot import EnteredRobot, entered_robot
 from tests.blind.measuring_plan import Plan, PlanSize, drawn_plan
-from tests.blind.note_errors import spoiled
+from tests.blind.note_errors import mistaken
 from tests.blind.observation import Observation, SlackStateError, observed
 from tests.blind.sensors import SIGMA, Noise, Tables, filed, timed
 from tests.blind.true_robot import bare_inertia
@@ -106,7 +106,7 @@ def _attempt(kind: CaseKind, seed: tuple[int, ...], attempt: int) -> Case:
         del tables["robot_frequency"]
         weighed = None if confused else round(float(robot.mass + deviations["platform_mass"][0]), 2)
     if kind.kind == "handling":
-        effects = [{"cause": names[0], "multiple": None, "variant": spoiled(names[0], tables, hidden)}]
+        effects = [mistaken(names[0], tables, hidden)]
     truth = truth_record(kind, robot, effects, deviations) | ({} if weighed is None else {"weighed_kg": weighed})
     check = None
     if kind.separated and names[0] in CHECKED:

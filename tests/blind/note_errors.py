@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
@@ -20,6 +22,11 @@ FRAMES = {
     "z mirrored": [[1, 0, 0], [0, 1, 0], [0, 0, -1]],
     "x and y exchanged": [[0, 1, 0], [1, 0, 0], [0, 0, 1]],
 }
+
+
+def mistaken(name: str, tables: Tables, rng: np.random.Generator) -> dict[str, Any]:
+    """Put one mistake into the tables (in place); the record of it."""
+    return {"cause": name, "multiple": None, "variant": spoiled(name, tables, rng)}
 
 
 def spoiled(name: str, tables: Tables, rng: np.random.Generator) -> str:

@@ -36,7 +36,7 @@ from tests.blind.catalogue import EQUIVALENT, HANDLING, LAWS, LIBRARY, RARE, UNS
 from tests.blind.detectability import FEW, UNREAD
 from tests.blind.entered_robot import BARE_PART, HALF_SUFFIX
 from tests.blind.measuring_plan import PlanSize
-from tests.blind.note_errors import spoiled
+from tests.blind.note_errors import mistaken
 from tests.blind.observation import SlackStateError
 from tests.blind.sensors import INCLINATION_READ, NOTHING_READ, Noise, filed, picked, unplaced
 from tests.blind.spoiled_peaks import PeakSpoiler, spoil_peak_tables
@@ -85,8 +85,8 @@ def spoilt_kinds(name: str, total: int, base: int) -> list[SpoiltKind]:
     """Kinds of all cases in the order in which they are numbered, which tells nothing about them."""
     rng = np.random.default_rng([base, 0])
     kind = name.removesuffix(DEVELOPMENT)
-    makers = {"messy": _messy, "peaks": _peaks, "sizes": _sizes, "few": _few, "unread": _unread, "wheels": _wheels}
-    makers["causes"] = _causes
+    makers = {"messy": _messy, "peaks": _peaks, "sizes": _sizes, "causes": _causes, "few": _few, "unread": _unread}
+    makers |= {"wheels": _wheels}
     kinds = list(_signals(total, rng, RECORDED[kind]) if kind in RECORDED else makers[kind](total, rng))
     return [kinds[index] for index in rng.permutation(len(kinds))]
 
@@ -262,8 +262,7 @@ def read_case(kind: SpoiltKind, real: Reality, seed: tuple[int, ...]) -> Case:
         radius, shape = real.robot.pulley_radius, real.robot.name.partition(BARE_PART)[2]
         effects = [{"cause": "missing_pulleys", "multiple": None, "size": radius, "unit": "m", "shape": shape}]
     if kind.reality.kind == "handling":
-        name = kind.reality.effects[0][0]
-        effects = [{"cause": name, "multiple": None, "variant": spoiled(name, tables, spoiler)}]
+        effects = [mistaken(kind.reality.effects[0][0], tables, spoiler)]
     truth = truth_record(kind.reality, real.robot, effects, real.deviations)
     truth |= {"kind": "single"} if kind.way == "bare" or kind.by_cause else {}
     truth |= {"may_be_said": may_be_said(kind.signal, kind.way)} if kind.signal else {}

@@ -95,14 +95,17 @@ def test_the_extended_robot_is_written_read_back_and_right(tmp_path):
     assert said.not_testable[NAME] == "the robot file has an internal mass already"
 
 
-def test_evidence_does_not_depend_on_the_start():
-    """From both sides of the numbers that are found."""
+def _on_a_mount():
+    """The campaign as recorded, its layout, nothing wrong, and the cause along one axis."""
     data = recorded(campaign(KILOGRAMS))
     where = layout(data)
-    null = judged(data, where, Hypothesis())
-    causes, _ = library.testable(seen_in(data), {})
-    cause = next(one for one in causes if one.name == NAME)
-    part = Part(cause, cause.patterns(seen_in(data))[0], 2.0)
+    cause = next(one for one in library.testable(seen_in(data), {})[0] if one.name == NAME)
+    return data, where, judged(data, where, Hypothesis()), Part(cause, cause.patterns(seen_in(data))[0], 2.0)
+
+
+def test_evidence_does_not_depend_on_the_start():
+    """From both sides of the numbers that are found."""
+    data, where, null, part = _on_a_mount()
     values = [
         begun(data, where, null, Hypothesis((part,)), np.array([root, hertz]) / part.term.sigma).log_evidence
         for root, hertz in ((1.5, 4.9), (1.9, 5.05), (2.0, 5.1))
@@ -113,13 +116,7 @@ def test_evidence_does_not_depend_on_the_start():
 
 def test_a_fit_is_not_begun_where_a_cable_would_be_slack():
     """Its modes would take minutes, and are nobody's measurement."""
-    data = recorded(campaign(KILOGRAMS))
-    where, cause = (
-        layout(data),
-        next(one for one in library.testable(seen_in(recorded(campaign(0.0))), {})[0] if one.name == NAME),
-    )
-    part = Part(cause, cause.patterns(seen_in(data))[0], 2.0)
-    null = judged(data, where, Hypothesis())
+    data, where, null, part = _on_a_mount()
     start, z = null.likeliest(data, where), np.array([1.5, 4.9]) / part.term.sigma
     loose = np.zeros_like(start.noise)
     loose[0, 6] = (start.readings(data).tension[0, 0] - 0.1) / data.sigma[0, 6]
