@@ -37,12 +37,12 @@ from cdpr_struct.diagnosis.set_aside import set_aside
 from cdpr_struct.diagnosis.unassigned import peak_count, uncertain_peaks
 from cdpr_struct.diagnosis.whole_sizes import WholeSize, whole_sizes
 from cdpr_struct.errors import UnstableEquilibriumError
+from cdpr_struct.hypotheses.budget import BUDGETS
 from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.library import require_known
 from cdpr_struct.hypotheses.explain import Belief, Explained, believed, explained
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.hypotheses.laws import UNKNOWN
-from cdpr_struct.hypotheses.search import BUDGETS
 from cdpr_struct.hypotheses.significant import SIGNIFICANT
 from cdpr_struct.inference.scale_mixture import NoiseState
 from cdpr_struct.measurement.campaign import Campaign

@@ -15,6 +15,7 @@ from cdpr_struct.diagnosis.sensor_sigmas import Doubt, NoiseOfKind, Used
 from cdpr_struct.diagnosis.unassigned import UncertainPeak
 from cdpr_struct.diagnosis.whole_sizes import WholeSize
 from cdpr_struct.hypotheses.correction import Correction
+from cdpr_struct.hypotheses.correlated import Correlated
 from cdpr_struct.hypotheses.explain import Belief, Explained
 from cdpr_struct.hypotheses.hypothesis import Part
 from cdpr_struct.hypotheses.judge import Judged
@@ -206,6 +207,12 @@ class Diagnosis:
     minimum_detectable: dict[str, dict[str, float | str]]
     detectable_by_pattern: dict[str, list[dict[str, float | str]]]
     recording: Recording | None
+
+    @property
+    def noise_correlation(self) -> float:
+        """Of one reading of a sensor with the next, 0 for independent noise."""
+        kind = self.chosen.hypothesis.drift
+        return kind.correlation if isinstance(kind, Correlated) else 0.0
 
     @property
     def by_damping(self) -> bool:

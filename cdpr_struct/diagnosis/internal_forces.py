@@ -16,7 +16,7 @@ from scipy.special import logsumexp
 from cdpr_struct.diagnosis.sensor_sigmas import NoiseOfKind
 from cdpr_struct.hypotheses.causes.internal_force import PRIOR
 from cdpr_struct.hypotheses.detectable import NAMED
-from cdpr_struct.hypotheses.drift import ENCODERS
+from cdpr_struct.hypotheses.drift import ENCODERS, Drift
 from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.observation.motion import moving
@@ -168,7 +168,7 @@ def _density(value: np.ndarray, covariance: np.ndarray) -> float:
 def _without_drift(data: Recorded, found: Judged) -> Recorded:
     """The campaign with the lengths that its encoders would have read without their drift."""
     drift, zeros = found.hypothesis.drift, found.drifted(data)
-    if drift is None or zeros is None or drift.sensor != ENCODERS:
+    if not isinstance(drift, Drift) or zeros is None or drift.sensor != ENCODERS:
         return data
     return replace(data, readings=replace(data.readings, length=data.readings.length + zeros))
 

@@ -9,7 +9,7 @@ from scipy.special import logsumexp
 from cdpr_struct.diagnosis.decision import Decision, fits
 from cdpr_struct.diagnosis.diagnosis import Candidate, Drifted, Tried
 from cdpr_struct.diagnosis.whole_sizes import whole_sizes
-from cdpr_struct.hypotheses.drift import TRACKER
+from cdpr_struct.hypotheses.drift import TRACKER, Drift
 from cdpr_struct.hypotheses.explain import Explained
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.hypotheses.laws import UNKNOWN
@@ -98,7 +98,7 @@ def p_value(found: Sequence[Explained]) -> float:
 def drift_of(story: Explained, chosen: Judged) -> Drifted | None:
     """Which sensors drift beside what was chosen, and how far; None where none do."""
     drift, zeros = chosen.hypothesis.drift, chosen.drifted(story.search.data)
-    if drift is None or zeros is None:
+    if not isinstance(drift, Drift) or zeros is None:
         return None
     spans = np.ptp(zeros, axis=0)
     own, turn = (spans[:3], spans[3:]) if drift.sensor == TRACKER else (spans, np.zeros(1))

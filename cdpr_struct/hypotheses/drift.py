@@ -35,6 +35,11 @@ class Drift:
         """(S, n) zeros of the n sensors [N, m, rad] by the numbers z of the term; of a tracker, about the middle."""
         return _walked(z * self._sigma(data), self._waves(data))
 
+    @property
+    def probability(self) -> float:
+        """Of this drift."""
+        return DRIFTS[self]
+
     def _sigma(self, data: Recorded) -> np.ndarray:
         own = np.median(data.sigma[:, _columns(self.sensor, data.cables)], axis=0)
         return self.amplitude * np.repeat(own, WAVES)
@@ -49,13 +54,13 @@ class Drift:
         return waves
 
 
-NO_DRIFT = 0.5  # probability
 DRIFTS = {
     Drift(CELLS, 1.0): 0.16, Drift(CELLS, 3.0): 0.16,
     Drift(TRACKER, 2.0): 0.05, Drift(TRACKER, 6.0): 0.04,
     Drift(ENCODERS, 3.0): 0.05, Drift(ENCODERS, 10.0): 0.04,
 }  # fmt: skip
-"""Drifts with their probabilities: sensors are bought not to drift, load cells do so most; one kind at most drifts.
+"""Drifts with their probabilities, half together: sensors are bought not to drift, load cells do so most; one kind at
+most drifts.
 
 Sigmas of encoders are small, a tenth of a millimetre, against what belts, ropes on drums and warmth do in a day.
 """
@@ -78,11 +83,6 @@ def drifts(data: Recorded) -> list[Drift]:
         ENCODERS: np.isfinite(data.campaign.states.length).any(axis=1),
     }
     return [one for one in DRIFTS if read[one.sensor].sum() > 1]
-
-
-def probability(drift: Drift | None) -> float:
-    """Of a drift, or of none."""
-    return NO_DRIFT if drift is None else DRIFTS[drift]
 
 
 def walk(states: int) -> np.ndarray:

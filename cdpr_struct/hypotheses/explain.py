@@ -6,13 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
+from cdpr_struct.hypotheses.budget import Budget
 from cdpr_struct.hypotheses.correction import Correction
 from cdpr_struct.hypotheses.handled import promising, readings_felt
 from cdpr_struct.hypotheses.handling import corrections, shortcuts
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.hypotheses.judge import judged
 from cdpr_struct.hypotheses.laws import UNKNOWN
-from cdpr_struct.hypotheses.search import Answer, Budget, Search
+from cdpr_struct.hypotheses.search import Answer, Search
 from cdpr_struct.inference.posterior import probabilities
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.residuals.recorded import recorded

@@ -5,13 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from cdpr_struct.hypotheses.causes.cause import Cause, Pattern
-from cdpr_struct.hypotheses.drift import Drift, probability
+from cdpr_struct.hypotheses.correlated import Correlated
+from cdpr_struct.hypotheses.drift import Drift
 from cdpr_struct.residuals.linearised import Outside, Point, Term
 from cdpr_struct.residuals.recorded import Recorded
 
 SCALES = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
 """Of a cause's prior sigma, equally likely: how large an error is when it occurs is known to an order of magnitude."""
 _TUNED = 0.005  # of a cause that adds a mode, whose frequency moves it past others
+INDEPENDENT = 0.45  # probability of noise that is independent from reading to reading
 PRICE = 3.0  # nats that a cause costs before it is found: one campaign in twenty has a given one
 
 
@@ -47,10 +49,10 @@ class Part:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hypothesis:
-    """Causes, and sensors that drift."""
+    """Causes, and sensors that drift or whose noise is correlated."""
 
     parts: tuple[Part, ...] = ()
-    drift: Drift | None = None
+    drift: Drift | Correlated | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -61,7 +63,7 @@ class Hypothesis:
     def log_prior(self) -> float:
         """ln of its probability against that of nothing being wrong, drift included."""
         own = sum(part.log_weight - PRICE for part in self.parts)
-        return own + float(np.log(probability(self.drift)))
+        return own + float(np.log(INDEPENDENT if self.drift is None else self.drift.probability))
 
     @property
     def key(self) -> tuple[object, ...]:

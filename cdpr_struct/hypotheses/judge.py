@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cdpr_struct.errors import CdprError, UnstableEquilibriumError
+from cdpr_struct.hypotheses.drift import Drift
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
 from cdpr_struct.inference.evidence import Fit, fit
 from cdpr_struct.inference.linear_model import LinearModel
@@ -78,7 +79,7 @@ class Judged:
     def drifted(self, data: Recorded) -> np.ndarray | None:
         """(S, n) zeros of the sensors that drift [N, m, rad]; None where none do."""
         drift = self.hypothesis.drift
-        return None if drift is None else drift.zeros(data, self.split(self.fit.z_mean)[1])
+        return drift.zeros(data, self.split(self.fit.z_mean)[1]) if isinstance(drift, Drift) else None
 
     def likeliest(self, data: Recorded, where: Layout) -> Point:
         """The point of the likeliest numbers."""

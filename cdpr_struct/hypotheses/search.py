@@ -14,10 +14,12 @@ from scipy.special import logsumexp
 
 from cdpr_struct.errors import UnstableEquilibriumError
 from cdpr_struct.hypotheses.alternatives import Gains, Offered, gains, offered
+from cdpr_struct.hypotheses.budget import Budget
 from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.library import testable
 from cdpr_struct.hypotheses.choices import bent, occurs, same, with_choices
-from cdpr_struct.hypotheses.drift import drifts
+from cdpr_struct.hypotheses.correlated import Correlated, may_be_correlated
+from cdpr_struct.hypotheses.drift import Drift, drifts
 from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES, Hypothesis
 from cdpr_struct.hypotheses.judge import NEAR, SETTLED, Judged, again, begun, converged, extended, judged, settled
 from cdpr_struct.hypotheses.laws import UNKNOWN
@@ -36,29 +38,6 @@ _NESTED = 2  # of the likeliest hypotheses, from whose points nothing wrong is j
 _LAWS = 3  # outside the library, the likeliest, that are fitted where one may be
 _RICH = (1.0, SCALES[-1])  # scales of all causes at once: where they are small, outliers stand for large ones
 _AGAIN = 6  # hypotheses that are fitted from another one's noise
-
-
-@dataclass(frozen=True, slots=True)
-class Budget:
-    """Causes fitted at least, nats from the best within which all are, beginnings of pairs, pairs of each fitted; nats
-    from the best within which evidence converges, and of how many hypotheses at most.
-
-    near : in the closed form, which errs by some nats where effects are large
-    hopeless : nats behind the best from which a fit is not linearised again, even if its numbers moved far
-    """
-
-    causes: int = 3
-    near: float = 14.0
-    pair_near: float = 5.0
-    hopeless: float = 30.0
-    beginnings: int = 3
-    pairs: int = 3
-    sure: float = 8.0
-    converged: int = 8
-    alone: int = 6
-
-
-BUDGETS = {"small": Budget(), "full": Budget(6, 20.0, 8.0, 60.0, 5, 6, 14.0, 24, 16)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -117,6 +96,7 @@ class Search:
         if significant:
             self._begin_alone(carriers(self.data, menu, base), base)
         self._transfer()
+        self._beside_other_errors()
         singles = self._singles()
         if singles[0].score > base.score:
             self._begin([*large, *mounts(self.data, menu, singles[0], significant)], singles[0])
@@ -144,7 +124,8 @@ class Search:
         """Nothing wrong, sensors drifting or not: those that may be what is wrong, and that none do."""
         first, found = self.keep(judged(self.data, self.where, Hypothesis())), []
         local = Local.about(self.data, first.point)
-        for drift in drifts(self.data):
+        errors: list[Drift | Correlated] = [*drifts(self.data), *may_be_correlated(self.data)]
+        for drift in errors:
             columns = stacked(self.where, local.columns(drift.term(self.data)))
             more = extended(self.data, self.where, first, Hypothesis(drift=drift), columns, first.fit.noise)
             found.append(self.keep(settled(self.data, self.where, more)))
@@ -221,6 +202,29 @@ class Search:
         """A fit with one more cause than the base, from its numbers z on, if there may be such a robot."""
         with suppress(UnstableEquilibriumError):
             self.keep(begun(self.data, self.where, base, more, z, least))
+
+    def _beside_other_errors(self) -> None:
+        """The likeliest cause alone, beside each drift or correlation that is likelier than independent noise.
+
+        A large cause may look like a drift of its own, so that the sensors' true one is not the likeliest without it.
+        Where that is so, its rivals are fitted beside the true one, too.
+        """
+        nulls, best = self._ranked(0), self._ranked()[0]
+        independent = next(one.score for one in nulls if one.hypothesis.drift is None)
+        likelier = [one for one in nulls if one.score >= independent and one.hypothesis.drift != best.hypothesis.drift]
+        rivals = [one for one in self._singles() if one.score > best.score - self.budget.near]
+        for null in likelier if best.hypothesis.parts else []:
+            self._begin_beside(null, best)
+        drift = self._ranked()[0].hypothesis.drift
+        for null in [one for one in likelier if one.hypothesis.drift == drift]:
+            for rival in rivals[1:]:
+                self._begin_beside(null, rival)
+
+    def _begin_beside(self, null: Judged, one: Judged) -> None:
+        """The only cause of a fit beside another drift."""
+        more = Hypothesis(one.hypothesis.parts, null.hypothesis.drift)
+        self.spread.setdefault(more.key, self.spread.get(one.hypothesis.key, 0.0))
+        self._begin_at(one.sizes[0], more, null, self._ranked()[0].score - self.budget.near)
 
     def _begin_alone(self, alone: Sequence[Beginning], base: Judged) -> None:
         """Fits of changes of one cable, mast or axis: those that may come near the best, the likeliest first."""

@@ -9,7 +9,7 @@ from cdpr_struct.diagnosis.diagnosis import Diagnosis
 from cdpr_struct.diagnosis.later_lengths import later_lengths, require_same_robot
 from cdpr_struct.diagnosis.predicted_frames import PredictedFrames, predicted_frames
 from cdpr_struct.errors import InputError
-from cdpr_struct.hypotheses.search import BUDGETS
+from cdpr_struct.hypotheses.budget import BUDGETS
 from cdpr_struct.interface.answering import answered, silent
 from cdpr_struct.interface.arguments import one_of
 from cdpr_struct.interface.campaigns import read_campaign, with_dropped

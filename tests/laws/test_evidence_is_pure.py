@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from cdpr_struct.diagnosis.whole_sizes import whole_sizes
+from cdpr_struct.hypotheses.budget import BUDGETS
 from cdpr_struct.hypotheses.causes.library import LIBRARY
 from cdpr_struct.hypotheses.hypothesis import Hypothesis, Part
 from cdpr_struct.hypotheses.judge import judged
-from cdpr_struct.hypotheses.search import BUDGETS, Search
+from cdpr_struct.hypotheses.search import Search
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.residuals.layout import layout

@@ -14,11 +14,12 @@ from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.diagnosis.diagnosis import Diagnosis
 from cdpr_struct.diagnosis.whole_sizes import _averaged
 from cdpr_struct.hypotheses.alternatives import Offered, offered
+from cdpr_struct.hypotheses.budget import BUDGETS
 from cdpr_struct.hypotheses.causes.cause import Pattern
 from cdpr_struct.hypotheses.hypothesis import SCALES, Hypothesis
 from cdpr_struct.hypotheses.judge import Judged, judged
 from cdpr_struct.hypotheses.scan import carriers
-from cdpr_struct.hypotheses.search import BUDGETS, Search
+from cdpr_struct.hypotheses.search import Search
 from cdpr_struct.inference.screening import Screen
 from cdpr_struct.measurement.campaign import Campaign
 from cdpr_struct.residuals.recorded import recorded

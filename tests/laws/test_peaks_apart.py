@@ -8,7 +8,8 @@ import pytest
 
 from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.diagnosis.peaks_apart import peaks_apart
-from cdpr_struct.hypotheses.search import BUDGETS, Search
+from cdpr_struct.hypotheses.budget import BUDGETS
+from cdpr_struct.hypotheses.search import Search
 from cdpr_struct.measurement.campaign import Campaign, RobotFrequencies
 from cdpr_struct.measurement.campaign_file import load_campaign
 from cdpr_struct.reports.diagnose.result import result_json

@@ -8,10 +8,11 @@ import pytest
 
 from cdpr_struct.diagnosis.decision import Decision
 from cdpr_struct.diagnosis.diagnosing import diagnosed
+from cdpr_struct.hypotheses.budget import BUDGETS
 from cdpr_struct.hypotheses.causes.library import LIBRARY
 from cdpr_struct.hypotheses.hypothesis import Hypothesis, Part
 from cdpr_struct.hypotheses.judge import judged
-from cdpr_struct.hypotheses.search import BUDGETS, Answer, Search
+from cdpr_struct.hypotheses.search import Answer, Search
 from cdpr_struct.measurement.loss import Loss
 from cdpr_struct.planning import recommendations as following
 from cdpr_struct.planning.recommendations import Question, questions, recommendations

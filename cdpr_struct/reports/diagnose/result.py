@@ -65,7 +65,7 @@ def result_json(found: Diagnosis, simulated: Sequence[Recommendation] = ()) -> d
             {"kind": row.kind, "factor": row.factor, "readings": row.readings, "outliers": row.outliers}
             for row in found.noise
         ],
-        "noise_memory": 0.0,
+        "noise_memory": found.noise_correlation,
         "load_cell_drift_N": _drift(found, CELLS),
         "tracker_drift_m": _drift(found, TRACKER),
         "encoder_drift_m": _drift(found, ENCODERS),

@@ -261,7 +261,12 @@ def _aside(found: Diagnosis) -> str:
 
 
 def _drift(found: Diagnosis) -> str:
-    """Which sensors drift, and how far."""
+    """Which sensors drift, and how far; or that readings of one sensor are off alike."""
+    if found.noise_correlation:
+        return (
+            f"The noise of the sensors is correlated from one reading to the next (by {found.noise_correlation:.1f}), "
+            "so that readings in a row count as fewer."
+        )
     if found.drift is None:
         return ""
     size, turn = found.drift.size, found.drift.turn
