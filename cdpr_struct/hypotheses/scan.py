@@ -61,17 +61,17 @@ def beginnings(data: Recorded, menu: Sequence[Offered], about: Judged, most: int
     return sorted(best, key=lambda one: -one.gain)[:most]
 
 
-def mounts(data: Recorded, menu: Sequence[Offered], about: Judged, significant: bool) -> list[Beginning]:
+def mounts(data: Recorded, menu: Sequence[Offered], about: Judged) -> list[Beginning]:
     """Parts that move in the platform, beside a judged hypothesis.
 
     Where its modes explain the peaks, only parts that swing so slowly that their own are not among them, if these suit
-    the peaks better, and only if something is wrong.
+    the peaks better: peaks near modes of a platform that carries all of its mass hide them from every linear test.
     """
     lists = _compared(data, about)
     if lists is None:
         return []
     explained = lists.left < _LEFT
-    some = [one for one in menu if (one.cause.tried and significant if explained else one.cause.tuned)]
+    some = [one for one in menu if (one.cause.tried if explained else one.cause.tuned)]
     if not some:
         return []
     scan = _Scan(data, about)

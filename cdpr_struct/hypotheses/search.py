@@ -90,16 +90,15 @@ class Search:
         rows = self._screened(menu, nulls, rich)
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
         self._bend(nulls)
-        significant = self.p_value < SIGNIFICANT
         large = beginnings(self.data, menu, base, self.budget.beginnings + 1)
-        self._begin([*large, *mounts(self.data, menu, base, significant)], base)
-        if significant:
+        self._begin([*large, *mounts(self.data, menu, base)], base)
+        if self.p_value < SIGNIFICANT:
             self._begin_alone(carriers(self.data, menu, base), base)
         self._transfer()
         self._beside_other_errors()
         singles = self._singles()
         if singles[0].score > base.score:
-            self._begin([*large, *mounts(self.data, menu, singles[0], significant)], singles[0])
+            self._begin([*large, *mounts(self.data, menu, singles[0])], singles[0])
         least = max(singles[0].score - self.budget.near, self._ranked(0)[0].score - _NOTHING)
         for first in [one for one in singles[: self.budget.beginnings] if one.score > least]:
             self._pairs(first)

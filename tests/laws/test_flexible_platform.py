@@ -132,8 +132,8 @@ def test_parts_on_mounts_are_looked_for_where_they_suit_the_peaks():
         seen, where = seen_in(data), layout(data)
         null = judged(data, where, Hypothesis())
         menu = offered(data, where, seen, library.testable(seen, {})[0], null)
-        assert bool(mounts(data, menu, null, significant=True)) == some
-        assert not some or all(one.part.cause.tuned for one in mounts(data, menu, null, significant=True))
+        assert bool(mounts(data, menu, null)) == some
+        assert not some or all(one.part.cause.tuned for one in mounts(data, menu, null))
 
 
 def test_a_check_bounds_the_mass_and_not_the_frequency():
