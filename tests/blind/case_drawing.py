@@ -50,6 +50,7 @@ class CaseKind:
     signals  : the same, but for records of vibration that are made of the modes
     robot    : which one; any of `ROBOTS` if not given
     timed    : whether the time of every state is filed
+    alone    : effects act on one entry, with their multiple itself as size, never mind what can be detected
     """
 
     kind: str
@@ -62,6 +63,7 @@ class CaseKind:
     robot: str = ""
     timed: bool = False
     signals: bool = False
+    alone: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,6 +159,7 @@ def _hidden(
     deviations = tolerances
     for name, multiple in kind.effects:
         effect = LAWS[name] if kind.kind == "law" else catalogue[name]
+        effect = replace(effect, shapes=("one",), signed=False, typical=1.0) if kind.alone else effect
         seen_as = "load_cell_gain" if kind.kind == "ambiguous" and name in ONE_SIDED else name
         shape, pattern, size, reached = sized(effect, robot.name, multiple, rng, seen_as, kind.statics)
         deviations = deviations.plus(name, size * pattern)

@@ -13,7 +13,7 @@ from scipy.optimize import nnls
 from cdpr_struct.fem_reference import PulleyData, solve_robot
 from cdpr_struct.fem_reference.pulley import wrapped
 from tests.blind.deviations import Deviations
-from tests.blind.entered_robot import EnteredRobot
+from tests.blind.entered_robot import FREEDOMS, EnteredRobot
 from tests.blind.true_robot import Command, at_rest, true_robot
 
 SUSPENDED_BOUND = 70.0  # N
@@ -81,7 +81,12 @@ def intended_tensions(
 
 
 def null_directions(robot: EnteredRobot, position: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-    """Two directions (m, 2) of internal force, of norm sqrt(m): those at home, turned as little as the pose allows."""
+    """Two directions (m, 2) of internal force, of norm sqrt(m): those at home, turned as little as the pose allows.
+
+    Zeros for a robot whose cables balance leaves no choice.
+    """
+    if robot.cables <= FREEDOMS:
+        return np.zeros((robot.cables, 2))
     at_home = null_space(structure_matrix(robot, robot.home, np.eye(3)))[:, :2]
     here = null_space(structure_matrix(robot, position, rotation))[:, :2]
     left, _, right = np.linalg.svd(here @ here.T @ at_home, full_matrices=False)

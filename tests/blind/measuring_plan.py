@@ -42,6 +42,7 @@ WORKSPACES |= {
     "two-cables": Workspace((-1.2, 0.45, 1.6), (1.2, 0.45, 2.9), 0.0, HANGING, 800.0),
     "three-cables": Workspace((-0.9, -0.9, 1.2), (0.9, 0.9, 2.6), 0.0, HANGING, 800.0),
     "four-cables": Workspace((-1.2, -1.0, 1.3), (1.2, 1.0, 2.8), 0.0, HANGING, 800.0),
+    "six-cables": Workspace((-0.9, -0.9, 1.0), (0.9, 0.9, 2.4), 5.0, HANGING, 800.0),
     "five-cables": Workspace((-1.0, -0.8, 1.3), (1.0, 0.8, 2.4), 0.0, HANGING, 800.0),
 }
 LEAST_HANGING = 15.0  # N in every cable of a robot that hangs

@@ -7,6 +7,7 @@ few   : static campaigns, clean, of robots with two to five cables, and of other
 unread : static campaigns, clean, of robots with eight cables of whose pose nobody reads anything
 frfs, decays, motions : static campaigns with frequency responses, decays or tracked free motions, clean and spoilt
 wheels : static campaigns, clean, of robots without pulleys, with half of them, and with all but in their file
+one-cable : EA of one of six cables over pulleys, 8 to 40 % too low in the robot file, modes nearly double
 causes : every cause alone, clear, in static campaigns and with frequencies, a third of them spoilt
 """
 
@@ -58,6 +59,8 @@ WHEELS = ("points", "half", "bare")
 BARE_RADII = (20, 61)  # mm
 MOTIONLESS = "static"
 VIBRATING = "with frequencies"
+ONE_CABLE = "six-cables-pulleys"
+STIFFER = (1.08, 1.15, 1.25, 1.40)  # true EA of one cable, in that of the robot file
 PATTERNS_TRIED = 10  # of an effect for each robot, to see whether it can be that large
 
 
@@ -86,7 +89,7 @@ def spoilt_kinds(name: str, total: int, base: int) -> list[SpoiltKind]:
     rng = np.random.default_rng([base, 0])
     kind = name.removesuffix(DEVELOPMENT)
     makers = {"messy": _messy, "peaks": _peaks, "sizes": _sizes, "causes": _causes, "few": _few, "unread": _unread}
-    makers |= {"wheels": _wheels}
+    makers |= {"wheels": _wheels, "one-cable": _one_cable}
     kinds = list(_signals(total, rng, RECORDED[kind]) if kind in RECORDED else makers[kind](total, rng))
     return [kinds[index] for index in rng.permutation(len(kinds))]
 
@@ -168,6 +171,17 @@ def _wheels(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
         robot = f"{SUSPENDED[number % 2]}{BARE_PART}{('up', 'outwards')[number // 2 % 2]}-{millimetres}"
         yield SpoiltKind(group, CaseKind("null", statics=True, robot=robot), "bare")
         group += 1
+
+
+def _one_cable(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
+    """As many of each factor, without frequencies of single cables."""
+    del rng
+    size = PlanSize(static_states=12, locks=0, frequency_states=4)
+    for group in range(total):
+        factor = STIFFER[group % len(STIFFER)]
+        effect = ("axial_stiffness", float(np.log(factor)))
+        kind = CaseKind("single", (effect,), size=size, robot=ONE_CABLE, alone=True)
+        yield SpoiltKind(group, kind, f"EA {factor:.2f}", effect[1])
 
 
 def _causes(total: int, rng: np.random.Generator) -> Iterator[SpoiltKind]:
@@ -252,6 +266,10 @@ def read_case(kind: SpoiltKind, real: Reality, seed: tuple[int, ...]) -> Case:
         said = "" if kind.way in (real.robot.name, MOTIONLESS, *WHEELS) else spoil_readings(kind.way, tables, spoiler)
         if not real.robot.tracked:
             tables = unplaced(tables, INCLINATION_READ if real.robot.inclined else NOTHING_READ)
+    elif kind.reality.alone:
+        said = ""
+        tables = filed(real.plan, real.seen, real.deviations, noise)
+        del tables["cable_frequency"], tables["loaded_pose"]
     else:
         peaks = PeakSpoiler(ways)
         picker = picked if kind.way == VIBRATING else peaks.picker()
