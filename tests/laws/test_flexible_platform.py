@@ -15,6 +15,7 @@ from cdpr_struct.hypotheses.hypothesis import Hypothesis, Part
 from cdpr_struct.hypotheses.judge import WORTH, Judged, begun, judged
 from cdpr_struct.hypotheses.scan import mounts
 from cdpr_struct.hypotheses.seen import seen_in
+from cdpr_struct.hypotheses.significant import SIGNIFICANT, p_of_null
 from cdpr_struct.measurement.campaign import Campaign, RobotFrequencies
 from cdpr_struct.reports.diagnose.sentences import sentence
 from cdpr_struct.residuals.layout import layout
@@ -22,9 +23,10 @@ from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.robot_file import load_robot
 from cdpr_struct.robot.robot_writing import robot_toml
 from tests.laws import written_campaigns
-from tests.laws.written_campaigns import SIGMA_HERTZ, extended, noisy, plan_of, vibrating_point, written
+from tests.laws.written_campaigns import SIGMA_HERTZ, cogiro, extended, noisy, plan_of, vibrating_point, written
 
 NAME, KILOGRAMS, HERTZ = "flexible_platform", 3.0, 5.0
+CLEAR = 3.0  # nats of evidence times prior, before anything is fitted
 SHAKEN, MODES, SHARE = (0, 1, 2), 50, 0.3
 
 
@@ -134,6 +136,35 @@ def test_parts_on_mounts_are_looked_for_where_they_suit_the_peaks():
         menu = offered(data, where, seen, library.testable(seen, {})[0], null)
         assert bool(mounts(data, menu, null)) == some
         assert not some or all(one.part.cause.tuned for one in mounts(data, menu, null))
+
+
+def with_hidden_payload(share: float) -> Campaign:
+    """A share of the platform on a cord of 0.25 m; peaks of its swing are not read, nor two thirds of the others."""
+    hangs = {"swinging_mass": share * cogiro().platform.mass, "swinging_frequency": 1.0} if share else {}
+    plan = plan_of(cogiro(), 8, robot_in=(0, 1, 2), modes=30)
+    clean, rng = written(extended(cogiro(), **hangs), plan, cogiro()), np.random.default_rng(2)
+    peaks = clean.robot_frequencies
+    read = (peaks.hertz > 2.0) & (rng.random(peaks.hertz.size) < 0.35)
+    some = RobotFrequencies(peaks.state[read], peaks.hertz[read], peaks.sigma[read])
+    return noisy(replace(clean, robot_frequencies=some), 2)
+
+
+@pytest.mark.parametrize(("share", "clear"), [(0.25, True), (0.0, False)])
+def test_a_payload_that_swings_is_looked_for_where_no_linear_test_sees_it(share, clear):
+    """Peaks near modes of the platform as entered explain themselves; those of three quarters of it are nearer."""
+    data = recorded(with_hidden_payload(share))
+    seen, where = seen_in(data), layout(data)
+    null = judged(data, where, Hypothesis())
+    menu = offered(data, where, seen, library.testable(seen, {})[0], null)
+    assert p_of_null(menu, null) > SIGNIFICANT
+    own = [one.gain for one in mounts(data, menu, null) if one.part.cause.name == "swinging_payload"]
+    assert (max(own, default=-np.inf) > CLEAR) == clear
+
+
+@pytest.mark.slow
+def test_a_payload_that_swings_is_found_where_no_linear_test_sees_it():
+    said = diagnosed(with_hidden_payload(0.25))
+    assert said.decision.classes == (("swinging_payload",),)
 
 
 def test_a_check_bounds_the_mass_and_not_the_frequency():
