@@ -7,6 +7,7 @@ import numpy as np
 from scipy.special import chdtr, chdtrc, fdtrc
 
 from cdpr_struct.association.peak_noise import SCALES
+from cdpr_struct.hypotheses.correlated import Correlated
 from cdpr_struct.hypotheses.detectable import FALSE_ALARMS
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.scale_mixture import OUTLIER, TAU_DEGREES
@@ -16,6 +17,7 @@ from cdpr_struct.robot.tolerances import tolerance_unit
 
 SENSORS = ("position", "rotation", "tension", "length", "cable_frequency", "frf", "swivel")
 """Names of the kinds of sensors, in the order of their numbers."""
+_WANDERING = SENSORS[:5]  # whose noise may be correlated from one reading to the next
 _PEAKS, _ROBOT = "robot_frequency", 0  # a kind of readings that no block holds, and its place among kinds of lists
 _TOO_SMALL = 1.5  # factor on a stated sigma from which it is said to be too small
 _UNIT = {
@@ -94,13 +96,16 @@ class NoiseOfKind:
 
 
 def noise_of_kinds(found: Judged) -> list[NoiseOfKind]:
-    """Of each kind of sensor that was read."""
+    """Of each kind of sensor that was read; of correlated noise with its slow part."""
     groups, noise, rows = found.model.readings, found.fit.noise, []
+    drift = found.hypothesis.drift
+    rest = drift.independent if isinstance(drift, Correlated) else 1.0
     for kind, members in enumerate(groups.members > 0.0):
         count = int(groups.size[members].sum())
         if count:
             odd = int(groups.size[members & noise.outlying].sum())
-            rows.append(NoiseOfKind.of(SENSORS[kind], float(noise.tau[kind]), count, odd))
+            share = rest if SENSORS[kind] in _WANDERING else 1.0
+            rows.append(NoiseOfKind.of(SENSORS[kind], float(noise.tau[kind]) / share, count, odd))
     return rows
 
 

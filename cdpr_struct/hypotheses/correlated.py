@@ -33,6 +33,18 @@ class Correlated:
         """Of noise that is correlated."""
         return _PROBABILITY
 
+    @property
+    def independent(self) -> float:
+        """Sigma of what is left beside the slow functions of a long series, in that of a reading.
+
+        An autoregressive process has the variance (1 - r^2) / (1 - 2 r cos w + r^2) at w a reading, above one up to
+        cos w = r; the mean of what lies beyond.
+        """
+        r = self.correlation
+        last = np.arccos(r)
+        slow = 2.0 / np.pi * np.arctan((1.0 + r) / (1.0 - r) * np.tan(0.5 * last))
+        return float(np.sqrt((1.0 - slow) / (1.0 - last / np.pi)))
+
     def term(self, data: Recorded) -> Term:
         """What it does to the rows, to first order about the robot as entered."""
         return _term(data, self.correlation)

@@ -70,6 +70,8 @@ def test_correlated_noise_is_no_cause_and_is_said(seed):
     assert said.decision.status == "adequate"
     assert said.noise_correlation == CORRELATION
     assert said.drift is None
+    assert all(0.75 < one.factor < 1.3 for one in said.noise)  # of the whole noise, its slow part included
+    assert not said.doubts
 
 
 def test_independent_noise_is_not_called_correlated():
@@ -92,3 +94,9 @@ def test_frames_of_a_motion_and_few_states_are_not_asked():
     zero = np.zeros((STATES, 8, 2))
     still = Frames(zero, zero, np.zeros((STATES, 6)), np.zeros(STATES), np.ones(STATES, dtype=int), float(STATES))
     assert may_be_correlated(recorded(replace(clean(), frames=still))) == []
+
+
+def test_what_is_left_beside_slow_functions_has_the_sigma_of_the_fast_ones():
+    order = np.arange(400)
+    variance = np.linalg.eigvalsh(CORRELATION ** np.abs(order[:, None] - order))
+    assert Correlated().independent == pytest.approx(np.sqrt(variance[variance <= 1.0].mean()), rel=0.01)
