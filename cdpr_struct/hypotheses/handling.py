@@ -61,10 +61,7 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
         for what in ("length", "position"):
             new = _with_scaled(campaign, what, factor)
             yield _in_unit(f"the {what}s are in {unit}", new, factor, _columns(what, m))
-    turned = ((np.degrees(1.0), "are in rad"), (np.radians(1.0), "were converted from rad, though in deg"))
-    for factor, wrong in turned if several_tilted(states, BEYOND_NOISE) else ():
-        new = with_states(campaign, angles=states.angles * factor)
-        yield _in_unit(f"the pose angles {wrong}", new, factor, _columns("angles", m))
+    yield from _angle_units(campaign)
     for factor, unit in ((0.45359237, "lb"), (1.0 / 9.80665, "N")) if np.any(states.payload) else ():
         new = with_states(campaign, payload=states.payload * factor)
         yield Correction("unit_error", f"the payloads are in {unit}", new, parameters={"factor": factor})
@@ -76,6 +73,17 @@ def _units(campaign: Campaign) -> Iterator[Correction]:
             yield Correction(
                 "unit_error", f"the {what.replace('_', ' ')} are in rad/s", new, parameters={"factor": turn}
             )
+
+
+def _angle_units(campaign: Campaign) -> Iterator[Correction]:
+    """Pose angles in another unit, if they are tilts then or now: few degrees that are filed in rad look like noise."""
+    states = campaign.states
+    turned = ((np.degrees(1.0), "are in rad"), (np.radians(1.0), "were converted from rad, though in deg"))
+    for factor, wrong in turned:
+        new = with_states(campaign, angles=states.angles * factor)
+        if several_tilted(new.states if factor > 1.0 else states, BEYOND_NOISE):
+            own = _columns("angles", states.tension.shape[1])
+            yield _in_unit(f"the pose angles {wrong}", new, factor, own)
 
 
 def _with_scaled(campaign: Campaign, what: str, factor: float | np.ndarray) -> Campaign:

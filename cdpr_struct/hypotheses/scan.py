@@ -48,13 +48,19 @@ class Beginning:
 
 
 def beginnings(data: Recorded, menu: Sequence[Offered], about: Judged, most: int) -> list[Beginning]:
-    """The best large changes beside a judged hypothesis whose modes do not explain the peaks."""
+    """The best large changes beside a judged hypothesis.
+
+    Where its modes explain the peaks, only of what the peaks alone can show: those of another platform lie near modes
+    of this one, too, and what no other reading sees would never be tried.
+    """
     lists = _compared(data, about)
-    if lists is None or lists.left < _LEFT:
+    if lists is None:
         return []
-    scan = _Scan(data, about)
+    explained, scan = lists.left < _LEFT, _Scan(data, about)
     best: list[Beginning] = []
     for cause in [one for one in menu if not one.cause.tuned and not one.laws and "RF" in one.cause.seen_in]:
+        if explained and cause.cause.seen_in != ("RF",):
+            continue
         singles = [i for i, p in enumerate(cause.patterns) if p.basis.shape[1] == 1 and not p.label.startswith("cable")]
         found = sorted((b for i in singles for b in scan.of(cause, i)), key=lambda one: -one.gain)
         best += [one for one in found[:_OF_A_CAUSE] if one.gain > -_COARSE]

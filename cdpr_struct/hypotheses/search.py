@@ -18,19 +18,17 @@ from cdpr_struct.hypotheses.budget import Budget
 from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.library import testable
 from cdpr_struct.hypotheses.choices import bent, occurs, same, with_choices
-from cdpr_struct.hypotheses.correlated import Correlated, may_be_correlated
-from cdpr_struct.hypotheses.drift import Drift, drifts
-from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES, Hypothesis
+from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES, Hypothesis, Part
+from cdpr_struct.hypotheses.imitation import imitated
 from cdpr_struct.hypotheses.judge import NEAR, SETTLED, Judged, again, begun, converged, extended, judged, settled
 from cdpr_struct.hypotheses.laws import UNKNOWN
+from cdpr_struct.hypotheses.nulls import nulls_of, rich_noise
 from cdpr_struct.hypotheses.scan import Beginning, beginnings, carriers, mounts
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.hypotheses.significant import SIGNIFICANT, p_of_null
-from cdpr_struct.inference.evidence import bound_at, fit
+from cdpr_struct.inference.evidence import bound_at
 from cdpr_struct.inference.scale_mixture import NoiseState
-from cdpr_struct.residuals.assembled import stacked
 from cdpr_struct.residuals.layout import Layout, layout
-from cdpr_struct.residuals.linearised import Local
 from cdpr_struct.residuals.recorded import Recorded
 
 _NOTHING = 2.0  # nats by which the best single cause may be behind none: else a second one beside it is not looked for
@@ -81,11 +79,13 @@ class Search:
 
     def run(self) -> list[Answer]:
         """Everything worth fitting, best first."""
-        nulls = self._nulls()
-        base = max(nulls, key=lambda one: one.score)
+        known = [self.keep(one) for one in nulls_of(self.data, self.where)]
+        base = max(known, key=lambda one: one.score)
+        nulls = [known[0], *(one for one in known[1:] if one.score > base.score - self.budget.near)]
         menu = offered(self.data, self.where, self.seen, self.causes, base)
         self.p_value = p_of_null(menu, base)
-        rich = [self._rich(menu, base, scale) for scale in _RICH]
+        begin = (base.fit.noise, NoiseState.stated(base.model.groups))
+        rich = [rich_noise(menu, base, scale, noise) for scale, noise in zip(_RICH, begin, strict=True)]
         menu = with_choices(menu, base, [base.fit.noise, *rich], self.seen)
         rows = self._screened(menu, nulls, rich)
         self._fit_best(menu, rows, self.budget.causes, rows[0].score - self.budget.near)
@@ -96,6 +96,7 @@ class Search:
             self._begin_alone(carriers(self.data, menu, base), base)
         self._transfer()
         self._beside_other_errors()
+        self._as_the_best(menu, base)
         singles = self._singles()
         if singles[0].score > base.score:
             self._begin([*large, *mounts(self.data, menu, singles[0])], singles[0])
@@ -118,27 +119,6 @@ class Search:
             score = float(logsumexp([one.score + self.spread.get(one.hypothesis.key, 0.0) for one in own]))
             rows.append(Answer(names, max(own, key=lambda one: one.score), score))
         return sorted(rows, key=lambda row: -row.score)
-
-    def _nulls(self) -> list[Judged]:
-        """Nothing wrong, sensors drifting or not: those that may be what is wrong, and that none do."""
-        first, found = self.keep(judged(self.data, self.where, Hypothesis())), []
-        local = Local.about(self.data, first.point)
-        errors: list[Drift | Correlated] = [*drifts(self.data), *may_be_correlated(self.data)]
-        for drift in errors:
-            columns = stacked(self.where, local.columns(drift.term(self.data)))
-            more = extended(self.data, self.where, first, Hypothesis(drift=drift), columns, first.fit.noise)
-            found.append(self.keep(settled(self.data, self.where, more)))
-        best = max(one.score for one in [first, *found])
-        return [first, *(one for one in found if one.score > best - self.budget.near)]
-
-    def _rich(self, menu: Sequence[Offered], base: Judged, scale: float) -> NoiseState:
-        """Sizes of the noise where all causes act at once at a scale, but those of several ways: what none explains."""
-        known = [cause for cause in menu if cause.cause.name != UNKNOWN and not cause.cause.one_of]
-        columns = [[part * (scale * cause.patterns[0].prior.max()) for part in cause.columns] for cause in known]
-        everything = base.model.with_columns([np.concatenate(parts, axis=-1) for parts in zip(*columns, strict=True)])
-        lists = None if base.lists is None else base.lists.copy()
-        begin = base.fit.noise if scale == _RICH[0] else NoiseState.stated(base.model.groups)
-        return fit(everything, begin, lists, base.fit.soft).noise
 
     def _screened(
         self, menu: Sequence[Offered], bases: Sequence[Judged], rich: Sequence[NoiseState] = ()
@@ -206,24 +186,30 @@ class Search:
         """The likeliest cause alone, beside each drift or correlation that is likelier than independent noise.
 
         A large cause may look like a drift of its own, so that the sensors' true one is not the likeliest without it.
-        Where that is so, its rivals are fitted beside the true one, too.
         """
         nulls, best = self._ranked(0), self._ranked()[0]
         independent = next(one.score for one in nulls if one.hypothesis.drift is None)
-        likelier = [one for one in nulls if one.score >= independent and one.hypothesis.drift != best.hypothesis.drift]
-        rivals = [one for one in self._singles() if one.score > best.score - self.budget.near]
-        for null in likelier if best.hypothesis.parts else []:
-            self._begin_beside(null, best)
-        drift = self._ranked()[0].hypothesis.drift
-        for null in [one for one in likelier if one.hypothesis.drift == drift]:
-            for rival in rivals[1:]:
-                self._begin_beside(null, rival)
+        for null in [one for one in nulls if one.score >= independent and best.hypothesis.parts]:
+            if null.hypothesis.drift != best.hypothesis.drift:
+                self._begin_beside(null, best, best.sizes[0])
 
-    def _begin_beside(self, null: Judged, one: Judged) -> None:
-        """The only cause of a fit beside another drift."""
+    def _as_the_best(self, menu: Sequence[Offered], base: Judged) -> None:
+        """Rivals of the likeliest cause beside its drift, from sizes with which they do what it does."""
+        best, *others = self._singles()
+        others = [one for one in others if one.score > best.score - self.budget.near]
+        rivals = [one for one in others if not _unlike(one.hypothesis.parts[0])]
+        if best.score < base.score or _unlike(best.hypothesis.parts[0]) or not rivals:
+            return
+        null = next(one for one in self._ranked(0) if one.hypothesis.drift == best.hypothesis.drift)
+        found = imitated(menu, base, best, [one.hypothesis.parts[0] for one in rivals])
+        for rival, z in zip(rivals, found, strict=True):
+            self._begin_beside(null, rival, z)
+
+    def _begin_beside(self, null: Judged, one: Judged, z: np.ndarray) -> None:
+        """The cause of a fit alone beside the drift of a null, from other sizes."""
         more = Hypothesis(one.hypothesis.parts, null.hypothesis.drift)
         self.spread.setdefault(more.key, self.spread.get(one.hypothesis.key, 0.0))
-        self._begin_at(one.sizes[0], more, null, self._ranked()[0].score - self.budget.near)
+        self._begin_at(z, more, null, self._ranked()[0].score - self.budget.near)
 
     def _begin_alone(self, alone: Sequence[Beginning], base: Judged) -> None:
         """Fits of changes of one cable, mast or axis: those that may come near the best, the likeliest first."""
@@ -302,3 +288,8 @@ class Search:
             return
         menu = [one for one in offered(self.data, self.where, self.seen, [], best) if one.cause.name == UNKNOWN]
         self._fit_best(menu, self._screened(menu, [best]), 0, best.score - self.budget.pair_near)
+
+
+def _unlike(part: Part) -> bool:
+    """Whether a cause does nothing to first order, or is no change of the robot."""
+    return part.cause.tuned or part.law is not None

@@ -1,0 +1,32 @@
+"""With which sizes does one cause do what another does? Beginnings of rivals where the likeliest one has come to lie.
+
+Two causes that mean the same of the robot are equally probable only if both fits end in the same assignment of peaks.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from cdpr_struct.hypotheses.alternatives import Offered
+from cdpr_struct.hypotheses.hypothesis import Part
+from cdpr_struct.hypotheses.judge import Judged
+from cdpr_struct.inference.screening import Screen
+
+
+def imitated(menu: Sequence[Offered], about: Judged, best: Judged, rivals: Sequence[Part]) -> list[np.ndarray]:
+    """Sizes z (d,) of each rival, in sigmas of its prior at its scale, that do most like the only cause of `best`.
+
+    Least squares in the white rows about a fitted hypothesis, with the priors of the rivals; to first order.
+    """
+    parts = [best.hypothesis.parts[0], *rivals]
+    columns = {cause.cause.name: cause.columns for cause in menu}
+    own = [[shelf @ part.pattern.basis * part.term.sigma for shelf in columns[part.cause.name]] for part in parts]
+    screen = Screen.of(about.model, about.fit.noise, about.fit.soft)
+    gram = screen.screened([np.concatenate(some, axis=-1) for some in zip(*own, strict=True)]).gram
+    ends = np.cumsum([len(p.pattern.prior) for p in parts])
+    wanted, found = slice(0, ends[0]), []
+    for part, end in zip(rivals, ends[1:], strict=True):
+        here = slice(end - len(part.pattern.prior), end)
+        z = np.linalg.solve(np.eye(end - here.start) + gram[here, here], gram[here, wanted] @ best.sizes[0])
+        found.append(np.where(part.pattern.positive, np.maximum(z, 0.0), z))
+    return found
