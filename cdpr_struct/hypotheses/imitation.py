@@ -12,11 +12,13 @@ from cdpr_struct.hypotheses.hypothesis import Part
 from cdpr_struct.hypotheses.judge import Judged
 from cdpr_struct.inference.screening import Screen
 
+_LOOSE = 0.01  # of the weight of a prior: it holds what the data say nothing of
+
 
 def imitated(menu: Sequence[Offered], about: Judged, best: Judged, rivals: Sequence[Part]) -> list[np.ndarray]:
     """Sizes z (d,) of each rival, in sigmas of its prior at its scale, that do most like the only cause of `best`.
 
-    Least squares in the white rows about a fitted hypothesis, with the priors of the rivals; to first order.
+    Least squares in the white rows about a fitted hypothesis, with wide priors of the rivals; to first order.
     """
     parts = [best.hypothesis.parts[0], *rivals]
     columns = {cause.cause.name: cause.columns for cause in menu}
@@ -27,6 +29,6 @@ def imitated(menu: Sequence[Offered], about: Judged, best: Judged, rivals: Seque
     wanted, found = slice(0, ends[0]), []
     for part, end in zip(rivals, ends[1:], strict=True):
         here = slice(end - len(part.pattern.prior), end)
-        z = np.linalg.solve(np.eye(end - here.start) + gram[here, here], gram[here, wanted] @ best.sizes[0])
+        z = np.linalg.solve(_LOOSE * np.eye(end - here.start) + gram[here, here], gram[here, wanted] @ best.sizes[0])
         found.append(np.where(part.pattern.positive, np.maximum(z, 0.0), z))
     return found

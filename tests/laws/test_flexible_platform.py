@@ -13,7 +13,7 @@ from cdpr_struct.hypotheses.alternatives import offered
 from cdpr_struct.hypotheses.causes import library
 from cdpr_struct.hypotheses.hypothesis import Hypothesis, Part
 from cdpr_struct.hypotheses.judge import WORTH, Judged, begun, judged
-from cdpr_struct.hypotheses.scan import mounts
+from cdpr_struct.hypotheses.scan import beginnings, mounts
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.hypotheses.significant import SIGNIFICANT, p_of_null
 from cdpr_struct.measurement.campaign import Campaign, RobotFrequencies
@@ -136,6 +136,16 @@ def test_parts_on_mounts_are_looked_for_where_they_suit_the_peaks():
         menu = offered(data, where, seen, library.testable(seen, {})[0], null)
         assert bool(mounts(data, menu, null)) == some
         assert not some or all(one.part.cause.tuned for one in mounts(data, menu, null))
+
+
+def test_of_explained_peaks_only_what_nothing_else_shows_is_tried_at_large_sizes():
+    data = recorded(campaign(0.0))
+    seen, where = seen_in(data), layout(data)
+    null = judged(data, where, Hypothesis())
+    menu = offered(data, where, seen, library.testable(seen, {})[0], null)
+    assert null.lists is not None
+    assert null.lists.left < 2.0
+    assert {one.part.cause.name for one in beginnings(data, menu, null, 4)} == {"platform_inertia"}
 
 
 def with_hidden_payload(share: float) -> Campaign:

@@ -10,6 +10,8 @@ from cdpr_struct.diagnosis.diagnosing import diagnosed
 from cdpr_struct.hypotheses.causes import library
 from cdpr_struct.hypotheses.causes.cause import Cause, Parameter
 from cdpr_struct.hypotheses.causes.library import LIBRARY, register
+from cdpr_struct.hypotheses.correction import BEYOND_NOISE, several_tilted
+from cdpr_struct.hypotheses.handling import corrections
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.residuals.recorded import recorded
 from cdpr_struct.robot.changed_arrays import times
@@ -121,3 +123,16 @@ def test_a_cause_is_registered_once_under_a_name_of_its_own():
     assert LIBRARY["warm_frame"] is WARM_FRAME
     with pytest.raises(ValueError, match="'platform_mass' already"):
         register(replace(WARM_FRAME, name="platform_mass"))
+
+
+def test_tilts_of_two_degrees_filed_in_rad_are_corrected_though_they_look_level(campaign):
+    tilts = np.radians(2.0) * np.random.default_rng(4).uniform(-1.0, 1.0, campaign.states.angles.shape)
+    states = replace(campaign.states, angles=np.radians(tilts))
+    assert not several_tilted(states, BEYOND_NOISE)
+    found = {one.sentence: one.campaign for one in corrections(replace(campaign, states=states))}
+    np.testing.assert_allclose(found["the pose angles are in rad"].states.angles, tilts)
+
+
+def test_nothing_is_converted_from_rad_that_is_level(campaign):
+    level = replace(campaign, states=replace(campaign.states, angles=0.0 * campaign.states.angles))
+    assert not [one for one in corrections(level) if "rad" in one.sentence and "pose angles" in one.sentence]
