@@ -31,7 +31,6 @@ _NEAR, _PLACES = 0.03, 2  # of ln f: so near, and at so many frequencies
 _FINE, _BEYOND = 0.012, 0.025  # of ln f: steps of a mount's frequency, and how far beyond its bounds they go
 _MOUNT, _BLOCK = 2, 32  # numbers of a part that moves along one axis; robots solved at once
 _HEAVY = 0.5  # of the platform's mass: more is not tried
-_CARRIER = " alone"  # in the label of patterns of one cable, mast or axis
 _SMALL = (0.5, *AMPLITUDES)  # of one carrier alone
 _FEW_STATES = 3  # those with most peaks, for one carrier
 _DOUBT = 3.0  # sigmas that static readings may be off what they say of one carrier
@@ -98,7 +97,7 @@ def carriers(data: Recorded, menu: Sequence[Offered], about: Judged) -> list[Beg
     for cause in menu:
         if cause.cause.tuned or cause.laws or "RF" not in cause.cause.seen_in:
             continue
-        alone = [i for i, p in enumerate(cause.patterns) if p.basis.shape[1] == 1 and _CARRIER in p.label]
+        alone = [i for i, p in enumerate(cause.patterns) if p.of_one_carrier]
         found = [max(own, key=lambda one: one.gain) for i in alone if (own := scan.within(cause, i))]
         best += sorted(found, key=lambda one: -one.gain)[:_CARRIERS]
     return sorted(best, key=lambda one: -one.gain)

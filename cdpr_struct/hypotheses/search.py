@@ -19,7 +19,7 @@ from cdpr_struct.hypotheses.causes import internal_force
 from cdpr_struct.hypotheses.causes.library import testable
 from cdpr_struct.hypotheses.choices import bent, occurs, same, with_choices
 from cdpr_struct.hypotheses.hypothesis import PRICE, SCALES, Hypothesis, Part
-from cdpr_struct.hypotheses.imitation import imitated
+from cdpr_struct.hypotheses.imitation import alone, imitated
 from cdpr_struct.hypotheses.judge import NEAR, SETTLED, Judged, again, begun, converged, extended, judged, settled
 from cdpr_struct.hypotheses.laws import UNKNOWN
 from cdpr_struct.hypotheses.nulls import nulls_of, rich_noise
@@ -191,24 +191,28 @@ class Search:
         independent = next(one.score for one in nulls if one.hypothesis.drift is None)
         for null in [one for one in nulls if one.score >= independent and best.hypothesis.parts]:
             if null.hypothesis.drift != best.hypothesis.drift:
-                self._begin_beside(null, best, best.sizes[0])
+                self._begin_beside(null, best.hypothesis.parts[0], best.sizes[0])
 
     def _as_the_best(self, menu: Sequence[Offered], base: Judged) -> None:
-        """Rivals of the likeliest cause beside its drift, from sizes with which they do what it does."""
-        best, *others = self._singles()
-        others = [one for one in others if one.score > best.score - self.budget.near]
-        rivals = [one for one in others if not _unlike(one.hypothesis.parts[0])]
-        if best.score < base.score or _unlike(best.hypothesis.parts[0]) or not rivals:
-            return
-        null = next(one for one in self._ranked(0) if one.hypothesis.drift == best.hypothesis.drift)
-        found = imitated(menu, base, best, [one.hypothesis.parts[0] for one in rivals])
-        for rival, z in zip(rivals, found, strict=True):
-            self._begin_beside(null, rival, z)
+        """Rivals of the likeliest cause beside its drift, from sizes with which they do what it does.
 
-    def _begin_beside(self, null: Judged, one: Judged, z: np.ndarray) -> None:
-        """The cause of a fit alone beside the drift of a null, from other sizes."""
-        more = Hypothesis(one.hypothesis.parts, null.hypothesis.drift)
-        self.spread.setdefault(more.key, self.spread.get(one.hypothesis.key, 0.0))
+        Among them that cause at one cable, mast or axis alone, where it acts on several: the likeliest of these.
+        """
+        best, *others = self._singles()
+        if best.score < base.score or _unlike(best.hypothesis.parts[0]):
+            return
+        near = [one.hypothesis.parts[0] for one in others if one.score > best.score - self.budget.near]
+        found = imitated(menu, base, best, [part for part in near if not _unlike(part)])
+        found += sorted(imitated(menu, base, best, alone(menu, best)), key=lambda one: -one.share)[:1]
+        null = next(one for one in self._ranked(0) if one.hypothesis.drift == best.hypothesis.drift)
+        for one in found:
+            self._begin_beside(null, one.part, one.z)
+
+    def _begin_beside(self, null: Judged, part: Part, z: np.ndarray) -> None:
+        """A cause alone beside the drift of a null; its other scales and patterns count there as elsewhere."""
+        more = Hypothesis((part,), null.hypothesis.drift)
+        known = [self.spread.get(Hypothesis((part,), one.hypothesis.drift).key, 0.0) for one in self._ranked(0)]
+        self.spread.setdefault(more.key, max(known))
         self._begin_at(z, more, null, self._ranked()[0].score - self.budget.near)
 
     def _begin_alone(self, alone: Sequence[Beginning], base: Judged) -> None:

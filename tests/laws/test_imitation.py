@@ -3,6 +3,7 @@
 The same model writes and judges (crime=True).
 """
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 from cdpr_struct.hypotheses.alternatives import Offered, offered
 from cdpr_struct.hypotheses.causes import library
 from cdpr_struct.hypotheses.hypothesis import Hypothesis
-from cdpr_struct.hypotheses.imitation import imitated
+from cdpr_struct.hypotheses.imitation import alone, imitated
 from cdpr_struct.hypotheses.judge import Judged, begun, judged
 from cdpr_struct.hypotheses.seen import seen_in
 from cdpr_struct.residuals.layout import Layout, layout
@@ -49,8 +50,9 @@ def best() -> Judged:
 def test_a_length_of_cable_that_gives_like_a_joint_is_that_times_its_stiffness():
     """That of the null, whose cables are softer within their tolerances, as far as these go."""
     *_, null, menu = soft_joints()
-    (z,) = imitated(menu, null, best(), [part_of("dead_length")])
-    length = z[0] * part_of("dead_length").term.sigma[0]
+    (found,) = imitated(menu, null, best(), [part_of("dead_length")])
+    assert found.share == pytest.approx(1.0, abs=0.01)
+    length = found.z[0] * part_of("dead_length").term.sigma[0]
     compliance = best().sizes[0][0] * best().hypothesis.parts[0].term.sigma[0]
     assert length == pytest.approx(compliance * cogiro().cables[0].axial_stiffness, rel=0.1)
 
@@ -58,8 +60,8 @@ def test_a_length_of_cable_that_gives_like_a_joint_is_that_times_its_stiffness()
 def test_both_have_the_same_evidence_then():
     data, where, null, menu = soft_joints()
     part = part_of("dead_length")
-    (z,) = imitated(menu, null, best(), [part])
-    found = begun(data, where, null, Hypothesis((part,)), z)
+    (like,) = imitated(menu, null, best(), [part])
+    found = begun(data, where, null, Hypothesis((part,)), like.z)
     assert found.log_evidence == pytest.approx(best().log_evidence, abs=1.0)
     assert found.log_evidence > null.log_evidence + 20.0
 
@@ -68,5 +70,17 @@ def test_a_rival_that_may_not_be_negative_begins_at_zero_at_least():
     """Softer cables are what soft joints do; what stiffens them instead has no size below zero."""
     *_, null, menu = soft_joints()
     softer, each = imitated(menu, null, best(), [part_of("axial_stiffness"), part_of("dead_length", "each its own")])
-    assert softer[0] < -0.5
-    assert (each >= 0.0).all()
+    assert softer.z[0] < -0.5
+    assert (each.z >= 0.0).all()
+
+
+def test_a_cable_alone_does_most_of_what_acts_on_it_most():
+    data, where, null, menu = soft_joints()
+    each = part_of("axial_stiffness", "each its own")
+    z = np.where(np.arange(8) == 4, 3.0, 0.1)
+    found = begun(data, where, null, Hypothesis((each,)), z)
+    pretended = replace(found, fit=replace(found.fit, z_mean=np.append(found.fit.z_mean[:-8], z)))
+    likely = max(imitated(menu, null, pretended, alone(menu, pretended)), key=lambda one: one.share)
+    assert likely.part.pattern.label == "cable 5 alone"
+    assert likely.z[0] * likely.part.term.sigma[0] == pytest.approx(3.0 * each.term.sigma[4], rel=0.25)
+    assert alone(menu, best()) == []

@@ -11,6 +11,7 @@ A_MINUTE = 1.0 / 60.0
 """[h] Readings of a shorter time show nothing that grows with time: creep counts its decades after the first minute."""
 ALIKE_IN = "all alike, axes "
 """How the label of a pattern begins in which all carriers are of one size, each in one of several ways."""
+_ALONE = " alone"  # in the label of a pattern of one carrier
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +74,11 @@ class Pattern:
     def in_band(self) -> np.ndarray:
         """(d,) bool: frequencies in the measured band."""
         return np.array([p.in_band for p in self.parameters])
+
+    @property
+    def of_one_carrier(self) -> bool:
+        """Whether it is one number, of one cable, mast or axis."""
+        return self.basis.shape[1] == 1 and _ALONE in self.label
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -222,7 +228,7 @@ class Cause:
         places = [[axes * i + k for k in own] for i in range(len(words))]
         alone = share * (1.0 if self.carrier == "state" else 0.5 * (1.0 - self.alike))
         found = [
-            Pattern(f"{word} alone{ending}", every[:, at], tuple(basic[k] for k in at), alone / len(words))
+            Pattern(f"{word}{_ALONE}{ending}", every[:, at], tuple(basic[k] for k in at), alone / len(words))
             for word, at in zip(words, places, strict=True)
         ]
         if self.carrier == "state":
