@@ -129,7 +129,7 @@ def test_the_likeliest_of_what_is_not_likely_enough_is_no_name():
     assert said.doubted
 
 
-@pytest.mark.parametrize("times_detectable", [2.0, 4.0, 8.0, 16.0])
+@pytest.mark.parametrize("times_detectable", [2.0, pytest.param(4.0, marks=SLOW), pytest.param(8.0, marks=SLOW), 16.0])
 def test_a_mass_stays_right_however_wrong_it_is(times_detectable):
     """At twice the detectable size among others, from four times on by its name; held-out states are predicted."""
     robot = lighter(times_detectable)
@@ -162,6 +162,7 @@ def test_two_causes_together_are_both_named():
     assert all(abs(v - true) < 4.0 * s for (v, s), true in zip(found, OFFSETS, strict=True))
 
 
+@SLOW
 def test_a_second_cause_that_is_sure_is_in_the_fit_that_is_chosen():
     """Mass, and the elasticity of a cable that compliance in line may be in 5 of 100: 33 nats against mass alone."""
     said = diagnosed(measured(softer(lighter(5.0), 2, 0.6), 7))
@@ -231,6 +232,7 @@ def test_an_outlier_is_set_aside_and_said_to_be_one(kind, row, cable, error):
     assert one.gain > 50.0
 
 
+@SLOW
 def test_lengths_of_some_cables_at_a_loaded_pose_are_diagnosed_to_the_end():
     campaign = measured(lighter(5.0), 5)
     length = campaign.states.length.copy()

@@ -144,6 +144,7 @@ def test_cells_that_are_off_more_and_more_with_the_tilt_are_unknown():
     assert "tilt" in said.outside[0]
 
 
+@pytest.mark.slow
 def test_an_encoder_that_often_skips_is_unknown_and_two_wrong_lengths_are_none():
     robot = load_robot("cogiro")
     sound = noisy(written(robot, plan_of(robot, 18)), 8)

@@ -179,6 +179,7 @@ def test_under_a_moment_the_tangent_at_rest_is_the_derivative_of_the_wrench():
     assert np.abs(tangent - tangent.T).max() > 8.9  # the moment itself, half on both sides: it has no energy
 
 
+@pytest.mark.slow
 def test_the_largest_moment_that_is_held_is_told():
     robot = load_robot("six-cable-4mm")
     length = inverse(robot, robot.home.position, robot.home.rotation).lengths

@@ -121,7 +121,7 @@ def campaign_of(robot: Robot, entered: Robot, seed: int) -> Campaign:
     return noisy(written(robot, plan_of(robot, 10), entered), seed)
 
 
-@pytest.mark.parametrize("homed", [False, True])
+@pytest.mark.parametrize("homed", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_pulleys_are_named_with_their_axes_and_radius(homed):
     """Three sigmas of the radius; the extended robot has the pulleys, and lengths homed without them their zeros."""
     entered, radius, zero = load_robot("cogiro"), 0.04, 0.03

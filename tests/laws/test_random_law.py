@@ -185,6 +185,7 @@ def masts():
     return diagnosed(measured(robot, 1))
 
 
+@pytest.mark.slow
 def test_the_size_of_masts_is_in_the_posterior_as_sure_as_the_diagnosis_says():
     said = masts()
     assert {"frame_compliance"} <= set(said.extended.extensions.causes)

@@ -95,6 +95,7 @@ def test_what_was_checked_is_not_recommended_again():
     assert said[0].what.check == "platform_mass"
 
 
+@pytest.mark.slow
 def test_what_was_weighed_is_not_blamed_for_more_than_the_scale_leaves():
     """A scale of 0.5 % against a platform 10 % heavier than entered: twenty sigmas are not left."""
     said = [diagnosed(heavier(0.1, checked)) for checked in ({}, {"platform_mass": 5e-3})]
