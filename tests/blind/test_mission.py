@@ -1,8 +1,8 @@
 """Hide an effect, require finding it: the campaigns of the set `ci`, and no wrong name said with confidence.
 
-Of the twelve campaigns (tests/data/README.md) three are diagnosed every day: nothing hidden, an effect just detectable,
-and one outside the library. The others are slower, and say the same of an ambiguous effect, of two effects at once, of
-mistakes in the notes, and of robots with pulleys.
+Of the twelve campaigns (tests/data/README.md) one is diagnosed every day, with an effect just detectable. The others are
+slower, and say the same of nothing hidden, of an ambiguous effect, of two effects at once, of one outside the library,
+of mistakes in the notes, and of robots with pulleys.
 """
 
 from pathlib import Path
@@ -15,7 +15,7 @@ from tests.blind.scoring import case_rows, figures, scored_cases
 DATA = Path(__file__).parents[1] / "data" / "blind-ci"
 SEALED = DATA.with_name("blind-ci-sealed")
 NAMES = [f"c{n:03d}" for n in range(1, 13)]
-EVERYDAY = {"c001": "single", "c002": "null"}
+EVERYDAY = {"c001": "single"}
 
 
 @pytest.mark.parametrize("name", [n if n in EVERYDAY else pytest.param(n, marks=pytest.mark.slow) for n in NAMES])

@@ -39,5 +39,6 @@ def test_a_mass_just_large_enough_to_be_seen_has_its_size(tmp_path):
     assert 0.2 < sigma < 0.8
 
 
+@pytest.mark.slow
 def test_nothing_on_the_platform_is_adequate(tmp_path):
     assert diagnosed(sensors_campaign(tmp_path, "thesis-3-1", THESIS, 0.0)).decision.status == "adequate"

@@ -53,6 +53,7 @@ def modes_of(campaign: Campaign, s: int, i: int, lump: tuple[float, float] | Non
 SEEDS = [1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (2, 3))]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_mass_off_the_middle_is_named_with_its_place(seed):
     mass, place = 0.03, 0.3

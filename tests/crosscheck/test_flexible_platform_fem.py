@@ -144,6 +144,7 @@ def test_a_heavy_part_is_named_and_its_mode_is_in_the_extended_robot(tmp_path):
     assert np.ptp(apart) < 0.5 * np.ptp(np.log(inner))
 
 
+@pytest.mark.slow
 def test_a_rigid_platform_is_adequate(tmp_path):
     campaign, _ = written(tmp_path, seed=1)
     assert diagnosed(campaign).decision.status == "adequate"

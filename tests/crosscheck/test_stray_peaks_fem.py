@@ -47,6 +47,7 @@ def written(folder, inertia, poses=POSES):
     return load_campaign(folder / "campaign.toml")
 
 
+@pytest.mark.slow
 def test_the_right_body_is_adequate_and_all_its_peaks_are_modes(tmp_path):
     said = diagnosed(written(tmp_path, 1.0))
     assert said.decision.status == "adequate"
@@ -65,7 +66,9 @@ def test_the_inertia_is_found_by_peaks_that_no_mode_explains(tmp_path, count):
 NOT_BEGUN = pytest.mark.xfail(strict=True, reason="two peaks in 19 that are no mode: the search begins near no inertia")
 
 
-@pytest.mark.parametrize("count", [2, pytest.param(len(POSES), marks=[pytest.mark.slow, NOT_BEGUN])])
+@pytest.mark.parametrize(
+    "count", [pytest.param(2, marks=pytest.mark.slow), pytest.param(len(POSES), marks=[pytest.mark.slow, NOT_BEGUN])]
+)
 def test_a_large_change_about_one_axis_is_found(tmp_path, count):
     """All peaks but one find modes, so small changes show nothing."""
     about_y = np.sqrt([1.0, 1.4, 1.0])
