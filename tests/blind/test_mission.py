@@ -1,8 +1,8 @@
 """Hide an effect, require finding it: the campaigns of the set `ci`, and no wrong name said with confidence.
 
-Of the twelve campaigns (tests/data/README.md) one is diagnosed every day, with an effect just detectable. The others are
-slower, and say the same of nothing hidden, of an ambiguous effect, of two effects at once, of one outside the library,
-of mistakes in the notes, and of robots with pulleys.
+Of the twelve campaigns (tests/data/README.md) one is diagnosed every day, with an effect just detectable. The others
+are slower, and say the same of nothing hidden, of an ambiguous effect, of two effects at once, of one outside the
+library, of mistakes in the notes, and of robots with pulleys.
 """
 
 from pathlib import Path
