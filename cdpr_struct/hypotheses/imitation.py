@@ -30,6 +30,8 @@ def imitated(menu: Sequence[Offered], about: Judged, best: Judged, rivals: Seque
 
     Least squares in the white rows about a fitted hypothesis, with wide priors of the rivals; to first order.
     """
+    if not rivals:
+        return []
     parts = [best.hypothesis.parts[0], *rivals]
     columns = {cause.cause.name: cause.columns for cause in menu}
     own = [[shelf @ part.pattern.basis * part.term.sigma for shelf in columns[part.cause.name]] for part in parts]

@@ -189,8 +189,8 @@ class Search:
         """
         nulls, best = self._ranked(0), self._ranked()[0]
         independent = next(one.score for one in nulls if one.hypothesis.drift is None)
-        for null in [one for one in nulls if one.score >= independent and best.hypothesis.parts]:
-            if null.hypothesis.drift != best.hypothesis.drift:
+        for null in nulls if best.hypothesis.parts else ():
+            if null.score >= independent and null.hypothesis.drift != best.hypothesis.drift:
                 self._begin_beside(null, best.hypothesis.parts[0], best.sizes[0])
 
     def _as_the_best(self, menu: Sequence[Offered], base: Judged) -> None:
@@ -202,10 +202,11 @@ class Search:
         if best.score < base.score or _unlike(best.hypothesis.parts[0]):
             return
         near = [one.hypothesis.parts[0] for one in others if one.score > best.score - self.budget.near]
-        found = imitated(menu, base, best, [part for part in near if not _unlike(part)])
-        found += sorted(imitated(menu, base, best, alone(menu, best)), key=lambda one: -one.share)[:1]
+        rivals = [part for part in near if not _unlike(part)]
+        found = imitated(menu, base, best, [*rivals, *alone(menu, best)])
+        of_one_carrier = sorted(found[len(rivals) :], key=lambda one: -one.share)
         null = next(one for one in self._ranked(0) if one.hypothesis.drift == best.hypothesis.drift)
-        for one in found:
+        for one in [*found[: len(rivals)], *of_one_carrier[:1]]:
             self._begin_beside(null, one.part, one.z)
 
     def _begin_beside(self, null: Judged, part: Part, z: np.ndarray) -> None:

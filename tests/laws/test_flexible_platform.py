@@ -128,21 +128,23 @@ def test_a_fit_is_not_begun_where_a_cable_would_be_slack():
             begun(data, where, null, Hypothesis((part,)), z)
 
 
+def _known_of(some: Campaign):
+    """A campaign as recorded, nothing wrong, and what each cause would change."""
+    data = recorded(some)
+    seen, where = seen_in(data), layout(data)
+    null = judged(data, where, Hypothesis())
+    return data, null, offered(data, where, seen, library.testable(seen, {})[0], null)
+
+
 def test_parts_on_mounts_are_looked_for_where_they_suit_the_peaks():
     for kilograms, some in ((KILOGRAMS, True), (0.0, False)):
-        data = recorded(campaign(kilograms))
-        seen, where = seen_in(data), layout(data)
-        null = judged(data, where, Hypothesis())
-        menu = offered(data, where, seen, library.testable(seen, {})[0], null)
+        data, null, menu = _known_of(campaign(kilograms))
         assert bool(mounts(data, menu, null)) == some
         assert not some or all(one.part.cause.tuned for one in mounts(data, menu, null))
 
 
 def test_of_explained_peaks_only_what_nothing_else_shows_is_tried_at_large_sizes():
-    data = recorded(campaign(0.0))
-    seen, where = seen_in(data), layout(data)
-    null = judged(data, where, Hypothesis())
-    menu = offered(data, where, seen, library.testable(seen, {})[0], null)
+    data, null, menu = _known_of(campaign(0.0))
     assert null.lists is not None
     assert null.lists.left < 2.0
     assert {one.part.cause.name for one in beginnings(data, menu, null, 4)} == {"platform_inertia"}
@@ -162,10 +164,7 @@ def with_hidden_payload(share: float) -> Campaign:
 @pytest.mark.parametrize(("share", "clear"), [(0.25, True), (0.0, False)])
 def test_a_payload_that_swings_is_looked_for_where_no_linear_test_sees_it(share, clear):
     """Peaks near modes of the platform as entered explain themselves; those of three quarters of it are nearer."""
-    data = recorded(with_hidden_payload(share))
-    seen, where = seen_in(data), layout(data)
-    null = judged(data, where, Hypothesis())
-    menu = offered(data, where, seen, library.testable(seen, {})[0], null)
+    data, null, menu = _known_of(with_hidden_payload(share))
     assert p_of_null(menu, null) > SIGNIFICANT
     own = [one.gain for one in mounts(data, menu, null) if one.part.cause.name == "swinging_payload"]
     assert (max(own, default=-np.inf) > CLEAR) == clear
